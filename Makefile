@@ -1,0 +1,60 @@
+# `make reproduce` is all a reader needs; the other targets are for work on the project.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+CORES ?= 2
+
+.PHONY: env reproduce test test-long test-study lint format bench lock clean
+
+env: $(STAMP)
+
+# Every version is locked and every file checked by its hash; the package itself is installed in place.
+$(STAMP): requirements.lock pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed: make PYTHON=python3.12")'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	touch $@
+
+reproduce: env
+	$(BIN)/snakemake -j$(CORES)
+
+test: env
+	$(BIN)/pytest -m "not slow and not workflow"
+
+test-long: env
+	$(BIN)/pytest
+
+# The whole pipeline on a study of a few seconds.
+test-study: env
+	$(BIN)/snakemake -j$(CORES) --configfile config/test.yaml
+
+lint: env
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/snakemake --lint
+
+format: env
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+	$(BIN)/snakefmt Snakefile workflow
+
+$(VENV)/.bench: requirements-bench.lock $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
+	touch $@
+
+bench: $(VENV)/.bench
+	$(BIN)/pytest --benchmark-enable --benchmark-only
+
+LOCK := $(BIN)/pip-compile --upgrade --generate-hashes --no-emit-index-url --no-emit-find-links --no-header --strip-extras --allow-unsafe
+lock: env
+	$(LOCK) --output-file requirements.lock requirements.in
+	$(LOCK) --output-file requirements-bench.lock requirements-bench.in
+
+clean:
+	rm -rf $(VENV) .snakemake .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks build dist
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
