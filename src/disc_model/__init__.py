@@ -1,0 +1,81 @@
+"""Friction-induced vibration of an elastic disc and a moving slider with separation and reattachment.
+
+    >>> import disc_model
+    >>> result = disc_model.simulate(disc_model.Parameters(N=385, Omega=15.1), 60)
+    >>> result.first_separation
+
+Names are imported when first used, so that `import disc_model` costs nothing and numba is loaded only to
+simulate.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "Parameters": "parameters",
+    "plate_modes": "plate",
+    "slider_at_rest_frequencies": "plate",
+    "simulate": "simulate",
+    "Record": "record",
+    "Window": "record",
+    "Poincare": "record",
+    "Result": "result",
+    "State": "result",
+    "Status": "result",
+    "DiscModelError": "errors",
+    "ParameterError": "errors",
+    "ModeError": "errors",
+    "SimulationError": "errors",
+    "PainleveParadox": "errors",
+    "StepLimit": "errors",
+    "Stalled": "errors",
+    "NonFinite": "errors",
+}
+
+__all__ = [*_HOMES, "__version__"]
+
+if TYPE_CHECKING:
+    from disc_model.errors import (
+        DiscModelError,
+        ModeError,
+        NonFinite,
+        PainleveParadox,
+        ParameterError,
+        SimulationError,
+        Stalled,
+        StepLimit,
+    )
+    from disc_model.parameters import Parameters
+    from disc_model.plate import plate_modes, slider_at_rest_frequencies
+    from disc_model.record import Poincare, Record, Window
+    from disc_model.result import Result, State, Status
+    from disc_model.simulate import simulate
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+class _Package(ModuleType):
+    """Keeps `disc_model.simulate` the function when the module of that name is imported."""
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if not (name in _HOMES and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

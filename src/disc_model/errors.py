@@ -1,0 +1,48 @@
+"""The package's own exceptions. Each message says what was wrong, where, and what would be right."""
+
+from __future__ import annotations
+
+
+class DiscModelError(Exception):
+    """Base class of everything this package raises on purpose."""
+
+
+class ParameterError(DiscModelError, ValueError):
+    """Input that breaks a rule. One error lists every fault, each as ``name=value: rule``.
+
+    Attributes
+    ----------
+    faults : tuple of str
+        The single faults, in the order in which the message lists them.
+    """
+
+    def __init__(self, *faults: str) -> None:
+        self.faults = faults
+        super().__init__("; ".join(faults))
+
+    def __reduce__(self) -> tuple[type[ParameterError], tuple[str, ...]]:
+        return (type(self), self.faults)
+
+
+class ModeError(DiscModelError):
+    """The plate's modes could not be computed to the promised accuracy."""
+
+
+class SimulationError(DiscModelError):
+    """A simulation that ended before its time. See the subclasses."""
+
+
+class PainleveParadox(SimulationError):
+    """The slip denominator 1 + m S2 + sgn(f) mu_k B/r_0 reached 0: no solution beyond, or two."""
+
+
+class StepLimit(SimulationError):
+    """The allowed number of steps was used up."""
+
+
+class Stalled(SimulationError):
+    """Time no longer advances: switches follow each other without end."""
+
+
+class NonFinite(SimulationError):
+    """The state overflowed or became nan."""

@@ -1,0 +1,349 @@
+"""Modes of the disc: an annular Kirchhoff plate, clamped at its inner radius and free at its outer one.
+
+With w = R(r) cos/sin(l theta), R = A J_l + B Y_l + C I_l + G K_l of beta r and beta^4 = rho h omega^2 / D,
+the four edge conditions are a homogeneous system whose determinant vanishes at the modes (the paper's Eqs.
+(13) to (17)). Lengths are measured in outer radii here: x = r/b, lambda = beta b; the spectrum lambda depends
+on a/b, nu and l alone.
+
+Bessel functions span hundreds of decades (Y_60(1) is about 1e96), so that each of the four columns is scaled
+by a factor whose logarithm is kept; see `_columns`. Roots are bracketed on a grid, refined inside their
+brackets, and checked against the oscillation count: mode c of any l has exactly c nodal circles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg, special
+
+from disc_model.errors import ModeError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from disc_model.parameters import Parameters
+
+Array = NDArray[np.float64]
+
+POINTS_PER_ROOT = 6
+"""Grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought."""
+
+HUGE = 1e280
+"""Bessel functions larger than this are computed by a recurrence that keeps the exponent apart."""
+
+
+def plate_modes(p: Parameters) -> pd.DataFrame:
+    """Natural frequencies of the free disc and the modes' amplitudes under the slider.
+
+    Returns
+    -------
+    DataFrame, a fresh one at every call, with a row for each (circles, diameters), ordered by circles, then
+    diameters:
+        circles, diameters : int, number of nodal circles and nodal diameters
+        omega : rad/s, natural frequency
+        psi : kg^-1/2, Psi = R(r_0)/sqrt(rho h b^2), times sqrt(2) if diameters >= 1 (a pair of modes then has
+        it)
+
+    R is scaled as `p.normalization` says: `as_published` gives the coefficient of J_l the value 1;
+    `orthonormal` is Eq. (17), (2 pi/b^2) * integral of R^2 r dr from a to b = 1.
+
+    Raises
+    ------
+    ModeError
+        If the modes cannot be told apart or an amplitude overflows.
+    """
+    return _frame(mode_arrays(p)).copy()
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """The columns of `plate_modes` as read-only arrays of shape (n_modes,); see there."""
+
+    circles: NDArray[np.int64]
+    diameters: NDArray[np.int64]
+    omega: Array
+    psi: Array
+
+    def __post_init__(self) -> None:
+        for column in (self.circles, self.diameters, self.omega, self.psi):
+            column.setflags(write=False)
+
+
+def mode_arrays(p: Parameters) -> Modes:
+    """As `plate_modes`, without the cost of a table: the same read-only arrays at every call."""
+    return _modes(p.a, p.b, p.r_0, p.h, p.E, p.nu, p.rho, p.n_diameters, p.n_circles, p.normalization == "orthonormal")
+
+
+@lru_cache(maxsize=64)
+def _frame(modes: Modes) -> pd.DataFrame:
+    """The table of `plate_modes`, kept because pandas takes long to build it."""
+    import pandas as pd
+
+    columns = ("circles", "diameters", "omega", "psi")
+    return pd.DataFrame({name: getattr(modes, name).copy() for name in columns})
+
+
+def slider_at_rest_frequencies(p: Parameters) -> Array:
+    """Natural frequencies of disc and slider, the slider at rest and attached (Section 4.4), rad/s,
+    ascending.
+
+    Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an amplitude
+    under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Shape
+    (number of real modes,).
+    """
+    modes = mode_arrays(p)
+    omega, psi = modes.omega, modes.psi
+    # Dividing by the frequencies keeps the lowest ones accurate beside the highest: solve for 1/lambda^2.
+    phi = psi / omega
+    mass = np.diag(omega**-2) + p.m * np.outer(phi, phi)
+    stiffness = np.eye(omega.size) + p.k * np.outer(phi, phi)
+    coupled = 1 / np.sqrt(linalg.eigh(mass, stiffness, eigvals_only=True))
+    return np.sort(np.concatenate([coupled, omega[modes.diameters > 0]]))
+
+
+@lru_cache(maxsize=1024)
+def _modes(
+    a: float,
+    b: float,
+    r_0: float,
+    h: float,
+    E: float,
+    nu: float,
+    rho: float,
+    n_diameters: int,
+    n_circles: int,
+    orthonormal: bool,
+) -> Modes:
+    """Modes by exactly what they depend on: a change of load or speed finds them in the cache."""
+    shapes = _shapes(a / b, nu, n_diameters, n_circles)
+    stiffness = E * h**3 / 12 / (1 - nu**2)
+    omega = shapes.lam**2 / b**2 * np.sqrt(stiffness / (rho * h))
+    amplitude = shapes.at(r_0 / b, orthonormal)
+    psi = np.where(shapes.l > 0, np.sqrt(2), 1.0) * amplitude / np.sqrt(rho * h * b**2)
+    if not (np.all(np.isfinite(omega)) and np.all(np.isfinite(psi))):
+        raise ModeError("plate modes: frequencies or amplitudes overflow for these dimensions and this material")
+    return Modes(np.repeat(np.arange(n_circles + 1), n_diameters + 1), shapes.l.copy(), omega, psi)
+
+
+@dataclass(frozen=True)
+class _Shapes:
+    """Radial shapes R(x), x = r/b, of all modes of a plate with the radii `inner` and 1; n modes.
+
+    R = sum over J, Y, I, K of coefficients (4, n) times function / exp(exponents (4, n)), and `norm` (n,) is
+    2 pi * integral of R^2 x dx. Rows of modes are ordered by circles, then diameters.
+    """
+
+    inner: float
+    l: NDArray[np.int64]
+    lam: Array
+    coefficients: Array
+    exponents: Array
+    norm: Array
+
+    def at(self, x: float, orthonormal: bool) -> Array:
+        """R(x) of every mode in the normalisation asked for, (n,)."""
+        value = _evaluate(self.l, self.lam, self.coefficients, self.exponents, np.array([x]))[:, 0]
+        if orthonormal:
+            return value / np.sqrt(self.norm)
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            amplitude = value / self.coefficients[0] * np.exp(self.exponents[0])
+        if not np.all(np.isfinite(amplitude)):
+            l = self.l[~np.isfinite(amplitude)][0]
+            raise ModeError(
+                f"normalization='as_published': the mode with {l} nodal diameters at a/b={self.inner:g} "
+                "overflows when its coefficient of J_l is 1; use fewer diameters or "
+                "normalization='orthonormal'"
+            )
+        return amplitude
+
+
+@lru_cache(maxsize=256)
+def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shapes:
+    """All shapes with up to `n_diameters` nodal diameters and `n_circles` nodal circles."""
+    l = np.tile(np.arange(n_diameters + 1), n_circles + 1)
+    lam = _roots(inner, nu, n_diameters, n_circles).ravel()
+    matrix, exponents = _columns(l, lam, inner, nu)
+    matrix = np.moveaxis(matrix, -1, 0)
+    rows = np.max(np.abs(matrix), axis=2, keepdims=True)
+    coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
+    nodes, weights = _gauss(_node_count(lam[-1], inner, n_diameters), inner)
+    values = _evaluate(l, lam, coefficients, exponents, nodes)
+    _check_circles(values, l, np.repeat(np.arange(n_circles + 1), n_diameters + 1), inner, nu)
+    norm = 2 * np.pi * values**2 @ (weights * nodes)
+    return _Shapes(inner, l, lam, coefficients, exponents, norm)
+
+
+def _evaluate(l: NDArray[np.int64], lam: Array, coefficients: Array, exponents: Array, x: Array) -> Array:
+    """R of n modes at the radii `x` (k,), in units of its largest value, roughly: (n, k)."""
+    values, logs = _bessel(l[:, None], lam[:, None] * x)
+    return np.sum(coefficients[..., None] * values * np.exp(logs - exponents[..., None]), axis=0)
+
+
+def _check_circles(values: Array, l: NDArray[np.int64], circles: NDArray[np.int64], inner: float, nu: float) -> None:
+    """Compare the sign changes of R, `values` (n, k), with the circles that the place of the root says."""
+    for shape, diameters, expected in zip(values, l, circles, strict=True):
+        clear = shape[np.abs(shape) > 1e-7 * np.max(np.abs(shape))]  # not what rounding leaves near the clamp
+        found = np.count_nonzero(clear[1:] * clear[:-1] < 0)
+        if found != expected:
+            raise ModeError(
+                f"plate modes: root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g} "
+                f"has {found} nodal circles; a root was missed or doubled"
+            )
+
+
+def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
+    """The lowest zeros lambda of the frequency determinant for each l, (n_circles + 1, n_diameters + 1)."""
+    step = np.pi / (1 - inner) / POINTS_PER_ROOT
+    l = np.arange(n_diameters + 1)
+    start = _lower_bound(l)
+    found: list[list[tuple[float, float]]] = [[] for _ in l]
+    chunk = POINTS_PER_ROOT * (n_circles + 1) + 8
+    missing = l
+    for first in range(0, 200 * chunk, chunk):
+        grid = start[missing, None] + step * np.arange(first, first + chunk + 1)
+        orders = np.broadcast_to(missing[:, None], grid.shape)
+        signs = np.sign(_determinant(orders.ravel(), grid.ravel(), inner, nu)).reshape(grid.shape)
+        # A zero on the grid belongs to the interval that ends there.
+        for row, i in zip(*np.nonzero((signs[:, 1:] != signs[:, :-1]) & (signs[:, :-1] != 0)), strict=True):
+            found[missing[row]].append((grid[row, i], grid[row, i + 1]))
+        missing = np.array([order for order in missing if len(found[order]) <= n_circles], dtype=np.int64)
+        if missing.size == 0:
+            break
+    else:
+        raise ModeError(f"plate modes: no {n_circles + 1} roots for {missing[0]} nodal diameters at a/b={inner:g}")
+    brackets = np.array([brackets[: n_circles + 1] for brackets in found]).transpose(1, 0, 2)
+    orders = np.tile(l, n_circles + 1)
+    lam = _refine(lambda x: _determinant(orders, x, inner, nu), brackets[..., 0].ravel(), brackets[..., 1].ravel())
+    return lam.reshape(n_circles + 1, n_diameters + 1)
+
+
+def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
+    """Zeros of n functions in n brackets at once, to rounding: Chandrupatla's method (1997), shape (n,)."""
+    x_1, x_2 = low.copy(), high.copy()
+    f_1, f_2 = function(x_1), function(x_2)
+    t = np.full_like(low, 0.5)
+    for _ in range(100):
+        x = x_1 + t * (x_2 - x_1)
+        f = function(x)
+        same = np.sign(f) == np.sign(f_1)
+        x_3, f_3 = np.where(same, x_1, x_2), np.where(same, f_1, f_2)
+        x_2, f_2 = np.where(same, x_2, x_1), np.where(same, f_2, f_1)
+        x_1, f_1 = x, f
+        best = np.where(np.abs(f_1) < np.abs(f_2), x_1, x_2)
+        tolerance = 2e-16 * best
+        width = np.abs(x_2 - x_1)
+        if np.all((width <= 4 * tolerance) | (f_1 == 0) | (f_2 == 0)):
+            break
+        with np.errstate(divide="ignore", invalid="ignore"):
+            xi, phi = (x_1 - x_2) / (x_3 - x_2), (f_1 - f_2) / (f_3 - f_2)
+            quadratic = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
+            alpha = (x_3 - x_1) / (x_2 - x_1)
+            t = f_1 / (f_1 - f_2) * f_3 / (f_3 - f_2) - alpha * f_1 / (f_3 - f_1) * f_2 / (f_2 - f_3)
+            edge = np.minimum(tolerance / width, 0.5)
+        t = np.where(quadratic & np.isfinite(t), np.clip(t, edge, 1 - edge), 0.5)
+        t = np.where(np.isfinite(t), t, 0.5)
+    return best
+
+
+def _lower_bound(l: NDArray[np.int64]) -> Array:
+    """Positive lambdas below the first roots where the determinant is well conditioned; shape of `l`."""
+    return 0.02 + 0.3 * np.maximum(l - 1.0, 0.0)
+
+
+def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> Array:
+    """Determinant of the scaled edge conditions, up to a positive factor, for `l` and `lam` (n,): (n,)."""
+    m, _ = _columns(l, lam, inner, nu)
+    # Laplace expansion: minors of the clamped edge (rows 0, 1) times those of the free edge (rows 2, 3).
+    i, j = np.array([0, 2, 0, 1, 0, 1]), np.array([1, 3, 2, 3, 3, 2])
+    clamped = m[0, i] * m[1, j] - m[0, j] * m[1, i]
+    free = m[2, i] * m[3, j] - m[2, j] * m[3, i]
+    partner = np.array([1, 0, 3, 2, 5, 4])
+    sign = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0])[:, None]
+    return np.sum(sign * clamped * free[partner], axis=0)
+
+
+def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
+    """The edge conditions' matrix, (4 conditions, 4 functions, n), and the logarithms (4, n) taken out of its
+    columns.
+
+    Rows: R and R' at the inner edge; radial moment and Kirchhoff shear at the outer one, in the variable
+    lambda x. The true column is exp(logarithm) times the one returned.
+    """
+    value, slope, logs = _with_slope(l, np.stack([lam * inner, lam]))
+    # J and I grow outwards, Y and K inwards: scaled by the larger edge, no entry is much above one.
+    exponents = np.max(logs, axis=1)
+    scale = np.exp(logs - exponents[:, None])
+    value, slope = value * scale, slope * scale
+    kind = np.array([-1.0, -1.0, 1.0, 1.0])[:, None]  # Laplacian R = kind * lambda^2 R
+    bend = (1 - nu) * (l / lam) ** 2
+    # M = Laplacian R - (1 - nu) (R'/r - l^2 R/r^2)
+    moment = (kind + bend) * value[:, 1] - (1 - nu) / lam * slope[:, 1]
+    # V = (Laplacian R)' - (1 - nu) l^2/r^2 (R' - R/r)
+    shear = (kind - bend) * slope[:, 1] + bend / lam * value[:, 1]
+    return np.stack([value[:, 0], slope[:, 0], moment, shear]), exponents
+
+
+def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
+    """J, Y, I, K of order l and their derivatives at `x` (..., n), each (4, ..., n) times exp of the third
+    (4, ..., n).
+
+    The larger of value and derivative is 1 in magnitude.
+    """
+    value, exponent = _bessel(l, x)
+    following, exponent_next = _bessel(l + 1, x)
+    sign = np.array([-1.0, -1.0, 1.0, -1.0]).reshape((4,) + (1,) * x.ndim)
+    slope = l / x * value + sign * following * np.exp(exponent_next - exponent)
+    size = np.maximum(np.abs(value), np.abs(slope))
+    return value / size, slope / size, exponent + np.log(size)
+
+
+def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
+    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x)."""
+    value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])
+    exponent = np.stack([np.zeros_like(x), np.zeros_like(x), x, -x])
+    far = ~(np.abs(value[1]) < HUGE)
+    if np.any(far):
+        orders = np.broadcast_to(l, x.shape)
+        for order in np.unique(orders[far]):
+            here = far & (orders == order)
+            value[:, here], exponent[:, here] = _bessel_small(int(order), x[here])
+    return value, exponent
+
+
+def _bessel_small(l: int, x: Array) -> tuple[Array, Array]:
+    """As `_bessel` for `x` (n,) far below the order `l`, where the functions leave the range of floating
+    point.
+
+    J and I by their power series behind the factor (x/2)^l/l!; Y and K by their upward recurrences, which are
+    stable, rescaled at every order.
+    """
+    value, exponent = np.empty((4, x.size)), np.empty((4, x.size))
+    quarter = (x / 2) ** 2
+    value[0], value[2] = special.hyp0f1(l + 1, -quarter), special.hyp0f1(l + 1, quarter)
+    exponent[0] = exponent[2] = l * np.log(x / 2) - special.gammaln(l + 1)
+    for row, start, sign in ((1, special.yv, -1.0), (3, special.kv, 1.0)):
+        before, now, log = start(0, x), start(1, x), np.zeros(x.size)
+        for order in range(1, l):
+            before, now = now, 2 * order / x * now + sign * before
+            size = np.abs(now)
+            before, now, log = before / size, now / size, log + np.log(size)
+        value[row], exponent[row] = now, log
+    return value, exponent
+
+
+def _node_count(lam: float, inner: float, l: int) -> int:
+    """Gauss nodes that integrate R^2 r to rounding: several a half wave, more for edge layers of large l."""
+    return 8 * (int(40 + lam * (1 - inner) + 1.2 * l) // 8)
+
+
+@lru_cache(maxsize=256)
+def _gauss(count: int, inner: float) -> tuple[Array, Array]:
+    """Gauss-Legendre nodes and weights on [inner, 1]."""
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    half = (1 - inner) / 2
+    return inner + half * (nodes + 1), half * weights

@@ -1,0 +1,171 @@
+"""Parameters: validation, one error for all faults, hashing, copies."""
+
+from __future__ import annotations
+
+import math
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import BaseModel, ValidationError
+
+from disc_model import ParameterError, Parameters
+
+
+def fault(**changes: object) -> str:
+    """The message for a valid case with some values changed."""
+    with pytest.raises(ParameterError) as caught:
+        Parameters(**{"N": 385, "Omega": 15.1, **changes})
+    return str(caught.value)
+
+
+def test_base_values_are_those_of_table_1() -> None:
+    p = Parameters(N=385, Omega=15.1)
+    assert (p.E, p.m, p.k, p.k_p, p.c, p.c_p) == (150e9, 0.1, 5e4, 2e4, 0, 0)
+    assert (p.a, p.b, p.r_0, p.h, p.nu, p.rho) == (0.044, 0.12, 0.1, 0.002, 0.211, 7200)
+    assert (p.mu_s, p.mu_k, p.D_star, p.n_diameters, p.n_circles) == (0.4, 0.24, 1e-5, 4, 0)
+    assert (p.normalization, p.contact) == ("as_published", "separable")
+    assert pytest.approx(104.6595, abs=5e-5) == p.D
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"N": -1}, "N=-1.0: must be >= 0"),
+        ({"Omega": "-1"}, "Omega=-1.0: must be >= 0"),
+        ({"N": math.nan}, "N=nan: must be finite"),
+        ({"k": "inf"}, "k=inf: must be finite"),
+        ({"m": 0}, "m=0.0: must be > 0"),
+        ({"nu": 0.5}, "nu=0.5: must be < 0.5"),
+        ({"mu_k": 0.5}, "mu_k=0.5: must be <= mu_s=0.4"),
+        ({"a": 0.1}, "a=0.1: must be < r_0=0.1"),
+        ({"r_0": 0.13}, "r_0=0.13: must be <= b=0.12"),
+        ({"N": True}, "N=True: must be a number"),
+        ({"N": "many"}, "N='many': must be a number"),
+        ({"N": None}, "N=None: must be a number"),
+        ({"n_diameters": 61}, "n_diameters=61: must be <= 60"),
+        ({"n_circles": 21}, "n_circles=21: must be <= 20"),
+        ({"n_circles": 1.5}, "n_circles=1.5: must be a whole number"),
+        ({"n_circles": True}, "n_circles=True: must be a number"),
+        ({"n_circles": "inf"}, "n_circles='inf': must be a whole number"),
+        ({"contact": "glued"}, "contact='glued': must be 'separable' or 'bonded'"),
+        ({"omega": 3}, "omega=3: unknown parameter, did you mean Omega?"),
+        ({"mu_S": 3}, "mu_S=3: unknown parameter, did you mean mu_s?"),
+        ({"h": 1e-200}, "h=1e-200: must give a finite, positive E h^3/12/(1-nu^2), not 0.0"),
+        ({"h": 1e200}, "h=1e+200: must give a finite, positive E h^3/12/(1-nu^2), not inf"),
+        ({"k": 10**400}, "k=inf: must be finite"),
+    ],
+)
+def test_each_fault_names_parameter_value_and_rule(changes: dict[str, object], message: str) -> None:
+    assert fault(**changes) == message
+
+
+def test_all_faults_are_reported_at_once_and_none_hides_another() -> None:
+    with pytest.raises(ParameterError) as caught:
+        Parameters(N=-1, mu_k=0.5, a=0.2, Omga=3)
+    message = str(caught.value)
+    for part in ("N=-1.0", "Omega: is required", "mu_k=0.5", "a=0.2", "did you mean Omega"):
+        assert part in message
+    assert len(caught.value.faults) == 5
+    assert "\n" not in message
+
+
+def test_error_survives_pickling() -> None:
+    error = ParameterError("N=-1.0: must be >= 0", "k=nan: must be finite")
+    copy = pickle.loads(pickle.dumps(error))
+    assert (str(copy), copy.faults) == (str(error), error.faults)
+
+
+def test_pydantic_errors_do_not_leak() -> None:
+    for bad in (
+        lambda: Parameters(N=-1, Omega=1),
+        lambda: Parameters.model_validate({"N": -1, "Omega": 1}),
+        lambda: Parameters.model_validate([1, 2]),
+        lambda: Parameters.model_validate({1: 2}),
+        lambda: Parameters.model_validate_json('{"N": -1, "Omega": 1}'),
+        lambda: Parameters(N=1, Omega=1).replace(N=-1),
+        lambda: Parameters(N=1, Omega=1).model_copy(update={"N": -1}),
+    ):
+        with pytest.raises(ParameterError):
+            bad()
+
+
+def test_nested_in_another_schema_the_message_is_kept() -> None:
+    class Study(BaseModel):
+        case: Parameters
+
+    assert Study(case={"N": 1, "Omega": 2}).case == Parameters(N=1, Omega=2)
+    with pytest.raises(ValidationError, match=r"N=-1\.0: must be >= 0"):
+        Study(case={"N": -1, "Omega": 2})
+
+
+def test_numbers_may_come_as_text_or_numpy_scalars() -> None:
+    p = Parameters(N="385", Omega="1.51e1", E="150e9", n_diameters="4", D_star=np.float32(0))
+    assert p == Parameters(N=385, Omega=15.1, D_star=0)
+    assert Parameters(N=np.int64(3), Omega=1, n_circles=np.int64(2)).n_circles == 2
+
+
+def test_key_depends_on_values_not_on_spelling() -> None:
+    key = Parameters(N=20, Omega=0.0).key
+    assert key == Parameters(Omega=-0.0, N="20.0").key
+    assert len(key) == 12
+    assert int(key, 16) >= 0
+    assert key != Parameters(N=20.000000000000004, Omega=0).key
+
+
+def test_key_is_the_same_in_every_process_and_release() -> None:
+    assert Parameters(N=385, Omega=15.1).key == "2309f6c4a836"
+
+
+@given(st.sampled_from(sorted(Parameters.model_fields)))
+def test_key_changes_with_every_field(name: str) -> None:
+    p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=2)
+    other = {"normalization": "orthonormal", "contact": "bonded", "n_diameters": 3, "n_circles": 1}
+    assert p.replace(**{name: other.get(name) or getattr(p, name) * 0.999}).key != p.key
+
+
+def test_immutable_hashable_picklable() -> None:
+    p = Parameters(N=385, Omega=15.1)
+    with pytest.raises(ValidationError, match="frozen"):
+        p.N = 3
+    assert pickle.loads(pickle.dumps(p)) == p
+    assert {p: 1}[Parameters(N=385.0, Omega=15.1)] == 1
+
+
+def test_replace_leaves_the_original() -> None:
+    p = Parameters(N=385, Omega=15.1)
+    assert p.replace(N=300).N == 300
+    assert p.N == 385
+    assert p.replace() == p
+
+
+def test_every_field_says_what_it_is_and_in_which_unit() -> None:
+    for name, field in Parameters.model_fields.items():
+        assert field.description, name
+        assert isinstance(Parameters.unit(name), str), name
+    assert Parameters.unit("rho") == "kg/m^3"
+
+
+@given(st.floats(min_value=0, max_value=1e6), st.floats(min_value=0, max_value=1e3))
+def test_json_round_trip_is_exact(N: float, Omega: float) -> None:
+    p = Parameters(N=N, Omega=Omega)
+    assert Parameters.model_validate_json(p.canonical_json) == p
+
+
+def test_import_is_light() -> None:
+    heavy = "{'numba', 'xarray', 'pandas', 'matplotlib'}"
+    code = f"import sys, disc_model; disc_model.Parameters; print({heavy} & set(sys.modules))"
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert out.stdout.strip() == "set()"
+
+
+def test_package_lists_its_names() -> None:
+    import disc_model
+
+    assert set(disc_model.__all__) <= set(dir(disc_model))
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = disc_model.nothing

@@ -1,0 +1,195 @@
+"""Disc modes against the paper's numbers and against Rayleigh-Ritz, which shares no code and no method."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy import special
+
+from disc_model import ModeError, Parameters, plate_modes, slider_at_rest_frequencies
+from disc_model import plate as plate_module
+from tests.ritz import ritz_lambdas
+
+P = Parameters(N=385, Omega=15.1)
+ORTHONORMAL = P.replace(normalization="orthonormal")
+
+
+def lambdas(p: Parameters) -> np.ndarray:
+    """lambda = beta b of `plate_modes`, (circles, diameters)."""
+    omega = plate_modes(p).omega.to_numpy()
+    return ((p.rho * p.h / p.D) ** 0.25 * np.sqrt(omega) * p.b).reshape(p.n_circles + 1, p.n_diameters + 1)
+
+
+def test_table_has_a_row_for_each_mode() -> None:
+    modes = plate_modes(P.replace(n_diameters=2, n_circles=1))
+    assert list(modes.columns) == ["circles", "diameters", "omega", "psi"]
+    assert modes.circles.tolist() == [0, 0, 0, 1, 1, 1]
+    assert modes.diameters.tolist() == [0, 1, 2, 0, 1, 2]
+
+
+def test_frequencies_of_the_free_disc_agree_with_the_paper() -> None:
+    # The paper cuts, it does not round: 1491.927 is printed as 1491.92.
+    omega = plate_modes(P).omega.to_numpy()
+    assert_allclose(omega, [1491.927, 1516.757, 1823.881, 2774.194, 4383.044], rtol=0, atol=5.1e-4)
+    assert_allclose(omega, [1491.92, 1516.76, 1823.88, 2774.19, 4383.04], rtol=0, atol=1e-2)
+
+
+def test_published_amplitudes() -> None:
+    psi = plate_modes(P).psi.to_numpy()
+    assert_allclose(psi**2, [1.70575, 66.79457, 2.35417, 1.32275, 0.96751], rtol=0, atol=5.1e-6)
+
+
+def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:
+    # Section 4.4 prints nine numbers for the slider at rest and repeats the highest of the free disc.
+    paper = [850.86, 1492.55, 1516.76, 1814.90, 1823.88, 2758.02, 2774.19, 4360.49, 4383.04]
+    assert [f"{value:.2f}" for value in slider_at_rest_frequencies(P)] == [f"{value:.2f}" for value in paper]
+
+
+def test_slider_at_rest_with_orthonormal_modes() -> None:
+    own = [1178.65, 1500.28, 1723.08, 2575.73, 4111.83]
+    assert_allclose(slider_at_rest_frequencies(ORTHONORMAL)[[0, 1, 3, 5, 7]], own, rtol=0, atol=5.1e-3)
+
+
+def test_slider_at_rest_solves_the_secular_equation() -> None:
+    p = ORTHONORMAL.replace(n_diameters=10, n_circles=2)
+    modes = plate_modes(p)
+    free = modes.omega[modes.diameters > 0].to_numpy()
+    coupled = np.array([x for x in slider_at_rest_frequencies(p) if np.min(np.abs(free / x - 1)) > 1e-12])
+    terms = modes.psi.to_numpy() ** 2 / (modes.omega.to_numpy() ** 2 - coupled[:, None] ** 2)
+    weight = (p.k - p.m * coupled**2)[:, None]
+    assert coupled.size == len(modes)
+    assert np.all(np.abs(1 + np.sum(weight * terms, axis=1)) < 1e-7 * np.sum(np.abs(weight * terms), axis=1))
+
+
+def test_without_slider_the_disc_keeps_its_frequencies() -> None:
+    modes = plate_modes(P)
+    expected = np.sort(np.concatenate([modes.omega, modes.omega[modes.diameters > 0]]))
+    assert_allclose(slider_at_rest_frequencies(P.replace(m=1e-12, k=0)), expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("inner", [0.02, 0.3667, 0.9])
+@pytest.mark.parametrize("nu", [0.0, 0.211, 0.49])
+def test_no_root_is_missed_or_doubled_for_20_diameters_and_4_circles(inner: float, nu: float) -> None:
+    p = P.replace(a=inner * P.b, r_0=P.b, nu=nu, n_diameters=20, n_circles=4)
+    ours = lambdas(p)
+    ritz = np.array([ritz_lambdas(inner, nu, l, 5) for l in range(21)]).T
+    assert_allclose(ours, ritz, rtol=2e-9)
+    assert np.all(np.diff(ours, axis=0) > 0)
+
+
+@given(st.floats(0.03, 0.97), st.floats(-0.8, 0.49), st.integers(0, 20))
+@settings(max_examples=25, deadline=None)
+def test_any_disc_agrees_with_ritz(inner: float, nu: float, l: int) -> None:
+    p = P.replace(a=inner * P.b, r_0=P.b, nu=nu, n_diameters=l, n_circles=4)
+    assert_allclose(lambdas(p)[:, l], ritz_lambdas(p.a / p.b, nu, l, 5), rtol=1e-8)
+
+
+def test_highest_numbers_of_diameters_and_circles_do_not_overflow() -> None:
+    p = P.replace(n_diameters=60, n_circles=20)
+    modes = plate_modes(p)
+    assert len(modes) == 61 * 21
+    assert np.all(np.isfinite(modes.psi))
+    assert np.all(np.diff(lambdas(p), axis=0) > 0)
+    assert_allclose(lambdas(p)[:3, 60], ritz_lambdas(p.a / p.b, p.nu, 60, 3), rtol=1e-8)
+
+
+def shape_on_nodes(p: Parameters, nodes: np.ndarray) -> np.ndarray:
+    """R(r) of every mode at many radii, taken from `plate_modes` by moving the slider, (nodes, modes)."""
+    scale = np.sqrt(p.rho * p.h * p.b**2)
+    modes = [plate_modes(p.replace(r_0=r)) for r in nodes]
+    return np.array([m.psi / np.where(m.diameters > 0, np.sqrt(2), 1) for m in modes]) * scale
+
+
+def test_orthonormal_shapes_satisfy_eq_17() -> None:
+    p = ORTHONORMAL.replace(n_diameters=3, n_circles=2)
+    x, w = np.polynomial.legendre.leggauss(40)
+    half = (p.b - p.a) / 2
+    r = p.a + half * (x + 1)
+    R = shape_on_nodes(p, r).reshape(r.size, 3, 4)
+    gram = 2 * np.pi / p.b**2 * np.einsum("i,icl,idl->lcd", w * half * r, R, R)
+    assert_allclose(gram, np.tile(np.eye(3), (4, 1, 1)), atol=1e-12)
+
+
+def test_published_shapes_differ_by_a_factor_only() -> None:
+    r = np.linspace(0.05, 0.12, 5)
+    ratio = shape_on_nodes(P, r) / shape_on_nodes(ORTHONORMAL, r)
+    assert_allclose(ratio, np.tile(ratio[0], (5, 1)), rtol=1e-10)
+
+
+def test_published_shape_has_unit_coefficient_of_j() -> None:
+    """Fit J, Y, I, K to the shape: the first coefficient must be 1."""
+    r = np.linspace(0.045, 0.12, 30)
+    R = shape_on_nodes(P, r)
+    for l, lam in enumerate(lambdas(P)[0]):
+        x = lam * r / P.b
+        basis = np.array([special.jv(l, x), special.yv(l, x), special.iv(l, x), special.kv(l, x)])
+        coefficients, *_ = np.linalg.lstsq(basis.T, R[:, l], rcond=None)
+        assert coefficients[0] == pytest.approx(1, abs=1e-8)
+
+
+def test_frequencies_scale_as_they_must() -> None:
+    base = plate_modes(P)
+    rigid = plate_modes(P.replace(E=1e20))
+    assert_allclose(rigid.omega, base.omega * np.sqrt(1e20 / P.E), rtol=1e-14)
+    assert_allclose(rigid.psi, base.psi, rtol=1e-14)
+    thick = plate_modes(P.replace(h=2 * P.h))
+    assert_allclose(thick.omega, 2 * base.omega, rtol=1e-14)
+    large = P.replace(a=10 * P.a, b=10 * P.b, r_0=10 * P.r_0)
+    assert_allclose(plate_modes(large).omega, base.omega / 100, rtol=1e-13)
+
+
+def test_each_call_gives_a_fresh_table() -> None:
+    first = plate_modes(P)
+    expected = first.copy()
+    first.loc[:, "psi"] = 0.0
+    first.loc[:, "diameters"] = 7
+    assert plate_modes(P).equals(expected)
+    assert plate_modes(P.replace(N=3, Omega=4, k=1)).equals(expected)
+
+
+def test_mode_arrays_are_read_only() -> None:
+    modes = plate_module.mode_arrays(P)
+    with pytest.raises(ValueError, match="read-only"):
+        modes.psi[0] = 1
+
+
+def test_a_wrong_root_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    plate_module._shapes.cache_clear()
+    roots = plate_module._roots
+
+    def with_a_gap(inner: float, nu: float, n_diameters: int, n_circles: int) -> np.ndarray:
+        return roots(inner, nu, n_diameters, n_circles + 1)[1:]
+
+    monkeypatch.setattr(plate_module, "_roots", with_a_gap)
+    with pytest.raises(ModeError, match="missed or doubled"):
+        plate_modes(P.replace(nu=0.2123))
+
+
+def test_overflow_of_the_published_normalisation_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    shapes = plate_module._shapes(0.3, 0.3, 2, 0)
+    coefficients = shapes.coefficients.copy()
+    coefficients[0, 1] = 0.0
+    broken = plate_module._Shapes(0.3, shapes.l, shapes.lam, coefficients, shapes.exponents, shapes.norm)
+    with pytest.raises(ModeError, match=r"1 nodal diameters.*orthonormal"):
+        broken.at(0.9, orthonormal=False)
+    assert np.all(np.isfinite(broken.at(0.9, orthonormal=True)))
+
+
+@given(st.integers(1, 60), st.floats(0.1, 3.0))
+@settings(max_examples=30, deadline=None)
+def test_bessel_functions_far_below_their_order_agree_with_scipy(l: int, x: float) -> None:
+    value, exponent = plate_module._bessel_small(l, np.array([x]))
+    expected = [special.jv(l, x), special.yv(l, x), special.iv(l, x), special.kv(l, x)]
+    assert_allclose((value * np.exp(exponent))[:, 0], expected, rtol=1e-11)
+
+
+def test_bessel_functions_beyond_the_range_of_floats_keep_their_exponent() -> None:
+    value, exponent = plate_module._bessel(np.array([60]), np.array([1e-6]))
+    assert np.all(np.isfinite(value))
+    assert np.all(np.isfinite(exponent))
+    # J Y -> -1/(pi l) and I K -> 1/(2 l) as x -> 0
+    product = value[[0, 2]] * value[[1, 3]] * np.exp(exponent[[0, 2]] + exponent[[1, 3]])
+    assert_allclose(product[:, 0], [-1 / (60 * np.pi), 1 / 120], rtol=1e-10)
