@@ -1,0 +1,636 @@
+"""High-precision reference event times from heyoka (a development dependency only).
+
+The slider-frame equations are advanced by heyoka's Taylor integrator in 64-bit (or 53-bit) mantissa; the
+switches are found here as roots of heyoka's own Taylor coefficients, by Bernstein subdivision, so no
+crossing inside a step can be missed. The contact force enters as an extra variable J with J' = P, whose
+coefficients give those of P. At a separation the known root of the gap (t^3 when it begins at P = 0, t^2
+when P was negative after an impact) is divided out of the first step's series, and t out of f where a slip
+begins from rest: there is no guard interval.
+
+Regenerate the stored data (about five minutes)::
+
+    python -m tests.references.heyoka_reference
+
+Time heyoka as a competent user would run it (double precision, native terminal events)::
+
+    python -m tests.references.heyoka_reference time
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time as clock
+from math import comb
+
+import heyoka as hy
+import numpy as np
+
+from tests.references.modes import modes_mpmath
+from tests.references.stored import BASE, DATA, Case, State, case_of, load
+
+LONG = np.longdouble
+
+
+# -------------------------------------------------------------------------- the model
+def equilibrium(case, real=LONG):
+    q = case.numbers(real)
+    n, o = len(q["omega"]), real(0)
+    a = [-q["N"] * s / (w * w) for s, w in zip(q["shape"], q["omega"], strict=True)]
+    return State(o, "stick", 0, o, o, q["u_0"], o, a, [o] * n, [o] * n, [o] * n)
+
+
+def equations(case, phase, real):
+    """heyoka system of `phase`; par[0] is the slip direction. Order: a, alpha, b[1:], beta[1:], psi, f, then
+    J or u, v.
+
+    In contact u is sum psi a and is no variable. In `stick`, f stays 0.
+    """
+    q = case.numbers(real)
+    n = len(q["omega"])
+
+    def const(x):
+        return hy.expression(real(x))
+
+    a = hy.make_vars(*[f"a{i}" for i in range(n)])
+    alpha = hy.make_vars(*[f"p{i}" for i in range(n)])
+    b = [None, *hy.make_vars(*[f"b{i}" for i in range(1, n)], "unused")[:-1]]
+    beta = [None, *hy.make_vars(*[f"q{i}" for i in range(1, n)], "unused")[:-1]]
+    psi, f, J, u, v = hy.make_vars("psi", "f", "J", "u", "v")
+    rate = f if phase != "stick" else const(0)
+    ordinal = [const(l) for l in range(n)]
+    s, w2, d = q["shape"], [w * w for w in q["omega"]], q["damping"]
+    F = const(q["k_p"]) * psi + const(q["c_p"]) * (const(q["Omega"]) - rate)
+
+    free = [-const(d[i]) * alpha[i] - const(w2[i]) * a[i] for i in range(n)]
+    cross = [None] + [ordinal[i] * rate for i in range(1, n)]
+    disc_u = hy.sum([const(s[i]) * a[i] for i in range(n)])
+    if phase == "separation":
+        P = const(0)
+        f_rate = F / const(q["m"])
+    else:
+        B = hy.sum([const(i * s[i]) * b[i] for i in range(1, n)])
+        A = hy.sum([const(s[i]) * free[i] for i in range(n)])
+        velocity = hy.sum([const(s[i]) * alpha[i] for i in range(n)])
+        if phase == "slip":
+            A = A + rate * hy.sum([const(2 * i * s[i]) * beta[i] for i in range(1, n)])
+            A = A - rate * rate * hy.sum([const(i * i * s[i]) * a[i] for i in range(1, n)])
+            velocity = velocity + rate * B
+        m = const(q["m"])
+        top = const(q["N"]) + const(q["k"]) * (disc_u - const(q["u_0"])) + const(q["c"]) * velocity + m * A
+        bottom = const(real(1) + q["m"] * q["S2"])
+        if phase == "slip":
+            P = (top + B * F) / (bottom + hy.par[0] * const(q["mu_k"] / q["r_0"]) * B)
+            f_rate = F / m - hy.par[0] * const(q["mu_k"] / (q["m"] * q["r_0"])) * P
+        else:
+            P = top / bottom
+            f_rate = const(0)
+
+    system = [(a[i], alpha[i] + (cross[i] * b[i] if i else const(0))) for i in range(n)]
+    system += [(alpha[i], free[i] + (cross[i] * beta[i] if i else const(0)) - const(s[i]) * P) for i in range(n)]
+    system += [(b[i], beta[i] - cross[i] * a[i]) for i in range(1, n)]
+    system += [(beta[i], -const(d[i]) * beta[i] - const(w2[i]) * b[i] - cross[i] * alpha[i]) for i in range(1, n)]
+    system += [(psi, const(q["Omega"]) - rate), (f, f_rate)]
+    if phase == "separation":
+        height = const(q["N"]) + const(q["k"]) * (u - const(q["u_0"])) + const(q["c"]) * v
+        system += [(u, v), (v, -height / const(q["m"]))]
+    else:
+        system += [(J, P)]
+    return system
+
+
+# -------------------------------------------------------------------------- roots
+def bernstein_matrix(degree, real):
+    return np.array(
+        [
+            [real(comb(i, j)) / real(comb(degree, j)) if j <= i else real(0) for j in range(degree + 1)]
+            for i in range(degree + 1)
+        ]
+    )
+
+
+_MATRICES: dict = {}
+
+
+def first_root(c, h):
+    """Smallest t in (0, h] where the polynomial sum c_j t^j, positive at 0, reaches zero, or None."""
+    scaled = c * h ** np.arange(len(c))
+    if scaled[0] <= 0:
+        return h * 0
+    if scaled[0] + np.minimum(scaled[1:], 0).sum() > 0:
+        return None
+    key = (len(c), c.dtype)
+    if key not in _MATRICES:
+        _MATRICES[key] = bernstein_matrix(len(c) - 1, c.dtype.type)
+    return _leftmost(_MATRICES[key] @ scaled, h * 0, h, c, 0)
+
+
+def _leftmost(control, left, right, c, depth):
+    if control.min() > 0:
+        return None
+    changes = int((np.diff(np.signbit(control)) != 0).sum())
+    if changes == 1 and control[-1] <= 0:
+        return _bisect(c, left, right)
+    if depth > 60:  # a touch of zero finer than the numbers resolve
+        return right
+    rows, left_half, right_half = control.copy(), [control[0]], [control[-1]]
+    for _ in range(len(control) - 1):
+        rows = (rows[1:] + rows[:-1]) / 2
+        left_half.append(rows[0])
+        right_half.append(rows[-1])
+    middle = (left + right) / 2
+    found = _leftmost(np.array(left_half), left, middle, c, depth + 1)
+    return found if found is not None else _leftmost(np.array(right_half[::-1]), middle, right, c, depth + 1)
+
+
+def horner(c, t):
+    """Polynomial with coefficients along the last axis."""
+    value = c[..., -1]
+    for j in range(c.shape[-1] - 2, -1, -1):
+        value = value * t + c[..., j]
+    return value
+
+
+def _bisect(c, left, right):
+    for _ in range(80):
+        middle = (left + right) / 2
+        if middle in (left, right):
+            break
+        if horner(c, middle) > 0:
+            left = middle
+        else:
+            right = middle
+    return (left + right) / 2
+
+
+# -------------------------------------------------------------------------- the phase machine
+class Reference:
+    """Event-driven run from a State; `tol` 1e-21 in long double puts truncation far below rounding."""
+
+    def __init__(self, case, state, real=LONG, tol=1e-21):
+        self.case, self.real = case, real
+        self.q = case.numbers(real)
+        self.n = len(case.omega)
+        self.shape = np.array(self.q["shape"], dtype=real)
+        self.ordinal = np.arange(self.n).astype(real)
+        self.lanes = {
+            phase: hy.taylor_adaptive(
+                equations(case, phase, real),
+                [real(0)] * (4 * self.n + (2 if phase == "separation" else 1)),
+                tol=real(tol),
+                fp_type=real,
+            )
+            for phase in ("stick", "slip", "separation")
+        }
+        self.events: list[dict] = []
+        self.steps = 0
+        self._start(state)
+
+    # -- state in and out
+    def _start(self, state):
+        self.start_time, self.local = LONG(state.time), self.real(0)
+        self.phase, self.direction = state.phase, int(state.direction)
+        array = lambda x: np.array([self.real(y) for y in x], dtype=self.real)  # noqa: E731
+        self.a, self.b, self.alpha, self.beta = map(array, (state.a, state.b, state.alpha, state.beta))
+        self.psi, self.f = self.real(state.psi), self.real(state.f)
+        self.u, self.v = self.real(state.u), self.real(state.u_velocity)
+        self.divide = {"f": 0, "gap": 0}
+        self._load()
+
+    def state(self):
+        """The current State."""
+        if self.phase != "separation":
+            self.u = (self.shape * self.a).sum()
+            self.v = self.disc_velocity()
+        return State(
+            self.time,
+            self.phase,
+            self.direction,
+            self.psi,
+            self.f,
+            self.u,
+            self.v,
+            *(list(x) for x in (self.a, self.b, self.alpha, self.beta)),
+        )
+
+    @property
+    def time(self):
+        return self.start_time + LONG(self.local)
+
+    def _load(self):
+        lane = self.lanes[self.phase]
+        tail = [self.u, self.v] if self.phase == "separation" else [self.real(0)]
+        lane.state[:] = np.concatenate([self.a, self.alpha, self.b[1:], self.beta[1:], [self.psi, self.f], tail])
+        if self.phase == "slip":
+            lane.pars[0] = self.real(self.direction)
+        lane.time = self.real(0)
+
+    def _unload(self, x):
+        n, zero = self.n, np.zeros(1, dtype=self.real)
+        self.a, self.alpha = x[:n].copy(), x[n : 2 * n].copy()
+        self.b = np.concatenate([zero, x[2 * n : 3 * n - 1]])
+        self.beta = np.concatenate([zero, x[3 * n - 1 : 4 * n - 2]])
+        self.psi, self.f = x[4 * n - 2], x[4 * n - 1]
+        if self.phase == "separation":
+            self.u, self.v = x[4 * n], x[4 * n + 1]
+
+    # -- formulas at an instant
+    def disc_velocity(self):
+        return (self.shape * (self.alpha + self.ordinal * self.f * self.b)).sum()
+
+    def spring(self):
+        q = self.q
+        return q["k_p"] * self.psi + q["c_p"] * (q["Omega"] - self.f)
+
+    def contact_force(self, direction):
+        """P with f as it is; direction 0 is stick."""
+        q, s, l = self.q, self.shape, self.ordinal
+        damping, w2 = np.array(q["damping"], dtype=self.real), np.array(q["omega"], dtype=self.real) ** 2
+        A = (s * (-damping * self.alpha - w2 * self.a + 2 * l * self.f * self.beta - l**2 * self.f**2 * self.a)).sum()
+        B = (l * s * self.b).sum()
+        top = q["N"] + q["k"] * ((s * self.a).sum() - q["u_0"]) + q["c"] * self.disc_velocity() + q["m"] * A
+        bottom = 1 + q["m"] * q["S2"]
+        if direction:
+            return (top + B * self.spring()) / (bottom + direction * q["mu_k"] * B / q["r_0"])
+        return top / bottom
+
+    # -- one step
+    def advance(self, t_end):
+        """One step, cut at the first switch or at local time `t_end`; returns the switch or None."""
+        lane = self.lanes[self.phase]
+        if self.phase != "separation":
+            lane.state[-1] = self.real(0)
+        lane.step(max_delta_t=self.real(t_end - self.local), write_tc=True)
+        self.steps += 1
+        h, tc = self.real(lane.last_h), lane.tc
+        found = [(t, kind) for kind, t in self._switches(tc, h) if t is not None]
+        if not found:
+            self._unload(lane.state)
+            self.local += h
+            self.divide = {"f": 0, "gap": 0}
+            return None
+        t, kind = min(found)
+        self._unload(horner(tc, t))
+        self.local += t
+        return kind
+
+    def _switches(self, tc, h):
+        q, n = self.q, self.n
+        if self.phase == "separation":
+            gap = tc[4 * n] - (self.shape[:, None] * tc[:n]).sum(axis=0)
+            return [("reattachment", first_root(gap[self.divide["gap"] :], h))]
+        P = tc[-1, 1:] * np.arange(1, tc.shape[1]).astype(self.real)
+        switches = [("separation", first_root(P, h))]
+        if self.phase == "stick":
+            pull = q["k_p"] * tc[4 * n - 2, :-1]
+            pull[0] += q["c_p"] * q["Omega"]
+            for sign in (1, -1):
+                margin = q["mu_s"] * P - sign * q["r_0"] * pull
+                switches.append(("stick_to_slip", first_root(margin, h)))
+        else:
+            switches.append(("rest", first_root(self.direction * tc[4 * n - 1][self.divide["f"] :], h)))
+        return switches
+
+    # -- switching
+    def _enter(self, kind, phase, direction, divide=None):
+        self.phase, self.direction = phase, direction
+        self.divide = {"f": 0, "gap": 0} | (divide or {})
+        P = self.real(0) if phase == "separation" else self.contact_force(direction)
+        self.events.append({"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P})
+        self._load()
+
+    def switch(self, kind):
+        if kind == "stick_to_slip":
+            self.f = self.real(0)
+            self._enter(kind, "slip", 1 if self.spring() > 0 else -1, {"f": 1})
+        elif kind == "rest":
+            self.f = self.real(0)
+            if self.q["r_0"] * abs(self.spring()) < self.q["mu_s"] * self.contact_force(0):
+                self._enter("slip_to_stick", "stick", 0)
+            else:
+                self._enter("slip_reversal", "slip", 1 if self.spring() > 0 else -1, {"f": 1})
+        elif kind == "separation":
+            self._separate(3)
+        else:
+            self._reattach()
+
+    def _separate(self, order):
+        self.u, self.v = (self.shape * self.a).sum(), self.disc_velocity()
+        self._enter("separation", "separation", 0, {"gap": order})
+
+    def _reattach(self):
+        p = (self.disc_velocity() - self.v) / (self.q["S2"] + 1 / self.q["m"])
+        self.alpha = self.alpha - self.shape * p
+        if self.f == 0:
+            raise RuntimeError("impact at rest: not met in the stored cases")
+        self._enter("reattachment", "slip", 1 if self.f > 0 else -1)
+        if self.contact_force(self.direction) < 0:
+            self._separate(2)
+
+    # -- runs
+    def run(self, t_end, stop_at=None):
+        """Advance to absolute time `t_end`, or to the first event of kind `stop_at`. Returns self."""
+        local_end = self.real(LONG(t_end) - self.start_time)
+        while self.local < local_end:
+            kind = self.advance(local_end)
+            if kind:
+                self.switch(kind)
+                if stop_at == self.events[-1]["kind"]:
+                    break
+        return self
+
+
+# -------------------------------------------------------------------------- stored data
+def published_case(N, Omega):
+    omega, psi = modes_mpmath(BASE)
+    return Case(N, Omega, [float(x) for x in omega], [float(x) for x in psi])
+
+
+def rounded(state):
+    """The state with every number a double (u, u' of the disc point in contact)."""
+    values = {k: [float(x) for x in v] if isinstance(v, list) else v for k, v in vars(state).items()}
+    return State(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
+
+
+def decimal(x, digits=20):
+    return np.format_float_positional(LONG(x), precision=digits, unique=False)
+
+
+def _record(name, case, start, run, t_end, check, **extra):
+    """Write data/<name>.json; `check` is a second run that says how many digits hold."""
+    times = np.array([e["time"] for e in run.events])
+    other = np.array([LONG(e["time"]) for e in check.events])
+    same = [e["kind"] for e in run.events] == [e["kind"] for e in check.events]
+    difference = float(abs(times - other).max()) if same else float("nan")
+    data = dict(
+        parameters={"N": case.N, "Omega": case.Omega} | case.base,
+        modes={"circles": [0] * 5, "diameters": list(range(5)), "omega": case.omega, "psi": case.psi},
+        start=None if start is None else vars(start),
+        t_end=t_end,
+        largest_difference_to_check_run=difference,
+        **extra,
+        events=[
+            {
+                "time": float(e["time"]),
+                "time_decimal": decimal(e["time"]),
+                "kind": e["kind"],
+                "phase": e["phase"],
+                "psi": float(e["psi"]),
+                "f": float(e["f"]),
+                "P": float(e["P"]),
+            }
+            for e in run.events
+        ],
+    )
+    DATA.mkdir(exist_ok=True)
+    text = json.dumps(data, indent=1)
+    (DATA / f"{name}.json").write_text(text + "\n")
+    return len(times), difference
+
+
+def sensitivity(case, t_guess=60.0):
+    """Shift (s) of the first separation when one omega or psi is one unit in the last place larger."""
+    base = Reference(case, equilibrium(case)).run(t_guess, stop_at="separation").events[-1]["time"]
+    shifts = {}
+    for name in ("omega", "psi"):
+        for l in range(len(case.omega)):
+            values = list(getattr(case, name))
+            values[l] = float(np.nextafter(values[l], np.inf))
+            other = Case(**(vars(case) | {name: values}))
+            last = Reference(other, equilibrium(other)).run(t_guess, stop_at="separation").events[-1]["time"]
+            shifts[f"{name}_{l}"] = float(last - base)
+    return shifts
+
+
+def wild_start(case, base, rng):
+    """A separated state of violent vibration: crowded switches, impacts with P < 0 after them, reversals."""
+    scale, n = rng.uniform(0.2, 3), len(case.omega)
+    a, b = np.array(base.a) * scale * rng.normal(1, 0.3, n), np.array(base.b) * scale * rng.normal(1, 5, n)
+    alpha, beta = (
+        np.array(base.alpha) * scale * rng.normal(0, 4, n),
+        np.array(base.beta) * scale * rng.normal(0, 4, n),
+    )
+    height = float(np.dot(case.psi, a)) + 1e-3 * abs(rng.normal())
+    psi, f, fall = 0.03 * rng.normal(), 25 * rng.normal(), rng.normal()
+    return rounded(
+        State(0.0, "separation", 0, float(psi), float(f), height, float(fall), *map(list, (a, b, alpha, beta)))
+    )
+
+
+WILD = {"N": 100.0, "Omega": 3.0, "mu_s": 0.06, "mu_k": 0.04, "c": 2.0, "c_p": 0.3, "D_star": 2e-5}
+
+
+def regenerate_wild(base, runs=16, t_end=0.2, seed=1):
+    """data/wild.json: short runs from violent starts, half of them with little friction and all dampers."""
+    rng, groups = np.random.default_rng(seed), []
+    published = published_case(385.0, 15.1)
+    damped = {k: v for k, v in WILD.items() if k not in ("N", "Omega")}
+    slippery = Case(WILD["N"], WILD["Omega"], published.omega, published.psi, BASE | damped)
+    for case in (published, slippery):
+        stored = []
+        for _ in range(runs):
+            start = wild_start(case, base, rng)
+            run, check = (Reference(case, start, tol=tol).run(t_end) for tol in (1e-21, 1e-23))
+            kinds = [e["kind"] for e in run.events]
+            if kinds != [e["kind"] for e in check.events]:
+                raise RuntimeError("two long-double runs disagree")
+            difference = max(abs(x["time"] - y["time"]) for x, y in zip(run.events, check.events, strict=True))
+            stored.append(
+                {
+                    "start": vars(start),
+                    "largest_difference_to_check_run": float(difference),
+                    "kinds": kinds,
+                    "times": [decimal(e["time"]) for e in run.events],
+                }
+            )
+        groups.append({"parameters": {"N": case.N, "Omega": case.Omega} | case.base, "t_end": t_end, "runs": stored})
+        print(
+            "wild",
+            sum(len(r["times"]) for r in stored),
+            max(r["largest_difference_to_check_run"] for r in stored),
+        )
+    modes = {"circles": [0] * 5, "diameters": list(range(5)), "omega": published.omega, "psi": published.psi}
+    (DATA / "wild.json").write_text(json.dumps({"modes": modes, "groups": groups}, indent=None) + "\n")
+
+
+def regenerate():
+    """Compute and store everything below data/, each run repeated with another order and step size."""
+    for name, case in (("A", published_case(385.0, 15.1)), ("B", published_case(300.0, 20.0))):
+        run, check = (Reference(case, equilibrium(case), tol=tol).run(1.0) for tol in (1e-21, 1e-23))
+        print(name, *_record(name, case, None, run, 1.0, check))
+
+    case = published_case(385.0, 15.1)
+    run, check = (Reference(case, equilibrium(case), tol=tol).run(54.4) for tol in (1e-21, 1e-23))
+    start = rounded(run.state())
+    c_run, c_check = (Reference(case, start, tol=tol).run(55.4) for tol in (1e-21, 1e-23))
+    print("C", *_record("C", case, start, c_run, 55.4, c_check))
+    regenerate_wild(start)
+
+    times = {"long_double": run, "long_double_check": check}
+    times |= {
+        f"double_{tol:g}": Reference(case, equilibrium(case, np.float64), np.float64, tol) for tol in (1e-17, 1e-19)
+    }
+    found = {name: one.run(60.0, stop_at="separation") for name, one in times.items()}
+    data = {
+        "parameters": {"N": case.N, "Omega": case.Omega} | case.base,
+        "modes": {"circles": [0] * 5, "diameters": list(range(5)), "omega": case.omega, "psi": case.psi},
+        "events_before": len(run.events) - 1,
+        "time": float(run.events[-1]["time"]),
+        "time_decimal": {name: decimal(one.events[-1]["time"]) for name, one in found.items()},
+        "shift_per_unit_in_last_place": sensitivity(case),
+    }
+    (DATA / "first_separation.json").write_text(json.dumps(data, indent=1) + "\n")
+    print("first separation", data["time_decimal"], data["shift_per_unit_in_last_place"])
+
+
+# -------------------------------------------------------------------------- heyoka as users run it
+class NativeHeyoka:
+    """heyoka in double precision, not compact, fast_math, native terminal events: what a competent user
+    would write.
+
+    After a separation begins the gap has a triple root, on which native event detection fails: `guard` (s)
+    is the hand-tuned interval that is crossed without looking.
+    """
+
+    def __init__(self, case, tol=1e-12, guard=2e-5):
+        self.case, self.guard = case, guard
+        self.q = q = case.numbers(float)
+        n = self.n = len(case.omega)
+        self.shape, self.ordinal = np.array(q["shape"]), np.arange(n)
+        options = {"tol": tol, "compact_mode": False, "fast_math": True}
+        falling, rising = hy.event_direction.negative, hy.event_direction.positive
+
+        def split(phase):
+            rows = equations(case, phase, float)
+            return rows, rows[-1][1]
+
+        rows, P = split("stick")
+        pull = q["r_0"] * (q["k_p"] * hy.expression("psi") + q["c_p"] * q["Omega"])
+        self.stick = hy.taylor_adaptive(
+            rows[:-1],
+            np.zeros(4 * n),
+            **options,
+            t_events=[
+                hy.t_event(P, direction=falling),
+                hy.t_event(q["mu_s"] * P - pull, direction=falling),
+                hy.t_event(q["mu_s"] * P + pull, direction=falling),
+            ],
+        )
+        rows, P = split("slip")
+        self.slip = {
+            sign: hy.taylor_adaptive(
+                rows[:-1],
+                np.zeros(4 * n),
+                **options,
+                pars=[float(sign)],
+                t_events=[
+                    hy.t_event(P, direction=falling),
+                    hy.t_event(hy.expression("f"), direction=falling if sign > 0 else rising),
+                ],
+            )
+            for sign in (1, -1)
+        }
+        rows, _ = split("separation")
+        gap = hy.expression("u") - hy.sum([self.shape[i] * hy.expression(f"a{i}") for i in range(n)])
+        self.quiet = hy.taylor_adaptive(rows, np.zeros(4 * n + 2), **options)
+        self.separation = hy.taylor_adaptive(
+            rows, np.zeros(4 * n + 2), **options, t_events=[hy.t_event(gap, direction=falling)]
+        )
+
+    def _force_at_rest(self, x):
+        q, n = self.q, self.n
+        a, alpha = x[:n], x[n : 2 * n]
+        A = -self.shape @ (np.array(q["damping"]) * alpha + np.array(q["omega"]) ** 2 * a)
+        top = q["N"] + q["k"] * (self.shape @ a - q["u_0"]) + q["c"] * (self.shape @ alpha) + q["m"] * A
+        return top / (1 + q["m"] * q["S2"])
+
+    def _disc_velocity(self, x):
+        n = self.n
+        b = x[2 * n : 3 * n - 1]
+        return self.shape @ x[n : 2 * n] + x[4 * n - 1] * ((self.ordinal * self.shape)[1:] @ b)
+
+    def run(self, state, t_end):
+        """Events as a list of (time, kind) from `state` (in contact) to `t_end`."""
+        q, n, events = self.q, self.n, []
+        x = np.array([*state.a, *state.alpha, *state.b[1:], *state.beta[1:], state.psi, state.f], dtype=float)
+        t, phase, sign = float(state.time), state.phase, int(state.direction)
+        origin, t = t, 0.0
+        end = t_end - origin
+        while True:
+            if phase == "separation":
+                quiet, watch = self.quiet, self.separation
+                quiet.time, quiet.state[:] = t, x
+                quiet.propagate_until(min(t + self.guard, end))
+                x, t = quiet.state, quiet.time
+            else:
+                watch = self.stick if phase == "stick" else self.slip[sign]
+            watch.time, watch.state[:] = t, x
+            watch.reset_cooldowns()
+            outcome = watch.propagate_until(end)[0]
+            t, x = watch.time, watch.state.copy()
+            if outcome == hy.taylor_outcome.time_limit:
+                return events
+            index = -int(outcome) - 1
+            if phase == "separation":
+                p = (self._disc_velocity(x) - x[-1]) / (q["S2"] + 1 / q["m"])
+                x[n : 2 * n] -= self.shape * p
+                x = x[: 4 * n]
+                phase, sign, kind = "slip", 1 if x[-1] > 0 else -1, "reattachment"
+            elif index == 0:
+                x = np.concatenate([x, [self.shape @ x[:n], self._disc_velocity(x)]])
+                phase, kind = "separation", "separation"
+            elif phase == "stick":
+                phase, sign, kind = "slip", 1 if index == 1 else -1, "stick_to_slip"
+            else:
+                x[4 * n - 1] = 0.0
+                F = q["k_p"] * x[4 * n - 2] + q["c_p"] * q["Omega"]
+                if q["r_0"] * abs(F) < q["mu_s"] * self._force_at_rest(x):
+                    phase, kind = "stick", "slip_to_stick"
+                else:
+                    sign, kind = (1 if F > 0 else -1), "slip_reversal"
+            events.append((origin + t, kind))
+
+
+def time_case(name="A", tol=1e-12, repeats=20, guard=2e-5, native=None):
+    """Time heyoka on stored case A, B or C (compile time left out).
+
+    Returns dict: `ms_per_second` (best of `repeats`), `median_ms_per_second`, `error` (largest event-time
+    error, s; nan if events are missing), `events`, `expected`. Pass the `native` of an earlier result to
+    alternate with another engine.
+    """
+    data = load(name)
+    case = case_of(data)
+    native = native or NativeHeyoka(case, tol, guard)
+    start = data["start"] or equilibrium(case, float)
+    walls = []
+    for _ in range(repeats):
+        begin = clock.perf_counter()
+        events = native.run(start, data["t_end"])
+        walls.append(clock.perf_counter() - begin)
+    span = data["t_end"] - float(start.time)
+    same = [kind for _, kind in events] == [e["kind"] for e in data["events"]]
+    error = max(abs(t - e["time"]) for (t, _), e in zip(events, data["events"], strict=True)) if same else float("nan")
+    return {
+        "ms_per_second": 1e3 * min(walls) / span,
+        "median_ms_per_second": 1e3 * float(np.median(walls)) / span,
+        "error": error,
+        "events": len(events),
+        "expected": len(data["events"]),
+        "tol": tol,
+        "native": native,
+    }
+
+
+def main():
+    if sys.argv[1:] == ["time"]:
+        for name in ("A", "B", "C"):
+            for tol in (1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13):
+                result = time_case(name, tol)
+                result.pop("native")
+                print(name, result)
+    else:
+        regenerate()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,325 @@
+"""The paper's Eqs. (18)-(37) written down literally: complex modes, disc's frame, nothing eliminated by hand.
+
+State: q_l and q_l' for l = -n..n (each complex, conjugate symmetry Eq. (23) not used), phi, phi', and u, u'
+of the slider. The accelerations come from the coupled linear system, assembled as printed and solved
+numerically. Slow and readable on purpose; the one change to the print is the ">=" that belongs into Eq. (24).
+
+Integrated by scipy's DOP853. Switch functions are sampled densely inside every step; a bracketed root is
+refined by integrating afresh from the step's start, so that the order of the dense output does not enter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import DOP853
+from scipy.optimize import brentq
+
+
+@dataclass
+class Start:
+    """Initial values: real-frame amplitudes q, q_rate (complex, l = -n..n), phi, phi_rate, u, u_rate."""
+
+    phase: str
+    q: np.ndarray
+    q_rate: np.ndarray
+    phi: float
+    phi_rate: float
+    u: float = 0.0
+    u_rate: float = 0.0
+
+
+def signed_diameters(diameters):
+    """l of every complex mode (-d and d for d > 0) and the row it comes from."""
+    pairs = [(l, row) for row, d in enumerate(diameters) for l in ((0,) if d == 0 else (-int(d), int(d)))]
+    return np.array([l for l, _ in pairs]), np.array([row for _, row in pairs])
+
+
+def literal_of(p, drive=0.0, **options):
+    """`Literal` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
+    from disc_model import plate_modes
+
+    modes = plate_modes(p)
+    Psi = modes["psi"].abs() / np.where(modes["diameters"] == 0, 1.0, np.sqrt(2.0))
+    names = ("m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0", "D", "D_star", "N", "Omega")
+    numbers = {name: getattr(p, name) for name in names}
+    return Literal(
+        modes["diameters"].to_numpy(),
+        modes["omega"].to_numpy(),
+        Psi.to_numpy(),
+        numbers,
+        drive,
+        p.contact == "bonded",
+        **options,
+    )
+
+
+class Literal:
+    """`diameters`, `omega`, `Psi` = R_kl(r0)/sqrt(rho h b^2), one row per circles k x diameters l >= 0.
+
+    `p` has m, k, c, k_p, c_p, mu_s, mu_k, r_0, D, D_star, N, Omega. `drive` is the drive point's angle at
+    the local time 0; the preload's u_0 = w_0 is that of the static equilibrium. `bonded` ignores separation:
+    P may be negative.
+    """
+
+    SAMPLES = 16
+
+    def __init__(self, diameters, omega, Psi, p, drive=0.0, bonded=False, rtol=1e-13, max_step=1e-4):
+        self.l, rows = signed_diameters(diameters)
+        self.omega, self.Psi, self.bonded = np.asarray(omega)[rows], np.asarray(Psi)[rows], bonded
+        self.damping = p["D_star"] / p["D"] * self.omega**2  # 2 xi omega
+        self.p, self.drive, self.rtol, self.max_step = p, drive, rtol, max_step
+        self.w_0 = -p["N"] * float((self.Psi**2 / self.omega**2).sum())
+
+    # ---- pieces of the equations
+    def unpack(self, y):
+        n = len(self.l)
+        z = y[: 4 * n].view(complex)
+        return z[:n], z[n:], y[4 * n], y[4 * n + 1], y[4 * n + 2], y[4 * n + 3]
+
+    def psi(self, t, phi):
+        return self.drive + self.p["Omega"] * t - phi  # Eq. (4)
+
+    def disc(self, q, q_rate, phi, phi_rate):
+        """w, w_theta and the velocity (Eq. 34) of the disc under the slider."""
+        shape = self.Psi * np.exp(1j * self.l * phi)
+        slope = (1j * self.l * shape * q).sum()
+        return (shape * q).sum().real, slope.real, (phi_rate * slope + (shape * q_rate).sum()).real
+
+    def accelerations(self, t, y, phase):
+        """q'' and phi'', u'' of `phase` ("stick", "slip+", "slip-", "separation") and the contact force P."""
+        p, l = self.p, self.l
+        q, v, phi, rate, u, u_rate = self.unpack(y)
+        psi, psi_rate = self.psi(t, phi), p["Omega"] - rate
+        free = -self.damping * v - self.omega**2 * q
+        if phase == "separation":  # Eqs. (25)-(27)
+            phi_acc = (p["c_p"] * psi_rate + p["k_p"] * psi) / p["m"]
+            u_acc = -(p["c"] * u_rate + p["k"] * (u - self.w_0) + p["N"]) / p["m"]
+            return free, phi_acc, u_acc, 0.0
+        e = self.Psi * np.exp(1j * l * phi)  # multiplies q_rs in the sums
+        test = self.Psi * np.exp(-1j * l * phi)  # multiplies the projected load
+        n = len(l)
+        matrix, right = np.zeros((n + 1, n + 1), complex), np.zeros(n + 1, complex)
+        # the part of the bracket {m[...] + c(...) + k ...} without q'' and phi''
+        known = (
+            e * (p["m"] * (2j * l * rate * v - l**2 * rate**2 * q) + p["c"] * (v + 1j * l * rate * q) + p["k"] * q)
+        ).sum()
+        preload = p["N"] - p["k"] * self.w_0
+        # Eq. (18) / (21): q'' + test * sum e m (q'' + i s phi'' q) = free - test * (preload + known)
+        matrix[:n, :n] = np.eye(n) + p["m"] * np.outer(test, e)
+        matrix[:n, n] = test * p["m"] * (e * 1j * l * q).sum()
+        right[:n] = free - test * (preload + known)
+        if phase == "stick":  # Eq. (19): phi is constant
+            matrix[n, n] = 1.0
+        else:  # Eq. (22)
+            friction = p["mu_k"] * (1 if phase == "slip+" else -1)
+            matrix[n, :n] = friction * p["m"] * e
+            matrix[n, n] = p["r_0"] * p["m"] + friction * p["m"] * (e * 1j * l * q).sum()
+            right[n] = p["r_0"] * (p["c_p"] * (p["Omega"] - rate) + p["k_p"] * psi) - friction * (preload + known)
+        solution = np.linalg.solve(matrix, right)
+        q_acc, phi_acc = solution[:n], solution[n]
+        P = preload + known + p["m"] * (e * (q_acc + 1j * l * phi_acc * q)).sum()
+        return q_acc, phi_acc.real, 0.0, P.real
+
+    def derivative(self, phase):
+        n = len(self.l)
+
+        def rhs(t, y):
+            q_acc, phi_acc, u_acc, _ = self.accelerations(t, y, phase)
+            out = np.empty_like(y)
+            z = out[: 4 * n].view(complex)
+            z[:n], z[n:] = y[: 4 * n].view(complex)[n:], q_acc
+            out[4 * n :] = y[4 * n + 1], phi_acc, y[4 * n + 3], u_acc
+            return out
+
+        return rhs
+
+    # ---- conditions for staying in a phase: each positive inside it
+    def pull(self, t, y):
+        _, _, phi, rate, _, _ = self.unpack(y)
+        return self.p["c_p"] * (self.p["Omega"] - rate) + self.p["k_p"] * self.psi(t, phi)
+
+    def contact(self, t, y, phase):
+        return self.accelerations(t, y, phase)[3]
+
+    def stick_margin(self, t, y):  # Eq. (20)
+        return self.p["mu_s"] * self.contact(t, y, "stick") - self.p["r_0"] * abs(self.pull(t, y))
+
+    def gap(self, order):
+        """u - w (Eq. 28) or its first or second time derivative, the latter from the equations of motion."""
+
+        def function(t, y):
+            q, v, phi, rate, u, u_rate = self.unpack(y)
+            w, slope, velocity = self.disc(q, v, phi, rate)
+            if order == 0:
+                return u - w
+            if order == 1:
+                return u_rate - velocity
+            q_acc, phi_acc, u_acc, _ = self.accelerations(t, y, "separation")
+            e = self.Psi * np.exp(1j * self.l * phi)
+            return u_acc - phi_acc * slope - (e * (q_acc + 2j * self.l * rate * v - self.l**2 * rate**2 * q)).sum().real
+
+        return function
+
+    def watched(self, phase):
+        functions = {} if self.bonded else {"separation": lambda t, y: self.contact(t, y, phase)}
+        if phase == "stick":
+            return functions | {"stick_to_slip": self.stick_margin}
+        sign = 1 if phase == "slip+" else -1
+        return functions | {"rest": lambda t, y: sign * self.unpack(y)[3]}
+
+    # ---- integration of one phase
+    def solver(self, phase, t, y, t_end):
+        return DOP853(self.derivative(phase), t, y, t_end, rtol=self.rtol, atol=1e-19, max_step=self.max_step)
+
+    def fresh(self, phase, t0, y0, t):
+        """y(t) integrated from (t0, y0), to the end of one accepted step or more: no dense output."""
+        if t == t0:
+            return y0
+        solver = self.solver(phase, t0, y0, t)
+        while solver.status == "running":
+            solver.step()
+        return solver.y
+
+    def crossing(self, functions, phase, solver, t0, y0, positive):
+        """Earliest (t, name) where a function falls from positive to negative in the step just made."""
+        dense, found = solver.dense_output(), []
+        times = np.linspace(t0, solver.t, self.SAMPLES + 1)[1:]
+        for name, function in functions.items():
+            previous = t0
+            for t in times:
+                value = function(t, dense(t))
+                if value < 0 and positive[name]:
+                    root = brentq(
+                        lambda s, g=function: g(s, self.fresh(phase, t0, y0, s)),
+                        previous,
+                        t,
+                        xtol=1e-16,
+                        rtol=1e-15,
+                    )
+                    found.append((root, name))
+                    break
+                positive[name] = positive[name] or value > 0
+                previous = t
+        return min(found) if found else None
+
+    def contact_phase(self, phase, t, y, t_end):
+        """Integrate stick or slip to its first switch; a function that begins at zero has to rise first."""
+        functions = self.watched(phase)
+        positive = {name: name != "rest" or self.unpack(y)[3] != 0 for name in functions}
+        solver = self.solver(phase, t, y, t_end)
+        while solver.status == "running":
+            t0, y0 = solver.t, solver.y.copy()
+            solver.step()
+            hit = self.crossing(functions, phase, solver, t0, y0, positive)
+            if hit:
+                return hit[1], hit[0], self.fresh(phase, t0, y0, hit[0])
+        return None, solver.t, solver.y
+
+    def separated_phase(self, t, y, t_end):
+        """Integrate Eqs. (25)-(27) until the gap closes.
+
+        The gap begins with value, velocity and (at P = 0) acceleration zero. By Rolle's theorem it cannot
+        close before its acceleration and after that its velocity have fallen through zero, so the three are
+        awaited in turn: the first begins at a simple zero and rises, the others are far from theirs when
+        their turn comes.
+        """
+        phase, order, positive = "separation", 2, {"gap": False}
+        solver = self.solver(phase, t, y, t_end)
+        while solver.status == "running":
+            t0, y0 = solver.t, solver.y.copy()
+            solver.step()
+            while hit := self.crossing({"gap": self.gap(order)}, phase, solver, t0, y0, positive):
+                root, reached = hit[0], self.fresh(phase, t0, y0, hit[0])
+                if order == 0:
+                    return "reattachment", root, reached
+                order, positive = order - 1, {"gap": True}
+                t0, y0 = root, reached
+                end = solver.t
+                solver = self.solver(phase, t0, y0, t_end)
+                while (
+                    solver.t < end and solver.status == "running"
+                ):  # one step that reaches what is left of the old one
+                    before = solver.t, solver.y.copy()
+                    solver.step()
+                    t0, y0 = before
+                    if solver.t < end:
+                        break
+        return None, solver.t, solver.y
+
+    # ---- switching
+    def impact(self, y):
+        """Eqs. (36) and (37)."""
+        q, v, phi, rate, _, u_rate = self.unpack(y)
+        shape, conjugate, m = (
+            self.Psi * np.exp(1j * self.l * phi),
+            self.Psi * np.exp(-1j * self.l * phi),
+            self.p["m"],
+        )
+        moving = (shape * v + rate * 1j * self.l * shape * q).sum()
+        below = 1 + m * (shape * conjugate).sum()
+        after = y.copy()
+        after[: 4 * len(self.l)].view(complex)[len(self.l) :] = v - m * (moving - u_rate) / below * conjugate
+        after[-1] = ((m * u_rate * shape * conjugate).sum() + moving).real / below.real
+        return after
+
+    def run(self, start, t_end):
+        """Events as a list of (local time, kind)."""
+        y = np.concatenate(
+            [
+                np.concatenate([start.q, start.q_rate]).astype(complex).view(float),
+                [start.phi, start.phi_rate, start.u, start.u_rate],
+            ]
+        )
+        phase, t, events = start.phase, 0.0, []
+        while True:
+            if phase == "separation":
+                kind, t, y = self.separated_phase(t, y, t_end)
+            else:
+                kind, t, y = self.contact_phase(phase, t, y, t_end)
+            if kind is None:
+                return events
+            y = y.copy()
+            phase, kind, y = self.after(kind, t, y)
+            events.append((t, kind))
+            if kind == "reattachment" and self.contact(t, y, phase) < 0:
+                phase, _, y = self.after("separation", t, y)
+                events.append((t, "separation"))
+
+    def after(self, kind, t, y):
+        """Phase, kind and state after a switch."""
+        n = 4 * len(self.l)
+        if kind == "separation":
+            w, _, velocity = self.disc(*self.unpack(y)[:4])
+            y[n + 2 :] = w, velocity
+            return "separation", kind, y
+        if kind == "reattachment":
+            return ("slip+" if y[n + 1] > 0 else "slip-"), kind, self.impact(y)
+        y[n + 1] = 0.0
+        sliding = "slip+" if self.pull(t, y) > 0 else "slip-"
+        if kind == "rest":
+            return ("stick", "slip_to_stick", y) if self.stick_margin(t, y) > 0 else (sliding, "slip_reversal", y)
+        return sliding, kind, y
+
+
+def from_slider_frame(state, drive, diameters):
+    """Start in the disc's frame, drive point at angle `drive`, from a `stored.State`."""
+    a, b, alpha, beta = (np.asarray(x, float) for x in (state.a, state.b, state.alpha, state.beta))
+    phi = drive - float(state.psi)
+    l, rows = signed_diameters(diameters)
+
+    def complex_modes(x, y):  # w = sum psi_l (x cos + y sin) l(theta - phi), psi_l = sqrt(2) Psi_l for l >= 1
+        z = np.where(l == 0, x[rows], (x[rows] - 1j * np.sign(l) * y[rows]) / np.sqrt(2))
+        return z * np.exp(-1j * l * phi)
+
+    phase = state.phase if state.phase != "slip" else ("slip+" if state.direction > 0 else "slip-")
+    return Start(
+        phase,
+        complex_modes(a, b),
+        complex_modes(alpha, beta),
+        phi,
+        float(state.f),
+        float(state.u),
+        float(state.u_velocity),
+    )

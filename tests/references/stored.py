@@ -1,0 +1,114 @@
+"""The stored references (parameters, modes, starts, event times) and the way from them to disc_model."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from disc_model import Parameters, plate_modes
+from disc_model.result import State as EngineState
+
+DATA = Path(__file__).parent / "data"
+
+#: Table 1 of the paper, SI units.
+BASE = {
+    "D_star": 1e-5,
+    "c": 0.0,
+    "c_p": 0.0,
+    "k": 5e4,
+    "k_p": 2e4,
+    "E": 150e9,
+    "m": 0.1,
+    "mu_s": 0.4,
+    "mu_k": 0.24,
+    "a": 0.044,
+    "b": 0.12,
+    "r_0": 0.1,
+    "h": 0.002,
+    "nu": 0.211,
+    "rho": 7200.0,
+}
+
+
+@dataclass
+class Case:
+    """Parameters and modes: every number an exact double."""
+
+    N: float
+    Omega: float
+    omega: list
+    psi: list
+    base: dict = field(default_factory=lambda: dict(BASE))
+
+    def numbers(self, real):
+        """The doubles and what follows from them, computed in `real`."""
+        q = {name: real(value) for name, value in self.base.items()}
+        q["N"], q["Omega"] = real(self.N), real(self.Omega)
+        q["omega"] = [real(x) for x in self.omega]
+        q["shape"] = [real(x) for x in self.psi]
+        stiffness = q["E"] * q["h"] * q["h"] * q["h"] / real(12) / (real(1) - q["nu"] * q["nu"])
+        q["damping"] = [q["D_star"] / stiffness * w * w for w in q["omega"]]
+        q["S2"] = sum((s * s for s in q["shape"]), real(0))
+        q["u_0"] = -q["N"] * sum((s * s / (w * w) for s, w in zip(q["shape"], q["omega"], strict=True)), real(0))
+        return q
+
+
+@dataclass
+class State:
+    """Time (s), phase, direction (sign of f in slip, else 0) and the variables of the slider's frame."""
+
+    time: float
+    phase: str
+    direction: int
+    psi: float
+    f: float
+    u: float
+    u_velocity: float
+    a: list
+    b: list
+    alpha: list
+    beta: list
+
+
+def load(name):
+    """Stored reference `name` ("A", "B", "C", "first_separation") as a dict; `time` as floats."""
+    data = json.loads((DATA / f"{name}.json").read_text())
+    if data.get("start"):
+        data["start"] = State(**data["start"])
+    return data
+
+
+def case_of(data):
+    p = dict(data["parameters"])
+    return Case(p.pop("N"), p.pop("Omega"), data["modes"]["omega"], data["modes"]["psi"], p)
+
+
+def times_of(data):
+    """Event times in long double: 20 decimals."""
+    return np.array([np.longdouble(e["time_decimal"]) for e in data["events"]])
+
+
+def kinds_of(data):
+    return [e["kind"] for e in data["events"]]
+
+
+def parameters_of(data):
+    return Parameters(**data["parameters"])
+
+
+def engine_state(state, p):
+    """`State` of the references (all psi positive) as disc_model's (signs as plate_modes has them)."""
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
+    values = {k: sign * np.array(v, float) if isinstance(v, list) else v for k, v in vars(state).items()}
+    return EngineState(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
+
+
+def reference_state(state, p):
+    """The other way round."""
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
+    modal = {k: [float(x) for x in sign * getattr(state, k)] for k in ("a", "b", "alpha", "beta")}
+    plain = {k: getattr(state, k) for k in ("time", "phase", "direction", "psi", "f", "u", "u_velocity")}
+    return State(**plain, **modal)
