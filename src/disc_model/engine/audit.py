@@ -1,0 +1,106 @@
+"""Energy balances of a step (model, Section 3), by Gauss-Legendre quadrature of the dense output.
+
+d/dt (disc + vertical slider) = P f B - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
+d/dt (in-plane)               = Omega r_0^2 F - mu_k r_0 P |f| - c_p r_0^2 (Omega - f)^2
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .compile import kernel
+from .evaluate import state_at
+from .layout import PSI, SEPARATION, SLIP, SPEED, U_VELOCITY, U
+from .polynomial import value
+from .switches import disc_point, spring_force
+
+# 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
+_NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
+_NODES = _NODES + 0.5
+
+# Where the sums stand in the audit's array.
+STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
+
+
+@kernel
+def transverse_energy(model, state, phase):
+    """Energy of the disc and of the slider's vertical motion, J (u, u' of the disc's point in contact)."""
+    u, v = state.x[U], state.x[U_VELOCITY]
+    if phase != SEPARATION:
+        u, v, _ = disc_point(model, state)
+    energy = 0.0
+    for j in range(len(model.shift)):
+        energy += state.e[j] ** 2 + model.stiffness[j] * state.z[j] ** 2
+    for j in range(len(model.force0)):
+        energy += state.g[j] ** 2 + model.stiffness0[j] * state.y[j] ** 2
+    return 0.5 * energy + 0.5 * model.m * v * v + 0.5 * model.k * (u - model.u_0) ** 2 + model.N * (u - model.u_0)
+
+
+@kernel
+def inplane_energy(model, state):
+    """Energy of the slider's motion in the plane, J."""
+    x = state.x
+    return 0.5 * model.r_0**2 * (model.m * x[SPEED] ** 2 + model.k_p * x[PSI] ** 2)
+
+
+@kernel
+def _powers_in(model, state, phase, direction, P):
+    """Power into the transverse and the in-plane motion, and the sums of the moduli of their parts, W."""
+    _, v, slope = disc_point(model, state)
+    if phase == SEPARATION:
+        v = state.x[U_VELOCITY]
+    f, F = state.x[SPEED], spring_force(model, state)
+    lost = model.c * v * v
+    for j in range(len(model.shift)):
+        lost += model.damping[j] * state.e[j] ** 2
+    for j in range(len(model.force0)):
+        lost += model.damping0[j] * state.g[j] ** 2
+    driven = P * f * slope
+    supplied = model.Omega * model.r_0**2 * F
+    rubbed = model.mu_k * model.r_0 * P * direction * f if phase == SLIP else 0.0
+    damped = model.c_p * model.r_0**2 * (model.Omega - f) ** 2
+    return driven - lost, supplied - rubbed - damped, abs(driven) + lost, abs(supplied) + abs(rubbed) + damped
+
+
+@kernel
+def audit_step(model, s, order, x_end, phase, direction, probe, audit):
+    """Add the residuals of both balances over the step (0, x_end) to ``audit``."""
+    work_t, work_p, size_t, size_p = 0.0, 0.0, 0.0, 0.0
+    for i in range(len(_NODES)):
+        x = _NODES[i] * x_end
+        state_at(model, s, order, x, phase, probe)
+        P = 0.0 if phase == SEPARATION else value(s.P, 0, order - 1, x)
+        weight = _WEIGHTS[i] * x_end * model.unit
+        t, p, st, sp = _powers_in(model, probe, phase, direction, P)
+        work_t += weight * t
+        work_p += weight * p
+        size_t += weight * st
+        size_p += weight * sp
+    state_at(model, s, order, 0.0, phase, probe)
+    start_t, start_p = transverse_energy(model, probe, phase), inplane_energy(model, probe)
+    state_at(model, s, order, x_end, phase, probe)
+    residual_t = transverse_energy(model, probe, phase) - start_t - work_t
+    residual_p = inplane_energy(model, probe) - start_p - work_p
+    book(audit, residual_t, residual_p, size_t + abs(start_t), size_p + abs(start_p))
+    audit[STEPS] += 1.0
+
+
+@kernel
+def book(audit, residual_t, residual_p, size_t, size_p):
+    """Enter residuals whose natural sizes are ``size_t`` and ``size_p``."""
+    audit[TRANSVERSE] += residual_t
+    audit[INPLANE] += residual_p
+    audit[TRANSVERSE_SCALE] = max(audit[TRANSVERSE_SCALE], size_t)
+    audit[INPLANE_SCALE] = max(audit[INPLANE_SCALE], size_p)
+    if audit[TRANSVERSE_SCALE] > 0.0:
+        audit[WORST] = max(audit[WORST], abs(residual_t) / audit[TRANSVERSE_SCALE])
+    if audit[INPLANE_SCALE] > 0.0:
+        audit[WORST] = max(audit[WORST], abs(residual_p) / audit[INPLANE_SCALE])
+
+
+@kernel
+def audit_impact(model, before, impulse, slope, state, audit):
+    """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B."""
+    expected = -0.5 * impulse**2 * (model.compliance + 1.0 / model.m) + impulse * state.x[SPEED] * slope
+    after = transverse_energy(model, state, SEPARATION)
+    book(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)

@@ -1,0 +1,250 @@
+"""Eight doubles side by side: the one vector type of the engine.
+
+A value of type ``Lanes`` is an LLVM ``<8 x double>``; on a machine with AVX-512 it is one register, elsewhere
+LLVM splits it.  Numba has no such type, and arrays of accumulators stay in memory, which costs a factor of six
+in the convolutions of the slip series.  With ``NUMBA_DISABLE_JIT=1`` the same names are plain numpy functions,
+so that every kernel runs unchanged without compilation.
+
+Pairs of diametral modes fill a block of eight lanes as (a, a, a, a, b, b, b, b), so ``swap_halves`` exchanges
+the two members of each pair.
+"""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+WIDTH = 8
+
+if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
+
+    def load(array, i):
+        """Lanes array[i:i+8]."""
+        return array[i : i + WIDTH].copy()
+
+    def store(array, i, v):
+        """array[i:i+8] = v."""
+        array[i : i + WIDTH] = v
+
+    def splat(x):
+        """All lanes equal to x."""
+        return np.full(WIDTH, x)
+
+    def fma(a, b, c):
+        """a * b + c, lane by lane."""
+        return a * b + c
+
+    def mul(a, b):
+        """a * b, lane by lane."""
+        return a * b
+
+    def add(a, b):
+        """a + b, lane by lane."""
+        return a + b
+
+    def sub(a, b):
+        """a - b, lane by lane."""
+        return a - b
+
+    def swap_halves(v):
+        """Lanes 4..7, then 0..3."""
+        return np.concatenate((v[4:], v[:4]))
+
+    def total(v):
+        """Sum of the lanes, in the order of the compiled version."""
+        w = v[:4] + v[4:]
+        w = w[:2] + w[2:]
+        return w[0] + w[1]
+
+    def maximum(a, b):
+        """Larger of a and b, lane by lane."""
+        return np.maximum(a, b)
+
+    def minimum(a, b):
+        """Smaller of a and b, lane by lane."""
+        return np.minimum(a, b)
+
+    def absolute(v):
+        """Lane by lane modulus."""
+        return np.abs(v)
+
+    def largest(v):
+        """Largest lane."""
+        return v.max()
+
+else:
+    from llvmlite import ir
+    from numba import types
+    from numba.core import cgutils
+    from numba.extending import intrinsic, models, register_model
+
+    _DOUBLE = ir.DoubleType()
+    _VECTOR = ir.VectorType(_DOUBLE, WIDTH)
+    _I32 = ir.IntType(32)
+
+    class LanesType(types.Type):
+        """Numba type of eight doubles."""
+
+        def __init__(self):
+            super().__init__(name="Float64x8")
+
+    LANES = LanesType()
+
+    @register_model(LanesType)
+    class _LanesModel(models.PrimitiveModel):
+        def __init__(self, dmm, fe_type):
+            super().__init__(dmm, fe_type, _VECTOR)
+
+    def _pointer(context, builder, array_type, array, index):
+        data = context.make_array(array_type)(context, builder, array).data
+        return builder.bitcast(builder.gep(data, [index]), _VECTOR.as_pointer())
+
+    def _call(builder, name, result, *args):
+        """Call of an LLVM intrinsic by its mangled name."""
+        signature = ir.FunctionType(result, [a.type for a in args])
+        return builder.call(cgutils.get_or_insert_function(builder.module, signature, name), args)
+
+    def _shuffle(builder, v, indices):
+        mask = ir.Constant(ir.VectorType(_I32, len(indices)), indices)
+        return builder.shuffle_vector(v, ir.Constant(v.type, ir.Undefined), mask)
+
+    def _fold(builder, v, combine):
+        """Combine halves until one lane is left."""
+        n = v.type.count
+        while n > 1:
+            n //= 2
+            low = _shuffle(builder, v, list(range(n)))
+            high = _shuffle(builder, v, list(range(n, 2 * n)))
+            v = combine(low, high)
+        return builder.extract_element(v, _I32(0))
+
+    @intrinsic
+    def load(typingctx, array, i):
+        """Lanes array[i:i+8]."""
+
+        def codegen(context, builder, sig, args):
+            return builder.load(_pointer(context, builder, sig.args[0], args[0], args[1]), align=8)
+
+        return LANES(array, types.intp), codegen
+
+    @intrinsic
+    def store(typingctx, array, i, v):
+        """array[i:i+8] = v."""
+
+        def codegen(context, builder, sig, args):
+            pointer = _pointer(context, builder, sig.args[0], args[0], args[1])
+            builder.store(args[2], pointer, align=8)
+            return context.get_dummy_value()
+
+        return types.void(array, types.intp, LANES), codegen
+
+    @intrinsic
+    def splat(typingctx, x):
+        """All lanes equal to x."""
+
+        def codegen(context, builder, sig, args):
+            one = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), args[0], _I32(0))
+            return _shuffle(builder, one, [0] * WIDTH)
+
+        return LANES(types.float64), codegen
+
+    @intrinsic
+    def fma(typingctx, a, b, c):
+        """a * b + c, lane by lane, rounded once."""
+
+        def codegen(context, builder, sig, args):
+            return _call(builder, "llvm.fma.v8f64", _VECTOR, *args)
+
+        return LANES(LANES, LANES, LANES), codegen
+
+    @intrinsic
+    def mul(typingctx, a, b):
+        """a * b, lane by lane."""
+
+        def codegen(context, builder, sig, args):
+            return builder.fmul(*args)
+
+        return LANES(LANES, LANES), codegen
+
+    @intrinsic
+    def add(typingctx, a, b):
+        """a + b, lane by lane."""
+
+        def codegen(context, builder, sig, args):
+            return builder.fadd(*args)
+
+        return LANES(LANES, LANES), codegen
+
+    @intrinsic
+    def sub(typingctx, a, b):
+        """a - b, lane by lane."""
+
+        def codegen(context, builder, sig, args):
+            return builder.fsub(*args)
+
+        return LANES(LANES, LANES), codegen
+
+    @intrinsic
+    def swap_halves(typingctx, v):
+        """Lanes 4..7, then 0..3."""
+
+        def codegen(context, builder, sig, args):
+            return _shuffle(builder, args[0], [4, 5, 6, 7, 0, 1, 2, 3])
+
+        return LANES(LANES), codegen
+
+    @intrinsic
+    def total(typingctx, v):
+        """Sum of the lanes, by halves."""
+
+        def codegen(context, builder, sig, args):
+            return _fold(builder, args[0], builder.fadd)
+
+        return types.float64(LANES), codegen
+
+    @intrinsic
+    def maximum(typingctx, a, b):
+        """Larger of a and b, lane by lane."""
+
+        def codegen(context, builder, sig, args):
+            return _call(builder, "llvm.maxnum.v8f64", _VECTOR, *args)
+
+        return LANES(LANES, LANES), codegen
+
+    @intrinsic
+    def minimum(typingctx, a, b):
+        """Smaller of a and b, lane by lane."""
+
+        def codegen(context, builder, sig, args):
+            return _call(builder, "llvm.minnum.v8f64", _VECTOR, *args)
+
+        return LANES(LANES, LANES), codegen
+
+    @intrinsic
+    def absolute(typingctx, v):
+        """Lane by lane modulus."""
+
+        def codegen(context, builder, sig, args):
+            return _call(builder, "llvm.fabs.v8f64", _VECTOR, *args)
+
+        return LANES(LANES), codegen
+
+    @intrinsic
+    def largest(typingctx, v):
+        """Largest lane."""
+
+        def codegen(context, builder, sig, args):
+            def combine(low, high):
+                return _call(builder, f"llvm.maxnum.v{low.type.count}f64", low.type, low, high)
+
+            def last(v2):
+                a = builder.extract_element(v2, _I32(0))
+                b = builder.extract_element(v2, _I32(1))
+                return _call(builder, "llvm.maxnum.f64", _DOUBLE, a, b)
+
+            v = args[0]
+            for n in (4, 2):
+                v = combine(_shuffle(builder, v, list(range(n))), _shuffle(builder, v, list(range(n, 2 * n))))
+            return last(v)
+
+        return types.float64(LANES), codegen

@@ -1,0 +1,210 @@
+"""How modes, states and series lie in memory: flat arrays of doubles, in blocks of eight lanes.
+
+Pairs of diametral modes (l >= 1) fill blocks as (a, a, a, a, b, b, b, b); their displacements are called ``z``,
+their velocities ``e``.  Axisymmetric modes (l = 0) have arrays of their own, ``y`` and ``g``, because nothing turns
+them into one another; being few, they are kept one by one.  Unused lanes are zero and stay zero.
+
+Series are kept as [order][lane] in units of the time ``unit``: coefficient k multiplies (time / unit)**k, so that
+no coefficient overflows however stiff the disc is.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .lanes import WIDTH
+
+STICK, SLIP, SEPARATION = 0, 1, 2
+
+# Rows of Model.lanes.
+LANE_ROWS = (
+    "shift", "stiffness", "damping", "force", "slope", "bend", "minus_force_damping", "minus_force_stiffness",
+)  # fmt: skip
+SHIFT, STIFFNESS, DAMPING, FORCE_ROW, SLOPE, BEND, MINUS_FORCE_DAMPING, MINUS_FORCE_STIFFNESS = range(len(LANE_ROWS))
+
+# Coefficients that a series has room for; rows of Series.modes where e and scratch begin (z begins at 0); where the
+# slider's series begin in Series.slider.
+ROWS = 48
+E, SCRATCH = ROWS, 2 * ROWS
+SLIDER_ROWS = ("f", "psi", "P", "u", "v", "switch", "switch2", "powers", "up", "down")
+F, PSI_SERIES, P, U_SERIES, V_SERIES, SWITCH, SWITCH2, POWERS, UP, DOWN = (ROWS * i for i in range(len(SLIDER_ROWS)))
+HALF = WIDTH // 2
+
+
+class Model(NamedTuple):
+    """Constants of one case.  Lane arrays have shape (pair lanes,), those ending in 0 (axisymmetric modes,).
+
+    The lane arrays are views of ``lanes``, one after the other in the order of ``LANE_ROWS``: hot kernels address them
+    through that one pointer.  ``more_blocks`` is (0, 0) if there is one block of lanes and (number of further blocks,)
+    otherwise: the length of a tuple is known when kernels are compiled, so the usual case has no loop over blocks.
+    """
+
+    lanes: np.ndarray
+    more_blocks: tuple[int, ...]
+    shift: np.ndarray  # +l in a-lanes, -l in b-lanes
+    stiffness: np.ndarray  # omega^2
+    damping: np.ndarray  # 2 xi omega
+    force: np.ndarray  # psi_l in a-lanes, 0 in b-lanes
+    slope: np.ndarray  # l psi_l in b-lanes, 0 in a-lanes: sum(slope z) = dw/dtheta under the slider
+    bend: np.ndarray  # -l^2 psi_l in a-lanes: sum(bend z) = d2w/dtheta2 there
+    minus_force_damping: np.ndarray
+    minus_force_stiffness: np.ndarray
+    stiffness0: np.ndarray
+    damping0: np.ndarray
+    force0: np.ndarray
+    N: float
+    Omega: float
+    k: float
+    c: float
+    m: float
+    k_p: float
+    c_p: float
+    mu_s: float
+    mu_k: float
+    r_0: float
+    u_0: float  # static displacement of the slider, m
+    compliance: float  # S2 = sum psi_l^2, 1/kg
+    damped_compliance: float  # sum 2 xi_l omega_l psi_l^2, 1/(kg s)
+    unit: float  # time unit of the series, s
+    velocity_scale: float  # m/s times sqrt(kg): what a modal velocity is compared with
+    speed_scale: float  # rad/s: what f is compared with
+    bonded: bool
+
+
+class Series(NamedTuple):
+    """Taylor coefficients of one step.
+
+    z, e and scratch are views of ``modes``; f to down are views of ``slider``, ``ROWS`` doubles each.
+    """
+
+    modes: np.ndarray
+    slider: np.ndarray
+    z: np.ndarray
+    e: np.ndarray
+    y: np.ndarray
+    g: np.ndarray
+    f: np.ndarray
+    psi: np.ndarray
+    P: np.ndarray
+    u: np.ndarray
+    v: np.ndarray
+    switch: np.ndarray  # direction * f in slip, gap in separation, forward release function in stick
+    switch2: np.ndarray  # backward release function
+    powers: np.ndarray
+    up: np.ndarray  # unit / (k + 1): integrates
+    down: np.ndarray  # (k + 1) / unit: differentiates
+    scratch: np.ndarray
+    roots: np.ndarray  # work space of the root finder
+
+
+class State(NamedTuple):
+    """Where the system is.  ``x`` holds the scalars of the slider, at the indices below."""
+
+    z: np.ndarray
+    e: np.ndarray
+    y: np.ndarray
+    g: np.ndarray
+    x: np.ndarray
+
+
+# Indices into State.x; the time is TIME + TIME_LOW, added up with compensation so that event times stay exact
+# to rounding after hours.
+TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE = range(10)
+
+
+def aligned(n):
+    """Zeros, shape (n,), on a cache line: lanes that straddle two lines load and store at half the speed."""
+    line = 64
+    raw = np.zeros(n + line // 8)
+    skip = -raw.ctypes.data % line // 8
+    return raw[skip : skip + n]
+
+
+def lanes_for(n_pairs):
+    """Number of lanes that hold ``n_pairs`` pairs of modes (at least one block)."""
+    return WIDTH * max(1, -(-n_pairs // HALF))
+
+
+def pair_lanes(n_pairs):
+    """Lane of the a-component of each pair, shape (n_pairs,); b follows ``HALF`` lanes later."""
+    i = np.arange(n_pairs)
+    return WIDTH * (i // HALF) + i % HALF
+
+
+def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, mu_s, mu_k, r_0, bonded) -> Model:
+    """Constants of a case.
+
+    diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`.
+    """
+    diameters = np.asarray(diameters)
+    pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)
+    width, lane = lanes_for(len(pairs)), pair_lanes(len(pairs))
+    lanes = aligned(len(LANE_ROWS) * width)
+    row = dict(zip(LANE_ROWS, lanes.reshape(-1, width), strict=True))
+    row["shift"][lane], row["shift"][lane + HALF] = diameters[pairs], -diameters[pairs]
+    row["stiffness"][lane] = row["stiffness"][lane + HALF] = omega[pairs] ** 2
+    row["damping"][lane] = row["damping"][lane + HALF] = damping[pairs]
+    row["force"][lane] = psi[pairs]
+    row["slope"][lane + HALF] = diameters[pairs] * psi[pairs]
+    row["bend"][lane] = -(diameters[pairs] ** 2) * psi[pairs]
+    row["minus_force_damping"][:] = -row["force"] * row["damping"]
+    row["minus_force_stiffness"][:] = -row["force"] * row["stiffness"]
+    more = width // WIDTH - 1
+    return Model(
+        lanes=lanes,
+        more_blocks=(more,) if more else (0, 0),
+        **row,
+        stiffness0=omega[single] ** 2,
+        damping0=damping[single],
+        force0=psi[single],
+        N=N,
+        Omega=Omega,
+        k=k,
+        c=c,
+        m=m,
+        k_p=k_p,
+        c_p=c_p,
+        mu_s=mu_s,
+        mu_k=mu_k,
+        r_0=r_0,
+        u_0=-N * float(np.sum(psi**2 / omega**2)),
+        compliance=float(np.sum(psi**2)),
+        damped_compliance=float(np.sum(damping * psi**2)),
+        unit=1.0 / float(omega.max()),
+        velocity_scale=N * float(np.max(np.abs(psi) / omega)),
+        speed_scale=Omega,
+        bonded=bonded,
+    )
+
+
+def build_series(model: Model, order: int) -> Series:
+    """Empty series of degree ``order`` for ``model``."""
+    width, n0 = len(model.shift), len(model.force0)
+    modes, slider = aligned((2 * ROWS + 3) * width), aligned(len(SLIDER_ROWS) * ROWS)
+    rows = dict(zip(SLIDER_ROWS, slider.reshape(-1, ROWS), strict=True))
+    k = np.arange(1.0, ROWS + 1.0)
+    rows["up"][:], rows["down"][:] = model.unit / k, k / model.unit
+    return Series(
+        modes,
+        slider,
+        z=modes[: E * width],
+        e=modes[E * width : SCRATCH * width],
+        y=aligned(ROWS * n0),
+        g=aligned(ROWS * n0),
+        **rows,
+        scratch=modes[SCRATCH * width :],
+        roots=np.zeros((56, order + 4)),
+    )
+
+
+def build_state(model: Model) -> State:
+    """The published start: static equilibrium under the preload, in stick, spring relaxed."""
+    z, e, y, g = (aligned(len(a)) for a in (model.force, model.force, model.force0, model.force0))
+    np.divide(-model.N * model.force, model.stiffness, out=z, where=model.stiffness > 0)
+    np.divide(-model.N * model.force0, model.stiffness0, out=y, where=model.stiffness0 > 0)
+    x = np.zeros(10)
+    x[U] = model.u_0
+    x[PHASE] = STICK
+    return State(z, e, y, g, x)

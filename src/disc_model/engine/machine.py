@@ -1,0 +1,255 @@
+"""The phase machine: expand, find the first switch, move there, change phase, record; until the end.
+
+The loop runs wholly inside one compiled function and hands back control when a buffer is full, so that memory
+does not grow with the simulated time and callers can show progress.  Where it pauses has no influence on results.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .audit import audit_impact, audit_step, transverse_energy
+from .compile import inlined, kernel
+from .evaluate import load_state, state_at
+from .lanes import WIDTH, absolute, largest, load, maximum, splat
+from .layout import (
+    DIRECTION,
+    FORCE,
+    KNOWN,
+    PHASE,
+    PSI,
+    SEPARATION,
+    SLIP,
+    SPEED,
+    STICK,
+    TIME,
+    TIME_LOW,
+    U_VELOCITY,
+    E,
+    U,
+)
+from .polynomial import NO_ROOT, first_root, set_powers
+from .sampling import sample_step
+from .series import lane_count, separation_series, slip_series, stick_series
+from .switches import (
+    LOSS_OF_CONTACT,
+    PAINLEVE_MARGIN,
+    PARADOX,
+    REATTACHMENT,
+    SLIP_REVERSAL,
+    SLIP_TO_STICK,
+    STICK_TO_SLIP,
+    come_to_rest,
+    disc_point,
+    leave_rest,
+    lose_contact,
+    touch_down,
+)
+
+# Why the machine handed back control.
+PAUSED, FINISHED, STOPPED, STEP_LIMIT, NO_SOLUTION, STALLED, NON_FINITE = range(7)
+
+# Counters, shape (N_COUNTERS,).
+STEPS, EVENTS, SEPARATIONS, IN_A_ROW, EVENT_ROWS, SAMPLE_ROWS, FROM_AUDIT, N_COUNTERS = range(8)
+# Columns of a row of events.
+EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
+
+# What can end a step.
+_NOTHING, _RELEASE_FORWARD, _RELEASE_BACKWARD, _AT_REST, _CONTACT_LOST, _GAP_CLOSED = range(6)
+
+MAX_EVENTS_PER_STEP = 3
+# More switches than this without the clock moving end the run: a guard, not a tuned interval.
+MAX_EVENTS_IN_A_ROW = 200
+# Longest step, in units of 1 / largest omega: beyond it the terms of the series cancel more digits than they add.
+LONGEST_STEP = 8.0
+TYPICAL_STEP = 3.0
+
+
+@inlined
+def _size(model, s, k):
+    """Largest modulus among the modal velocities of order k."""
+    width, n, biggest = lane_count(model), len(model.force0), splat(0.0)
+    for j in range(k * width, (k + 1) * width, WIDTH):
+        biggest = maximum(biggest, absolute(load(s.modes, E * width + j)))
+    size = largest(biggest)
+    for j in range(k * n, (k + 1) * n):
+        size = max(size, abs(s.g[j]))
+    return size
+
+
+@inlined
+def step_size(model, s, order, tolerance):
+    """Step (time units) at which the last two terms of the series fall below the tolerance (Jorba and Zou).
+
+    Modal velocities are compared with those of static deflection under the preload, or with what is there if that is
+    more; f with the drive speed.  The two terms are merged as if the step were ``TYPICAL_STEP``, which spares a root.
+    """
+    scale = max(model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
+    last = max(_size(model, s, order), _size(model, s, order - 1) / TYPICAL_STEP)
+    speed = max(model.speed_scale, abs(s.f[0]), abs(s.f[1]))
+    last_speed = max(abs(s.f[order]), abs(s.f[order - 1]) / TYPICAL_STEP)
+    # written so that nan anywhere ends in nan
+    error = last / scale if scale > 0.0 else last
+    error += last_speed / speed if speed > 0.0 else last_speed
+    if not error < math.inf or not scale + speed < math.inf:
+        return math.nan
+    if error * LONGEST_STEP**order <= tolerance:
+        return LONGEST_STEP
+    return math.exp(math.log(tolerance / error) / order)
+
+
+@inlined
+def _expand(model, s, state, order):
+    """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
+    load_state(s, state)
+    phase = state.x[PHASE]
+    if phase == SLIP:
+        return slip_series(model, s, order, state.x[DIRECTION]) / (1.0 + model.m * model.compliance)
+    if phase == STICK:
+        stick_series(model, s, order)
+    else:
+        separation_series(model, s, order)
+    return 1.0
+
+
+@inlined
+def _first_switch(model, s, state, order, x_end):
+    """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, _NOTHING)."""
+    phase, known = state.x[PHASE], int(state.x[KNOWN])
+    set_powers(s.powers, x_end)
+    if phase == STICK:
+        x = first_root(s.switch, 0, order - 1, x_end, s.powers, s.roots)
+        if x != NO_ROOT:
+            x_end = x
+            set_powers(s.powers, x_end)
+        if s.switch2[0] < s.switch[0]:
+            back = first_root(s.switch2, 0, order - 1, x_end, s.powers, s.roots)
+            if back != NO_ROOT:
+                return back, _RELEASE_BACKWARD
+        return x_end, _RELEASE_FORWARD if x != NO_ROOT else _NOTHING
+    if phase == SEPARATION:
+        x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
+        return (x, _GAP_CLOSED) if x != NO_ROOT else (x_end, _NOTHING)
+    cause = _NOTHING
+    x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
+    if x != NO_ROOT:
+        x_end, cause = x, _AT_REST
+        set_powers(s.powers, x_end)
+    if not model.bonded:
+        x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+        if x != NO_ROOT:
+            x_end, cause = x, _CONTACT_LOST
+    return x_end, cause
+
+
+@inlined
+def _advance_time(x, dt):
+    """Compensated sum: TIME + TIME_LOW is the time to twice the digits."""
+    dt += x[TIME_LOW]
+    new = x[TIME] + dt
+    kept = new - x[TIME]
+    x[TIME_LOW] = (x[TIME] - (new - kept)) + (dt - kept)
+    x[TIME] = new
+
+
+@inlined
+def _record(model, state, kind, counters, rows):
+    """Count an event and, if events are kept, append its row."""
+    counters[EVENTS] += 1
+    if kind == LOSS_OF_CONTACT:
+        counters[SEPARATIONS] += 1
+    if len(rows) == 0:
+        return
+    row, x = rows[counters[EVENT_ROWS]], state.x
+    u, v = x[U], x[U_VELOCITY]
+    if x[PHASE] != SEPARATION:
+        u, v, _ = disc_point(model, state)
+    row[0] = x[TIME] + x[TIME_LOW]
+    row[1], row[2], row[3] = kind, x[PHASE], x[DIRECTION]
+    row[4], row[5], row[6], row[7], row[8] = x[PSI], x[SPEED], u, v, x[FORCE]
+    counters[EVENT_ROWS] += 1
+
+
+@inlined
+def _switch(model, state, cause, counters, rows, audit):
+    """Carry out the switch and record its events.  Returns CONSISTENT or PARADOX."""
+    came_from = state.x[DIRECTION]
+    if cause == _GAP_CLOSED:
+        before, velocity = transverse_energy(model, state, SEPARATION), state.x[U_VELOCITY]
+        _, _, slope = disc_point(model, state)
+        outcome = touch_down(model, state)
+        audit_impact(model, before, model.m * (state.x[U_VELOCITY] - velocity), slope, state, audit)
+        kind = REATTACHMENT
+    elif cause == _AT_REST:
+        outcome = come_to_rest(model, state)
+        kind = SLIP_TO_STICK if state.x[PHASE] == STICK else SLIP_REVERSAL
+    elif cause == _CONTACT_LOST:
+        outcome = lose_contact(model, state)
+        kind = LOSS_OF_CONTACT
+    else:
+        outcome = leave_rest(model, state, 1.0 if cause == _RELEASE_FORWARD else -1.0)
+        kind = STICK_TO_SLIP
+    if outcome == PARADOX:
+        return outcome
+    lost = state.x[PHASE] == SEPARATION and kind != LOSS_OF_CONTACT
+    if not (kind == SLIP_REVERSAL and state.x[DIRECTION] == came_from) and not (kind == SLIP_REVERSAL and lost):
+        _record(model, state, kind, counters, rows)
+    if lost:
+        _record(model, state, LOSS_OF_CONTACT, counters, rows)
+    return outcome
+
+
+@kernel
+def run(
+    model, s, state, probe, order, tolerance, t_end, stop_at_first, max_steps, pause_after, audit_every,
+    counters, phase_times, audit, samplers, sampled, sample_capacity, sample_rows, event_rows,
+):  # fmt: skip
+    """Advance ``state`` until a reason to return: one of PAUSED ... NON_FINITE.
+
+    order, tolerance: of the series; t_end: s; audit_every: steps between energy audits; counters: shape (N_COUNTERS,);
+    phase_times: s, shape (3,); audit: shape (6,); samplers, sampled: see ``sampling``; sample_capacity: rows that may
+    be filled before the machine pauses; event_rows: shape (capacity, len(EVENT_ROW)), capacity 0 keeps no events.
+    """
+    pause = counters[STEPS] + pause_after
+    x = state.x
+    while True:
+        if counters[STEPS] >= max_steps:
+            return STEP_LIMIT
+        full = len(event_rows) > 0 and counters[EVENT_ROWS] > len(event_rows) - MAX_EVENTS_PER_STEP
+        if full or counters[STEPS] >= pause or counters[SAMPLE_ROWS] > sample_capacity:
+            return PAUSED
+        phase, direction = x[PHASE], x[DIRECTION]
+        if _expand(model, s, state, order) <= PAINLEVE_MARGIN:
+            return NO_SOLUTION
+        x_end = step_size(model, s, order, tolerance)
+        if not x_end > 0.0:
+            return NON_FINITE
+        left = ((t_end - x[TIME]) - x[TIME_LOW]) / model.unit
+        x_end = min(x_end, left)
+        x_end, cause = _first_switch(model, s, state, order, x_end)
+
+        counters[STEPS] += 1
+        counters[FROM_AUDIT] += 1
+        if counters[FROM_AUDIT] >= audit_every:
+            counters[FROM_AUDIT] = 0
+            audit_step(model, s, order, x_end, phase, direction, probe, audit)
+        if len(samplers) > 0:
+            counters[SAMPLE_ROWS] = sample_step(
+                model, s, order, state, x_end, samplers, sampled, probe, sample_rows, counters[SAMPLE_ROWS]
+            )
+        state_at(model, s, order, x_end, phase, state)
+        x[KNOWN] = 0.0
+        x[FORCE] = 0.0
+        before = x[TIME]
+        _advance_time(x, x_end * model.unit)
+        phase_times[int(phase)] += x_end * model.unit
+        if cause != _NOTHING:
+            counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[TIME] == before else 0
+            if counters[IN_A_ROW] > MAX_EVENTS_IN_A_ROW:
+                return STALLED
+            if _switch(model, state, cause, counters, event_rows, audit) == PARADOX:
+                return NO_SOLUTION
+            if stop_at_first and counters[SEPARATIONS] > 0:
+                return STOPPED
+        if x_end >= left:
+            return FINISHED

@@ -1,0 +1,67 @@
+"""Uniform samples from the dense output."""
+
+from __future__ import annotations
+
+import math
+
+from .compile import kernel
+from .evaluate import state_at
+from .layout import HALF, PHASE, PSI, SEPARATION, SPEED, TIME, TIME_LOW, U_VELOCITY, WIDTH, U
+from .polynomial import value
+from .switches import disc_point
+
+# Columns of a row of samples.
+ROW = ("sampler", "time", "P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity", "phase")
+
+
+@kernel
+def point_motion(model, state, angle):
+    """Displacement and velocity of the disc's point (r_0, slider's angle + ``angle``)."""
+    w, velocity = 0.0, 0.0
+    for j in range(len(model.shift)):
+        if j % WIDTH < HALF:
+            turn = model.shift[j] * angle
+            cosine, sine = math.cos(turn), math.sin(turn)
+            w += model.force[j] * (state.z[j] * cosine + state.z[j + HALF] * sine)
+            velocity += model.force[j] * (state.e[j] * cosine + state.e[j + HALF] * sine)
+    for j in range(len(model.force0)):
+        w += model.force0[j] * state.y[j]
+        velocity += model.force0[j] * state.g[j]
+    return w, velocity
+
+
+@kernel
+def _write_row(model, s, order, x, time, phase, theta, probe, row):
+    state_at(model, s, order, x, phase, probe)
+    w, velocity, _ = disc_point(model, probe)
+    angle = theta - (model.Omega * time - probe.x[PSI])
+    row[1] = time
+    row[2] = 0.0 if phase == SEPARATION else value(s.P, 0, order - 1, x)
+    row[3] = probe.x[U] if phase == SEPARATION else w
+    row[4] = probe.x[U_VELOCITY] if phase == SEPARATION else velocity
+    row[5] = w
+    row[6], row[7] = point_motion(model, probe, angle)
+    row[8] = probe.x[PSI]
+    row[9] = model.Omega - probe.x[SPEED]
+    row[10] = phase
+
+
+@kernel
+def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
+    """Append a row for every sample time within the step that starts at ``state`` and lasts ``x_end`` units.
+
+    samplers: shape (n, 4), columns first time, interval, number of samples, theta; progress: shape (n,), samples
+    taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
+    """
+    start, low = state.x[TIME], state.x[TIME_LOW]
+    for i in range(len(samplers)):
+        while progress[i] < samplers[i, 2]:
+            time = samplers[i, 0] + progress[i] * samplers[i, 1]
+            x = ((time - start) - low) / model.unit
+            if x > x_end:
+                break
+            rows[filled, 0] = i
+            _write_row(model, s, order, max(x, 0.0), time, state.x[PHASE], samplers[i, 3], probe, rows[filled])
+            filled += 1
+            progress[i] += 1
+    return filled

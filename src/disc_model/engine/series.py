@@ -1,0 +1,405 @@
+"""Taylor coefficients of the three phases, eight lanes at a time: the fast twin of ``plain``.
+
+The contact force of order k needs a sum over all modes, and everything of order k + 1 needs the contact force: a chain
+that would leave the arithmetic units idle.  It is broken in two ways.  The sum is taken over what is known before
+P_{k-1} is; the share of P_{k-1} in it is a known constant (``damped_compliance``).  And the terms of the sum that stem
+from order k - 1 are gathered while that order is dealt with ("pending").
+
+The convolutions of f with z and e, nearly all of the work, are done for two orders at once, so that each coefficient
+is loaded once for two products.
+
+With C = 2 f_0 slope - force damping and s_k = sum_{j=1..k} f_{k-j} z_j, the disc's part of u'' at order k is
+
+    sum(C e_k + f_0 bend s_k - force stiffness z_k + slope (E_k + (k+1) Z_k))
+        + f_k (sum(slope e_0) + f_0 sum(bend z_0) + (k+1) sum(slope z_1))
+
+where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k-i} z_{i+1}, 1 <= i <= k - 1.
+"""
+
+from __future__ import annotations
+
+from .compile import inlined
+from .lanes import WIDTH, add, fma, load, mul, splat, store, sub, swap_halves, total
+from .layout import (
+    BEND,
+    DAMPING,
+    DOWN,
+    FORCE_ROW,
+    MINUS_FORCE_DAMPING,
+    MINUS_FORCE_STIFFNESS,
+    PSI_SERIES,
+    SCRATCH,
+    SHIFT,
+    SLOPE,
+    STIFFNESS,
+    SWITCH,
+    SWITCH2,
+    U_SERIES,
+    UP,
+    V_SERIES,
+    E,
+    F,
+)
+from .layout import P as P_
+
+# Rows of the scratch array: inner terms (e, z) of a pair's second order, and s_k.
+_E_HIGH, _Z_HIGH, _CARRIED = 0, 1, 2
+
+
+@inlined
+def lane_count(model):
+    """Number of lanes; a constant for the compiler if there is one block."""
+    return WIDTH if len(model.more_blocks) == 2 else WIDTH * (1 + model.more_blocks[0])
+
+
+@inlined
+def _row(model, row, b):
+    """Block of one of the model's lane arrays."""
+    return load(model.lanes, row * lane_count(model) + b)
+
+
+@inlined
+def _z(s, at):
+    """Block of displacements at index ``at`` = order * width + block."""
+    return load(s.modes, at)
+
+
+@inlined
+def _e(s, width, at):
+    """Block of velocities."""
+    return load(s.modes, E * width + at)
+
+
+@inlined
+def _set_z(s, at, v):
+    store(s.modes, at, v)
+
+
+@inlined
+def _set_e(s, width, at, v):
+    store(s.modes, E * width + at, v)
+
+
+@inlined
+def _kept(s, row, width, b):
+    """Block of a row of scratch."""
+    return load(s.modes, (SCRATCH + row) * width + b)
+
+
+@inlined
+def _keep(s, row, width, b, v):
+    store(s.modes, (SCRATCH + row) * width + b, v)
+
+
+@inlined
+def _disc_point(model, s):
+    """u, u' and the slope B of the disc under the slider, from the coefficients 0."""
+    width, u, v, slope = lane_count(model), splat(0.0), splat(0.0), splat(0.0)
+    for b in range(0, width, WIDTH):
+        force, z = _row(model, FORCE_ROW, b), _z(s, b)
+        u = fma(force, z, u)
+        v = fma(force, _e(s, width, b), v)
+        slope = fma(_row(model, SLOPE, b), z, slope)
+    B = total(slope)
+    u0, v0 = total(u), total(v) + s.slider[F] * B
+    for j in range(len(model.force0)):
+        u0 += model.force0[j] * s.y[j]
+        v0 += model.force0[j] * s.g[j]
+    return u0, v0, B
+
+
+@inlined
+def _inner_terms(s, width, b, k, e_last, z_last):
+    """Inner terms of order k for e and z; ``e_last``, ``z_last`` are e_{k-1} and z_k.
+
+    An odd order computes those of the next order as well, but for the first and the last, which wait for f_k and e_k,
+    and keeps them in scratch.
+    """
+    e_low, z_low = splat(0.0), splat(0.0)
+    if k % 2 == 0:
+        e_low, z_low = (
+            _kept(s, _E_HIGH, width, b),
+            _kept(s, _Z_HIGH, width, b),
+        )
+        if k > 2:
+            f = splat(s.slider[F + k - 1])
+            e_low, z_low = (
+                fma(f, _e(s, width, width + b), e_low),
+                fma(f, _z(s, 2 * width + b), z_low),
+            )
+        f = splat(s.slider[F + 1])
+        return fma(f, e_last, e_low), fma(f, z_last, z_low)
+    e_high, z_high = e_low, z_low
+    if k > 1:
+        f_high = splat(s.slider[F + k - 1])
+        e_low, z_low = mul(f_high, _e(s, width, width + b)), mul(f_high, _z(s, 2 * width + b))
+        at = 2 * width + b
+        for i in range(2, k - 1):
+            f_low = splat(s.slider[F + k - i])
+            e, z = _e(s, width, at), _z(s, at + width)
+            e_low, z_low = fma(f_low, e, e_low), fma(f_low, z, z_low)
+            e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
+            f_high = f_low
+            at += width
+        f_low, f_high = splat(s.slider[F + 1]), splat(s.slider[F + 2])
+        e_low, z_low = fma(f_low, e_last, e_low), fma(f_low, z_last, z_low)
+        e_high, z_high = fma(f_high, e_last, e_high), fma(f_high, z_last, z_high)
+    _keep(s, _E_HIGH, width, b, e_high)
+    _keep(s, _Z_HIGH, width, b, z_high)
+    return e_low, z_low
+
+
+@inlined
+def _pending(model, b, f0, e, up, z, carried):
+    """A block's share of u'' of an order, as far as the order before knows it (lanes); its velocities are e up."""
+    coriolis = fma(splat(2.0 * f0), _row(model, SLOPE, b), _row(model, MINUS_FORCE_DAMPING, b))
+    known = fma(mul(splat(f0), _row(model, BEND, b)), carried, mul(_row(model, MINUS_FORCE_STIFFNESS, b), z))
+    return fma(mul(coriolis, up), e, known)
+
+
+@inlined
+def _order(model, s, width, b, k, f, f0, P, e, carried, e_last, z_last):
+    """One block of order k >= 1; ``f`` is f_k, ``P`` is P_{k-1}.
+
+    Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, and e_{k+1} without P_k.  Returns (lanes) what
+    the block gives to u'' of order k besides what was pending, what it leaves pending for order k + 1, and the four
+    for order k + 1.  What waits for P comes last in every sum: that chain sets the pace.
+    """
+    e_inner, z_inner = _inner_terms(s, width, b, k, e_last, z_last)
+    part = mul(_row(model, SLOPE, b), fma(splat(s.slider[DOWN + k]), z_inner, e_inner))
+    shift, damping, at = _row(model, SHIFT, b), _row(model, DAMPING, b), k * width + b
+    up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
+    e = fma(splat(-P), mul(splat(s.slider[UP + k - 1]), _row(model, FORCE_ROW, b)), e)
+    turned = swap_halves(fma(f, _z(s, b), carried))
+    z_next = mul(fma(shift, turned, e), up)
+    carried = fma(first, z_next, fma(f, _z(s, width + b), z_inner))
+    free = fma(_row(model, STIFFNESS, b), z_last, mul(damping, e))
+    turned = swap_halves(fma(first, e, fma(f, _e(s, width, b), e_inner)))
+    rate = fma(shift, turned, sub(splat(0.0), free))
+    e_next = mul(rate, up)
+    _set_e(s, width, at, e)
+    _set_e(s, width, at + width, e_next)
+    _set_z(s, at + width, z_next)
+    _keep(s, _CARRIED, width, b, carried)
+    return part, _pending(model, b, f0, rate, up, z_next, carried), e_next, carried, e, z_next
+
+
+@inlined
+def _order_from_memory(model, s, width, b, k, f, f0, P):
+    """As ``_order`` for the blocks after the first, whose values between orders are not kept in registers."""
+    at, carried = k * width + b, _kept(s, _CARRIED, width, b)
+    part, pending, _, _, _, _ = _order(
+        model,
+        s,
+        width,
+        b,
+        k,
+        f,
+        f0,
+        P,
+        _e(s, width, at),
+        carried,
+        _e(s, width, at - width),
+        _z(s, at),
+    )
+    return part, pending
+
+
+@inlined
+def _order_zero(model, s, width, b, f0):
+    """One block of order 0: finds z_1, and e_1 without P_0.  Returns what it leaves pending for order 1."""
+    shift, z, e, first, up = (
+        _row(model, SHIFT, b),
+        _z(s, b),
+        _e(s, width, b),
+        splat(f0),
+        splat(s.slider[UP]),
+    )
+    z_next = mul(fma(first, mul(shift, swap_halves(z)), e), up)
+    bound = fma(_row(model, DAMPING, b), e, mul(_row(model, STIFFNESS, b), z))
+    e_next = mul(sub(mul(first, mul(shift, swap_halves(e))), bound), up)
+    carried = mul(first, z_next)
+    _set_z(s, width + b, z_next)
+    _set_e(s, width, width + b, e_next)
+    _keep(s, _CARRIED, width, b, carried)
+    return _pending(model, b, f0, e_next, splat(1.0), z_next, carried)
+
+
+@inlined
+def _axisymmetric(model, s, k, impulse):
+    """Modes without nodal diameter, order k: they only feel P.  Returns their part of u'' without P_{k-1}."""
+    part, n, up = 0.0, len(model.force0), s.slider[UP + k]
+    for j in range(n):
+        at, force, damping = k * n + j, model.force0[j], model.damping0[j]
+        g, pull = s.g[at], model.stiffness0[j] * s.y[at]
+        part -= force * (damping * g + pull)
+        g -= force * impulse
+        s.g[at] = g
+        s.y[at + n] = g * up
+        s.g[at + n] = -(damping * g + pull) * up
+    return part
+
+
+@inlined
+def _last_force(model, s, order, impulse):
+    """Put the last contact force into the velocities of the highest order."""
+    width, n, q = lane_count(model), len(model.force0), splat(impulse)
+    for b in range(0, width, WIDTH):
+        at = order * width + b
+        store(s.modes, E * width + at, sub(_e(s, width, at), mul(q, _row(model, FORCE_ROW, b))))
+    for j in range(n):
+        s.g[order * n + j] -= model.force0[j] * impulse
+
+
+@inlined
+def slip_series(model, s, order, direction):
+    """Slip with sgn(f) = ``direction``.  Returns the denominator of P, whose zero is Painleve's paradox.
+
+    Fills ``s`` (coefficients 0 are given) up to degree ``order``, P up to ``order - 1``, and the switch function
+    direction * f.
+    """
+    width, zero = lane_count(model), splat(0.0)
+    f0, psi = s.slider[F], s.slider[PSI_SERIES]
+    u, v, slope = _disc_point(model, s)
+    s.slider[U_SERIES], s.slider[V_SERIES] = u, v
+    friction = direction * model.mu_k / model.r_0
+    denominator = 1.0 + model.m * model.compliance + friction * slope
+    inverse, braking, lightness = 1.0 / denominator, friction / model.m, 1.0 / model.m
+    weight = model.m * inverse
+
+    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
+    for b in range(0, width, WIDTH):
+        pending = add(pending, _order_zero(model, s, width, b, f0))
+        z, e = _z(s, b), _e(s, width, b)
+        now = add(now, _pending(model, b, 0.5 * f0, e, splat(1.0), z, zero))
+        by_e = fma(_row(model, SLOPE, b), e, by_e)
+        by_z = fma(_row(model, BEND, b), z, by_z)
+        by_z1 = fma(_row(model, SLOPE, b), _z(s, width + b), by_z1)
+    by_f, by_f_rate = total(by_e) + f0 * total(by_z), total(by_z1)
+    # order 0: C e_0 - ... with f_0 once in C, f_0 (slope e_0 + ...) and the rest of f b from by_f_rate
+    acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * s.slider[DOWN] * by_f_rate
+    pull = model.k_p * psi + model.c_p * (model.Omega - f0)
+    P = (model.N + model.k * (u - model.u_0) + model.c * v + model.m * acceleration + slope * pull) * inverse
+    s.slider[P_], s.slider[SWITCH] = P, direction * f0
+    psi = (model.Omega - f0) * s.slider[UP]
+    e, carried, e_last, z_last = (
+        _e(s, width, width),
+        _kept(s, _CARRIED, width, 0),
+        _e(s, width, 0),
+        _z(s, width),
+    )
+    for k in range(1, order + 1):
+        # the slider at order k: what the order before leaves, now that its P is known
+        up = s.slider[UP + k - 1]
+        impulse = P * up
+        f = pull * lightness * up - braking * impulse
+        u, v = v * up, acceleration * up - model.compliance * impulse + f * slope
+        s.slider[F + k], s.slider[PSI_SERIES + k], s.slider[SWITCH + k] = f, psi, direction * f
+        s.slider[U_SERIES + k], s.slider[V_SERIES + k] = u, v
+        if k == order:
+            break
+        more, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, P, e, carried, e_last, z_last)
+        part, pending = add(pending, more), left
+        for b in range(WIDTH, width, WIDTH):
+            more, left = _order_from_memory(model, s, width, b, k, f, f0, P)
+            part, pending = add(part, more), add(pending, left)
+        modes = total(part)
+        rest = _axisymmetric(model, s, k, impulse) + f * (by_f + by_f_rate * s.slider[DOWN + k])
+        rest += impulse * model.damped_compliance
+        acceleration = modes + rest
+        pull = model.k_p * psi - model.c_p * f
+        P = (model.k * u + model.c * v + slope * pull + model.m * rest) * inverse + weight * modes
+        s.slider[P_ + k] = P
+        psi = -f * s.slider[UP + k]
+    _last_force(model, s, order, P * s.slider[UP + order - 1])
+    s.slider[P_ + order] = 0.0
+    return denominator
+
+
+@inlined
+def _stick_order(model, s, b, k, P, e, z):
+    """One block of order k in stick, from e_k without P_{k-1} and z_k.  Returns its pending share, e_{k+1}, z_{k+1}."""
+    width, up = lane_count(model), splat(s.slider[UP + k])
+    at, damping = k * width + b, _row(model, DAMPING, b)
+    if k > 0:
+        e = fma(splat(-P), mul(splat(s.slider[UP + k - 1]), _row(model, FORCE_ROW, b)), e)
+    z_next = mul(e, up)
+    rate = sub(splat(0.0), fma(damping, e, mul(_row(model, STIFFNESS, b), z)))
+    e_next = mul(rate, up)
+    _set_e(s, width, at, e)
+    _set_z(s, at + width, z_next)
+    _set_e(s, width, at + width, e_next)
+    return _pending(model, b, 0.0, rate, up, z_next, splat(0.0)), e_next, z_next
+
+
+@inlined
+def stick_series(model, s, order):
+    """Stick: f = 0, the slider rests on the disc.  Fills both release functions mu_s P -/+ r_0 F."""
+    width, zero = lane_count(model), splat(0.0)
+    u, v, _ = _disc_point(model, s)
+    s.slider[U_SERIES], s.slider[V_SERIES] = u, v
+    inverse = 1.0 / (1.0 + model.m * model.compliance)
+    weight = model.m * inverse
+    pending, impulse, vertical = zero, 0.0, model.N + model.k * (u - model.u_0) + model.c * v
+    for b in range(0, width, WIDTH):
+        pending = add(pending, _pending(model, b, 0.0, _e(s, width, b), splat(1.0), _z(s, b), zero))
+    P, e_first, z_first = 0.0, _e(s, width, 0), _z(s, 0)
+    for k in range(order):
+        more, e_first, z_first = _stick_order(model, s, 0, k, P, e_first, z_first)
+        part, pending = pending, more
+        for b in range(WIDTH, width, WIDTH):
+            more, _, _ = _stick_order(model, s, b, k, P, _e(s, width, k * width + b), _z(s, k * width + b))
+            pending = add(pending, more)
+        modes = total(part)
+        rest = _axisymmetric(model, s, k, impulse) + impulse * model.damped_compliance
+        acceleration = modes + rest
+        P = (vertical + model.m * rest) * inverse + weight * modes
+        s.slider[P_ + k] = P
+        s.slider[SWITCH + k] = s.slider[SWITCH2 + k] = model.mu_s * P
+        impulse = P * s.slider[UP + k]
+        u, v = v * s.slider[UP + k], acceleration * s.slider[UP + k] - model.compliance * impulse
+        s.slider[U_SERIES + k + 1], s.slider[V_SERIES + k + 1] = u, v
+        s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
+        vertical = model.k * u + model.c * v
+    _last_force(model, s, order, impulse)
+    s.slider[F + order] = s.slider[P_ + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
+    s.slider[PSI_SERIES + 1] = model.Omega * model.unit
+    start, growth = (
+        model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * model.Omega),
+        model.r_0 * model.k_p * s.slider[PSI_SERIES + 1],
+    )
+    s.slider[SWITCH] -= start
+    s.slider[SWITCH2] += start
+    s.slider[SWITCH + 1] -= growth
+    s.slider[SWITCH2 + 1] += growth
+
+
+@inlined
+def separation_series(model, s, order):
+    """No contact: P = 0, disc and slider each for themselves.  Fills the gap u - w."""
+    width, n = lane_count(model), len(model.force0)
+    f0, drive, weight = s.slider[F], model.Omega, model.N - model.k * model.u_0
+    pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (model.Omega - f0)
+    for k in range(order + 1):
+        if k == 0:
+            for b in range(0, width, WIDTH):
+                _order_zero(model, s, width, b, f0)
+        else:
+            pull, drive, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0, 0.0
+            for b in range(0, width, WIDTH):
+                _order_from_memory(model, s, width, b, k, s.slider[F + k], f0, 0.0)
+        _axisymmetric(model, s, k, 0.0)
+        w = splat(0.0)
+        for b in range(0, width, WIDTH):
+            w = fma(_row(model, FORCE_ROW, b), _z(s, k * width + b), w)
+        gap = s.slider[U_SERIES + k] - total(w)
+        for j in range(n):
+            gap -= model.force0[j] * s.y[k * n + j]
+        s.slider[SWITCH + k], s.slider[P_ + k] = gap, 0.0
+        up = s.slider[UP + k]
+        s.slider[PSI_SERIES + k + 1] = (drive - s.slider[F + k]) * up
+        s.slider[F + k + 1] = pull / model.m * up
+        s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
+        s.slider[V_SERIES + k + 1] = (
+            -(weight + model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]) / model.m * up
+        )

@@ -1,0 +1,172 @@
+"""What happens at a switch: contact force, plastic impact, and which phase comes next (model, Section 4)."""
+
+from __future__ import annotations
+
+from .compile import inlined, kernel
+from .layout import (
+    DIRECTION,
+    FORCE,
+    KNOWN,
+    PHASE,
+    PSI,
+    SEPARATION,
+    SLIP,
+    SPEED,
+    STICK,
+    U_VELOCITY,
+    U,
+)
+
+# Kinds of event, in the order of ``disc_model.result.EVENT_KINDS``.
+STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
+# Outcome of a transition.
+CONSISTENT, PARADOX = 0, 1
+
+# Below this share of its value without friction the denominator of P counts as zero: Painleve's paradox.
+PAINLEVE_MARGIN = 1e-6
+# A slip acceleration below this share of the forces that make it is rounding: slip starts with f' = 0 (mu_s = mu_k).
+ROUNDING = 1e-13
+
+
+@inlined
+def disc_point(model, state):
+    """u, u' and the slope B = dw/dtheta of the disc under the slider."""
+    f = state.x[SPEED]
+    u, v, slope = 0.0, 0.0, 0.0
+    for j in range(len(model.shift)):
+        u += model.force[j] * state.z[j]
+        v += model.force[j] * state.e[j]
+        slope += model.slope[j] * state.z[j]
+    for j in range(len(model.force0)):
+        u += model.force0[j] * state.y[j]
+        v += model.force0[j] * state.g[j]
+    return u, v + f * slope, slope
+
+
+@inlined
+def spring_force(model, state):
+    """F = k_p psi + c_p (Omega - f), N/m... the in-plane force divided by r_0."""
+    return model.k_p * state.x[PSI] + model.c_p * (model.Omega - state.x[SPEED])
+
+
+@inlined
+def _free_force(model, state):
+    """N + k (u - u_0) + c u' + m A: the contact force but for its denominator and the term with B."""
+    f = state.x[SPEED]
+    u, v, _ = disc_point(model, state)
+    acceleration = 0.0
+    for j in range(len(model.shift)):
+        a = -model.damping[j] * state.e[j] - (model.stiffness[j] + (model.shift[j] * f) ** 2) * state.z[j]
+        acceleration += model.force[j] * a
+        # 2 l f beta_l: slope is l psi_l in the lanes of b
+        acceleration += 2.0 * f * model.slope[j] * state.e[j]
+    for j in range(len(model.force0)):
+        acceleration -= model.force0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
+    return model.N + model.k * (u - model.u_0) + model.c * v + model.m * acceleration
+
+
+@inlined
+def stick_force(model, state):
+    """Contact force P in stick (f = 0)."""
+    return _free_force(model, state) / (1.0 + model.m * model.compliance)
+
+
+@inlined
+def slip_force(model, state, direction):
+    """Contact force P in slip and its denominator."""
+    _, _, slope = disc_point(model, state)
+    denominator = 1.0 + model.m * model.compliance + direction * model.mu_k * slope / model.r_0
+    return (_free_force(model, state) + slope * spring_force(model, state)) / denominator, denominator
+
+
+@inlined
+def impact(model, state):
+    """Plastic impact (Eqs. 29-37).  Returns the impulse p; the slider takes the disc's velocity."""
+    _, v, _ = disc_point(model, state)
+    p = (v - state.x[U_VELOCITY]) / (model.compliance + 1.0 / model.m)
+    for j in range(len(model.shift)):
+        state.e[j] -= model.force[j] * p
+    for j in range(len(model.force0)):
+        state.g[j] -= model.force0[j] * p
+    state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
+    return p
+
+
+@inlined
+def _enter_separation(model, state, multiplicity):
+    """Contact is lost with a gap that starts as t**multiplicity: 3 from P = 0, 2 from P < 0."""
+    state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
+    state.x[PHASE] = SEPARATION
+    state.x[DIRECTION] = 0.0
+    state.x[KNOWN] = multiplicity
+    state.x[FORCE] = 0.0
+
+
+@inlined
+def _enter_stick(state, P):
+    state.x[PHASE] = STICK
+    state.x[DIRECTION] = 0.0
+    state.x[KNOWN] = 0
+    state.x[FORCE] = P
+
+
+@kernel
+def _enter_slip(model, state, direction):
+    """Slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or PARADOX."""
+    P, denominator = slip_force(model, state, direction)
+    if denominator <= PAINLEVE_MARGIN * (1.0 + model.m * model.compliance):
+        return PARADOX
+    if P < 0.0 and not model.bonded:
+        _enter_separation(model, state, 2)
+        return CONSISTENT
+    state.x[PHASE] = SLIP
+    state.x[DIRECTION] = direction
+    state.x[FORCE] = P
+    state.x[KNOWN] = 0
+    if state.x[SPEED] == 0.0:
+        # f starts at zero: the root at the start is known, and f' has to point into the direction of slip
+        F, friction = spring_force(model, state), model.mu_k * P / model.r_0
+        push = direction * F - friction
+        size = abs(F) + abs(friction)
+        state.x[KNOWN] = 2 if abs(push) <= ROUNDING * size else 1
+        if push < -ROUNDING * size:
+            return PARADOX
+    return CONSISTENT
+
+
+@kernel
+def leave_rest(model, state, direction):
+    """Stick breaks into slip (or, at P = 0 with a relaxed spring, into separation)."""
+    return _enter_slip(model, state, direction)
+
+
+@kernel
+def lose_contact(model, state):
+    """P has reached zero."""
+    _enter_separation(model, state, 3)
+    return CONSISTENT
+
+
+@kernel
+def come_to_rest(model, state):
+    """f has reached zero: stick if friction can hold the spring, else slip to the side of the spring's pull."""
+    state.x[SPEED] = 0.0
+    P = stick_force(model, state)
+    F = spring_force(model, state)
+    if model.r_0 * abs(F) < model.mu_s * P:
+        _enter_stick(state, P)
+        return CONSISTENT
+    if P < 0.0 and not model.bonded:
+        _enter_separation(model, state, 2)
+        return CONSISTENT
+    return _enter_slip(model, state, -1.0 if F < 0.0 else 1.0)
+
+
+@kernel
+def touch_down(model, state):
+    """The gap has closed: impact, then contact."""
+    impact(model, state)
+    f = state.x[SPEED]
+    if f == 0.0:
+        return come_to_rest(model, state)
+    return _enter_slip(model, state, 1.0 if f > 0.0 else -1.0)

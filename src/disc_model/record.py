@@ -1,0 +1,91 @@
+"""What a simulation keeps: events, uniform samples in windows, Poincare samples, energy audits."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from disc_model.errors import ParameterError
+from disc_model.parameters import Real
+
+Time = Annotated[Real, Field(ge=0, allow_inf_nan=False)]
+
+
+class _Spec(BaseModel):
+    """Frozen, strict, and with this package's own error instead of pydantic's."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __init__(self, **data: Any) -> None:
+        try:
+            super().__init__(**data)
+        except ValidationError as error:
+            raise ParameterError(*(_fault(item) for item in error.errors(include_url=False))) from None
+
+
+def _fault(item: Any) -> str:
+    place = ".".join(map(str, item["loc"])) or "window"
+    value = "" if item["type"] == "missing" or not item["loc"] else f"={item['input']!r}"
+    return f"{place}{value}: {item['msg'].removeprefix('Value error, ')}"
+
+
+class Window(_Spec):
+    """Uniform samples at ``rate`` in [start, stop].
+
+    Parameters
+    ----------
+    start, stop : s, absolute times
+    rate : Hz
+    theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
+    envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them
+    """
+
+    start: Time
+    stop: Time
+    rate: Annotated[Real, Field(gt=0, allow_inf_nan=False)]
+    theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
+    envelope: Annotated[int, Field(ge=2)] | None = None
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.start < self.stop:
+            raise ValueError(f"start={self.start:g}: must be < stop={self.stop:g}")
+        return self
+
+    @property
+    def count(self) -> int:
+        """Number of samples before any folding."""
+        return int(math.floor((self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9)) + 1
+
+
+class Poincare(_Spec):
+    """Samples at the drive's period, t = i 2 pi/Omega (i whole), within [start, stop]; ``theta`` as in `Window`."""
+
+    start: Time = 0.0
+    stop: Annotated[Real, Field(gt=0)] = math.inf
+    theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.start < self.stop:
+            raise ValueError(f"start={self.start:g}: must be < stop={self.stop:g}")
+        return self
+
+
+class Record(_Spec):
+    """What a simulation keeps; by default the events and the statistics alone.
+
+    Parameters
+    ----------
+    windows : uniform samples
+    poincare : samples at the drive's period
+    events : whether to keep the table of events (they are counted in any case)
+    energy : audit both energy balances on every step instead of every 64th (costs a factor of about ten in time)
+    """
+
+    windows: tuple[Window, ...] = ()
+    poincare: Poincare | None = None
+    events: bool = True
+    energy: bool = False
