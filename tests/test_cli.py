@@ -1,0 +1,187 @@
+"""The command line: options, summary, plot, and one line for bad input."""
+
+from __future__ import annotations
+
+import os
+import pty
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from disc_model import Parameters, cli
+
+BASE = ("--N", "385", "--Omega", "15.1")
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    """Exit code, stdout and stderr of the command line, run in this process."""
+    with pytest.raises(SystemExit) as ended:
+        cli.main(list(arguments))
+    out = capsys.readouterr()
+    return int(ended.value.code or 0), out.out, out.err
+
+
+def options_of(command: str) -> set[str]:
+    commands = {info.callback.__name__: info.callback for info in cli.app.registered_commands if info.callback}
+    import inspect
+
+    return set(inspect.signature(commands[command]).parameters)
+
+
+@pytest.mark.parametrize("command", ["run", "modes"])
+def test_every_parameter_is_an_option(command: str) -> None:
+    assert set(Parameters.model_fields) <= options_of(command)
+
+
+def test_every_option_reaches_the_parameters(capsys: pytest.CaptureFixture[str]) -> None:
+    """A bad value given to each option comes back in the one message, under the parameter's name."""
+    arguments = [part for name in Parameters.model_fields for part in (cli.option_name(name), "bad")]
+    code, _, err = call(capsys, "run", *arguments, "--t-end", "1")
+    assert code == 2
+    assert all(f"{name}='bad'" in err for name in Parameters.model_fields)
+
+
+def test_underscores_are_accepted_in_option_names(capsys: pytest.CaptureFixture[str]) -> None:
+    _, dashed, _ = call(capsys, "modes", "--n-circles", "1", "--r-0", "0.11")
+    code, underscored, _ = call(capsys, "modes", "--n_circles", "1", "--r_0", "0.11")
+    assert (code, dashed) == (0, underscored)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "parts"),
+    [
+        (
+            ("--N", "-1", "--Omega", "nan", "--mu-k", "0.5", "--t-end", "1"),
+            ("N=-1.0", "Omega=nan", "mu_k=0.5"),
+        ),
+        ((*BASE, "--a", "0.2", "--t-end", "1"), ("a=0.2: must be < r_0=0.1",)),
+        ((*BASE, "--r-0", "0.2", "--t-end", "1"), ("r_0=0.2: must be <= b=0.12",)),
+        ((*BASE, "--t-end", "0"), ("t_end=0.0: must be finite and > 0",)),
+        ((*BASE, "--t-end", "inf"), ("t_end=inf: must be finite and > 0",)),
+        ((*BASE, "--t-end", "soon"), ("t_end='soon': must be a number",)),
+        ((*BASE, "--t-end", "1", "--tol", "1"), ("tol=1.0: must be",)),
+        ((*BASE, "--t-end", "1", "--tol", "nan"), ("tol=nan: must be",)),
+        ((*BASE, "--t-end", "1", "--stop-at", "never"), ("stop_at='never': must be 'first_separation'",)),
+        ((*BASE, "--t-end", "1", "--plot", "p.doc"), ("plot='p.doc': must end in",)),
+        ((*BASE, "--t-end", "1", "--plot", "no/such/p.png"), ("must be in a folder that exists",)),
+        ((*BASE,), ("t_end: is required",)),
+        ((), ("N: is required", "Omega: is required", "t_end: is required")),
+        (("--Omga", "3"), ("--Omga", "--Omega")),
+        (("--t-end",), ("--t-end",)),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(
+    capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], parts: tuple[str, ...]
+) -> None:
+    code, out, err = call(capsys, "run", *arguments)
+    assert code == 2
+    assert out == ""
+    assert err.startswith("error: ")
+    assert err.count("\n") == 1
+    assert all(part in err for part in parts)
+
+
+def test_unknown_command_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    code, _, err = call(capsys, "rum")
+    assert code == 2
+    assert err.startswith("error: ")
+    assert err.count("\n") == 1
+
+
+def test_help_shows_units_and_defaults(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "run", "--help")
+    assert code == 0
+    assert "(N m s)" in " ".join(out.replace("│", " ").split())
+    assert "[default: as_published]" in " ".join(out.replace("│", " ").split())
+
+
+def test_modes_prints_the_papers_frequencies(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "modes")
+    assert code == 0
+    for number in ("1491.927", "4383.044", "66.7946", "850.864", "2758.016"):
+        assert number in out
+
+
+def test_run_prints_a_summary(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "run", *BASE, "--t-end", "0.5")
+    assert (code, err) == (0, "")
+    for part in (
+        "status              ok",
+        "first separation    none",
+        "stick_to_slip",
+        "time in slip",
+        "wall time",
+    ):
+        assert part in out
+    assert "energy residual" in out
+
+
+def test_run_agrees_with_simulate(capsys: pytest.CaptureFixture[str]) -> None:
+    from disc_model import simulate
+
+    _, out, _ = call(capsys, "run", *BASE, "--t-end", "0.3", "--k-p", "1.5e4", "--tol", "1e-8")
+    result = simulate(Parameters(N=385, Omega=15.1, k_p=1.5e4), 0.3, tol=1e-8)
+    assert f"events              {result.statistics['events']}\n" in out
+    assert f"key {result.parameters.key}" in out
+
+
+@pytest.mark.parametrize("t_end", ["0.1", "0.4", "5"])
+def test_plot_is_written(capsys: pytest.CaptureFixture[str], tmp_path: Path, t_end: str) -> None:
+    path = tmp_path / "run.png"
+    code, out, _ = call(capsys, "run", *BASE, "--t-end", t_end, "--plot", str(path))
+    assert code == 0
+    assert path.read_bytes().startswith(b"\x89PNG")
+    assert str(path) in out
+
+
+def test_plot_record_does_not_grow_with_time() -> None:
+    for t_end in (0.1, 1.0, 60.0, 1e4):
+        windows = cli._plot_record(t_end).windows
+        assert sum(window.count // (window.envelope or 1) for window in windows) <= 6100
+
+
+def test_plot_of_a_run_stopped_early(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """The last window may then be empty."""
+    path = tmp_path / "run.svg"
+    case = ("--N", "200", "--Omega", "50", "--k", "0", "--mu-s", "0.9", "--mu-k", "0.1", "--k-p", "2e3")
+    code, _, _ = call(capsys, "run", *case, "--t-end", "40", "--stop-at", "first_separation", "--plot", str(path))
+    assert code == 0
+    assert path.stat().st_size > 0
+
+
+def test_module_runs_as_a_program() -> None:
+    done = subprocess.run([sys.executable, "-m", "disc_model", "modes", "--b", "0.05"], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr == "error: r_0=0.1: must be <= b=0.05\n"
+    assert done.stdout == ""
+
+
+def test_progress_is_shown_on_a_terminal_only() -> None:
+    main, secondary = pty.openpty()
+    command = [sys.executable, "-m", "disc_model", "run", *BASE, "--t-end", "1"]
+    environment = {**os.environ, "TERM": "xterm"}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=secondary, text=True, env=environment) as process:
+        os.close(secondary)
+        shown = b""
+        while chunk := _read_terminal(main):  # a terminal that nobody reads blocks its writer
+            shown += chunk
+        out = process.stdout.read() if process.stdout else ""
+    os.close(main)
+    assert process.returncode == 0
+    assert b"simulating" in shown
+    assert "simulating" not in out
+
+
+def _read_terminal(descriptor: int) -> bytes:
+    try:
+        return os.read(descriptor, 65536)
+    except OSError:  # how Linux reports that the other side has been closed
+        return b""
+
+
+def test_warm_says_that_it_is_done(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "warm")
+    assert code == 0
+    assert "cached" in out
