@@ -182,7 +182,7 @@ def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, 
 def build_series(model: Model, order: int) -> Series:
     """Empty series of degree ``order`` for ``model``."""
     width, n0 = len(model.shift), len(model.force0)
-    modes, slider = aligned((2 * ROWS + 3) * width), aligned(len(SLIDER_ROWS) * ROWS)
+    modes, slider = aligned((2 * ROWS + 5) * width), aligned(len(SLIDER_ROWS) * ROWS)
     rows = dict(zip(SLIDER_ROWS, slider.reshape(-1, ROWS), strict=True))
     k = np.arange(1.0, ROWS + 1.0)
     rows["up"][:], rows["down"][:] = model.unit / k, k / model.unit

@@ -42,8 +42,8 @@ from .layout import (
 )
 from .layout import P as P_
 
-# Rows of the scratch array: inner terms (e, z) of a pair's second order, and s_k.
-_E_HIGH, _Z_HIGH, _CARRIED = 0, 1, 2
+# Rows of the scratch array: inner terms (e, z) of a pair's second order, s_k, and the constants C and f_0 bend.
+_E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT = range(5)
 
 
 @inlined
@@ -150,16 +150,15 @@ def _inner_terms(s, width, b, k, e_last, z_last):
 
 
 @inlined
-def _pending(model, b, f0, e, up, z, carried):
-    """A block's share of u'' of an order, as far as the order before knows it (lanes); its velocities are e up."""
-    coriolis = fma(splat(2.0 * f0), _row(model, SLOPE, b), _row(model, MINUS_FORCE_DAMPING, b))
-    known = fma(mul(splat(f0), _row(model, BEND, b)), carried, mul(_row(model, MINUS_FORCE_STIFFNESS, b), z))
-    return fma(mul(coriolis, up), e, known)
+def _pending(model, s, width, b, e, z, carried):
+    """A block's share of u'' of an order, as far as the order before knows it (lanes)."""
+    known = fma(_kept(s, _BENT, width, b), carried, mul(_row(model, MINUS_FORCE_STIFFNESS, b), z))
+    return fma(_kept(s, _CORIOLIS, width, b), e, known)
 
 
 @inlined
-def _order(model, s, width, b, k, f, f0, P, e, carried, e_last, z_last):
-    """One block of order k >= 1; ``f`` is f_k, ``P`` is P_{k-1}.
+def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
+    """One block of order k >= 1; ``f`` is f_k, ``impulse`` is P_{k-1} unit / k.
 
     Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, and e_{k+1} without P_k.  Returns (lanes) what
     the block gives to u'' of order k besides what was pending, what it leaves pending for order k + 1, and the four
@@ -169,23 +168,22 @@ def _order(model, s, width, b, k, f, f0, P, e, carried, e_last, z_last):
     part = mul(_row(model, SLOPE, b), fma(splat(s.slider[DOWN + k]), z_inner, e_inner))
     shift, damping, at = _row(model, SHIFT, b), _row(model, DAMPING, b), k * width + b
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
-    e = fma(splat(-P), mul(splat(s.slider[UP + k - 1]), _row(model, FORCE_ROW, b)), e)
+    e = fma(splat(-impulse), _row(model, FORCE_ROW, b), e)
     turned = swap_halves(fma(f, _z(s, b), carried))
     z_next = mul(fma(shift, turned, e), up)
     carried = fma(first, z_next, fma(f, _z(s, width + b), z_inner))
     free = fma(_row(model, STIFFNESS, b), z_last, mul(damping, e))
     turned = swap_halves(fma(first, e, fma(f, _e(s, width, b), e_inner)))
-    rate = fma(shift, turned, sub(splat(0.0), free))
-    e_next = mul(rate, up)
+    e_next = mul(fma(shift, turned, sub(splat(0.0), free)), up)
     _set_e(s, width, at, e)
     _set_e(s, width, at + width, e_next)
     _set_z(s, at + width, z_next)
     _keep(s, _CARRIED, width, b, carried)
-    return part, _pending(model, b, f0, rate, up, z_next, carried), e_next, carried, e, z_next
+    return part, _pending(model, s, width, b, e_next, z_next, carried), e_next, carried, e, z_next
 
 
 @inlined
-def _order_from_memory(model, s, width, b, k, f, f0, P):
+def _order_from_memory(model, s, width, b, k, f, f0, impulse):
     """As ``_order`` for the blocks after the first, whose values between orders are not kept in registers."""
     at, carried = k * width + b, _kept(s, _CARRIED, width, b)
     part, pending, _, _, _, _ = _order(
@@ -196,7 +194,7 @@ def _order_from_memory(model, s, width, b, k, f, f0, P):
         k,
         f,
         f0,
-        P,
+        impulse,
         _e(s, width, at),
         carried,
         _e(s, width, at - width),
@@ -222,7 +220,10 @@ def _order_zero(model, s, width, b, f0):
     _set_z(s, width + b, z_next)
     _set_e(s, width, width + b, e_next)
     _keep(s, _CARRIED, width, b, carried)
-    return _pending(model, b, f0, e_next, splat(1.0), z_next, carried)
+    minus_force_damping = _row(model, MINUS_FORCE_DAMPING, b)
+    _keep(s, _CORIOLIS, width, b, fma(splat(2.0 * f0), _row(model, SLOPE, b), minus_force_damping))
+    _keep(s, _BENT, width, b, mul(first, _row(model, BEND, b)))
+    return _pending(model, s, width, b, e_next, z_next, carried)
 
 
 @inlined
@@ -271,13 +272,14 @@ def slip_series(model, s, order, direction):
     for b in range(0, width, WIDTH):
         pending = add(pending, _order_zero(model, s, width, b, f0))
         z, e = _z(s, b), _e(s, width, b)
-        now = add(now, _pending(model, b, 0.5 * f0, e, splat(1.0), z, zero))
+        now = add(now, _pending(model, s, width, b, e, z, zero))
         by_e = fma(_row(model, SLOPE, b), e, by_e)
         by_z = fma(_row(model, BEND, b), z, by_z)
         by_z1 = fma(_row(model, SLOPE, b), _z(s, width + b), by_z1)
-    by_f, by_f_rate = total(by_e) + f0 * total(by_z), total(by_z1)
-    # order 0: C e_0 - ... with f_0 once in C, f_0 (slope e_0 + ...) and the rest of f b from by_f_rate
-    acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * s.slider[DOWN] * by_f_rate
+    coriolis = total(by_e)
+    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
+    # order 0: C has the Coriolis term once too often, because z_1 in by_f_rate holds it already
+    acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
     pull = model.k_p * psi + model.c_p * (model.Omega - f0)
     P = (model.N + model.k * (u - model.u_0) + model.c * v + model.m * acceleration + slope * pull) * inverse
     s.slider[P_], s.slider[SWITCH] = P, direction * f0
@@ -288,27 +290,41 @@ def slip_series(model, s, order, direction):
         _e(s, width, 0),
         _z(s, width),
     )
+    # d P_k / d P_{k-1}: from c u', from c_p in F, and from u''
+    by_force = model.damped_compliance - braking * by_f
+    by_force = inverse * (model.m * by_force - (model.c - model.c_p) * braking * slope - model.c * model.compliance)
+    by_force_rate = -inverse * friction * by_f_rate
+    by_u, by_v, by_psi, by_f_hat = (
+        inverse * model.k,
+        inverse * model.c,
+        inverse * slope * model.k_p,
+        inverse * slope * model.c_p,
+    )
     for k in range(1, order + 1):
-        # the slider at order k: what the order before leaves, now that its P is known
+        # the slider at order k: what the order before leaves, without its P and with it
         up = s.slider[UP + k - 1]
-        impulse = P * up
-        f = pull * lightness * up - braking * impulse
-        u, v = v * up, acceleration * up - model.compliance * impulse + f * slope
+        impulse, f_hat = P * up, pull * lightness * up
+        u, v_hat = v * up, acceleration * up + f_hat * slope
+        f, v = f_hat - braking * impulse, v_hat - (model.compliance + braking * slope) * impulse
         s.slider[F + k], s.slider[PSI_SERIES + k], s.slider[SWITCH + k] = f, psi, direction * f
         s.slider[U_SERIES + k], s.slider[V_SERIES + k] = u, v
         if k == order:
             break
-        more, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, P, e, carried, e_last, z_last)
+        more, left, e, carried, e_last, z_last = _order(
+            model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last
+        )
         part, pending = add(pending, more), left
         for b in range(WIDTH, width, WIDTH):
-            more, left = _order_from_memory(model, s, width, b, k, f, f0, P)
+            more, left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
             part, pending = add(part, more), add(pending, left)
+        down = s.slider[DOWN + k]
+        by_speed = by_f + by_f_rate * down
+        single = _axisymmetric(model, s, k, impulse)
+        known = by_u * u + by_v * v_hat + by_psi * psi + (weight * by_speed - by_f_hat) * f_hat + weight * single
         modes = total(part)
-        rest = _axisymmetric(model, s, k, impulse) + f * (by_f + by_f_rate * s.slider[DOWN + k])
-        rest += impulse * model.damped_compliance
-        acceleration = modes + rest
+        acceleration = modes + (single + f * by_speed + impulse * model.damped_compliance)
         pull = model.k_p * psi - model.c_p * f
-        P = (model.k * u + model.c * v + slope * pull + model.m * rest) * inverse + weight * modes
+        P = P * (up * (by_force + by_force_rate * down)) + (weight * modes + known)
         s.slider[P_ + k] = P
         psi = -f * s.slider[UP + k]
     _last_force(model, s, order, P * s.slider[UP + order - 1])
@@ -317,19 +333,23 @@ def slip_series(model, s, order, direction):
 
 
 @inlined
-def _stick_order(model, s, b, k, P, e, z):
+def _stick_pending(model, b, e, z):
+    """As ``_pending`` in stick, where f = 0."""
+    return fma(_row(model, MINUS_FORCE_DAMPING, b), e, mul(_row(model, MINUS_FORCE_STIFFNESS, b), z))
+
+
+@inlined
+def _stick_order(model, s, b, k, impulse, e, z):
     """One block of order k in stick, from e_k without P_{k-1} and z_k.  Returns its pending share, e_{k+1}, z_{k+1}."""
     width, up = lane_count(model), splat(s.slider[UP + k])
     at, damping = k * width + b, _row(model, DAMPING, b)
-    if k > 0:
-        e = fma(splat(-P), mul(splat(s.slider[UP + k - 1]), _row(model, FORCE_ROW, b)), e)
+    e = fma(splat(-impulse), _row(model, FORCE_ROW, b), e)
     z_next = mul(e, up)
-    rate = sub(splat(0.0), fma(damping, e, mul(_row(model, STIFFNESS, b), z)))
-    e_next = mul(rate, up)
+    e_next = sub(splat(0.0), mul(fma(damping, e, mul(_row(model, STIFFNESS, b), z)), up))
     _set_e(s, width, at, e)
     _set_z(s, at + width, z_next)
     _set_e(s, width, at + width, e_next)
-    return _pending(model, b, 0.0, rate, up, z_next, splat(0.0)), e_next, z_next
+    return _stick_pending(model, b, e_next, z_next), e_next, z_next
 
 
 @inlined
@@ -340,27 +360,30 @@ def stick_series(model, s, order):
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
     inverse = 1.0 / (1.0 + model.m * model.compliance)
     weight = model.m * inverse
+    by_force = inverse * (model.m * model.damped_compliance - model.c * model.compliance)
     pending, impulse, vertical = zero, 0.0, model.N + model.k * (u - model.u_0) + model.c * v
     for b in range(0, width, WIDTH):
-        pending = add(pending, _pending(model, b, 0.0, _e(s, width, b), splat(1.0), _z(s, b), zero))
-    P, e_first, z_first = 0.0, _e(s, width, 0), _z(s, 0)
+        pending = add(pending, _stick_pending(model, b, _e(s, width, b), _z(s, b)))
+    e_first, z_first = _e(s, width, 0), _z(s, 0)
     for k in range(order):
-        more, e_first, z_first = _stick_order(model, s, 0, k, P, e_first, z_first)
+        more, e_first, z_first = _stick_order(model, s, 0, k, impulse, e_first, z_first)
         part, pending = pending, more
         for b in range(WIDTH, width, WIDTH):
-            more, _, _ = _stick_order(model, s, b, k, P, _e(s, width, k * width + b), _z(s, k * width + b))
+            more, _, _ = _stick_order(model, s, b, k, impulse, _e(s, width, k * width + b), _z(s, k * width + b))
             pending = add(pending, more)
+        single, up = _axisymmetric(model, s, k, impulse), s.slider[UP + k]
         modes = total(part)
-        rest = _axisymmetric(model, s, k, impulse) + impulse * model.damped_compliance
-        acceleration = modes + rest
-        P = (vertical + model.m * rest) * inverse + weight * modes
+        acceleration = modes + (single + impulse * model.damped_compliance)
+        P = impulse * by_force + (weight * modes + (vertical + model.m * single) * inverse)
         s.slider[P_ + k] = P
         s.slider[SWITCH + k] = s.slider[SWITCH2 + k] = model.mu_s * P
-        impulse = P * s.slider[UP + k]
-        u, v = v * s.slider[UP + k], acceleration * s.slider[UP + k] - model.compliance * impulse
+        impulse = P * up
+        u, v_hat = v * up, acceleration * up
+        v = v_hat - model.compliance * impulse
         s.slider[U_SERIES + k + 1], s.slider[V_SERIES + k + 1] = u, v
         s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
-        vertical = model.k * u + model.c * v
+        # without P_k, whose share is in by_force
+        vertical = model.k * u + model.c * v_hat
     _last_force(model, s, order, impulse)
     s.slider[F + order] = s.slider[P_ + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     s.slider[PSI_SERIES + 1] = model.Omega * model.unit
