@@ -1,0 +1,183 @@
+"""How results become files: the table of variables, CF attributes, encoding, and saving in one piece.
+
+A case is a tree of groups, which is also how its file is laid out:
+
+- the root holds its scalars (parameters, status, first separation, statistics), all without dimension;
+- ``events`` holds one entry per switch along `event`;
+- every recorded window is a group under its name, along `time`; so is ``poincare``.
+
+`disc_model.merge` puts many cases into one file. Nothing here holds a time stamp or a duration that differs
+from run to run, so that equal runs give equal bytes.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.parameters import Parameters
+from disc_model.result import Result
+from disc_model.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
+
+CONVENTIONS = "CF-1.11"
+
+
+# ----------------------------------------------------------------------------------------------------
+# From a result to datasets
+
+
+def result_to_dataset(result: Result) -> xr.Dataset:
+    """A whole result as one dataset; what `Result.to_dataset` returns.
+
+    Scalars have no dimension; switches run along `event` as ``event_time``, ``event_kind``, ...; samples of
+    the i-th window along ``sample_i`` as ``sample_i_time``, ``sample_i_P``, ...; the Poincare samples along
+    `poincare`.
+    """
+    groups = result_groups(result)
+    flat = groups.pop("")
+    for group, dataset in groups.items():
+        prefix = "event" if group == "events" else group
+        names = {name: f"{prefix}_{name}" for name in dataset.variables}
+        flat = flat.merge(dataset.drop_indexes("time", errors="ignore").swap_dims(_to(dataset, prefix)).rename(names))
+    return flat
+
+
+def result_groups(result: Result, names: Sequence[str] | None = None) -> dict[str, xr.Dataset]:
+    """A result as datasets by group: "" for the scalars, "events", one per window, "poincare".
+
+    Parameters
+    ----------
+    names : of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
+    """
+    names = [f"sample_{i}" for i in range(len(result.samples))] if names is None else names
+    groups = {"": _scalars(result), "events": events_dataset(result.events)}
+    groups |= {name: samples_dataset(data) for name, data in zip(names, result.samples, strict=True)}
+    if result.poincare is not None:
+        groups["poincare"] = samples_dataset(result.poincare)
+    return groups
+
+
+def events_dataset(events: Any) -> xr.Dataset:
+    """Switches, from the frame `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
+    data = {name: ("event", _column(events, name), attributes(name)) for name in events.columns}
+    return xr.Dataset(data).set_coords("time")
+
+
+def samples_dataset(samples: Mapping[str, Any]) -> xr.Dataset:
+    """Samples of one window along the coordinate `time`; envelopes keep their ``_min`` and ``_max``."""
+    data = {name: ("time", _narrow(name, values), attributes(name)) for name, values in samples.items()}
+    return xr.Dataset(data)
+
+
+def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict[str, xr.Dataset]:
+    """What stands for a case that raised an error: all its scalars, unknown but for its status."""
+    values: dict[str, Any] = dict.fromkeys(SCALARS, math.nan) | dict.fromkeys(COUNTS, 0)
+    values |= {"status": STATUSES.index("failed"), "t_end": t_end, "tol": tol}
+    return {"": _scalar_dataset(p, values, "failed", message)}
+
+
+def _scalars(result: Result) -> xr.Dataset:
+    statistics = result.statistics
+    values = {name: statistics[name] for name in SCALARS if name in statistics}
+    values |= {name: statistics[key] for name, key in COUNTS.items()}
+    values |= {
+        "status": STATUSES.index(result.status.value),
+        "first_separation": result.first_separation,
+        "t_end": result.t_end,
+        "time_reached": result.final_state.time,
+        "tol": result.tol,
+        "u_0": result.u_0,
+    }
+    return _scalar_dataset(result.parameters, values, result.status.value, result.message)
+
+
+def _scalar_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
+    data: dict[str, Any] = {}
+    for name in SCALARS:
+        value = np.int8(values[name]) if name == "status" else values.get(name, math.nan)
+        data[name] = ((), np.int64(value) if name in COUNTS else value, attributes(name))
+    for name, value in p.model_dump().items():
+        stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
+        data[name] = ((), stored, attributes(name))
+    attrs = {
+        "Conventions": CONVENTIONS,
+        "parameters": p.canonical_json,
+        "parameters_key": p.key,
+        "status": status,
+        "message": message,
+    }
+    return xr.Dataset(data, attrs=attrs)
+
+
+def _column(events: Any, name: str) -> np.ndarray:
+    column = events[name]
+    flags = SERIES[name].flags
+    if not flags:
+        return np.asarray(column, dtype=float)
+    code = {word: i for i, word in enumerate(flags)}
+    return np.array([code[word] for word in column], dtype=np.int8)
+
+
+def _narrow(name: str, values: Any) -> np.ndarray:
+    return np.asarray(values, dtype=np.int8 if name == "phase" else float)
+
+
+def _to(dataset: xr.Dataset, dim: str) -> dict[str, str]:
+    return {old: dim for old in map(str, dataset.dims) if old != dim}
+
+
+# ----------------------------------------------------------------------------------------------------
+# Trees and files
+
+
+def to_tree(groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
+    """Groups as `result_groups` gives them, as a tree."""
+    return xr.DataTree.from_dict({f"/{name}": dataset for name, dataset in groups.items()})
+
+
+def save(tree: xr.DataTree, path: str | Path) -> None:
+    """Write a tree as netCDF 4, compressed, in one piece: `path` is either what it was before or complete."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".tmp", dir=path.parent)
+    os.close(handle)
+    try:
+        tree.to_netcdf(temporary, engine="netcdf4", encoding=_encoding(tree))
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def load(path: str | Path) -> xr.DataTree:
+    """Read a file written by `save` into memory."""
+    with xr.open_datatree(path, engine="netcdf4", decode_timedelta=False) as tree:
+        return tree.load()
+
+
+def json_attribute(value: Any) -> str:
+    """A mapping or list as text: netCDF attributes hold neither, nor None or bool."""
+    return json.dumps(value, sort_keys=True)
+
+
+def _encoding(tree: xr.DataTree) -> dict[str, dict[str, Any]]:
+    own = {node.path: node.to_dataset(inherit=False).variables for node in tree.subtree}
+    return {path: {str(name): _encode(var) for name, var in variables.items()} for path, variables in own.items()}
+
+
+def _encode(variable: xr.Variable) -> dict[str, Any]:
+    if variable.dtype.kind in "UO":
+        return {"dtype": "S1"}
+    encoding: dict[str, Any] = {"_FillValue": None}
+    if variable.ndim and variable.size:
+        encoding |= {"zlib": True, "complevel": 1, "shuffle": True}
+    return encoding
