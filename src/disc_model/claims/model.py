@@ -1,0 +1,118 @@
+"""What a claim is, what a check finds, and what it may look at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import xarray as xr
+
+from disc_model.parameters import Parameters
+from disc_model.variables import STATUSES
+
+HOLDS = "holds"
+REMARK = "holds with a remark"
+FAILS = "does not hold"
+NOT_COMPUTED = "not computed"
+
+
+class Missing(Exception):
+    """Evidence that a study does not hold; the text says what."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Outcome of a check: what we found, whether the claim holds, and what should be known besides."""
+
+    ours: str
+    verdict: str
+    remark: str = ""
+
+
+@dataclass(frozen=True)
+class Needed:
+    """A case that a claim is about: the values it must have beside base values, and how far it must run."""
+
+    parameters: Mapping[str, Any]
+    until: float = 0.0
+
+
+@dataclass(frozen=True)
+class CaseView:
+    """One case, opened for reading."""
+
+    name: str
+    node: xr.DataTree
+
+    def __getitem__(self, name: str) -> float:
+        """A scalar: a parameter, or one of `disc_model.variables.SCALARS`."""
+        return float(self.node.dataset[name].item())
+
+    @property
+    def status(self) -> str:
+        return STATUSES[int(self["status"])]
+
+    @property
+    def separates(self) -> bool:
+        """Whether contact was ever lost."""
+        return self["n_separations"] > 0
+
+    def group(self, name: str) -> xr.Dataset:
+        """Events, a window or the Poincare samples."""
+        if name not in self.node.children:
+            raise Missing(f"case {self.name} did not record {name}")
+        return self.node.children[name].to_dataset(inherit=False)
+
+
+Cases = Mapping[str, CaseView]
+Check = Callable[[Cases, "Claim"], Finding]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement of the paper.
+
+    Attributes
+    ----------
+    id, location : our name, and the place in the paper
+    text : the statement in our own words
+    paper : the value the paper gives, or "" if it only shows it
+    tolerance, reason : what counts as agreement, and why that much
+    bound : the same as a number, for the check
+    needs : the cases it is about
+    """
+
+    id: str
+    location: str
+    text: str
+    paper: str
+    tolerance: str
+    reason: str
+    check: Check
+    bound: float = 0.0
+    needs: Mapping[str, Needed] = field(default_factory=dict)
+
+    def evaluate(self, cases: Cases) -> Finding:
+        """Check the claim; without the evidence it needs, the verdict says what is missing."""
+        try:
+            for name, needed in self.needs.items():
+                _require(cases, name, needed)
+            return self.check(cases, self)
+        except Missing as missing:
+            return Finding("", f"{NOT_COMPUTED}: {missing}")
+
+
+def _require(cases: Cases, name: str, needed: Needed) -> None:
+    if name not in cases:
+        raise Missing(f"case {name} is not in this study")
+    case = cases[name]
+    if case.status not in ("ok", "stopped"):
+        raise Missing(f"{case.status} (case {name})")
+    wanted = Parameters(**needed.parameters)
+    found = Parameters.model_validate_json(case.node.attrs["parameters"])
+    if wanted != found:
+        differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
+        raise Missing(f"case {name} has another {', '.join(differ)} in this study")
+    if case.status == "ok" and case["time_reached"] < needed.until:
+        raise Missing(f"case {name} ends at {case['time_reached']:g} s, {needed.until:g} s are needed")

@@ -1,0 +1,267 @@
+"""Claims of Section 4.1: separation occurs, and ignoring it changes everything."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from disc_model.claims import measures
+from disc_model.claims.model import Cases, Check, Claim, Finding, Needed
+from disc_model.claims.wording import finding, first_separation
+
+F02 = Needed({"N": 200, "Omega": 20}, 600)
+F04 = Needed({"N": 200, "Omega": 20, "contact": "bonded"}, 790)
+F06 = Needed({"N": 300, "Omega": 20, "contact": "bonded"}, 200)
+F07 = Needed({"N": 300, "Omega": 20}, 190)
+F08 = Needed({"N": 200, "Omega": 50, "contact": "bonded"}, 500)
+F09 = Needed({"N": 200, "Omega": 50}, 190)
+
+
+def _grows_to_zero(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F02"]
+    early = measures.early_range(case, "P")
+    before = case["first_separation"]
+    late = measures.range_within(case, "P", before - 20, before)
+    ours = f"{early.low:.2f}..{early.high:.2f} N at first, {late.low:.1f}..{late.high:.1f} N before separation; "
+    grows = late.width > 2 * early.width
+    return finding(ours + first_separation(case), case.separates and grows)
+
+
+def _repeated(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F02"]
+    window = case.group("zoom")
+    apart = window["phase"].values == measures.SEPARATION
+    count = int(np.sum(np.diff(apart.astype(int)) == 1))
+    force = float(np.abs(window["P"].values[apart]).max(initial=0.0))
+    span = float(window["time"][-1] - window["time"][0])
+    rate = measures.rate_of(case, "separation")
+    ours = f"{count} in {span * 1e3:.0f} ms, {rate:.1f}/s; P = {force:g} N between"
+    return finding(ours, count >= 2 and force == 0.0)
+
+
+def _upward(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F02"]
+    events = case.group("events")
+    at = measures.is_kind(events, "separation")
+    velocity, height = events["u_velocity"].values[at], events["u"].values[at] - case["u_0"]
+    share = float(np.mean(velocity > 0))
+    ours = (
+        f"{100 * share:.0f} % of {velocity.size}: mean velocity {velocity.mean():+.2f} m/s, "
+        f"{1e3 * height.mean():+.1f} mm from equilibrium"
+    )
+    return finding(ours, share >= claim.bound)
+
+
+def _short(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F02"]
+    durations = measures.separation_durations(case)
+    share = measures.phase_share(case, "separation")
+    period = 1 / measures.rate_of(case, "separation")
+    ours = (
+        f"median {1e3 * np.median(durations):.2f} ms, longest {1e3 * durations.max():.2f} ms "
+        f"of {1e3 * period:.2f} ms between separations; {100 * share:.0f} % of the time"
+    )
+    return finding(ours, bool(durations.max() < claim.bound * period))
+
+
+def _bonded(name: str, remark: str = "") -> Check:
+    def check(cases: Cases, claim: Claim) -> Finding:
+        intervals = measures.release_intervals(cases[name])
+        spread = measures.irregularity(intervals)
+        ours = f"one release per {1e3 * intervals.mean():.3f} ms, spread {spread:.1e}"
+        late = measures.late_range(cases[name], "P")
+        return finding(f"{ours}; P {late.low:.0f}..{late.high:.0f} N", spread <= claim.bound, remark)
+
+    return check
+
+
+def _irregular(name: str) -> Check:
+    def check(cases: Cases, claim: Claim) -> Finding:
+        intervals = measures.release_intervals(cases[name])
+        spread = measures.irregularity(intervals)
+        ours = f"{1 / intervals.mean():.1f} releases/s, spread {spread:.2f}, "
+        period = measures.shortest_period(intervals, 1e-6)
+        ours += f"period of {period} releases" if period else "no period of up to 8 releases"
+        return finding(ours, spread >= claim.bound and period == 0)
+
+    return check
+
+
+def _stick_disappears(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F09"]
+    whole = case["time_stick"] / case["time_reached"]
+    late = measures.phase_share(case, "stick")
+    ours = f"{first_separation(case)}; sticks {100 * whole:.1f} % of the whole run, {100 * late:.2f} % of the last 20 s"
+    return finding(ours, case.separates and whole > claim.bound and late <= claim.bound)
+
+
+def _smaller_range(cases: Cases, claim: Claim) -> Finding:
+    free, bonded = (measures.late_range(cases[name], "w_point").width for name in ("F02", "F04"))
+    ours = f"{free:.4f} m with separation, {bonded:.4f} m without: ratio {free / bonded:.2f}"
+    return finding(ours, free < claim.bound * bonded)
+
+
+def _bonded_always_sticks(cases: Cases, claim: Claim) -> Finding:
+    rates = [measures.rate_of(cases[name], "stick_to_slip") for name in ("F04", "F06", "F08")]
+    shares = [measures.phase_share(cases[name], "stick") for name in ("F04", "F06", "F08")]
+    ours = ", ".join(f"{rate:.1f}/s ({100 * share:.0f} % stick)" for rate, share in zip(rates, shares, strict=True))
+    return finding(ours, min(shares) > claim.bound)
+
+
+def _stick_on_a_line(cases: Cases, claim: Claim) -> Finding:
+    worst, count = 0.0, 0
+    for name in ("F02", "F04"):
+        samples = cases[name].group("poincare")
+        stuck = samples["phase"].values == measures.STICK
+        count += int(stuck.sum())
+        deviation = np.abs(samples["psi_velocity"].values[stuck] - cases[name]["Omega"])
+        worst = max(worst, float(deviation.max(initial=0.0)))
+    return finding(f"largest deviation from Omega {worst:g} rad/s at {count} stick points", worst <= claim.bound)
+
+
+PERIODIC = "a periodic motion repeats to rounding; 1e-6 leaves room for a slow approach to it"
+SHAPE = "the paper shows points, no number; a periodic motion would have 0"
+BONDED_REMARK = "locked to the coupled mode but slowly modulated: nearly periodic"
+
+CLAIMS = (
+    Claim(
+        "F02a",
+        "Sec. 4.1, Fig. 2a",
+        "N = 200 N, Omega = 20 rad/s: the contact force's range grows until contact is lost",
+        "shown",
+        "range at least doubles",
+        "the paper gives no time for it",
+        _grows_to_zero,
+        needs={"F02": F02},
+    ),
+    Claim(
+        "F02b",
+        "Sec. 4.1, Fig. 2b",
+        "Separations repeat within 602.115..602.150 s, with no contact force in them",
+        "several",
+        "at least 2; P exactly 0",
+        "when the window begins within a cycle depends on the method's rounding",
+        _repeated,
+        needs={"F02": Needed(F02.parameters, 602.15)},
+    ),
+    Claim(
+        "F03a",
+        "Sec. 4.1, Fig. 3",
+        "Contact is lost while the disc moves upward",
+        "upward",
+        "99 % of separations",
+        "a general statement; single exceptions would not refute it",
+        _upward,
+        0.99,
+        {"F02": F02},
+    ),
+    Claim(
+        "F03b",
+        "Sec. 4.1, conclusion 1",
+        "Separations are very short and always end in contact",
+        "very short",
+        "each shorter than a quarter of the time between two",
+        "what 'short' may mean beside the vibration's period",
+        _short,
+        0.25,
+        {"F02": F02},
+    ),
+    Claim(
+        "F04",
+        "Sec. 4.1, Figs. 4, A1",
+        "Separation ignored, N = 200 N, Omega = 20 rad/s: in-plane motion becomes periodic",
+        "periodic",
+        "spread of the release intervals 1e-6",
+        PERIODIC,
+        _bonded("F04"),
+        1e-6,
+        {"F04": F04},
+    ),
+    Claim(
+        "F05",
+        "Sec. 4.1, Figs. 5, A2",
+        "With separation: in-plane motion does not repeat",
+        "quasi-periodic",
+        "spread of the release intervals above 0.3",
+        SHAPE,
+        _irregular("F02"),
+        0.3,
+        {"F02": F02},
+    ),
+    Claim(
+        "F06",
+        "Sec. 4.1, Fig. 6",
+        "Separation ignored, N = 300 N, Omega = 20 rad/s: periodic",
+        "periodic",
+        "spread of the release intervals 1e-6",
+        PERIODIC,
+        _bonded("F06"),
+        1e-6,
+        {"F06": F06},
+    ),
+    Claim(
+        "F07",
+        "Sec. 4.1, Fig. 7; Sec. 4.4, Fig. 28",
+        "With separation, N = 300 N, Omega = 20 rad/s: in-plane motion does not repeat",
+        "quasi-periodic",
+        "spread of the release intervals above 0.3",
+        SHAPE,
+        _irregular("F07"),
+        0.3,
+        {"F07": F07},
+    ),
+    Claim(
+        "F08",
+        "Sec. 4.1, Fig. 8",
+        "Separation ignored, N = 200 N, Omega = 50 rad/s: a steady state of stick and slip",
+        "steady",
+        "spread of the release intervals 0.01",
+        "the text says steady here, periodic only of Figs. 4 and 6",
+        _bonded("F08", BONDED_REMARK),
+        0.01,
+        {"F08": F08},
+    ),
+    Claim(
+        "F09",
+        "Sec. 4.1, Fig. 9; conclusion 3",
+        "With separation, N = 200 N, Omega = 50 rad/s: the stick phase disappears",
+        "no stick",
+        "0.1 % of the time",
+        "a stray stick would not refute the statement",
+        _stick_disappears,
+        1e-3,
+        {"F09": F09},
+    ),
+    Claim(
+        "F10",
+        "Sec. 4.1, Fig. 10; conclusion 3",
+        "Separation keeps the disc's vibration in a much smaller range",
+        "much smaller",
+        "less than half",
+        "what 'much smaller' may mean; read off a figure without numbers in the text",
+        _smaller_range,
+        0.5,
+        {"F02": F02, "F04": F04},
+    ),
+    Claim(
+        "S41a",
+        "Sec. 4.1",
+        "Separation ignored: stick and slip go on whatever preload and speed",
+        "always",
+        "1 % of the time sticking",
+        "stick must not fade away",
+        _bonded_always_sticks,
+        0.01,
+        {"F04": F04, "F06": F06, "F08": F08},
+    ),
+    Claim(
+        "S41b",
+        "Sec. 4.1",
+        "Poincare points of the stick phase lie on a horizontal line",
+        "horizontal",
+        "1e-12 rad/s",
+        "sticking fixes the relative velocity exactly",
+        _stick_on_a_line,
+        1e-12,
+        {"F02": F02, "F04": F04},
+    ),
+)

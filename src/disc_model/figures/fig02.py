@@ -1,0 +1,44 @@
+"""Figure 2 of the paper: the contact force grows until the slider leaves the disc again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.figures import parts
+from disc_model.figures.style import PAGE, SEPARABLE, new_figure, styled
+
+
+@styled
+def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """(a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
+    case = cases["F02"]
+    figure = new_figure(PAGE, 2.3)
+    whole, zoom = figure.subplots(1, 2)
+    _whole(whole, case)
+    _zoom(zoom, case["zoom"].to_dataset())
+    return figure
+
+
+def _whole(ax: Axes, case: xr.DataTree) -> None:
+    parts.letter(ax, "a")
+    parts.envelope(ax, case["history"].to_dataset(), "P", color=SEPARABLE)
+    ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
+    parts.mark_first_separation(ax, float(case["first_separation"]))
+    ax.set(xlabel="Time (s)", ylabel="Contact force (N)")
+
+
+def _zoom(ax: Axes, window: xr.Dataset) -> None:
+    parts.letter(ax, "b")
+    time = window["time"].values
+    start = float(time[0])
+    spans = [((a - start) * 1e3, (b - start) * 1e3) for a, b in parts.separations(window)]
+    parts.shade(ax, spans, "separation")
+    ax.plot((time - start) * 1e3, window["P"].values, color=SEPARABLE)
+    ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
+    ax.set(xlabel=f"Time after {start:.3f} s (ms)", ylabel="Contact force (N)")
+    if spans:
+        parts.legend_above(ax)

@@ -1,0 +1,48 @@
+"""Figure 3 of the paper: the slider leaves the rising disc, flies, and meets it again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model.figures import parts
+from disc_model.figures.style import BLACK, BLUE, COLUMN, GREEN, new_figure, styled
+
+MARGIN = 0.5
+"""Time shown before and after, as a share of the separation."""
+
+
+@styled
+def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
+
+    The paper shows (a); the gap is a hundredth of the motion, so that it needs an axis of its own to be seen.
+    """
+    case = cases["F02"]
+    figure = new_figure(COLUMN, 3.2)
+    both, gap = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    parts.letter(both, "a")
+    parts.letter(gap, "b")
+    both.set(ylabel="From equilibrium (mm)")
+    gap.set(ylabel="Gap (μm)")
+    window = case["zoom"].to_dataset()
+    found = parts.complete_separations(window)
+    if not found:
+        both.text(0.5, 0.5, "no complete separation in this window", ha="center", transform=both.transAxes)
+        return figure
+    start, stop = found[0]
+    margin = MARGIN * (stop - start)
+    part = window.sel(time=slice(start - margin, stop + margin))
+    time = (part["time"].values - start) * 1e3
+    u, w, rest = part["u"].values, part["w"].values, float(case["u_0"])
+    for ax in (both, gap):
+        parts.shade(ax, [(0.0, (stop - start) * 1e3)], "separation")
+    both.plot(time, (w - rest) * 1e3, color=BLUE, label="disc")
+    both.plot(time, (u - rest) * 1e3, color=GREEN, linestyle=(0, (4, 1.5)), label="slider")
+    gap.plot(time, (u - w) * 1e6, color=BLACK)
+    gap.set_xlabel(f"Time after {start:.5f} s (ms)")
+    parts.legend_above(both)
+    figure.align_ylabels()
+    return figure

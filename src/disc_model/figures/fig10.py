@@ -1,0 +1,26 @@
+"""Figure 10 of the paper: separation keeps the disc's vibration in a much smaller range."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model.figures import parts
+from disc_model.figures.style import BONDED, COLUMN, SEPARABLE, new_figure, styled
+
+
+@styled
+def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Range of the disc's displacement at r_0, theta = 1 over the run: contact enforced, and separable."""
+    figure = new_figure(COLUMN, 2.4)
+    ax = figure.subplots()
+    for name, color, label in (("F04", BONDED, "separation ignored"), ("F02", SEPARABLE, "with separation")):
+        history = cases[name]["history"].to_dataset()
+        parts.envelope(ax, history, "w_point", scale=1e3, color=color, label=label)
+    ax.set(xlabel="Time (s)", ylabel=r"Disc at $r_0$, $\theta$ = 1 (mm)")
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.25 * (high - low))
+    ax.legend(loc="upper left")
+    return figure

@@ -1,0 +1,27 @@
+"""Contact force and disc vibration of one case, one above the other; figures 11 and 13 are made of it."""
+
+from __future__ import annotations
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model.figures import parts
+from disc_model.figures.style import COLUMN, GREEN, SEPARABLE, new_figure
+
+
+def force_and_disc(case: xr.DataTree) -> Figure:
+    """(a) contact force, (b) disc at r_0, theta = 1, as ranges, with the first separation marked."""
+    figure = new_figure(COLUMN, 3.4)
+    force, disc = figure.subplots(2, 1, sharex=True)
+    history = case["history"].to_dataset()
+    first = float(case["first_separation"])
+    parts.envelope(force, history, "P", color=SEPARABLE)
+    parts.envelope(disc, history, "w_point", scale=1e3, color=GREEN)
+    parts.mark_first_separation(force, first)
+    parts.mark_first_separation(disc, first)
+    force.set(ylabel="Contact force (N)")
+    disc.set(xlabel="Time (s)", ylabel=r"Disc at $r_0$, $\theta$ = 1 (mm)")
+    parts.letter(force, "a")
+    parts.letter(disc, "b")
+    figure.align_ylabels()
+    return figure

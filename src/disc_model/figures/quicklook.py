@@ -1,0 +1,80 @@
+"""A first look at one run: contact force and disc displacement, the whole run beside its last moments."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+PANELS = (("P", 1.0, "contact force P (N)"), ("w", 1e3, "disc under the slider w (mm)"))
+
+
+class Sampled(Protocol):
+    """What a figure needs of a `disc_model.Result`."""
+
+    @property
+    def samples(self) -> tuple[Mapping[str, NDArray[np.float64]], ...]: ...
+
+    @property
+    def parameters(self) -> Any: ...
+
+    @property
+    def first_separation(self) -> float: ...
+
+
+def quicklook(result: Sampled) -> Figure:
+    """Contact force (top) and disc displacement under the slider (bottom); one column a window.
+
+    Raises ValueError if the result holds no window; envelope windows are drawn as bands.
+    """
+    if not result.samples:
+        raise ValueError("quicklook: the result holds no window; record at least one")
+    columns = len(result.samples)
+    figure, axes = plt.subplots(
+        len(PANELS),
+        columns,
+        sharex="col",
+        squeeze=False,
+        figsize=(4.5 + 3.5 * (columns - 1), 5.0),
+        layout="constrained",
+    )
+    for column, window in enumerate(result.samples):
+        for row, (name, scale, label) in enumerate(PANELS):
+            _draw(axes[row, column], window, name, scale)
+            if column == 0:
+                axes[row, column].set_ylabel(label)
+        _mark_separation(axes[:, column], window["time"], result.first_separation)
+        axes[-1, column].set_xlabel("time (s)")
+    p = result.parameters
+    figure.suptitle(f"N = {p.N:g} N, Ω = {p.Omega:g} rad/s, {p.normalization}, {p.contact}")
+    return figure
+
+
+def _draw(axes: Axes, window: Mapping[str, NDArray[np.float64]], name: str, scale: float) -> None:
+    time = window["time"]
+    if f"{name}_min" in window:
+        low, high = window[f"{name}_min"] * scale, window[f"{name}_max"] * scale
+        axes.fill_between(time, low, high, color="C0", linewidth=0)
+    else:
+        axes.plot(time, window[name] * scale, color="C0", linewidth=0.8)
+    axes.margins(x=0)
+
+
+def _mark_separation(axes: NDArray[Any], time: NDArray[np.float64], first: float) -> None:
+    """A line at the first separation, where the window shows it."""
+    if time.size and time[0] <= first <= time[-1]:
+        for panel in axes:
+            panel.axvline(first, color="C3", linewidth=0.8, linestyle="--")
+        axes[0].annotate(
+            "first separation",
+            (first, 1),
+            xycoords=("data", "axes fraction"),
+            ha="right",
+            va="bottom",
+            fontsize="small",
+        )

@@ -1,0 +1,107 @@
+"""Figures can be drawn from data alone, in the common style, with units on the axes, and reproducibly."""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+
+from disc_model.figures import parts
+from disc_model.figures.catalogue import CATALOGUE, module_of
+from disc_model.figures.style import COLUMN, PAGE, save
+
+
+def made_up_case(*, separates: bool = True) -> xr.DataTree:
+    """A case with the windows that figures look for; contact is lost at P = 0 once a cycle."""
+    t = np.arange(0.25, 60, 0.5)
+    grow = np.minimum(np.exp((t - 40) / 10), 1)
+    history = {
+        f"{name}_{end}": ("time", offset + sign * scale * grow)
+        for name, offset, scale in (("P", 200.0, 200.0), ("w_point", -5e-4, 0.01))
+        for end, sign in (("min", -1), ("max", 1))
+    }
+    s = np.linspace(0, 0.035, 3501)
+    cycle = np.sin(2 * np.pi * 135 * s)
+    force = np.maximum(200 + (220 if separates else 100) * cycle, 0)
+    zoom = {
+        "P": ("time", force),
+        "phase": ("time", np.where(force == 0, 2, 1).astype(np.int8)),
+        "u": ("time", 0.009 * cycle),
+        "w": ("time", 0.009 * cycle - 3e-5 * (force == 0)),
+    }
+    root = xr.Dataset({"first_separation": 40.0 if separates else np.nan, "u_0": -0.001})
+    return xr.DataTree.from_dict(
+        {
+            "/": root,
+            "/history": xr.Dataset(history, coords={"time": t}),
+            "/zoom": xr.Dataset(zoom, coords={"time": 50 + s}),
+        }
+    )
+
+
+def draw(name: str, *, separates: bool = True) -> Figure:
+    cases = {case: made_up_case(separates=separates) for case in CATALOGUE[name].cases}
+    figure: Figure = importlib.import_module(module_of(name)).draw(cases)
+    return figure
+
+
+@pytest.mark.parametrize("separates", [True, False])
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_figures_name_their_quantities_and_units(name: str, separates: bool) -> None:
+    figure = draw(name, separates=separates)
+    assert figure.get_figwidth() in (COLUMN, PAGE)
+    for ax in figure.axes:
+        assert ax.get_ylabel().endswith(")"), "a unit in brackets"
+        assert ax.has_data() or not separates
+    assert any(ax.get_xlabel().endswith(")") for ax in figure.axes) or not separates
+    assert figure.get_suptitle() == ""
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_text_is_legible_at_print_size(name: str) -> None:
+    figure = draw(name)
+    sizes = [text.get_fontsize() for text in figure.findobj(mpl.text.Text) if text.get_text()]
+    assert min(sizes) >= 7
+
+
+@pytest.mark.parametrize("suffix", ["pdf", "png"])
+def test_equal_figures_give_equal_bytes(suffix: str, tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        save(draw("fig13"), tmp_path / f"{name}.{suffix}")
+    content = (tmp_path / f"a.{suffix}").read_bytes()
+    assert content == (tmp_path / f"b.{suffix}").read_bytes()
+    assert b"CreationDate" not in content
+    assert b"/Type3" not in content, "fonts are embedded as TrueType"
+
+
+def test_style_does_not_leak(tmp_path: Path) -> None:
+    before = dict(mpl.rcParams)
+    save(draw("fig11"), tmp_path / "a.png")
+    assert dict(mpl.rcParams) == before
+
+
+def test_users_settings_do_not_change_a_figure() -> None:
+    with mpl.rc_context({"axes.labelsize": 30, "lines.linewidth": 9}):
+        figure = draw("fig02")
+    assert figure.axes[1].yaxis.label.get_fontsize() == 8
+
+
+def test_separations_of_a_window() -> None:
+    window = xr.Dataset({"phase": ("time", [2, 2, 1, 2, 2, 2, 0, 2])}, coords={"time": np.arange(8.0)})
+    assert parts.separations(window) == [(0, 1), (3, 5), (7, 7)]
+    assert parts.complete_separations(window) == [(3, 5)]
+
+
+def test_first_separation_is_marked() -> None:
+    from disc_model.figures.style import VERMILION
+
+    texts = [text.get_text() for text in draw("fig13").findobj(mpl.text.Text)]
+    assert "first separation 40.00 s" in texts
+    lines = draw("fig13").axes[0].lines
+    assert [to_hex(line.get_color()).upper() for line in lines] == [VERMILION]
