@@ -1,0 +1,101 @@
+"""A finished small study, made once, and copies of it to change."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PARTS = ("Snakefile", "workflow", "profiles", "config", "src")
+
+STUDY = """\
+study: tiny
+record:
+  windows:
+    history: {rate: 500, envelope: 50}
+cases:
+  F11: {title: quiet, parameters: {N: 385, Omega: 15}, t_end: 2}
+  F13: {title: growing, parameters: {N: 385, Omega: 15.1}, t_end: 2}
+  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}
+figures: [fig11, fig13]
+"""
+
+
+@dataclass(frozen=True)
+class Project:
+    """A copy of the repository in which Snakemake runs."""
+
+    folder: Path
+
+    def snakemake(self, *options: str, config: str | None = "config/tiny.yaml") -> subprocess.CompletedProcess[str]:
+        """Run Snakemake as a user would, with the copy's own sources."""
+        command = [sys.executable, "-m", "snakemake", *options]
+        if config is not None:
+            command += ["--configfile", config]
+        environment = os.environ | {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+        return subprocess.run(
+            command,
+            cwd=self.folder,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=300,
+        )
+
+    def planned(self, *options: str, config: str | None = "config/tiny.yaml") -> set[str]:
+        """Jobs that a run would do, as rule or rule:wildcard, without the target `all`."""
+        done = self.snakemake("-n", *options, config=config)
+        assert done.returncode == 0, done.stdout + done.stderr
+        jobs = set()
+        for block in re.split(r"\n(?=(?:local)?rule \w+:)", done.stdout + done.stderr)[1:]:
+            rule = re.match(r"(?:local)?rule (\w+):", block)
+            wildcard = re.search(r"^ +wildcards: \w+=(\S+)", block, re.MULTILINE)
+            assert rule is not None
+            jobs.add(rule[1] + (f":{wildcard[1]}" if wildcard else ""))
+        return jobs - {"all"}
+
+    def edit(self, path: str, old: str, new: str) -> None:
+        """Replace a text in a file; it must be there."""
+        file = self.folder / path
+        text = file.read_text()
+        assert old in text
+        file.write_text(text.replace(old, new))
+
+    def append(self, path: str, text: str) -> None:
+        with (self.folder / path).open("a") as file:
+            file.write(text)
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The small study, computed."""
+    folder = tmp_path_factory.mktemp("project")
+    for part in PARTS:
+        source, target = ROOT / part, folder / part
+        if source.is_symlink():
+            target.symlink_to(os.readlink(source))
+        elif source.is_dir():
+            shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+        else:
+            shutil.copy2(source, target)
+    (folder / "config" / "tiny.yaml").write_text(STUDY)
+    project = Project(folder)
+    done = project.snakemake("-j2")
+    assert done.returncode == 0, done.stdout + done.stderr
+    return project
+
+
+@pytest.fixture
+def project(finished: Project, tmp_path: Path) -> Project:
+    """A copy of the finished study, times included."""
+    folder = tmp_path / "project"
+    shutil.copytree(finished.folder, folder, symlinks=True)
+    return Project(folder)

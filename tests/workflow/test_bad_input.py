@@ -1,0 +1,50 @@
+"""Bad study files end Snakemake before any job, with every fault in the message."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.workflow.conftest import Project
+
+pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+
+BAD = """\
+study: bad
+base: {m: 0}
+cases:
+  F13: {title: growing, parameters: {N: -5, Omega: 15.1, mu_k: 0.5}, t_end: 2, tol: 1}
+  X: {title: another, parameters: {N: .nan, Omega: 20, r_0: 0.2, Omga: 3}, t_end: 0}
+"""
+
+
+def test_every_fault_is_shown_and_nothing_runs(project: Project) -> None:
+    (project.folder / "config" / "bad.yaml").write_text(BAD)
+    done = project.snakemake("-j2", config="config/bad.yaml")
+    shown = done.stdout + done.stderr
+    assert done.returncode != 0
+    for fault in (
+        "config/bad.yaml: 8 faults",
+        "base.m = 0.0: must be > 0",
+        "cases.F13.parameters.N = -5.0: must be >= 0",
+        "cases.F13.parameters.mu_k = 0.5: must be <= mu_s=0.4",
+        "cases.F13.tol = 1: must be <= 0.01",
+        "cases.X.parameters.N = nan: must be finite",
+        "cases.X.parameters.r_0 = 0.2: must be <= b=0.12",
+        "cases.X.parameters.Omga = 3: unknown parameter, did you mean Omega?",
+        "cases.X.t_end = 0: must be > 0",
+    ):
+        assert fault in shown
+    assert "Traceback" not in shown
+    assert not (project.folder / "results" / "bad").exists()
+
+
+def test_keys_given_twice_are_refused(project: Project) -> None:
+    project.edit("config/tiny.yaml", "  X:", "  F13:")
+    done = project.snakemake("-j2")
+    assert done.returncode != 0
+    assert "F13: given twice" in done.stdout + done.stderr
+
+
+def test_lint_passes(project: Project) -> None:
+    done = project.snakemake("--lint", config=None)
+    assert done.returncode == 0, done.stdout + done.stderr

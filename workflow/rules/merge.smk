@@ -1,0 +1,18 @@
+# All cases of the study in one file.
+import json
+
+
+rule merge_cases:
+    input:
+        sorted(map(case_file, STUDY.specs)),
+    output:
+        f"{RESULTS}/cases.nc",
+    log:
+        f"{RESULTS}/logs/merge_cases.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        labels=json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False),
+        sources=sources_of("merge_cases.py", "disc_model.merge"),
+    shell:
+        "python workflow/scripts/merge_cases.py --labels {params.labels:q} {output} {input} > {log} 2>&1"

@@ -1,0 +1,35 @@
+# One job per named case.
+
+SOLVER = source_hash("disc_model.simulate")
+
+
+rule warm_cache:
+    # Compiles the solver once, so that parallel jobs find it in the cache. Named by the sources: with one fixed name
+    # the cases would need `ancient`, and Snakemake (9.27) does not look further than a job to be run that is only an
+    # ancient input of the next, so changed sources would compile again and simulate nothing.
+    output:
+        f"results/compiled/{SOLVER}.txt",
+    log:
+        f"results/compiled/{SOLVER}.log",
+    conda:
+        "../envs/disc_model.yaml"
+    shell:
+        "python -m disc_model warm > {output} 2> {log}"
+
+
+rule simulate_case:
+    # The job is told everything in one text, which Snakemake remembers: a case whose content is the same is not run
+    # again, wherever and however its file now says it.
+    input:
+        rules.warm_cache.output,
+    output:
+        case_file("{case}"),
+    log:
+        f"{RESULTS}/logs/simulate_case/{{case}}.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        case=lambda wildcards: STUDY.specs[wildcards.case].canonical,
+        sources=sources_of("simulate_case.py", *SIMULATION),
+    shell:
+        "python workflow/scripts/simulate_case.py {params.case:q} {output} > {log} 2>&1"

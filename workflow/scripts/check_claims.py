@@ -1,0 +1,24 @@
+"""Check the paper's claims against the merged cases; write the table as CSV and as Markdown."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from disc_model.claims import check_claims, to_markdown
+from disc_model.dataset import load
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("cases", help="netCDF file of the merged cases")
+    parser.add_argument("--csv", type=Path, required=True)
+    parser.add_argument("--md", type=Path, required=True)
+    args = parser.parse_args()
+    table = check_claims(load(args.cases))
+    table.to_csv(args.csv, index=False)
+    args.md.write_text(to_markdown(table), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
