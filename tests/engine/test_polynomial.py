@@ -1,0 +1,91 @@
+"""The root finder: no root missed, none invented, the first one taken."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from disc_model.engine import layout
+from disc_model.engine.compile import kernel
+from disc_model.engine.polynomial import NO_ROOT, first_root, set_powers
+
+DEGREE = 24
+
+
+@kernel
+def _first(c, low, n, x_end, powers, work):
+    set_powers(powers, x_end)
+    return first_root(c, low, n, x_end, powers, work)
+
+
+def first(coefficients, x_end: float = 1.0, low: int = 0) -> float:
+    c = layout.aligned(layout.ROWS)
+    c[: len(coefficients)] = coefficients
+    return _first(c, low, DEGREE, x_end, layout.aligned(layout.ROWS), np.zeros((56, DEGREE + 4)))
+
+
+def from_roots(roots) -> np.ndarray:
+    """Coefficients, lowest first, positive at 0."""
+    c = np.polynomial.polynomial.polyfromroots(roots)
+    return c if c[0] > 0 else -c
+
+
+roots_apart = st.lists(st.floats(-2, 3), min_size=1, max_size=6)
+
+
+@settings(max_examples=400, deadline=None)
+@given(roots_apart, st.floats(0.1, 3))
+def test_first_of_well_separated_roots_is_found(roots: list[float], x_end: float) -> None:
+    ordered = np.sort(roots)
+    # what lies closer than this to another root or to an end cannot be told from rounding of the coefficients
+    assume(
+        np.all(np.diff(ordered) > 1e-3) and np.all(np.abs(ordered) > 1e-3) and np.all(np.abs(ordered - x_end) > 1e-6)
+    )
+    inside = ordered[(ordered > 0) & (ordered <= x_end)]
+    got = first(from_roots(roots), x_end)
+    if len(inside):
+        # coefficients of size 3^6 with rounding 1e-16, slopes down to 1e-3^5: six digits
+        assert got == pytest.approx(inside[0], abs=1e-6)
+    else:
+        assert got == NO_ROOT
+
+
+@pytest.mark.parametrize("apart", [1e-2, 1e-4, 1e-6])
+def test_a_short_dip_below_zero_is_not_stepped_over(apart: float) -> None:
+    assert first(from_roots([0.7, 0.7 + apart])) == pytest.approx(0.7, abs=1e-9 / apart)
+
+
+def test_a_dip_that_stays_above_zero_is_no_root() -> None:
+    c = from_roots([0.7, 0.7])
+    c[0] += 1e-12
+    assert first(c) == NO_ROOT
+
+
+def test_high_degree_oscillation() -> None:
+    # cos(4 x) + 0.9 falls through zero once near x = 0.67, comes back, and so on
+    k = np.arange(DEGREE + 1)
+    factorial = np.cumprod(np.maximum(k, 1.0))
+    c = np.where(k % 4 == 0, 1.0, np.where(k % 4 == 2, -1.0, 0.0)) * 4.0**k / factorial
+    c[0] += 0.9
+    assert first(c, 3.0) == pytest.approx(np.arccos(-0.9) / 4, abs=1e-12)
+
+
+def test_known_root_at_the_start_is_divided_out() -> None:
+    c = from_roots([0.5, 2.0])
+    gap = np.concatenate(([0.0, 0.0, 0.0], c))  # x^3 (x - 1/2) (x - 2)
+    assert first(gap, 1.0, low=3) == pytest.approx(0.5, abs=1e-14)
+    assert first(gap, 0.4, low=3) == NO_ROOT
+
+
+def test_negative_at_the_start_is_a_root_there() -> None:
+    assert first([-1.0, 3.0]) == 0.0
+
+
+def test_zero_polynomial_has_no_root() -> None:
+    assert first([0.0]) == NO_ROOT
+
+
+def test_root_at_the_very_end_belongs_to_the_step() -> None:
+    assert first([1.0, -1.0], 1.0) == pytest.approx(1.0, abs=1e-15)
