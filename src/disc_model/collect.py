@@ -76,8 +76,6 @@ class Collector:
         shaped = []
         for i, parts in enumerate(self._parts):
             fold = self._windows[i].envelope if i < len(self._windows) else None
-            if fold is not None and len(self._rest[i]):
-                parts = [*parts, _fold(self._rest[i][None])]
             width = len(sampling.ROW) if fold is None else 1 + 2 * len(_FOLDED)
             table = np.concatenate([np.zeros((0, width)), *parts])
             if fold is None:

@@ -39,7 +39,8 @@ class Window(_Spec):
     start, stop : s, absolute times
     rate : Hz
     theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
-    envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them
+    envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
+        samples that do not fill a bin are left out
     """
 
     start: Time

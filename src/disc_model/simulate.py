@@ -76,7 +76,7 @@ def simulate(
     if initial_state is not None:
         write_state(p, model, initial_state, state)
     collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_STEP * model.unit)
-    counters, phase_times, sums = np.zeros(machine.N_COUNTERS, np.int64), np.zeros(3), np.zeros(6)
+    counters, phase_times, sums = np.zeros(machine.N_COUNTERS, np.int64), np.zeros(3), np.zeros(audit.N_SUMS)
     limit = _step_limit(model, t_end - start) if max_steps is None else max_steps
 
     def advance(limit: int) -> int:
@@ -198,10 +198,12 @@ def _message(status: Status, state: layout.State, model: layout.Model) -> str:
 def _statistics(
     counters: np.ndarray, phase_times: np.ndarray, sums: np.ndarray, energy: bool, wall: float
 ) -> dict[str, float]:
-    def relative(residual: int, scale: int) -> float:
+    def relative(residual: int, scale: int, turnover: int) -> float:
+        """Sum of the residuals over the largest energy present plus all energy exchanged."""
+        size = float(sums[scale] + sums[turnover])
         if not energy:
             return math.nan
-        return abs(float(sums[residual])) / float(sums[scale]) if sums[scale] > 0 else 0.0
+        return abs(float(sums[residual])) / size if size > 0 else 0.0
 
     return {
         "steps": int(counters[machine.STEPS]),
@@ -212,8 +214,8 @@ def _statistics(
         "time_slip": float(phase_times[layout.SLIP]),
         "time_separation": float(phase_times[layout.SEPARATION]),
         "energy_residual": float(sums[audit.WORST]) if sums[audit.STEPS] else math.nan,
-        "energy_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE),
-        "energy_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE),
+        "energy_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
+        "energy_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
         "audited_steps": int(sums[audit.STEPS]),
         "wall_time": wall,
     }

@@ -19,7 +19,19 @@ _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
 _NODES = _NODES + 0.5
 
 # Where the sums stand in the audit's array.
-STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
+# TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy at stake in one step; *_TURNOVER: sum of the moduli
+# of all that was put in and taken out.
+(
+    STEPS,
+    WORST,
+    TRANSVERSE,
+    INPLANE,
+    TRANSVERSE_SCALE,
+    INPLANE_SCALE,
+    TRANSVERSE_TURNOVER,
+    INPLANE_TURNOVER,
+    N_SUMS,
+) = range(9)
 
 
 @kernel
@@ -82,6 +94,8 @@ def audit_step(model, s, order, x_end, phase, direction, probe, audit):
     residual_t = transverse_energy(model, probe, phase) - start_t - work_t
     residual_p = inplane_energy(model, probe) - start_p - work_p
     book(audit, residual_t, residual_p, size_t + abs(start_t), size_p + abs(start_p))
+    audit[TRANSVERSE_TURNOVER] += size_t
+    audit[INPLANE_TURNOVER] += size_p
     audit[STEPS] += 1.0
 
 
@@ -104,3 +118,4 @@ def audit_impact(model, before, impulse, slope, state, audit):
     expected = -0.5 * impulse**2 * (model.compliance + 1.0 / model.m) + impulse * state.x[SPEED] * slope
     after = transverse_energy(model, state, SEPARATION)
     book(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)
+    audit[TRANSVERSE_TURNOVER] += abs(expected)

@@ -69,6 +69,7 @@ class Model(NamedTuple):
     damped_compliance: float  # sum 2 xi_l omega_l psi_l^2, 1/(kg s)
     unit: float  # time unit of the series, s
     velocity_scale: float  # m/s times sqrt(kg): what a modal velocity is compared with
+    slider_scale: float  # m/s: what u' is compared with in separation
     speed_scale: float  # rad/s: what f is compared with
     bonded: bool
 
@@ -174,6 +175,7 @@ def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, 
         damped_compliance=float(np.sum(damping * psi**2)),
         unit=1.0 / float(omega.max()),
         velocity_scale=N * float(np.max(np.abs(psi) / omega)),
+        slider_scale=N * float(np.sum(psi**2 / omega)),
         speed_scale=Omega,
         bonded=bonded,
     )

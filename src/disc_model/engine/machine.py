@@ -78,19 +78,37 @@ def _size(model, s, k):
 
 
 @inlined
-def step_size(model, s, order, tolerance):
+def _last_two(c, order):
+    """Size of the last two terms, as if the step were ``TYPICAL_STEP``."""
+    return max(abs(c[order]), abs(c[order - 1]) / TYPICAL_STEP)
+
+
+@inlined
+def _scale(usual, now, growth):
+    """What a quantity's error is compared with: its usual size or its present one; its growth if both are zero."""
+    size = max(usual, now)
+    return size if size > 0.0 else growth
+
+
+@inlined
+def _relative(error, scale):
+    return error / scale if scale > 0.0 else error
+
+
+@inlined
+def step_size(model, s, order, tolerance, phase):
     """Step (time units) at which the last two terms of the series fall below the tolerance (Jorba and Zou).
 
     Modal velocities are compared with those of static deflection under the preload, or with what is there if that is
-    more; f with the drive speed.  The two terms are merged as if the step were ``TYPICAL_STEP``, which spares a root.
+    more; f with the drive speed; in separation also u'.  The two terms are merged as if the step were
+    ``TYPICAL_STEP``, which spares a root.
     """
-    scale = max(model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     last = max(_size(model, s, order), _size(model, s, order - 1) / TYPICAL_STEP)
-    speed = max(model.speed_scale, abs(s.f[0]), abs(s.f[1]))
-    last_speed = max(abs(s.f[order]), abs(s.f[order - 1]) / TYPICAL_STEP)
-    # written so that nan anywhere ends in nan
-    error = last / scale if scale > 0.0 else last
-    error += last_speed / speed if speed > 0.0 else last_speed
+    scale = _scale(model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
+    speed = _scale(model.speed_scale, abs(s.f[0]), abs(s.f[1]))
+    error = _relative(last, scale) + _relative(_last_two(s.f, order), speed)
+    if phase == SEPARATION:
+        error += _relative(_last_two(s.v, order), _scale(model.slider_scale, abs(s.v[0]), abs(s.v[1])))
     if not error < math.inf or not scale + speed < math.inf:
         return math.nan
     if error * LONGEST_STEP**order <= tolerance:
@@ -207,7 +225,7 @@ def run(
     """Advance ``state`` until a reason to return: one of PAUSED ... NON_FINITE.
 
     order, tolerance: of the series; t_end: s; audit_every: steps between energy audits; counters: shape (N_COUNTERS,);
-    phase_times: s, shape (3,); audit: shape (6,); samplers, sampled: see ``sampling``; sample_capacity: rows that may
+    phase_times: s, shape (3,); audit: see ``audit``; samplers, sampled: see ``sampling``; sample_capacity: rows that may
     be filled before the machine pauses; event_rows: shape (capacity, len(EVENT_ROW)), capacity 0 keeps no events.
     """
     pause = counters[STEPS] + pause_after
@@ -221,7 +239,7 @@ def run(
         phase, direction = x[PHASE], x[DIRECTION]
         if _expand(model, s, state, order) <= PAINLEVE_MARGIN:
             return NO_SOLUTION
-        x_end = step_size(model, s, order, tolerance)
+        x_end = step_size(model, s, order, tolerance, phase)
         if not x_end > 0.0:
             return NON_FINITE
         left = ((t_end - x[TIME]) - x[TIME_LOW]) / model.unit

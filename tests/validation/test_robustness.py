@@ -1,0 +1,246 @@
+"""Anything in the parameter box and beyond ends with a result or a named status, and breaks no law on the way."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from disc_model import Parameters, Record, Result, Status, Window, plate_modes, simulate
+
+# phase left -> (kind, phase entered): the table of switches
+LEGAL = {
+    "stick": {("stick_to_slip", "slip"), ("stick_to_slip", "separation"), ("separation", "separation")},
+    "slip": {
+        ("slip_to_stick", "stick"),
+        ("slip_reversal", "slip"),
+        ("separation", "separation"),
+    },
+    "separation": {
+        ("reattachment", "slip"),
+        ("reattachment", "stick"),
+        ("reattachment", "separation"),
+        ("separation", "separation"),
+    },
+}
+
+
+def magnitude(low: float, high: float) -> st.SearchStrategy[float]:
+    """Numbers spread evenly over their logarithm."""
+    return st.floats(np.log10(low), np.log10(high)).map(lambda x: float(10**x))
+
+
+def sometimes_zero(low: float, high: float) -> st.SearchStrategy[float]:
+    return st.one_of(st.just(0.0), magnitude(low, high))
+
+
+@st.composite
+def parameters(draw: st.DrawFn) -> Parameters:
+    mu_k = draw(st.one_of(st.just(0.0), st.floats(0, 1.5)))
+    return Parameters(
+        N=draw(sometimes_zero(1e-6, 1e5)),
+        Omega=draw(sometimes_zero(1e-3, 1e3)),
+        m=draw(magnitude(1e-6, 10)),
+        E=draw(st.one_of(st.just(150e9), magnitude(1e6, 1e20))),
+        k=draw(sometimes_zero(1, 1e8)),
+        k_p=draw(sometimes_zero(1, 1e8)),
+        c=draw(sometimes_zero(1e-3, 1e6)),
+        c_p=draw(sometimes_zero(1e-3, 1e6)),
+        D_star=draw(sometimes_zero(1e-8, 100)),
+        mu_k=mu_k,
+        mu_s=mu_k + draw(st.one_of(st.just(0.0), st.floats(0, 0.5))),
+        normalization=draw(st.sampled_from(["as_published", "orthonormal"])),
+        contact=draw(st.sampled_from(["separable", "bonded"])),
+    )
+
+
+def run(p: Parameters, radians: float, tol: float) -> Result:
+    """A run of so many radians of the highest mode, a second at most, sampled throughout."""
+    t_end = min(1.0, radians / float(plate_modes(p).omega.max()))
+    window = Window(start=0, stop=t_end, rate=400 / t_end)
+    return simulate(p, t_end, tol=tol, max_steps=20_000, record=Record(windows=(window,), energy=True))
+
+
+def check_laws(result: Result) -> None:
+    p, events = result.parameters, result.events
+    assert np.all(np.diff(events.time) >= 0)
+    phase = "stick"
+    for kind, entered in zip(events.kind, events.phase, strict=True):
+        assert (kind, entered) in LEGAL[phase], (phase, kind, entered)
+        phase = entered
+    samples = result.samples[0]
+    for name, values in samples.items():
+        assert np.all(np.isfinite(values)), name
+    if p.contact == "separable":
+        # a loss of contact that was missed would show as a tension; P is a sum of terms as large as its own extremes
+        size = max(p.N, np.abs(samples["P"]).max(initial=0.0))
+        in_contact = samples["phase"] < 2
+        assert samples["P"][in_contact].min(initial=0.0) >= -1e-6 * size
+    # the slip's direction is the sign of f; contact means that slider and disc are at the same height
+    scale = max(np.abs(samples["w"]).max(), np.abs(samples["u"]).max(), 1e-300)
+    in_contact = samples["phase"] < 2
+    np.testing.assert_allclose(samples["u"][in_contact], samples["w"][in_contact], rtol=0, atol=1e-12 * scale)
+    assert np.all(samples["u"] - samples["w"] >= -1e-9 * scale) or p.contact == "bonded"
+
+
+ROBUST = settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+
+
+@ROBUST
+@given(parameters(), st.floats(10, 3000), magnitude(1e-14, 1e-4))
+def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: float, tol: float) -> None:
+    result = run(p, radians, tol)
+    assert isinstance(result.status, Status)
+    assert result.statistics["steps"] <= 20_000
+    check_laws(result)
+    if result.status is Status.OK:
+        assert result.final_state.time == pytest.approx(result.t_end, rel=1e-14)
+    else:
+        assert f"at t = {result.final_state.time:.9g}" in result.message
+
+
+@pytest.mark.slow
+@settings(ROBUST, max_examples=3000)
+@given(parameters(), st.floats(10, 3000), magnitude(1e-14, 1e-4))
+def test_every_run_ends_at_length(p: Parameters, radians: float, tol: float) -> None:
+    check_laws(run(p, radians, tol))
+
+
+@st.composite
+def usual_parameters(draw: st.DrawFn) -> Parameters:
+    """The neighbourhood of the published cases."""
+    return Parameters(
+        N=draw(st.floats(1, 2000)),
+        Omega=draw(st.floats(1, 60)),
+        m=draw(magnitude(0.01, 1)),
+        E=draw(magnitude(5e10, 5e11)),
+        k=draw(magnitude(1e3, 1e6)),
+        k_p=draw(magnitude(1e3, 1e6)),
+        c=draw(sometimes_zero(0.01, 10)),
+        c_p=draw(sometimes_zero(0.01, 10)),
+        D_star=draw(st.floats(0, 1e-4)),
+        normalization=draw(st.sampled_from(["as_published", "orthonormal"])),
+        contact=draw(st.sampled_from(["separable", "bonded"])),
+    )
+
+
+@settings(ROBUST, max_examples=40)
+@given(usual_parameters())
+def test_energy_is_balanced(p: Parameters) -> None:
+    result = simulate(p, 0.5, tol=1e-13, record=Record(energy=True))
+    if result.status is Status.OK:
+        # truncation 1e-13 a step and rounding of series whose terms are 30 times their sum
+        assert result.statistics["energy_residual"] < 1e-12
+        assert result.statistics["energy_transverse"] < 1e-10
+        assert result.statistics["energy_inplane"] < 1e-10
+
+
+class TestDegenerate:
+    """Switches at the edge of being one."""
+
+    def test_no_drive_means_rest(self) -> None:
+        result = simulate(Parameters(N=300, Omega=0), 1)
+        assert len(result.events) == 0
+        assert result.final_state.phase == "stick"
+        assert np.abs(result.final_state.alpha).max() < 1e-12
+
+    def test_no_preload_slips_at_once_and_never_separates(self) -> None:
+        result = simulate(Parameters(N=0, Omega=15), 1)
+        assert result.status is Status.OK
+        # f = Omega (1 - cos) touches zero once a swing: rounding decides whether that counts as a reversal
+        assert set(result.events.kind) <= {"stick_to_slip", "slip_reversal"}
+        assert result.events.time[0] == 0
+        # no friction: the slider swings about the drive point, psi'' = -k_p/m psi with psi' = Omega at the start
+        rate = np.sqrt(2e4 / 0.1)
+        assert result.final_state.psi == pytest.approx(15 / rate * np.sin(rate), abs=1e-11)
+
+    def test_equal_friction_coefficients_start_slip_without_a_jump(self) -> None:
+        result = simulate(Parameters(N=200, Omega=10, mu_s=0.3, mu_k=0.3), 2)
+        assert result.status is Status.OK
+        kinds = result.events.kind.value_counts()
+        assert kinds["stick_to_slip"] - kinds["slip_to_stick"] in (0, 1)
+        # an undamped swing about the drive speed that starts from rest
+        assert 0 <= result.final_state.f <= 21
+
+    def test_no_spring_in_the_plane_sticks_for_ever(self) -> None:
+        result = simulate(Parameters(N=200, Omega=10, k_p=0), 2)
+        assert len(result.events) == 0
+
+    def test_damper_alone_breaks_stick_at_once_if_strong_enough(self) -> None:
+        # r_0 c_p Omega = 0.1 * 100 * 10 N > mu_s N = 80 N: stick cannot hold from the start
+        result = simulate(Parameters(N=200, Omega=10, k_p=0, c_p=100), 0.1)
+        assert result.events.kind[0] == "stick_to_slip"
+        assert result.events.time[0] == 0
+
+    def test_slip_reverses_when_the_spring_pulls_back_harder_than_stick_can_hold(self) -> None:
+        start = simulate(Parameters(N=200, Omega=10), 1e-3).final_state
+        pulled = start.replace(phase="slip", direction=1, f=1.0, psi=-0.2)
+        result = simulate(Parameters(N=200, Omega=10), 0.05, initial_state=pulled)
+        assert result.events.kind[0] == "slip_reversal"
+        assert result.events.f[0] == 0
+
+    def test_rest_inside_the_friction_band_is_stick(self) -> None:
+        start = simulate(Parameters(N=200, Omega=10), 1e-3).final_state
+        inside = start.replace(phase="slip", direction=1, f=1.0, psi=-0.01)
+        result = simulate(Parameters(N=200, Omega=10), 0.02, initial_state=inside)
+        assert result.events.kind[0] == "slip_to_stick"
+
+    def test_contact_is_lost_just_after_stick_breaks(self) -> None:
+        """Near P = 0 the friction limit goes to zero too: stick breaks first, whatever is left of the spring's pull."""
+        start = simulate(Parameters(N=300, Omega=20), 1e-4).final_state
+        alpha = start.alpha.copy()
+        alpha[1] += 20.0  # a hard kick upward
+        for psi in (1e-2, 1e-5, 1e-8, 0.0):
+            kicked = start.replace(alpha=alpha, psi=psi, time=0.0)
+            events = simulate(Parameters(N=300, Omega=1e-6), 5e-3, initial_state=kicked).events
+            assert list(events.kind[:2]) == ["stick_to_slip", "separation"]
+            apart = events.time[1] - events.time[0]
+            assert 0 <= apart < 2e-4
+            assert psi > 1e-6 or apart < 1e-9
+
+    def test_contact_with_tension_after_an_impact_is_lost_again_at_once(self) -> None:
+        """A slider dropped onto a disc that accelerates away."""
+        p = Parameters(N=1e-3, Omega=20, k=0)
+        start = simulate(p, 1e-4).final_state
+        alpha, a = start.alpha.copy(), start.a.copy()
+        a[1] += 0.002  # raised by some millimetres, the disc is pulled down with thousands of m/s^2
+        above = start.replace(
+            phase="separation", direction=0, a=a, alpha=alpha, f=5.0, u=start.u + 0.002 * 8.2 + 1e-6, u_velocity=-5.0
+        )
+        result = simulate(p, 1e-3, initial_state=above)
+        kinds = list(result.events.kind[:2])
+        assert kinds == ["reattachment", "separation"]
+        assert result.events.time[0] == result.events.time[1]
+        assert list(result.events.phase[:2]) == ["separation", "separation"]
+
+    def test_painleves_paradox_is_named(self) -> None:
+        p = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7)
+        start = simulate(p, 1e-6).final_state
+        b = start.b.copy()
+        b[1:] = -0.5 / np.arange(1, 5)  # a slope against the slip that makes 1 + m S2 + mu_k B / r_0 negative
+        tilted = start.replace(phase="slip", direction=1, f=10.0, b=b)
+        result = simulate(p, 1.0, initial_state=tilted)
+        assert result.status is Status.PARADOX
+        assert "slope B" in result.message
+        with pytest.raises(Exception, match="Painleve"):
+            result.raise_for_status()
+
+    def test_grazing_contact(self) -> None:
+        """A kick chosen so that P just touches zero: a bit more loses contact, a bit less does not."""
+        p = Parameters(N=100, Omega=0)
+        start = simulate(p, 1e-6).final_state
+
+        def separations(kick: float) -> int:
+            alpha = start.alpha.copy()
+            alpha[1] += kick
+            kicked = start.replace(alpha=alpha)
+            return int(simulate(p, 4e-3, tol=1e-13, initial_state=kicked).statistics["separations"])
+
+        low, high = 0.0, 20.0
+        for _ in range(45):
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if separations(middle) else (middle, high)
+        assert separations(high) >= 1
+        assert separations(low) == 0
+        assert high - low < 1e-11
