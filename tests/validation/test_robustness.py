@@ -81,7 +81,8 @@ def check_laws(result: Result) -> None:
     scale = max(np.abs(samples["w"]).max(), np.abs(samples["u"]).max(), 1e-300)
     in_contact = samples["phase"] < 2
     np.testing.assert_allclose(samples["u"][in_contact], samples["w"][in_contact], rtol=0, atol=1e-12 * scale)
-    assert np.all(samples["u"] - samples["w"] >= -1e-9 * scale) or p.contact == "bonded"
+    # where contact is lost P is zero to within the tolerance, and the gap opens with an error of that share
+    assert np.all(samples["u"] - samples["w"] >= -(1e-9 + 10 * result.tol) * scale)
 
 
 ROBUST = settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -225,6 +226,15 @@ class TestDegenerate:
         assert "slope B" in result.message
         with pytest.raises(Exception, match="Painleve"):
             result.raise_for_status()
+
+    def test_contact_is_watched_in_stick_without_friction(self) -> None:
+        """With mu_s = 0 the friction limit is zero at all times and cannot stand in for P."""
+        p = Parameters(N=100, Omega=0, mu_s=0, mu_k=0)
+        start = simulate(p, 1e-6).final_state
+        alpha = start.alpha.copy()
+        alpha[1] += 20.0
+        result = simulate(p, 5e-3, initial_state=start.replace(alpha=alpha))
+        assert list(result.events.kind[:2]) == ["separation", "reattachment"]
 
     def test_grazing_contact(self) -> None:
         """A kick chosen so that P just touches zero: a bit more loses contact, a bit less does not."""

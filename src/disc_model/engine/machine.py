@@ -109,6 +109,10 @@ def step_size(model, s, order, tolerance, phase):
     error = _relative(last, scale) + _relative(_last_two(s.f, order), speed)
     if phase == SEPARATION:
         error += _relative(_last_two(s.v, order), _scale(model.slider_scale, abs(s.v[0]), abs(s.v[1])))
+    else:
+        # P is known to one order less
+        last_force = max(abs(s.P[order - 1]) / TYPICAL_STEP, abs(s.P[order - 2]) / TYPICAL_STEP**2)
+        error += _relative(last_force, _scale(model.N, abs(s.P[0]), abs(s.P[1])))
     if not error < math.inf or not scale + speed < math.inf:
         return math.nan
     if error * LONGEST_STEP**order <= tolerance:
@@ -136,6 +140,10 @@ def _first_switch(model, s, state, order, x_end):
     phase, known = state.x[PHASE], int(state.x[KNOWN])
     set_powers(s.powers, x_end)
     if phase == STICK:
+        if model.mu_s == 0.0 and not model.bonded:
+            # the friction limit is zero all along and says nothing of contact
+            x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+            return (x, _CONTACT_LOST) if x != NO_ROOT else (x_end, _NOTHING)
         x = first_root(s.switch, 0, order - 1, x_end, s.powers, s.roots)
         if x != NO_ROOT:
             x_end = x
