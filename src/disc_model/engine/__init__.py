@@ -34,7 +34,7 @@ _SETTING = "CACHE_DIR"
 _before = getattr(numba.config, _SETTING)
 setattr(numba.config, _SETTING, _cache_folder())
 try:
-    from . import audit, evaluate, layout, machine, polynomial, sampling, series, switches
+    from . import audit, evaluate, layout, machine, polynomial, sampling, series, switches, variational
 finally:
     setattr(numba.config, _SETTING, _before)
 
@@ -48,4 +48,5 @@ __all__ = [
     "series",
     "source_hash",
     "switches",
+    "variational",
 ]

@@ -19,8 +19,8 @@ _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
 _NODES = _NODES + 0.5
 
 # Where the sums stand in the audit's array.
-# TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy at stake in one step; *_TURNOVER: sum of the moduli
-# of all that was put in and taken out.
+# TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy at stake in one step; *_TURNOVER: sum of the
+# moduli of all that was put in and taken out.
 (
     STEPS,
     WORST,

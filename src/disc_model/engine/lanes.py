@@ -30,6 +30,10 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
         """All lanes equal to x."""
         return np.full(WIDTH, x)
 
+    def spread(array, i):
+        """All lanes equal to array[i], i >= 0."""
+        return np.full(WIDTH, array[i])
+
     def fma(a, b, c):
         """a * b + c, lane by lane."""
         return a * b + c
@@ -147,6 +151,18 @@ else:
             return _shuffle(builder, one, [0] * WIDTH)
 
         return LANES(types.float64), codegen
+
+    @intrinsic
+    def spread(typingctx, array, i):
+        """All lanes equal to array[i], i >= 0: no check of the sign, unlike ``splat(array[i])``."""
+
+        def codegen(context, builder, sig, args):
+            data = context.make_array(sig.args[0])(context, builder, args[0]).data
+            x = builder.load(builder.gep(data, [args[1]]))
+            one = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), x, _I32(0))
+            return _shuffle(builder, one, [0] * WIDTH)
+
+        return LANES(array, types.intp), codegen
 
     @intrinsic
     def fma(typingctx, a, b, c):

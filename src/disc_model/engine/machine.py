@@ -233,8 +233,8 @@ def run(
     """Advance ``state`` until a reason to return: one of PAUSED ... NON_FINITE.
 
     order, tolerance: of the series; t_end: s; audit_every: steps between energy audits; counters: shape (N_COUNTERS,);
-    phase_times: s, shape (3,); audit: see ``audit``; samplers, sampled: see ``sampling``; sample_capacity: rows that may
-    be filled before the machine pauses; event_rows: shape (capacity, len(EVENT_ROW)), capacity 0 keeps no events.
+    phase_times: s, shape (3,); audit: see ``audit``; samplers, sampled: see ``sampling``; sample_capacity: rows that
+    may be filled before the machine pauses; event_rows: shape (capacity, len(EVENT_ROW)), capacity 0 keeps no events.
     """
     pause = counters[STEPS] + pause_after
     x = state.x

@@ -1,0 +1,140 @@
+"""Bifurcation diagrams: what a motion settles to, sampled once a turn of the drive, against one parameter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from disc_model.errors import ParameterError
+from disc_model.parameters import Parameters
+from disc_model.record import Poincare, Record
+from disc_model.result import State, Status
+from disc_model.simulate import simulate
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_VARIABLES = {
+    "psi": ("rad", "angle of the drive point ahead of the slider"),
+    "psi_velocity": ("rad/s", "its rate, Omega - f"),
+    "P": ("N", "contact force"),
+    "u": ("m", "height of the slider"),
+    "w_point": ("m", "displacement of the disc's point"),
+}
+STATUS_NAMES = tuple(status.value for status in Status)
+
+
+def bifurcation_samples(
+    p: Parameters,
+    name: str,
+    values: Iterable[float],
+    *,
+    transient: float,
+    samples: int,
+    follow: bool = False,
+    initial_state: State | None = None,
+    theta: float = 1.0,
+    tol: float = 1e-10,
+) -> xr.Dataset:
+    """Samples of the motion at t = i 2 pi / Omega, after a transient, for each value of a parameter.
+
+    Parameters
+    ----------
+    p : the case
+    name : a numeric parameter, such as Omega, N, c_p or k_p
+    values : SI units, in the order in which they are run
+    transient : s, left out at every value
+    samples : number of turns sampled after it
+    follow : start each value where the one before ended (which shows hysteresis: run values up, then down) instead of
+        from `initial_state`
+    initial_state : None is the published start
+    theta : rad, where `w_point` is taken
+    tol : as in `simulate`
+
+    Returns
+    -------
+    Dataset with dimensions (the parameter, sample): psi, psi_velocity, P, u, w_point, phase; per value
+    first_separation (s, of its run), separations, stick_fraction, status.  Samples that a run did not reach are nan
+    (phase -1), and its status says why.
+
+    Raises
+    ------
+    ParameterError
+        Bad input; the message names each argument, its value and the rule.
+    """
+    import xarray as xr
+
+    values = [float(value) for value in values]
+    _check(p, name, values, transient, samples)
+    shape = (len(values), samples)
+    data = {variable: np.full(shape, math.nan) for variable in _VARIABLES}
+    phase = np.full(shape, -1, np.int8)
+    first, stick = np.full(len(values), math.nan), np.full(len(values), math.nan)
+    separations, status = np.zeros(len(values), np.int64), np.zeros(len(values), np.int8)
+    start = _at_time_zero(initial_state)
+    for i, value in enumerate(values):
+        case = p.replace(**{name: value})
+        turn = 2 * math.pi / case.Omega
+        begin = math.ceil(transient / turn)
+        end = (begin + samples - 0.5) * turn
+        record = Record(poincare=Poincare(start=(begin - 0.25) * turn if begin else 0.0, stop=end, theta=theta))
+        run = simulate(case, end, tol=tol, initial_state=start, record=record)
+        taken = run.poincare or {}
+        count = min(samples, len(taken.get("time", ())))
+        for variable, array in data.items():
+            if count:
+                array[i, :count] = taken[variable][:count]
+        if count:
+            phase[i, :count] = taken["phase"][:count]
+        first[i], separations[i] = run.first_separation, int(run.statistics["separations"])
+        stick[i] = run.statistics["time_stick"] / end
+        status[i] = STATUS_NAMES.index(run.status.value)
+        if follow and run.status.complete:
+            start = _at_time_zero(run.final_state)
+    both, one = (name, "sample"), (name,)
+    variables = {key: (both, array, _attributes(key)) for key, array in data.items()}
+    flags = {"flag_values": np.array([-1, 0, 1, 2], np.int8), "flag_meanings": "none stick slip separation"}
+    codes = np.arange(len(STATUS_NAMES), dtype=np.int8)
+    return xr.Dataset(
+        {
+            **variables,
+            "phase": (both, phase, flags),
+            "first_separation": (one, first, {"units": "s", "long_name": "first loss of contact of the run"}),
+            "separations": (one, separations, {"units": "1", "long_name": "losses of contact in the run"}),
+            "stick_fraction": (one, stick, {"units": "1", "long_name": "share of the run in stick"}),
+            "status": (one, status, {"flag_values": codes, "flag_meanings": " ".join(STATUS_NAMES)}),
+        },
+        coords={name: (one, values, {"units": Parameters.unit(name)}), "sample": np.arange(samples)},
+        attrs={"parameters": p.canonical_json, "transient": transient, "tol": tol, "follow": int(follow)},
+    )
+
+
+def _attributes(variable: str) -> dict[str, str]:
+    unit, meaning = _VARIABLES[variable]
+    return {"units": unit, "long_name": meaning}
+
+
+def _at_time_zero(state: State | None) -> State | None:
+    return None if state is None else state.replace(time=0.0, time_low=0.0)
+
+
+def _check(p: object, name: str, values: list[float], transient: float, samples: int) -> None:
+    faults = []
+    if not isinstance(p, Parameters):
+        faults.append(f"p={p!r}: must be Parameters")
+    elif not isinstance(getattr(p, name, None), float) or name not in Parameters.model_fields:
+        faults.append(f"name={name!r}: must be a parameter that is a real number")
+    if not values:
+        faults.append("values=[]: must not be empty")
+    if not (math.isfinite(transient) and transient >= 0):
+        faults.append(f"transient={transient!r}: must be finite and >= 0")
+    if not (isinstance(samples, int) and samples >= 1):
+        faults.append(f"samples={samples!r}: must be a whole number >= 1")
+    speeds = values if name == "Omega" else [getattr(p, "Omega", 1.0)]
+    if any(not speed > 0 for speed in speeds):
+        faults.append("Omega: must be > 0, because samples are taken once a turn")
+    if faults:
+        raise ParameterError(*faults)

@@ -1,0 +1,200 @@
+"""Stability of the stick-slip cycle: growth maps, neutral curves, the chart of thresholds, bifurcation diagrams.
+
+Curves are given as `Curve`s, plain arrays, so that nothing here computes a cycle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from cmcrameri import cm
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import AsinhNorm
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from disc_model.figures.parts import letter
+from disc_model.figures.style import BLACK, BLUE, COLUMN, ORANGE, PAGE, VERMILION, new_figure, styled
+
+Array = NDArray[np.float64]
+
+GREY = "#bdbdbd"
+DASHED = (0, (3, 1.5))
+SPEED, LOAD = "drive speed Ω (rad/s)", "preload N (N)"
+TITLES = {"as_published": "modes as published", "orthonormal": "orthonormal modes"}
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A line on a stability chart.
+
+    Attributes
+    ----------
+    Omega, N : shape (n,), rad/s and N
+    kind : "neutral" or "fold"
+    label : what stands next to it, such as a tongue's "2 f_s = 135.42 Hz"; may be empty
+    """
+
+    Omega: Array
+    N: Array
+    kind: str
+    label: str = ""
+
+
+@styled
+def growth_map(
+    grids: Mapping[str, xr.Dataset], curves: Mapping[str, Sequence[Curve]] | None = None, limit: float | None = None
+) -> Figure:
+    """Growth rate of the cycle over speed and load, a panel for each normalisation.
+
+    grids : by normalisation, datasets with `growth_rate` (1/s, nan without a cycle) over dimensions N and Omega
+    curves : by normalisation, neutral curves and folds to draw on top
+    limit : 1/s, end of the colour scale; by default that of the 98th percentile of all moduli
+    """
+    figure = new_figure(PAGE if len(grids) > 1 else COLUMN, 2.9)
+    axes = np.atleast_1d(figure.subplots(1, len(grids), sharey=True, squeeze=True))
+    if limit is None:
+        every = np.concatenate([np.abs(grid["growth_rate"].values).ravel() for grid in grids.values()])
+        limit = float(np.nanpercentile(every, 98)) if np.any(np.isfinite(every)) else 1.0
+    mesh: QuadMesh | None = None
+    for i, (ax, (name, grid)) in enumerate(zip(axes, grids.items(), strict=True)):
+        mesh = _rate_mesh(ax, grid, limit)
+        for curve in (curves or {}).get(name, ()):
+            _draw(ax, curve)
+        ax.set(xlabel=SPEED, xlim=_span(grid["Omega"].values), ylim=_span(grid["N"].values))
+        ax.set_title(TITLES.get(name, name), loc="right")
+        if len(grids) > 1:
+            letter(ax, "abcdef"[i])
+    axes[0].set_ylabel(LOAD)
+    _legend(axes[-1], curves or {}, any(bool(grid["growth_rate"].isnull().any()) for grid in grids.values()))
+    if mesh is not None:
+        bar = figure.colorbar(mesh, ax=list(axes), pad=0.02, extend="both")
+        bar.set_label("growth rate of the cycle (1/s)")
+        ticks = [x for x in (-10, -1, -0.1, -0.01, 0, 0.01, 0.1, 1, 10) if abs(x) <= limit]
+        bar.set_ticks(ticks, labels=[f"{x:g}".replace("-", "−") for x in ticks])
+        bar.minorticks_off()
+    return figure
+
+
+def _rate_mesh(ax: Axes, grid: xr.Dataset, limit: float) -> QuadMesh:
+    ax.set_facecolor(GREY)
+    rate = grid["growth_rate"].transpose("N", "Omega")
+    norm = AsinhNorm(linear_width=min(0.01, limit / 10), vmin=-limit, vmax=limit)
+    values = np.ma.masked_invalid(rate.values)
+    return ax.pcolormesh(rate["Omega"], rate["N"], values, norm=norm, cmap=cm.vik, shading="nearest", rasterized=True)
+
+
+def _span(values: Array) -> tuple[float, float]:
+    return float(values.min()), float(values.max())
+
+
+def _draw(ax: Axes, curve: Curve) -> None:
+    ax.plot(curve.Omega, curve.N, color=BLACK, linewidth=1.0, linestyle="-" if curve.kind == "neutral" else DASHED)
+    if curve.label:
+        i = len(curve.N) // 2
+        ax.annotate(
+            curve.label,
+            (curve.Omega[i], curve.N[i]),
+            xytext=(4, -4),
+            textcoords="offset points",
+            fontsize=6,
+            va="top",
+            bbox={"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.8},
+        )
+
+
+def _legend(ax: Axes, curves: Mapping[str, Sequence[Curve]], gaps: bool) -> None:
+    kinds = {curve.kind for group in curves.values() for curve in group}
+    handles: list[object] = []
+    if "neutral" in kinds:
+        handles += ax.plot([], [], color=BLACK, linewidth=1.0, label="a multiplier crosses the unit circle")
+    if "fold" in kinds:
+        handles += ax.plot([], [], color=BLACK, linewidth=1.0, linestyle=DASHED, label="fold")
+    if gaps:
+        handles.append(Patch(facecolor=GREY, label="no cycle"))
+    if handles:
+        ax.figure.legend(handles=handles, loc="outside lower center", ncols=3)  # type: ignore[call-arg]
+
+
+@styled
+def threshold_chart(
+    N: Array,
+    separation: Array,
+    horizon: float,
+    neutral: Curve,
+    folds: Sequence[Curve] = (),
+    printed: Mapping[float, float] | None = None,
+) -> Figure:
+    """Where the cycle becomes unstable, and where separation follows within a stated time, on one chart.
+
+    N, separation : shape (n,), load (N) and the lowest speed (rad/s) with separation within `horizon` (s), nan if none
+    neutral : curve on which the cycle loses stability; the band from it to `separation` is shaded and named
+    folds : where the cycle ceases to exist
+    printed : critical speeds of the paper by load
+    """
+    figure = new_figure(COLUMN, 2.8)
+    ax = figure.subplots()
+    order = np.argsort(N)
+    N, separation = N[order], separation[order]
+    ax.plot(separation, N, "o-", color=VERMILION, markersize=3, label=f"separation within {horizon:g} s")
+    ax.plot(neutral.Omega, neutral.N, color=BLUE, label="cycle loses stability")
+    lowest = _lowest_speed(neutral, N)
+    both = np.isfinite(lowest) & np.isfinite(separation) & (lowest < separation)
+    ax.fill_betweenx(
+        N, lowest, separation, where=both, color=BLUE, alpha=0.15, linewidth=0,
+        label=f"unstable, no separation within {horizon:g} s",
+    )  # fmt: skip
+    for i, fold in enumerate(folds):
+        label = "fold: the cycle ends" if i == 0 else "_nolegend_"
+        ax.plot(fold.Omega, fold.N, color=BLACK, linestyle=DASHED, label=label)
+        if fold.label:
+            _draw(ax, fold)
+    if printed:
+        ax.plot(list(printed.values()), list(printed), "s", color=ORANGE, markersize=4, label="paper")
+    ax.set(xlabel=SPEED, ylabel=LOAD)
+    figure.legend(loc="outside upper center", ncols=1)
+    return figure
+
+
+def _lowest_speed(curve: Curve, N: Array) -> Array:
+    """Lowest speed at which the curve passes each load: (len(N),), nan where it does not."""
+    lowest = np.full(len(N), np.nan)
+    for i, load in enumerate(N):
+        side = curve.N - load
+        at = np.flatnonzero(side[:-1] * side[1:] <= 0)
+        if len(at):
+            share = side[at] / np.where(side[at] == side[at + 1], 1.0, side[at] - side[at + 1])
+            lowest[i] = np.min(curve.Omega[at] + share * (curve.Omega[at + 1] - curve.Omega[at]))
+    return lowest
+
+
+@styled
+def bifurcation_diagram(samples: xr.Dataset, name: str, variable: str = "psi", scale: float = 1e3) -> Figure:
+    """Samples once a turn against a parameter; those in stick apart from those in slip or separation.
+
+    samples : as `disc_model.bifurcation.bifurcation_samples` returns; name : its parameter's dimension
+    scale : factor for the axis, 1e3 shows mrad or mm
+    """
+    figure = new_figure(PAGE, 2.6)
+    ax = figure.subplots()
+    values = samples[variable].transpose(name, "sample")
+    phase = samples["phase"].transpose(name, "sample").values
+    position = np.broadcast_to(values[name].values[:, None], values.shape)
+    for code, color, label in ((0, BLUE, "stick"), (1, ORANGE, "slip"), (2, VERMILION, "separation")):
+        here = phase == code
+        if np.any(here):
+            ax.plot(position[here], values.values[here] * scale, ".", color=color, markersize=1.5, label=label)
+    unit = values.attrs.get("units", "")
+    prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(scale, f"{1 / scale:g} ")
+    parameter_unit = samples[name].attrs.get("units", "")
+    ax.set(xlabel=f"{name} ({parameter_unit})", ylabel=f"{variable} ({prefix}{unit})")
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, markerscale=5, borderaxespad=0.2)
+    return figure
+
+
+__all__ = ["Curve", "bifurcation_diagram", "growth_map", "threshold_chart"]

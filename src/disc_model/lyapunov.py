@@ -1,0 +1,215 @@
+"""Lyapunov exponents of a motion through all its switches, for what follows a loss of contact.
+
+Columns of the variational equations travel with the motion and are made orthonormal again at equal times (Benettin's
+method); the mean rates at which they grow are the largest exponents.  One of them is zero, along the motion, unless
+it comes to rest.
+"""
+
+from __future__ import annotations
+
+import enum
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.engine import layout, variational
+from disc_model.errors import ParameterError
+from disc_model.parameters import Parameters
+from disc_model.result import State
+from disc_model.simulate import build_model, simulate
+from disc_model.states import read_state, write_state
+from disc_model.tolerance import series_order, series_tolerance
+
+Array = NDArray[np.float64]
+
+
+class LyapunovStatus(enum.StrEnum):
+    """How the computation ended; `advice` says what to do."""
+
+    OK = "ok"
+    PARADOX = "paradox"
+    STALLED = "stalled"
+    NON_FINITE = "non_finite"
+
+    @property
+    def advice(self) -> str:
+        """What the outcome means, in a sentence."""
+        return _ADVICE[self]
+
+
+_ADVICE = {
+    LyapunovStatus.OK: "All of the time asked for was covered.",
+    LyapunovStatus.PARADOX: "Painleve's paradox ended the motion: lower mu_k or N.",
+    LyapunovStatus.STALLED: "Switches followed each other without the clock moving: perturb the start.",
+    LyapunovStatus.NON_FINITE: "The motion overflowed: check the parameters' magnitudes.",
+}
+_OUTCOMES = {
+    variational.TIME_OVER: LyapunovStatus.OK,
+    variational.NO_SOLUTION: LyapunovStatus.PARADOX,
+    variational.STALLED: LyapunovStatus.STALLED,
+    variational.NON_FINITE: LyapunovStatus.NON_FINITE,
+}
+_BLOCKS = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Lyapunov:
+    """The largest exponents.
+
+    Attributes
+    ----------
+    status : how the computation ended; otherwise the exponents are those of the time covered
+    exponents : 1/s, shape (count,), largest first
+    errors : 1/s, shape (count,), standard errors from the scatter between 16 stretches of the time covered
+    duration : s, time covered after the transient
+    separations : losses of contact in that time
+    history : 1/s, shape (16, count), the exponents of the stretches
+    final_state : where the motion ended, to go on from
+    """
+
+    status: LyapunovStatus
+    exponents: Array
+    errors: Array
+    duration: float
+    separations: int
+    history: Array
+    final_state: State
+
+    @property
+    def chaotic(self) -> bool:
+        """Whether the largest exponent is positive by more than four standard errors."""
+        return bool(self.exponents[0] > 4 * self.errors[0] and self.exponents[0] > 0)
+
+
+def lyapunov_exponents(
+    p: Parameters,
+    duration: float,
+    *,
+    transient: float = 0.0,
+    count: int = 2,
+    interval: float = 0.01,
+    initial_state: State | None = None,
+    tol: float = 1e-10,
+) -> Lyapunov:
+    """The `count` largest Lyapunov exponents of the motion.
+
+    Parameters
+    ----------
+    p : the case
+    duration : s, over which rates are averaged, after the transient and after a quarter of as much time again, in which
+        the columns turn into their directions
+    transient : s, simulated first and left out
+    count : 1 to 8
+    interval : s, between orthonormalisations
+    initial_state : None is the published start
+    tol : of the series
+
+    Raises
+    ------
+    ParameterError
+        Bad input; the message names each argument, its value and the rule.
+    """
+    _check(p, duration, transient, count, interval)
+    start = initial_state
+    if transient > 0:
+        begin = 0.0 if initial_state is None else initial_state.time
+        start = simulate(p, begin + transient, tol=tol, initial_state=initial_state).final_state
+    model, order, tolerance = build_model(p), series_order(tol), series_tolerance(tol)
+    series, state = layout.build_series(model, order), layout.build_state(model)
+    if start is not None:
+        write_state(p, model, start, state)
+    t = variational.build_tangent(model, layout.WIDTH, order)
+    metric, rows = _metric(model), variational.n_rows(model)
+    columns = t.now.reshape(rows, layout.WIDTH)
+    columns[:] = 0.0
+    columns[:, :count] = _first_columns(model, state, metric, count)
+    steps = max(_BLOCKS, math.ceil(duration / interval))
+    longest = variational.longest_step(order, 10 * tolerance)
+    logs, status = np.zeros((steps, count)), LyapunovStatus.OK
+    done = 0
+    for i in range(-(steps // 4), steps):
+        if i == 0:
+            t.log[:] = 0.0
+        code = variational.fly(model, series, state, t, order, tolerance, longest, duration / steps, 0, True, True)
+        if code != variational.TIME_OVER or not np.all(np.isfinite(columns)):
+            status = _OUTCOMES.get(code, LyapunovStatus.NON_FINITE)
+            status = LyapunovStatus.NON_FINITE if status is LyapunovStatus.OK else status
+            break
+        q, r = np.linalg.qr(columns[:, :count] * metric[:, None])
+        size = np.abs(np.diag(r))
+        columns[:, :count] = q / metric[:, None]
+        if i >= 0:
+            with np.errstate(divide="ignore"):
+                logs[i] = np.log(size)
+            done = i + 1
+    return _summary(p, model, state, t, status, logs[:done], duration / steps)
+
+
+def _summary(
+    p: Parameters,
+    model: layout.Model,
+    state: layout.State,
+    t: variational.Tangent,
+    status: LyapunovStatus,
+    logs: Array,
+    interval: float,
+) -> Lyapunov:
+    count = logs.shape[1]
+    covered = len(logs) * interval
+    if len(logs) < _BLOCKS:
+        nothing = np.full(count, math.nan)
+        history = np.full((_BLOCKS, count), math.nan)
+        return Lyapunov(status, nothing, nothing, covered, 0, history, read_state(p, model, state))
+    history = np.array([np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)])
+    exponents = np.sum(logs, axis=0) / covered
+    order = np.argsort(-exponents, kind="stable")
+    errors = np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS)
+    separations = int(t.log[variational.SEPARATIONS])
+    return Lyapunov(
+        status, exponents[order], errors[order], covered, separations, history[:, order], read_state(p, model, state)
+    )
+
+
+def _check(p: object, duration: float, transient: float, count: int, interval: float) -> None:
+    faults = []
+    if not isinstance(p, Parameters):
+        faults.append(f"p={p!r}: must be Parameters")
+    if not (math.isfinite(duration) and duration > 0):
+        faults.append(f"duration={duration!r}: must be finite and > 0")
+    if not (math.isfinite(transient) and transient >= 0):
+        faults.append(f"transient={transient!r}: must be finite and >= 0")
+    if not (isinstance(count, int) and 1 <= count <= layout.WIDTH):
+        faults.append(f"count={count!r}: must be a whole number from 1 to {layout.WIDTH}")
+    if not (math.isfinite(interval) and interval > 0):
+        faults.append(f"interval={interval!r}: must be finite and > 0")
+    if faults:
+        raise ParameterError(*faults)
+
+
+def _metric(model: layout.Model) -> Array:
+    """Square roots of twice the energy of a unit of each row of a column: (rows,)."""
+    one, one0 = np.ones(len(model.force)), np.ones(len(model.force0))
+    slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
+    height = [math.sqrt(model.k or model.m), math.sqrt(model.m)]
+    stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
+    return np.concatenate([np.sqrt(stiffness), one, np.sqrt(model.stiffness0), one0, slider, height])
+
+
+def _first_columns(model: layout.Model, state: layout.State, metric: Array, count: int) -> Array:
+    """Directions that the state can move in: (rows, count), arbitrary but always the same."""
+    rows, width, n0 = len(metric), len(model.force), len(model.force0)
+    columns = np.random.default_rng(1).standard_normal((rows, count)) / metric[:, None]
+    lanes = np.flatnonzero(model.shift == 0)
+    columns[lanes], columns[width + lanes] = 0.0, 0.0
+    if state.x[layout.PHASE] == layout.STICK:
+        columns[2 * width + 2 * n0 + 1] = 0.0
+    if state.x[layout.PHASE] != layout.SEPARATION:
+        z, e = columns[:width], columns[width : 2 * width]
+        y, g = columns[2 * width : 2 * width + n0], columns[2 * width + n0 : 2 * width + 2 * n0]
+        f, df = state.x[layout.SPEED], columns[-3]
+        columns[-2] = model.force @ z + model.force0 @ y
+        columns[-1] = model.force @ e + model.force0 @ g + f * (model.slope @ z) + df * (model.slope @ state.z)
+    q, _ = np.linalg.qr(columns * metric[:, None])
+    return np.asarray(q / metric[:, None], dtype=float)

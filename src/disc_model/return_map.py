@@ -1,0 +1,291 @@
+"""The return map of the stick-slip cycle and Newton's method on it.
+
+The section is "stick is about to be released forwards": f = 0 and r_0 F = mu_s P.  A point of it is its modal
+coordinates alone, because psi follows from the release condition; they are scaled so that the norm is that of the
+disc's energy: omega a, omega b, alpha, beta.  The map's Jacobian comes from the variational equations
+(`disc_model.engine.variational`), also with respect to parameters.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.engine import layout, variational
+from disc_model.parameters import Parameters
+from disc_model.result import State
+from disc_model.simulate import build_model
+from disc_model.states import read_state, write_state
+from disc_model.tolerance import series_order, series_tolerance
+
+Array = NDArray[np.float64]
+
+PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
+"""Parameters with respect to which the map can be differentiated."""
+
+COARSE, COARSE_ORDER, COARSE_TRIES, COLUMNS_COARSE = 1e-9, 20, 3, 1e-5
+"""Tolerance and order of the first few Jacobians, which only have to point Newton's method the right way."""
+
+RETURNED = variational.RETURNED
+OUTCOMES = {
+    variational.RETURNED: "returned",
+    variational.TIME_OVER: "time_over",
+    variational.NO_SOLUTION: "paradox",
+    variational.STALLED: "stalled",
+    variational.NON_FINITE: "non_finite",
+    variational.LOST_CONTACT: "lost_contact",
+    variational.OFF_SECTION: "off_section",
+}
+
+
+@dataclass(frozen=True)
+class Flight:
+    """What happened between two returns. Times in s; the rest are counts."""
+
+    outcome: int
+    period: float
+    stick_time: float
+    slip_time: float
+    separation_time: float
+    releases: int
+    backward_releases: int
+    reversals: int
+    separations: int
+    sticks: int
+
+
+class ReturnMap:
+    """The map of one case; it owns the engine's work space, so that one object serves one thread.
+
+    Attributes
+    ----------
+    size : dimension n of the section, four for each pair of modes, two for each axisymmetric one
+    scale : shape (n,), coordinates over modal displacements and velocities: omega, or 1
+    diameters : shape (n,), nodal diameters of each coordinate's mode
+    static : shape (n,), static equilibrium under the preload: the published start, and Newton's
+    """
+
+    def __init__(self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = ()) -> None:
+        self.parameters = p
+        self.model = model = build_model(p)
+        self.order, self.tolerance = series_order(tol), series_tolerance(tol)
+        self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
+        width, n0 = len(model.force), len(model.force0)
+        used = np.flatnonzero(model.shift)
+        omega, omega0 = np.sqrt(model.stiffness[used]), np.sqrt(model.stiffness0)
+        single = np.arange(n0)
+        self._rows = np.concatenate([used, width + used, 2 * width + single, 2 * width + n0 + single])
+        self.scale = np.concatenate([omega, np.ones(len(used)), omega0, np.ones(n0)])
+        l, l0 = np.abs(model.shift[used]).astype(np.int64), np.zeros(n0, np.int64)
+        self.diameters = np.concatenate([l, l, l0, l0])
+        self.size = n = len(self._rows)
+        self._first = layout.WIDTH * -(-n // layout.WIDTH)
+        self._names = parameters
+        self._tangent = variational.build_tangent(model, self._first + len(parameters), self.order, self._first)
+        if parameters:
+            self._set_changes()
+        self._end, self._jacobian = np.zeros(n), np.zeros((n, self._tangent.columns))
+        self.static = self._coordinates()
+
+    def _coordinates(self) -> Array:
+        s = self._state
+        return np.concatenate([s.z, s.e, s.y, s.g])[self._rows] * self.scale
+
+    def _set_changes(self) -> None:
+        """Columns of the changes of parameters: what a unit of each changes in the equations."""
+        model, p, t, v = self.model, self.parameters, self._tangent, variational
+        width, n0 = len(model.force), len(model.force0)
+        blocks = t.columns // layout.WIDTH
+        rows = t.parameters.reshape(blocks, -1, layout.WIDTH)
+        stiffness, damping = v.N_SCALARS, v.N_SCALARS + width
+        stiffness0, damping0 = v.N_SCALARS + 2 * width, v.N_SCALARS + 2 * width + n0
+        for i, name in enumerate(self._names):
+            column = self._first + i
+            change = rows[column // layout.WIDTH, :, column % layout.WIDTH]
+            if name == "N":
+                # u_0 is proportional to N
+                change[v.LOAD] = 1.0 - model.k * model.u_0 / model.N
+            elif name == "Omega":
+                change[v.D_OMEGA] = 1.0
+            elif name == "k":
+                change[v.D_K], change[v.LOAD] = 1.0, -model.u_0
+            elif name in ("c", "m", "k_p", "c_p"):
+                change[{"c": v.D_C, "m": v.D_M, "k_p": v.D_K_P, "c_p": v.D_C_P}[name]] = 1.0
+            elif name == "E":
+                # omega^2 is proportional to E, the damping (D_star / D) omega^2 does not depend on it
+                change[stiffness:damping] = model.stiffness / p.E
+                change[stiffness0:damping0] = model.stiffness0 / p.E
+                change[v.LOAD] = model.k * model.u_0 / p.E
+            elif name == "D_star":
+                change[damping:stiffness0] = model.stiffness / p.D
+                change[damping0:] = model.stiffness0 / p.D
+            else:
+                raise ValueError(f"parameter={name!r}: must be one of {', '.join(PARAMETERS)}")
+
+    @property
+    def longest(self) -> float:
+        """Time allowed for a return, s: several times that of the rigid disc, whatever the speed."""
+        p = self.parameters
+        stuck = 2 * (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p * p.Omega)
+        return 4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01
+
+    def evaluate(
+        self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False
+    ) -> tuple[Flight, Array, Array, Array]:
+        """Follow the motion from `x` to the `releases`-th next release, to the map's tolerance or `COARSE`.
+
+        Returns
+        -------
+        flight, end (n,), Jacobian (n, n), derivatives by the map's parameters (n, number of parameters); the last two
+        hold nothing of use without `tangent` or if the flight did not return.
+        """
+        t = self._tangent
+        order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
+        longest = variational.longest_step(order, COLUMNS_COARSE if coarse else 10 * tolerance) if tangent else math.inf
+        code = variational.section_map(
+            self.model, self._series, self._state, t, order, tolerance, longest, releases * self.longest, releases,
+            may_separate, tangent, self._rows, self.scale, x, self._end, self._jacobian,
+        )  # fmt: skip
+        log = t.log
+        times = [float(x) for x in log[variational.DURATION : variational.SEPARATION_TIME + 1]]
+        counts = [int(x) for x in log[variational.RELEASES : variational.STICKS + 1]]
+        flight = Flight(code, times[0], times[1], times[2], times[3], *counts)
+        n, first = self.size, self._first
+        return (
+            flight,
+            self._end.copy(),
+            self._jacobian[:, :n].copy(),
+            self._jacobian[:, first : first + len(self._names)].copy(),
+        )
+
+    def next_release(self, start: State, *, may_separate: bool = True) -> tuple[int, Array]:
+        """The point of the section that the motion from `start` reaches first, and how it got there (`RETURNED`)."""
+        write_state(self.parameters, self.model, start, self._state)
+        code: int = variational.fly(
+            self.model, self._series, self._state, self._tangent, self.order, self.tolerance, math.inf, self.longest, 1,
+            may_separate, False,
+        )  # fmt: skip
+        return code, self._coordinates()
+
+    def state(self, x: Array) -> State:
+        """The point `x` of the section as a `State` (time 0, at the end of stick)."""
+        s, width, n0 = self._state, len(self.model.force), len(self.model.force0)
+        full = np.zeros(2 * width + 2 * n0)
+        full[self._rows] = x / self.scale
+        s.z[:], s.e[:] = full[:width], full[width : 2 * width]
+        s.y[:n0], s.g[:n0] = full[2 * width : 2 * width + n0], full[2 * width + n0 :]
+        s.x[:] = 0.0
+        s.x[layout.PHASE] = layout.STICK
+        p = self.parameters
+        force = self.contact_force(x)
+        s.x[layout.PSI] = (p.mu_s * force / p.r_0 - p.c_p * p.Omega) / p.k_p
+        return read_state(p, self.model, s)
+
+    def contact_force(self, x: Array) -> float:
+        """P in stick at the point `x` of the section, N."""
+        model, width, n0 = self.model, len(self.model.force), len(self.model.force0)
+        full = np.zeros(2 * width + 2 * n0)
+        full[self._rows] = x / self.scale
+        z, e, y, g = np.split(full, [width, 2 * width, 2 * width + n0])
+        u = model.force @ z + model.force0 @ y
+        v = model.force @ e + model.force0 @ g
+        free = -model.force @ (model.stiffness * z + model.damping * e)
+        free -= model.force0 @ (model.stiffness0 * y + model.damping0 * g)
+        numerator = model.N + model.k * (u - model.u_0) + model.c * v + model.m * free
+        return float(numerator / (1.0 + model.m * model.compliance))
+
+    def iterate(self, x: Array, times: int, releases: int = 1) -> tuple[Flight, Array]:
+        """Apply the map several times without its Jacobian; stops early if it does not return."""
+        flight = None
+        for _ in range(times):
+            flight, end, _, _ = self.evaluate(x, releases=releases, tangent=False)
+            if flight.outcome != RETURNED:
+                break
+            x = end
+        assert flight is not None
+        return flight, x
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Outcome of Newton's method: `converged`, the point, and the map's values there."""
+
+    converged: bool
+    x: Array
+    flight: Flight
+    jacobian: Array
+    residual: float
+    by_parameters: Array
+
+
+GOOD_STEP = 0.05
+"""A step that leaves less than this share of the residual spares the next one its own Jacobian."""
+
+
+def newton(
+    map_: ReturnMap,
+    x: Array,
+    *,
+    tol: float = 1e-12,
+    releases: int = 1,
+    jacobians: int = 14,
+    may_separate: bool = False,
+) -> Solution:
+    """Fixed point of the map, by Newton's method with a line search and reused Jacobians.
+
+    Converged means that the residual is below `tol` times the point's norm, or has stopped falling below a hundred
+    times that: rounding.  The Jacobian returned is that of the point returned.
+    """
+    size = max(float(np.linalg.norm(map_.static)), 1e-300)
+    identity = np.eye(map_.size)
+    flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=may_separate, coarse=True)
+    used, fresh = 1, True
+    if flight.outcome != RETURNED:
+        return Solution(False, x, flight, jacobian, math.inf, by)
+    residual = float(np.linalg.norm(end - x))
+    while True:
+        if not math.isfinite(residual):
+            return Solution(False, x, flight, jacobian, residual, by)
+        if residual <= tol * size:
+            break
+        step = _solve(jacobian - identity, end - x)
+        accepted = False
+        for shrink in range(7 if fresh else 1):
+            new = x - step * 0.5**shrink
+            trial, new_end, _, _ = map_.evaluate(new, releases=releases, tangent=False, may_separate=may_separate)
+            new_residual = float(np.linalg.norm(new_end - new))
+            if trial.outcome == RETURNED and new_residual < residual * (1 - 0.2 * 0.5**shrink):
+                accepted = True
+                break
+        if not accepted:
+            if fresh:
+                if residual <= 1e3 * tol * size:
+                    break
+                return Solution(False, x, flight, jacobian, residual, by)
+            ratio = 1.0
+        else:
+            ratio = new_residual / residual
+            x, end, residual, flight, fresh = new, new_end, new_residual, trial, False
+        if residual > tol * size and ratio > GOOD_STEP:
+            if used >= jacobians:
+                return Solution(False, x, flight, jacobian, residual, by)
+            coarse = used < COARSE_TRIES
+            flight, _, jacobian, by = map_.evaluate(x, releases=releases, may_separate=may_separate, coarse=coarse)
+            if flight.outcome != RETURNED:
+                return Solution(False, x, flight, jacobian, residual, by)
+            used, fresh = used + 1, True
+    flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=may_separate)
+    residual = float(np.linalg.norm(end - x))
+    converged = flight.outcome == RETURNED and residual <= 1e4 * tol * size and bool(np.all(np.isfinite(jacobian)))
+    return Solution(converged, x, flight, jacobian, residual, by)
+
+
+def _solve(matrix: Array, right: Array) -> Array:
+    """Newton's step; the shortest one if the matrix is singular."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=float)
+    except np.linalg.LinAlgError:
+        return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)

@@ -1,0 +1,243 @@
+"""The cycle's stability against growth in simulations, prototypes' growth rates, and limits with known answers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from disc_model import ParameterError, Parameters, floquet, simulate
+from disc_model.continuation import continue_cycle, continue_fold, continue_neutral, nearest_tongue, tongue_lines
+from disc_model.floquet import CycleStatus, find_cycle
+from disc_model.floquet_batch import STATUS_NAMES, solve
+from disc_model.moving_load import critical_speed, unstable_speeds
+from disc_model.return_map import ReturnMap
+
+GROWTH = [
+    ({"N": 385, "Omega": 15}, -0.1055, 3e-4),
+    ({"N": 300, "Omega": 20}, +0.0464, 3e-4),
+    ({"N": 200, "Omega": 20}, +0.0188, 3e-4),
+    ({"N": 200, "Omega": 11}, +0.0140, 3e-4),
+    ({"N": 50, "Omega": 15}, -0.0083, 3e-4),
+    ({"N": 200, "Omega": 20, "c": 0.5}, -0.106, 1e-3),
+    ({"N": 200, "Omega": 10, "D_star": 0}, +0.0308, 3e-4),
+    ({"N": 200, "Omega": 10}, +0.0171, 3e-4),
+    ({"N": 200, "Omega": 10, "D_star": 2e-5}, +0.0035, 3e-4),
+    ({"N": 200, "Omega": 12.6, "D_star": 2e-5}, -0.0007, 3e-4),
+    ({"N": 200, "Omega": 20, "E": 100e9}, -0.0762, 1e-3),
+    ({"N": 200, "Omega": 20, "E": 200e9}, +0.0057, 1e-3),
+    ({"N": 200, "Omega": 11, "E": 100e9}, +0.0144, 1e-3),
+    ({"N": 200, "Omega": 20, "k": 2e5}, -0.0087, 1e-3),
+    ({"N": 300, "Omega": 50}, +0.0957, 1e-3),
+    ({"N": 300, "Omega": 50, "k_p": 2e3}, +0.0507, 1e-3),
+    ({"N": 300, "Omega": 50, "k_p": 2e5}, -0.0435, 1e-3),
+]
+
+
+@pytest.mark.parametrize(("case", "growth", "accuracy"), GROWTH, ids=[str(row[0]) for row in GROWTH])
+def test_growth_rates_of_the_published_cases(case, growth, accuracy):
+    result = floquet(Parameters(**case))
+    assert result.status is CycleStatus.OK
+    assert result.growth_rate == pytest.approx(growth, abs=accuracy)
+    assert result.stable == (growth < 0)
+
+
+def test_the_wandering_cases_multiplier():
+    result = floquet(Parameters(N=300, Omega=50, k_p=2e3))
+    assert result.kind == "neimark_sacker"
+    assert result.multipliers[0].real == pytest.approx(0.478, abs=1e-3)
+    assert result.multipliers[0].imag == pytest.approx(0.881, abs=1e-3)
+
+
+def test_stick_slip_rate_of_the_quiet_case():
+    assert 1 / floquet(Parameters(N=385, Omega=15)).period == pytest.approx(67.4717, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        {"N": 300, "Omega": 20},
+        {"N": 385, "Omega": 15},
+        {"N": 200, "Omega": 20, "c": 0.5},
+        {"N": 300, "Omega": 50, "k_p": 2e3},
+        {"N": 600, "Omega": 30, "normalization": "orthonormal"},
+    ],
+    ids=str,
+)
+def test_growth_measured_in_a_simulation(case):
+    """log of the distance to the cycle against time, at returns, through the simulator; along the leading vector."""
+    p = Parameters(**case)
+    result, cycle = floquet(p), find_cycle(p)
+    values, vectors = np.linalg.eig(cycle.solution.jacobian)
+    leading = np.argmax(np.abs(values))
+    vector = vectors[:, leading].real
+    x = cycle.solution.x
+    left = np.linalg.inv(vectors)[leading]
+    state = cycle.map.state(x + 1e-5 * np.linalg.norm(x) * vector / np.linalg.norm(vector))
+    # run away a little from the release, to the section again, many times
+    reader = ReturnMap(p)
+    time, distance = [], []
+    now = 0.0
+    turns = max(4, round(0.25 / abs(result.growth_rate) / result.period / 10))
+    for _ in range(10):
+        run = simulate(p, now + turns * result.period + 0.3 * result.period, initial_state=state, tol=1e-13)
+        state = run.final_state
+        outcome, point = reader.next_release(state)
+        assert outcome == 0
+        releases = run.events[(run.events["kind"] == "stick_to_slip")]["time"].to_numpy()
+        time.append(releases[-1])
+        now = state.time
+        # the point after the last release of the run, i.e. one period later: the offset is the same every time
+        distance.append(abs(left @ (point - x)))
+    slope = np.polyfit(time, np.log(distance), 1)[0]
+    assert slope == pytest.approx(result.growth_rate, rel=0.01)
+
+
+@pytest.mark.slow
+def test_rigid_disc_cycle_in_closed_form():
+    """E -> infinity: P = N, slip is a free oscillation, stick a straight line."""
+    p = Parameters(N=200, Omega=20, E=1e20, n_diameters=1)
+    result = floquet(p, tol=1e-10)
+    rate = math.sqrt(p.k_p / p.m)
+    extension = (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p)
+    slip = 2 / rate * (math.pi - math.atan(extension * rate / p.Omega))
+    stick = 2 * extension / p.Omega
+    assert result.period == pytest.approx(slip + stick, rel=1e-7)
+    assert result.stick_fraction == pytest.approx(stick / (slip + stick), rel=1e-7)
+    assert result.state.psi == pytest.approx(p.mu_s * p.N / (p.r_0 * p.k_p), rel=1e-7)
+
+
+def test_the_fold_near_15_0949():
+    p = Parameters(N=385, Omega=14.8)
+    branch = continue_cycle(p, "Omega", (14.5, 16.0))
+    assert branch.folds.shape == (1, 1)
+    assert branch.folds[0, 0] == pytest.approx(15.0949, abs=5e-5)
+    assert np.max(branch.values) <= branch.folds[0, 0]
+    assert branch.values[-1, 0] < 14.5
+    # both branches at one speed: the quiet one stable, the other with a real multiplier above one
+    below, above = np.sort(np.argsort(np.abs(branch.values[:, 0] - 14.9))[:2])
+    assert branch.growth_rate[0] < 0
+    assert branch.growth_rate[-1] > 0
+    assert branch.kinds()[-1] == "fold"
+    assert below != above
+    beyond = floquet(p.replace(Omega=branch.folds[0, 0] + 1e-3))
+    assert beyond.status is CycleStatus.NO_CYCLE
+    assert math.isnan(beyond.growth_rate)
+    before = floquet(p.replace(Omega=branch.folds[0, 0] - 1e-3))
+    assert before.status is CycleStatus.OK
+    tongue = nearest_tongue(p, branch.period[-1], branch.multipliers[-1, 0], int(branch.diameters[-1]))
+    assert tongue.label == "2 f_s = 135.42 Hz"
+
+
+def test_the_fold_in_two_parameters():
+    branch = continue_cycle(Parameters(N=385, Omega=15), "Omega", (14.9, 16.0))
+    near = int(np.argmin(np.abs(branch.values[:, 0] - branch.folds[0, 0])))
+    start = Parameters(N=385, Omega=float(branch.values[near, 0]))
+    curve = continue_fold(
+        start, ("Omega", "N"), {"Omega": (12, 20), "N": (300, 450)}, start=branch.points[near], direction=1
+    )
+    assert curve.ended.startswith("Omega or N")
+    at = float(np.interp(385.0, *np.sort(curve.values[:2], axis=0)[:, ::-1].T))
+    assert at == pytest.approx(branch.folds[0, 0], abs=2e-4)
+    assert np.max(np.abs(np.min(np.abs(curve.multipliers - 1), axis=1))) < 1e-8
+    # a second one-parameter run meets the curve where it says
+    N = float(curve.values[-2, 1])
+    again = continue_cycle(Parameters(N=N, Omega=float(curve.values[-2, 0]) - 0.4), "Omega", (14.0, 25.0))
+    assert again.folds[0, 0] == pytest.approx(curve.values[-2, 0], abs=1e-6)
+
+
+def test_the_fold_lies_on_its_tongue():
+    lines = tongue_lines(Parameters(N=1, Omega=1), np.array([300.0, 385.0]), (5.0, 50.0), diameters=1, harmonics=2)
+    line = next(line for line in lines if line.label == "2 f_s = 135.42 Hz")
+    at = float(line.Omega[line.N == 385.0][0])
+    # in the gap between this fold and the next
+    assert 15.0949 < at < 16
+    assert floquet(Parameters(N=385, Omega=at)).status is CycleStatus.NO_CYCLE
+
+
+def test_the_neutral_curve_turns_at_its_top():
+    """Branch of max|mu| = 1 from low load and high speed: the load rises to a turning point, then falls."""
+    curve = continue_neutral(
+        Parameters(N=50, Omega=40), ("Omega", "N"), {"Omega": (5.5, 50), "N": (20, 700)}, direction=-1
+    )
+    assert np.max(np.abs(curve.growth_rate)) < 1e-7
+    top = int(np.argmax(curve.values[:, 1]))
+    assert 0 < top < len(curve) - 1
+    assert 142 < curve.values[top, 1] < 145
+    middle = curve.values[len(curve) // 2]
+    sides = [floquet(Parameters(N=float(middle[1]) + d, Omega=float(middle[0]))).growth_rate for d in (-3, 3)]
+    assert sides[0] < 0 < sides[1]
+
+
+@pytest.mark.parametrize(
+    ("start", "names"),
+    [
+        ({"N": 200, "Omega": 10, "D_star": 2.3e-5}, ("Omega", "D_star")),
+        ({"N": 200, "Omega": 20, "c": 0.002}, ("Omega", "c")),
+        ({"N": 70, "Omega": 20, "c_p": 0.02}, ("N", "c_p")),
+        ({"N": 80, "Omega": 20}, ("k_p", "N")),
+        ({"N": 90, "Omega": 20}, ("E", "N")),
+        ({"N": 90, "Omega": 20}, ("m", "N")),
+        ({"N": 90, "Omega": 20}, ("k", "N")),
+    ],
+    ids=str,
+)
+def test_neutral_curves_in_other_pairs(start, names):
+    p = Parameters(**start)
+    value = {name: getattr(p, name) for name in names}
+    bounds = {name: (0.5 * value[name], 2.5 * value[name]) for name in names}
+    curve = continue_neutral(p, names, bounds, max_points=12)
+    assert len(curve) == 12 or "bounds" in curve.ended
+    assert np.max(np.abs(curve.growth_rate)) < 1e-6
+    for values in curve.values[:: max(1, len(curve) // 3)]:
+        here = p.replace(**dict(zip(names, map(float, values), strict=True)))
+        assert floquet(here).growth_rate == pytest.approx(0, abs=1e-6)
+
+
+AFTER_SEPARATION = [
+    ({"N": 385, "Omega": 15.1}, 200, 2, 2),
+    ({"N": 385, "Omega": 15, "c_p": 0.5}, 200, 1, 2),
+    pytest.param({"N": 200, "Omega": 15}, 1400, 8, 59, marks=pytest.mark.slow),
+]
+
+
+@pytest.mark.parametrize(("case", "t_end", "releases", "separations"), AFTER_SEPARATION)
+def test_cycles_that_lose_contact(case, t_end, releases, separations):
+    """The periodic motions of Figs. 14, 17 and 19 after separation are stable cycles."""
+    p = Parameters(**case)
+    late = simulate(p, t_end).final_state
+    result = floquet(p, near=late, releases=releases)
+    assert result.status is CycleStatus.OK
+    assert (result.releases, result.separations) == (releases, separations)
+    assert result.stable
+    run = simulate(p, late.time + 3 * result.period, initial_state=late)
+    releases_at = run.events.loc[run.events["kind"] == "stick_to_slip", "time"].to_numpy()
+    assert releases_at[releases] - releases_at[0] == pytest.approx(result.period, abs=1e-7)
+    with pytest.raises(ParameterError, match="releases=2"):
+        floquet(p, releases=2)
+
+
+def test_moving_load():
+    speed = critical_speed(Parameters(N=1, Omega=1))
+    assert speed.diameters == 2
+    assert speed.speed == pytest.approx(911.94, abs=5e-3)
+    assert speed.shifted_index == pytest.approx(607.96, abs=1e-2)
+
+
+@pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
+def test_the_frictionless_slider_is_stable_below_the_critical_speed(normalization):
+    p = Parameters(N=1, Omega=1, normalization=normalization)
+    intervals = unstable_speeds(p, 1000.0, points=1001)
+    assert intervals
+    assert intervals[0].low == pytest.approx(critical_speed(p).speed, abs=0.01)
+    assert intervals[0].divergence
+
+
+def test_a_map_has_no_blank():
+    cases = [Parameters(N=N, Omega=Omega) for N in np.linspace(40, 800, 12) for Omega in np.linspace(4, 60, 12)]
+    result = solve(cases)
+    found = result["status"] == STATUS_NAMES.index("ok")
+    assert np.mean(found) > 0.9
+    for name in ("growth_rate", "period", "stick_fraction", "multiplier_re", "multiplier_im"):
+        assert np.array_equal(np.isfinite(result[name]), found)
