@@ -1,0 +1,327 @@
+"""Speed against accuracy, where methods fail, and how much model a study needs.
+
+Pure functions of the datasets of `disc_model.benchmark`, `disc_model.failure_maps` and `disc_model.truncation`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
+
+from disc_model.figures import parts
+from disc_model.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PAGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    new_figure,
+    styled,
+)
+
+GREY, BROWN = "#777777", "#7A4B12"
+LOOKS: Mapping[str, tuple[str, str]] = {
+    "series": (VERMILION, "o"),
+    "RK4": (BLACK, "s"),
+    "RK45": (SKY, "v"),
+    "DOP853": (BLUE, "^"),
+    "LSODA": (GREEN, "D"),
+    "Radau": (PURPLE, "p"),
+    "regularised": (ORANGE, "h"),
+    "heyoka": (BROWN, "*"),
+    "heyoka-unguarded": (BROWN, "*"),
+    "CVODE": (GREY, "<"),
+    "CVODE-BDF": (GREY, ">"),
+}
+"""Colour and marker of each method."""
+TITLES = {
+    "stick_slip": "Stick-slip, first second",
+    "separating": "Separating, 54.4 to 55.4 s",
+    "many_modes": "Many modes, l up to 12",
+    "rigid": r"Rigid disc, $E = 10^{20}$ Pa",
+}
+VERDICTS = ("converged", "inaccurate", "wrong_events", "unstable", "gave_up", "not_run")
+WORDS = {
+    "converged": "converged",
+    "inaccurate": "inaccurate (> 1 μs)",
+    "wrong_events": "events missed or invented",
+    "unstable": "unstable",
+    "gave_up": "gave up",
+    "not_run": "not run",
+}
+SHADES = ("#1B7837", "#B8E186", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
+SETTING_LABELS = {"tol": "Tolerance", "step": "Step (s)", "epsilon": r"$\epsilon$ (rad/s)"}
+ERRORS = {"event": "Event-time error (s)", "state": "State error (energy norm)"}
+
+
+# ----------------------------------------------------------------------------------------------------
+# Speed against accuracy
+
+
+@styled
+def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
+    """One scene: cost against event-time error and against state error, the fitted order at each line's fine end.
+
+    Where a method has no fixed order, the number is q of error ~ tol^q.
+    """
+    figure = new_figure(PAGE, 3.0)
+    left, right = figure.subplots(1, 2, sharey=True)
+    part = dataset.sel(scene=scene)
+    for ax, error, letter in ((left, "event", "a"), (right, "state", "b")):
+        _cost_panel(ax, part, error, orders=True)
+        parts.letter(ax, letter)
+        ax.set_xlabel(ERRORS[error])
+    left.set_ylabel("Wall time per simulated second")
+    figure.legend(handles=_method_handles(part), loc="outside right center", title=TITLES[scene])
+    return figure
+
+
+@styled
+def overview(dataset: xr.Dataset) -> Figure:
+    """All scenes: cost against event-time error."""
+    figure = new_figure(PAGE, 4.6)
+    axes = np.ravel(figure.subplots(2, 2, sharey=True))
+    for ax, scene, letter in zip(axes, dataset["scene"].values, "abcd", strict=False):
+        _cost_panel(ax, dataset.sel(scene=scene), "event", orders=False)
+        ax.set_title(f"({letter}) {TITLES[str(scene)]}", loc="left")
+    for ax in axes[2:]:
+        ax.set_xlabel(ERRORS["event"])
+    for ax in axes[::2]:
+        ax.set_ylabel("Wall time per simulated second")
+    figure.legend(handles=_method_handles(dataset), loc="outside right center")
+    return figure
+
+
+def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None:
+    """Lines of all methods; right results filled, results with wrong events hollow, at the right edge if need be."""
+    ax.set(xscale="log", yscale="log")
+    wrong_at = 25.0
+    labels: list[tuple[float, float, str, str]] = []
+    any_wrong = False
+    for method in map(str, part["solver"].values):
+        line = part.sel(solver=method)
+        color, marker = LOOKS[method]
+        verdict, cost = line["verdict"].values, line["cost"].values
+        x = line[f"{error}_error"].values
+        right, wrong = np.isin(verdict, (0, 1)), verdict == 2
+        bold = method == "series"
+        style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 4.5 if marker == "*" else 3.5}
+        dash = "--" if method in ("CVODE-BDF", "heyoka-unguarded") else "-"
+        ax.plot(x[right], cost[right], linestyle=dash, linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **style)
+        hollow = np.full(np.count_nonzero(wrong), wrong_at) if error == "event" else x[wrong]
+        ax.plot(hollow, cost[wrong], linestyle="", markerfacecolor="white", markeredgewidth=0.8, **style)
+        any_wrong |= bool(len(hollow)) and error == "event"
+        order = float(line[f"order_{error}"])
+        if orders and np.count_nonzero(right) and math.isfinite(order):
+            finest = np.flatnonzero(right)[np.argmin(x[right])]
+            fixed = math.isfinite(float(line["order_theory"]))
+            text = f"{order:.1f}" if fixed else rf"$tol^{{{order:.1f}}}$"
+            labels.append((float(x[finest]), float(cost[finest]), text, color))
+    ax.set_xlim(1e-18, 300.0)
+    ax.xaxis.set_major_locator(LogLocator(numticks=20))
+    ax.set_xticks(10.0 ** np.arange(-15, 1, 3))
+    ax.xaxis.set_minor_locator(NullLocator())
+    if error == "event":
+        ax.axvline(3.0, color=GREY, linewidth=0.5)
+        if any_wrong:
+            ax.text(wrong_at, 1.01, "wrong\nevents", transform=ax.get_xaxis_transform(), ha="center", va="bottom",
+                    fontsize=6, color=GREY, linespacing=0.9)  # fmt: skip
+    for at_x, at_y, text, color in _spread(labels):
+        ax.annotate(text, (at_x, at_y), xytext=(-5, 0), textcoords="offset points", ha="right", va="center",
+                    fontsize=6.5, color=color)  # fmt: skip
+
+
+def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float, float, str, str]]:
+    """Move labels that would lie on one another apart vertically (log-log axes)."""
+    placed: list[tuple[float, float, str, str]] = []
+    for x, y, text, color in sorted(labels, key=lambda label: label[1]):
+        for other_x, other_y, *_ in placed:
+            if abs(math.log10(x / other_x)) < 2.0 and y < other_y * 1.5:
+                y = other_y * 1.5
+        placed.append((x, y, text, color))
+    return placed
+
+
+def _method_handles(part: xr.Dataset) -> list[Line2D]:
+    """Legend entries of the methods that have a point in this part."""
+    handles = []
+    for method in map(str, part["solver"].values):
+        line = part.sel(solver=method)
+        if not np.any(np.isin(line["verdict"].values, (0, 1, 2))):
+            continue
+        color, marker = LOOKS[method]
+        dash: Any = "--" if method in ("CVODE-BDF", "heyoka-unguarded") else "-"
+        label = str(line["label"].values)
+        handles.append(Line2D([], [], color=color, marker=marker, markersize=4, linestyle=dash, label=label))
+    return handles
+
+
+# ----------------------------------------------------------------------------------------------------
+# Where methods fail
+
+
+@styled
+def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
+    """One panel a method: verdict over setting and number of modes, with what explains the borders."""
+    columns = 4
+    rows = -(-len(maps) // columns)
+    figure = new_figure(PAGE, 1.45 * rows + 0.75)
+    axes = np.ravel(figure.subplots(rows, columns, squeeze=False))
+    used: set[int] = set()
+    for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
+        used |= _map_panel(ax, dataset, letter)
+    for ax in axes[len(maps) :]:
+        ax.set_axis_off()
+    for ax in axes[::columns]:
+        ax.set_ylabel("Real modes")
+    handles: list[Any] = [Patch(facecolor=SHADES[i], edgecolor=GREY, label=WORDS[VERDICTS[i]]) for i in sorted(used)]
+    handles += [
+        Line2D([], [], color=BLACK, linewidth=1.4, label=r"RK4: $h\,\omega_{max} = 2\sqrt{2}$"),
+        Line2D([], [], color=BLACK, linestyle=":", linewidth=1.4, label="longest step = shortest phase"),
+        Line2D([], [], color=BLACK, linestyle="--", linewidth=1.4, label="friction law stiffer than the disc"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    return figure
+
+
+def _map_panel(ax: Axes, dataset: xr.Dataset, letter: str) -> set[int]:
+    """Draw a map; returns the verdicts that occur."""
+    order = np.argsort(dataset["value"].values)
+    value = dataset["value"].values[order]
+    verdict = dataset["verdict"].values[:, order]
+    edges = _log_edges(value)
+    rows = np.arange(dataset.sizes["diameters"] + 1) - 0.5
+    colors = ListedColormap(SHADES)
+    ax.pcolormesh(edges, rows, verdict, cmap=colors, norm=BoundaryNorm(np.arange(-0.5, len(SHADES)), len(SHADES)))
+    ax.set_xscale("log")
+    ax.set_xlim(edges[-1], edges[0])  # fine to the right, where work grows
+    ax.set_yticks(np.arange(dataset.sizes["diameters"]), [f"{int(n)}" for n in dataset["modes"].values])
+    ax.set_xlabel(SETTING_LABELS[dataset.attrs["setting"]], labelpad=1)
+    suffix = ", contact" if dataset.attrs["scene"] == "stick_slip" else ""
+    ax.set_title(f"({letter}) {dataset.attrs['label']}{suffix}", loc="left", fontsize=7)
+    setting = dataset.attrs["setting"]
+    if setting == "step":
+        _steps_line(ax, dataset["step_limit"].values, "-")
+        if dataset.attrs["scene"] == "separating":
+            _steps_line(ax, dataset["shortest_phase"].values, ":")
+    elif setting == "epsilon":
+        _steps_line(ax, dataset["stiff_epsilon"].values, "--")
+    elif np.isfinite(dataset["longest_step"].values).any():
+        _steps_line(ax, _crossing(dataset), ":")
+    return set(np.unique(verdict).astype(int).tolist())
+
+
+def _steps_line(ax: Axes, x: np.ndarray, linestyle: str) -> None:
+    """A border that has one value a row, as a staircase."""
+    y = np.repeat(np.arange(len(x) + 1) - 0.5, 2)[1:-1]
+    low, high = sorted(ax.get_xlim())
+    inside = np.clip(np.repeat(x, 2), low, high)
+    ax.plot(inside, y, color="white", linewidth=2.4)
+    ax.plot(inside, y, color=BLACK, linestyle=linestyle, linewidth=1.4)
+
+
+def _crossing(dataset: xr.Dataset) -> np.ndarray:
+    """Per row, the coarsest setting at which no step is longer than the shortest phase; beyond the axis if none is."""
+    order = np.argsort(dataset["value"].values)
+    value = dataset["value"].values[order]
+    longest = dataset["longest_step"].values[:, order]
+    found = []
+    for row, shortest in zip(longest, dataset["shortest_phase"].values, strict=True):
+        fine = np.flatnonzero(row <= shortest)
+        found.append(math.sqrt(value[fine[-1]] * value[min(fine[-1] + 1, len(value) - 1)]) if fine.size else 0.0)
+    return np.array(found)
+
+
+def _log_edges(values: np.ndarray) -> np.ndarray:
+    """Edges of cells around ascending values, equal on both sides in the logarithm."""
+    x = np.log(values)
+    middle = 0.5 * (x[1:] + x[:-1])
+    edges: np.ndarray = np.exp(np.concatenate([[2 * x[0] - middle[0]], middle, [2 * x[-1] - middle[-1]]]))
+    return edges
+
+
+# ----------------------------------------------------------------------------------------------------
+# How many modes
+
+_CIRCLE_LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
+_PANELS: Sequence[tuple[str, str, bool]] = (
+    ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
+    ("growth_rate", "Growth rate (1/s)", False),
+    ("first_separation", "First separation (s)", False),
+    ("force_swing", "Contact-force range,\nno separation (N)", False),
+    ("compliance", r"$S_2$ (1/kg)", True),
+    ("impact_share", "Velocity change per\nclosing velocity", True),
+    ("separations", "Separations per second", True),
+    ("cost", "Wall time per\nsimulated second", True),
+)
+
+
+def _cut(ax: Axes, values: np.ndarray) -> None:
+    """Show what lies near the median, and say what lies above."""
+    values = values[np.isfinite(values)]
+    top = 1.12 * float(np.median(values))
+    if values.max() > top:
+        ax.set_ylim(top=top)
+        text = "beyond: " + ", ".join(f"{value:.0f} s" for value in values[values > top])
+        ax.text(1.0, 0.97, text, transform=ax.transAxes, ha="right", va="top", fontsize=6, color=GREY)
+
+
+@styled
+def truncation(dataset: xr.Dataset) -> Figure:
+    """What a study asks for against the number of real modes, a colour for each number of nodal circles.
+
+    Filled: as published; hollow and dashed: orthonormal.  Upper row: what converges, lower row: what need not.
+    """
+    figure = new_figure(PAGE, 3.9)
+    axes = np.ravel(figure.subplots(2, 4, sharex=True))
+    part = dataset.assign(force_swing=dataset["force_max"] - dataset["force_min"])
+    for ax, (name, label, log), letter in zip(axes, _PANELS, "abcdefgh", strict=True):
+        for i, normalization in enumerate(map(str, part["normalization"].values)):
+            for j in range(part.sizes["circles"]):
+                line = part.sel(normalization=normalization).isel(circles=j)
+                color, marker = _CIRCLE_LOOKS[j % len(_CIRCLE_LOOKS)]
+                good = np.isfinite(line[name].values)
+                ax.plot(line["modes"].values[good], line[name].values[good], color=color, marker=marker, markersize=3,
+                        markerfacecolor=color if i == 0 else "white", linestyle="-" if i == 0 else "--",
+                        linewidth=0.8, markeredgewidth=0.7)  # fmt: skip
+        ax.set_xscale("log")
+        ax.set_yscale("log" if log else "linear")
+        ax.margins(x=0.06)
+        if name == "first_separation":
+            _cut(ax, part[name].values)
+        ax.set_title(f"({letter}) {label}", loc="left", fontsize=7)
+        ax.axvline(9, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
+        ax.set_xticks([3, 10, 30], ["3", "10", "30"])
+        ax.xaxis.set_minor_formatter(NullFormatter())
+        ax.yaxis.set_minor_formatter(NullFormatter())
+        if name in ("impact_share", "separations"):
+            ticks = (0.05, 0.1, 0.2, 0.5) if name == "impact_share" else (20, 50, 100, 200)
+            ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    for ax in axes[4:]:
+        ax.set_xlabel("Real modes")
+    handles = [
+        Line2D([], [], color=_CIRCLE_LOOKS[j][0], marker=_CIRCLE_LOOKS[j][1], markersize=4, linestyle="-",
+               label=f"{int(circles)} nodal circle{'' if circles == 1 else 's'}")
+        for j, circles in enumerate(dataset["circles"].values)
+    ]  # fmt: skip
+    handles += [
+        Line2D([], [], color=BLACK, linestyle="-", marker="o", markersize=4, label="as published"),
+        Line2D([], [], color=BLACK, linestyle="--", marker="o", markerfacecolor="white", markersize=4,
+               label="orthonormal"),
+        Line2D([], [], color=GREY, linestyle=":", label="nine modes"),
+    ]  # fmt: skip
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+    return figure

@@ -1,0 +1,179 @@
+"""The contract of a method: what it is given, what it gives back.
+
+A method is an object with
+
+``name``
+    short and unique; what charts and tables call it
+``setting``
+    what its one number means: "tol" (relative tolerance), "step" (s) or "epsilon" (rad/s)
+``order``
+    theoretical order of the global error against the step (nan if it has none)
+``unavailable()``
+    "" if it can be used, else the sentence that says which package is missing
+``solve(problem, value, budget)``
+    advances ``problem`` with its setting equal to ``value``; gives up after ``budget`` seconds.  Never raises for
+    what happens on the way: the result's status says it.
+
+What is timed is the integration alone: modes, compiling and setting up are left out for every method.
+"""
+
+from __future__ import annotations
+
+import enum
+import importlib.util
+import math
+import time as clock
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.errors import DiscModelError
+from disc_model.parameters import Parameters
+from disc_model.result import State
+
+Array = NDArray[np.float64]
+
+
+class MethodUnavailable(DiscModelError, ImportError):
+    """A method whose optional package is not installed."""
+
+
+class Outcome(enum.StrEnum):
+    """How a method ended."""
+
+    FINISHED = "finished"  # reached t_end
+    NON_FINITE = "non_finite"  # the numbers overflowed
+    STALLED = "stalled"  # switches without the clock moving, over and over
+    TOO_SLOW = "too_slow"  # the budget of seconds was used up
+    FAILED = "failed"  # the integrator itself gave up, or the model has no solution
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Where to start and how far to go.
+
+    Attributes
+    ----------
+    parameters : the case
+    start : state of the slider's frame (arrays (n_modes,) in the order of `plate_modes`)
+    t_end : s, absolute, greater than start.time
+    """
+
+    parameters: Parameters
+    start: State
+    t_end: float
+
+    @property
+    def span(self) -> float:
+        """Simulated time, s."""
+        return self.t_end - self.start.time
+
+
+@dataclass(frozen=True, eq=False)
+class MethodResult:
+    """What a method found.
+
+    Attributes
+    ----------
+    times : s, shape (n_events,)
+    kinds : n_events words of `disc_model.result.EVENT_KINDS`
+    final : state at t_end, or where the method stopped
+    seconds : wall time of the integration
+    work : right-hand sides evaluated, or steps for methods that work with series
+    outcome, message : how it ended
+    longest_step : s, longest step taken; nan if not known
+    """
+
+    times: Array
+    kinds: tuple[str, ...]
+    final: State
+    seconds: float
+    work: int
+    outcome: Outcome
+    message: str = ""
+    longest_step: float = math.nan
+
+    @property
+    def separations(self) -> int:
+        """Number of separations."""
+        return self.kinds.count("separation")
+
+
+class Method(ABC):
+    """Base class of all methods; see the module's text for the contract."""
+
+    name: ClassVar[str]
+    label: ClassVar[str]
+    setting: ClassVar[str] = "tol"
+    order: ClassVar[float] = math.nan
+    requires: ClassVar[tuple[str, ...]] = ()
+
+    def unavailable(self) -> str:
+        """Why the method cannot be used here; "" if it can."""
+        missing = [name for name in self.requires if importlib.util.find_spec(name) is None]
+        if not missing:
+            return ""
+        return f"{self.name} needs {', '.join(missing)}: install the extra `bench` (pip install disc_model[bench])"
+
+    def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
+        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds.
+
+        Raises
+        ------
+        MethodUnavailable
+            If the package that the method stands for is not installed.
+        """
+        if reason := self.unavailable():
+            raise MethodUnavailable(reason)
+        return self._solve(problem, value, budget)
+
+    @abstractmethod
+    def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult: ...
+
+
+class BudgetExceeded(Exception):
+    """Raised inside a right-hand side to leave an integrator that offers no other way out."""
+
+
+@dataclass
+class Meter:
+    """Counts right-hand sides and watches the clock."""
+
+    budget: float
+    work: int = 0
+    longest_step: float = math.nan
+    began: float = field(default_factory=clock.perf_counter)
+
+    def start(self) -> None:
+        """Set the clock to zero: everything before was preparation."""
+        self.began = clock.perf_counter()
+
+    @property
+    def seconds(self) -> float:
+        """Wall time since the start."""
+        return clock.perf_counter() - self.began
+
+    def steps(self, times: Array) -> None:
+        """Note the steps between successive ``times`` (s)."""
+        if len(times) > 1:
+            self.longest_step = float(np.fmax(self.longest_step, np.max(np.diff(times))))
+
+    def check(self) -> None:
+        """Raise `BudgetExceeded` if the time is used up."""
+        if self.seconds > self.budget:
+            raise BudgetExceeded
+
+    def counted(self, function: Callable[[float, Array], Array]) -> Callable[[float, Array], Array]:
+        """``function``, counting its calls and looking at the clock every 64 of them."""
+
+        def wrapped(t: float, y: Array) -> Array:
+            self.work += 1
+            if self.work & 63 == 0:
+                self.check()
+            return function(t, y)
+
+        return wrapped

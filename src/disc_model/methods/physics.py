@@ -1,0 +1,150 @@
+"""The equations of motion in plain numpy, as a user would write them (docs: model, equations in the slider's frame).
+
+One vector holds the state in every phase:
+
+    y = (a, b, alpha, beta, psi, f, u, u'),  shape (4 n + 4,), n = number of modes
+
+where u and u' are integrated only in separation; in contact they are the disc's and rest unused.  Nothing is shared
+with `disc_model.engine`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
+from disc_model.result import State
+
+Array = NDArray[np.float64]
+
+
+class Physics:
+    """Constants of a case and the right-hand sides of its phases.  SI units throughout."""
+
+    def __init__(self, p: Parameters) -> None:
+        modes = mode_arrays(p)
+        self.p = p
+        self.n = n = len(modes.omega)
+        self.l = modes.diameters.astype(float)
+        self.shape = modes.psi.copy()  # psi_l, kg^-1/2
+        self.omega = modes.omega.copy()
+        self.stiffness = modes.omega**2
+        self.damping = p.D_star / p.D * self.stiffness  # 2 xi omega, 1/s
+        self.slope = self.l * self.shape
+        self.bend = self.l * self.slope
+        self.compliance = float(np.sum(self.shape**2))  # S2, 1/kg
+        self.u_0 = -p.N * float(np.sum(self.shape**2 / self.stiffness))
+        self.a, self.b = slice(0, n), slice(n, 2 * n)
+        self.alpha, self.beta = slice(2 * n, 3 * n), slice(3 * n, 4 * n)
+        self.psi, self.f, self.u, self.v = range(4 * n, 4 * n + 4)
+
+    # ---- states
+    def pack(self, state: State) -> Array:
+        """`State` as a vector."""
+        tail = (state.psi, state.f, state.u, state.u_velocity)
+        return np.concatenate([state.a, state.b, state.alpha, state.beta, tail])
+
+    def unpack(self, time: float, phase: str, direction: int, y: Array) -> State:
+        """A vector as `State`, u and u' being the disc's in contact."""
+        u, v = (y[self.u], y[self.v]) if phase == "separation" else self.disc_point(y)
+        return State(
+            time=time,
+            phase=phase,
+            direction=direction,
+            psi=float(y[self.psi]),
+            f=float(y[self.f]),
+            u=float(u),
+            u_velocity=float(v),
+            a=y[self.a].copy(),
+            b=y[self.b].copy(),
+            alpha=y[self.alpha].copy(),
+            beta=y[self.beta].copy(),
+        )
+
+    # ---- formulas at an instant
+    def disc_point(self, y: Array) -> tuple[float, float]:
+        """w and dw/dt of the disc under the moving slider."""
+        slope = self.slope @ y[self.b]
+        return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
+
+    def pull(self, y: Array) -> float:
+        """F = k_p psi + c_p (Omega - f)."""
+        return float(self.p.k_p * y[self.psi] + self.p.c_p * (self.p.Omega - y[self.f]))
+
+    def force(self, y: Array, direction: int) -> float:
+        """Contact force P; ``direction`` 0 is stick."""
+        return self._contact(y, direction)[0]
+
+    def gap(self, y: Array) -> float:
+        """u - w in separation."""
+        return float(y[self.u] - self.shape @ y[self.a])
+
+    def _contact(self, y: Array, direction: int) -> tuple[float, float]:
+        """P and F."""
+        p, f, a, alpha = self.p, y[self.f], y[self.a], y[self.alpha]
+        slope = self.slope @ y[self.b]
+        w = self.shape @ a
+        velocity = self.shape @ alpha + f * slope
+        A = -self.shape @ (self.damping * alpha + self.stiffness * a)
+        A += f * (2.0 * self.slope @ y[self.beta] - f * (self.bend @ a))
+        F = p.k_p * y[self.psi] + p.c_p * (p.Omega - f)
+        top = p.N + p.k * (w - self.u_0) + p.c * velocity + p.m * A
+        below = 1.0 + p.m * self.compliance
+        if direction == 0:
+            return top / below, F
+        return (top + slope * F) / (below + direction * p.mu_k * slope / p.r_0), F
+
+    # ---- right-hand sides
+    def rate(self, phase: str, direction: int, y: Array) -> Array:
+        """dy/dt, shape of ``y``."""
+        p, f, dy = self.p, y[self.f], np.zeros_like(y)
+        a, b, alpha, beta = y[self.a], y[self.b], y[self.alpha], y[self.beta]
+        turn = self.l * f
+        dy[self.a] = alpha + turn * b
+        dy[self.b] = beta - turn * a
+        dy[self.alpha] = -self.damping * alpha - self.stiffness * a + turn * beta
+        dy[self.beta] = -self.damping * beta - self.stiffness * b - turn * alpha
+        dy[self.psi] = p.Omega - f
+        if phase == "separation":
+            dy[self.f] = self.pull(y) / p.m
+            dy[self.u] = y[self.v]
+            dy[self.v] = -(p.N + p.k * (y[self.u] - self.u_0) + p.c * y[self.v]) / p.m
+            return dy
+        P, F = self._contact(y, direction)
+        dy[self.alpha] -= self.shape * P
+        if phase == "slip":
+            dy[self.f] = F / p.m - direction * p.mu_k * P / (p.m * p.r_0)
+        return dy
+
+    # ---- impact
+    def impact(self, y: Array) -> Array:
+        """The state after the plastic impact of Eqs. (29)-(37)."""
+        _, velocity = self.disc_point(y)
+        impulse = (velocity - y[self.v]) / (self.compliance + 1.0 / self.p.m)
+        after = y.copy()
+        after[self.alpha] -= self.shape * impulse
+        after[self.u], after[self.v] = self.disc_point(after)
+        return after
+
+    # ---- how far two states are apart
+    def distance(self, one: State, other: State) -> float:
+        """Energy norm of the difference of two states over that of ``other``, without dimension.
+
+        Displacement and velocity of every mode, of the in-plane motion and, where either is separated, of the
+        slider's height, each weighted as it stands in the energy.
+        """
+        return float(np.sqrt(self._energy(one, other) / self._energy(other, None)))
+
+    def _energy(self, one: State, other: State | None) -> float:
+        p = self.p
+
+        def part(name: str) -> Array:
+            value = np.asarray(getattr(one, name), dtype=float)
+            return value if other is None else value - np.asarray(getattr(other, name), dtype=float)
+
+        disc = np.sum(part("alpha") ** 2 + part("beta") ** 2 + self.stiffness * (part("a") ** 2 + part("b") ** 2))
+        plane = p.r_0**2 * (p.m * part("f") ** 2 + p.k_p * part("psi") ** 2)
+        height = p.m * part("u_velocity") ** 2 + p.k * part("u") ** 2
+        return 0.5 * float(disc + plane + height)

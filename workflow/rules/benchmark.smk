@@ -1,0 +1,123 @@
+# Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
+# Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
+
+from disc_model.scenes import SCENES
+
+BENCH = "results/bench"
+BENCH_FIGURES = [
+    "overview",
+    *(f"work_precision_{scene}" for scene in SCENES),
+    "failure_maps",
+    "truncation",
+]
+BENCH_STYLE = Path(
+    workflow.basedir, "src", "disc_model", "figures", "disc_model.mplstyle"
+)
+BENCH_DATA = [
+    Path(workflow.basedir, "src", "disc_model", "data", name)
+    for name in ("benchmark_reference.json", "separating_start.json")
+]
+
+
+def failure_map_methods():
+    """Method and scene of each map, in the order of the panels; methods that are not installed are left out."""
+    from disc_model.failure_maps import VALUES
+    from disc_model.methods import METHODS
+
+    pairs = [("RK4", "stick_slip")] + [(method, "separating") for method in VALUES]
+    return [pair for pair in pairs if not METHODS[pair[0]].unavailable()]
+
+
+def bench_inputs(wildcards):
+    if wildcards.figure == "truncation":
+        return f"{BENCH}/truncation.nc"
+    if wildcards.figure == "failure_maps":
+        return [
+            f"{BENCH}/failure_maps/{method}_{scene}.nc"
+            for method, scene in failure_map_methods()
+        ]
+    return f"{BENCH}/work_precision.nc"
+
+
+rule bench:
+    input:
+        f"{BENCH}/table.md",
+        f"{BENCH}/table.csv",
+        collect(
+            f"{BENCH}/figures/{{figure}}.{{suffix}}",
+            figure=BENCH_FIGURES,
+            suffix=["pdf", "png"],
+        ),
+
+
+# Takes the whole machine, so that nothing else disturbs the clock.
+rule measure_work_precision:
+    output:
+        nc=f"{BENCH}/work_precision.nc",
+        csv=f"{BENCH}/table.csv",
+        md=f"{BENCH}/table.md",
+    log:
+        f"{BENCH}/logs/measure_work_precision.log",
+    conda:
+        "../envs/disc_model.yaml"
+    threads: workflow.cores
+    params:
+        sources=sources_of(
+            "measure_work_precision.py", "disc_model.benchmark", files=BENCH_DATA
+        ),
+    shell:
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_work_precision.py {output.nc}"
+        " --csv {output.csv} --md {output.md} > {log} 2>&1"
+
+
+rule map_failures:
+    output:
+        f"{BENCH}/failure_maps/{{method}}_{{scene}}.nc",
+    log:
+        f"{BENCH}/logs/map_failures/{{method}}_{{scene}}.log",
+    wildcard_constraints:
+        method="[A-Za-z0-9-]+",
+        scene="stick_slip|separating",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        sources=sources_of(
+            "map_failures.py", "disc_model.failure_maps", files=BENCH_DATA
+        ),
+    shell:
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_failures.py {wildcards.method}"
+        " {wildcards.scene} {output} > {log} 2>&1"
+
+
+rule study_truncation:
+    output:
+        f"{BENCH}/truncation.nc",
+    log:
+        f"{BENCH}/logs/study_truncation.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        sources=sources_of("study_truncation.py", "disc_model.truncation"),
+    shell:
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/study_truncation.py {output} > {log} 2>&1"
+
+
+rule draw_benchmark:
+    input:
+        bench_inputs,
+    output:
+        pdf=f"{BENCH}/figures/{{figure}}.pdf",
+        png=f"{BENCH}/figures/{{figure}}.png",
+    log:
+        f"{BENCH}/logs/draw_benchmark/{{figure}}.log",
+    wildcard_constraints:
+        figure="|".join(BENCH_FIGURES),
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        sources=sources_of(
+            "draw_benchmark.py", "disc_model.figures.benchmark", files=[BENCH_STYLE]
+        ),
+    shell:
+        "python workflow/scripts/draw_benchmark.py {wildcards.figure} {input} --out {output.pdf} --out {output.png}"
+        " > {log} 2>&1"

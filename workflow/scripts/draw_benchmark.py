@@ -1,0 +1,40 @@
+"""Draw a figure of the benchmark from its datasets."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from disc_model.dataset import load
+from disc_model.figures import benchmark
+from disc_model.figures.style import save
+
+PREFIX = "work_precision_"
+
+
+def draw(name: str, paths: list[Path]) -> Figure:
+    datasets = [load(path).to_dataset() for path in paths]
+    if name.startswith(PREFIX):
+        return benchmark.work_precision(datasets[0], name.removeprefix(PREFIX))
+    if name == "overview":
+        return benchmark.overview(datasets[0])
+    if name == "truncation":
+        return benchmark.truncation(datasets[0])
+    return benchmark.failure_maps(datasets)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("name", help="overview, work_precision_<scene>, failure_maps or truncation")
+    parser.add_argument("inputs", nargs="+", type=Path, help="netCDF files")
+    parser.add_argument("--out", action="append", required=True, help="file to write, .pdf or .png; may be repeated")
+    args = parser.parse_args()
+    figure = draw(args.name, args.inputs)
+    for path in args.out:
+        save(figure, path)
+
+
+if __name__ == "__main__":
+    main()

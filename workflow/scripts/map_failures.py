@@ -1,0 +1,23 @@
+"""Map where one method fails over its setting and the number of modes."""
+
+from __future__ import annotations
+
+import argparse
+
+import xarray as xr
+
+from disc_model.dataset import save
+from disc_model.failure_maps import VALUES, failure_map
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("method", choices=list(VALUES))
+    parser.add_argument("scene", choices=["stick_slip", "separating"])
+    parser.add_argument("output", help="netCDF file to write")
+    args = parser.parse_args()
+    save(xr.DataTree(failure_map(args.method, args.scene)), args.output)
+
+
+if __name__ == "__main__":
+    main()

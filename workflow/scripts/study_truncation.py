@@ -1,0 +1,21 @@
+"""Measure what truncating the modes does to what a study asks for."""
+
+from __future__ import annotations
+
+import argparse
+
+import xarray as xr
+
+from disc_model.dataset import save
+from disc_model.truncation import truncation_study
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("output", help="netCDF file to write")
+    args = parser.parse_args()
+    save(xr.DataTree(truncation_study()), args.output)
+
+
+if __name__ == "__main__":
+    main()
