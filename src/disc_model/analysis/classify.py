@@ -1,0 +1,195 @@
+"""Words for motions, each with a definition that a number decides.
+
+The in-plane motion is judged by the times between successive releases of stick, T_1, T_2, ...: a motion that repeats
+after n of them is periodic with period n. What does not repeat is quasi-periodic or irregular by the 0-1 test
+for chaos (Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009).
+"""
+
+from __future__ import annotations
+
+import enum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+LONGEST_PERIOD = 12
+"""Most releases that a period is looked for over."""
+FEWEST = 20
+"""Fewest intervals that a motion is judged by."""
+
+
+class Kind(enum.StrEnum):
+    """Kinds of in-plane motion."""
+
+    PERIODIC = "periodic"
+    QUASI_PERIODIC = "quasi-periodic"
+    IRREGULAR = "irregular"
+    UNDECIDED = "undecided"
+
+
+class Motion(NamedTuple):
+    """What a sequence of intervals is.
+
+    Attributes
+    ----------
+    kind : see `Kind`
+    period : number of releases after which it repeats, 0 if it does not
+    spread : standard deviation over mean of the intervals; 0 for a motion with one release a period
+    closure : s, largest difference of an interval and the one `period` (or one) later
+    chaos : result of the 0-1 test, near 0 for regular and near 1 for chaotic motion; nan if it was not needed
+    """
+
+    kind: Kind
+    period: int
+    spread: float
+    closure: float
+    chaos: float
+
+    def __str__(self) -> str:
+        if self.kind is Kind.PERIODIC:
+            return "periodic" if self.period == 1 else f"periodic, period {self.period}"
+        return str(self.kind)
+
+
+def motion_of(intervals: Array, tolerance: float = 1e-6, longest: int = LONGEST_PERIOD) -> Motion:
+    """Classify a motion by the intervals between its releases.
+
+    Parameters
+    ----------
+    intervals : s, shape (n,)
+    tolerance : s, how exactly a periodic motion has to repeat: above what is left of the approach to it, far below
+        the intervals' own differences
+    longest : longest period looked for, in releases
+
+    Raises
+    ------
+    ValueError
+        With fewer than `FEWEST` intervals.
+    """
+    if intervals.size < FEWEST:
+        raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
+    spread = irregularity(intervals)
+    period = shortest_period(intervals, tolerance, longest)
+    if period:
+        return Motion(Kind.PERIODIC, period, spread, closure(intervals, period), np.nan)
+    chaos = zero_one(intervals)
+    kind = Kind.IRREGULAR if chaos > 0.7 else Kind.QUASI_PERIODIC if chaos < 0.3 else Kind.UNDECIDED
+    return Motion(kind, 0, spread, closure(intervals, 1), chaos)
+
+
+def irregularity(intervals: Array) -> float:
+    """Standard deviation over mean."""
+    return float(np.std(intervals) / np.mean(intervals))
+
+
+def closure(intervals: Array, period: int) -> float:
+    """Largest difference between an interval and the one `period` releases later, s."""
+    return float(np.max(np.abs(intervals[period:] - intervals[:-period])))
+
+
+def shortest_period(intervals: Array, tolerance: float, longest: int = LONGEST_PERIOD) -> int:
+    """Least number of releases after which intervals repeat to `tolerance` s; 0 if none up to `longest`."""
+    longest = min(longest, intervals.size // 2)
+    return next((n for n in range(1, longest + 1) if closure(intervals, n) <= tolerance), 0)
+
+
+def zero_one(values: Array, n_frequencies: int = 101, seed: int = 0) -> float:
+    """The 0-1 test for chaos: the median over random c of the growth of p + iq = sum of values exp(i c j).
+
+    Parameters
+    ----------
+    values : shape (n,), a scalar signal with one value a cycle (no oversampled one, which always seems regular)
+    n_frequencies : how many c are drawn, from the middle of (0, pi)
+    seed : of the draw: equal signals give equal results
+
+    Returns
+    -------
+    float
+        Near 0: the translation stays bounded (periodic, quasi-periodic). Near 1: it diffuses (chaotic).
+    """
+    signal = np.asarray(values, dtype=float)
+    signal = (signal - signal.mean()) / (signal.std() or 1.0)
+    n, n_cut = signal.size, max(2, signal.size // 10)
+    steps = np.arange(1, n_cut + 1)
+    drawn = np.random.default_rng(seed).uniform(np.pi / 5, 4 * np.pi / 5, n_frequencies)
+    found = [_growth(signal, float(c), steps, n - n_cut) for c in drawn]
+    return float(np.median(found))
+
+
+def _growth(signal: Array, c: float, steps: NDArray[np.int64], count: int) -> float:
+    """Correlation of the mean square displacement with time; its oscillating part is subtracted."""
+    path = np.cumsum(signal * np.exp(1j * c * np.arange(1, signal.size + 1)))
+    square = np.array([np.mean(np.abs(path[j : j + count] - path[:count]) ** 2) for j in steps])
+    square -= signal.mean() ** 2 * (1 - np.cos(c * steps)) / (1 - np.cos(c))
+    if np.ptp(square) == 0:
+        return 0.0
+    return float(np.corrcoef(steps, square)[0, 1])
+
+
+def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
+    """Whether a motion that sticks for a share of time `before` a separation does so no more `after` it.
+
+    `bound` is the share of time that counts as none: a stray stick among thousands of cycles does not refute it.
+    """
+    return before > bound >= after
+
+
+class Location(NamedTuple):
+    """Where in the swing contact is lost.
+
+    Attributes
+    ----------
+    kind : "at the lowest position", "falling", "rising" or "at the highest position"
+    height : share of the swing, 0 at the lowest and 1 at the highest point, median
+    velocity : median, in the unit of height and time given
+    to_lowest : median share of the swing between the loss of contact and the next lowest point
+    """
+
+    kind: str
+    height: float
+    velocity: float
+    to_lowest: float
+
+
+def separation_location(time: Array, height: Array, starts: NDArray[np.int64], bound: float = 0.1) -> Location:
+    """Where in the swing contact is lost, from samples of the height and the indices of the losses.
+
+    Parameters
+    ----------
+    time, height : uniform samples, shape (n,)
+    starts : indices into them, first samples of the separations
+    bound : share of the swing within which a point is the lowest (or the highest) one
+
+    Notes
+    -----
+    "At the lowest position": the loss is within `bound` of the swing of the lowest point of its own cycle, whether
+    just before or just after it. The cycle is the stretch of one dominant period around the loss.
+    """
+    velocity = np.gradient(height, time)
+    half = max(2, _period_samples(height) // 2)
+    share, lowest, speed = [], [], []
+    for i in starts:
+        cycle = height[max(0, i - half) : i + half + 1]
+        swing = float(np.ptp(cycle)) or 1.0
+        share.append((height[i] - cycle.min()) / swing)
+        ahead = height[i : i + half + 1]
+        lowest.append((height[i] - ahead.min()) / swing)
+        speed.append(velocity[i])
+    if not share:
+        raise ValueError("no separation")
+    where, drop, moving = (float(np.median(x)) for x in (share, lowest, speed))
+    if where <= bound:
+        kind = "at the lowest position"
+    elif where >= 1 - bound:
+        kind = "at the highest position"
+    else:
+        kind = "rising" if moving > 0 else "falling"
+    return Location(kind, where, moving, drop)
+
+
+def _period_samples(values: Array) -> int:
+    """Samples in a period of the dominant oscillation."""
+    amplitude = np.abs(np.fft.rfft(values - np.mean(values)))
+    return int(round(len(values) / max(1, int(np.argmax(amplitude[1:]) + 1))))

@@ -1,0 +1,74 @@
+"""Poincare sections at the drive's period: stages of a run, and how many different points a section has.
+
+The section is stroboscopic: one sample every 2 pi/Omega. A motion whose period is n drive periods shows n
+points, a quasi-periodic one a closed curve, an irregular one a cloud.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.result import PHASES
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+SEPARATION = PHASES.index("separation")
+
+
+class Stages(NamedTuple):
+    """Masks over the samples of a run: in contact early, in contact later, separated. Each sample is in one.
+
+    With a separation, it divides early from later; without one, half the run does.
+    """
+
+    early: Mask
+    later: Mask
+    separated: Mask
+    divided_by_separation: bool
+
+
+def stages(time: Array, phase: NDArray[np.int8], first_separation: float, t_end: float) -> Stages:
+    """Stages as the paper colours them.
+
+    Parameters
+    ----------
+    time : s, shape (n,)
+    phase : shape (n,), index into `disc_model.result.PHASES`
+    first_separation : s, nan if there was none
+    t_end : s, length of the run
+    """
+    divided = math.isfinite(first_separation)
+    before = np.asarray(time < (first_separation if divided else t_end / 2))
+    apart = np.asarray(phase == SEPARATION)
+    return Stages(before & ~apart, ~before & ~apart, apart, divided)
+
+
+def distinct_points(points: Array, tolerance: float = 0.01) -> int:
+    """How many different points a section has.
+
+    Parameters
+    ----------
+    points : shape (n, d); each coordinate is measured in units of its own range
+    tolerance : points nearer to each other than this share of the range, along every axis, are one; chains of near
+        points stay several, so that a closed curve has about 1/tolerance points
+
+    Returns
+    -------
+    int
+        Number of cells of a grid of that width that are needed to cover the section, found greedily.
+    """
+    points = np.asarray(points, dtype=float)
+    if points.size == 0:
+        return 0
+    extent = np.ptp(points, axis=0)
+    rounding = 1e-9 * np.max(np.abs(points))  # an axis along which nothing but rounding changes
+    scaled = np.where(extent > rounding, (points - points.min(axis=0)) / np.where(extent > 0, extent, 1.0), 0.0)
+    centres: list[Array] = []
+    for point in scaled:
+        if not centres or np.min(np.max(np.abs(np.array(centres) - point), axis=1)) > tolerance:
+            centres.append(point)
+    return len(centres)

@@ -1,0 +1,176 @@
+"""Spectra: lines of a steady signal, what they are made of, and spectra that change with time."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import ShortTimeFFT, find_peaks
+from scipy.signal.windows import blackmanharris, hann
+
+Array = NDArray[np.float64]
+
+
+class Line(NamedTuple):
+    """A spectral line: frequency in Hz and amplitude in the signal's unit."""
+
+    frequency: float
+    amplitude: float
+
+
+class Combination(NamedTuple):
+    """``n f_s + m f_drive`` nearest to a line, and by how much the line is off, Hz."""
+
+    n: int
+    m: int
+    frequency: float
+    deviation: float
+
+    def __str__(self) -> str:
+        parts = [_multiple(self.n, "f_s"), _multiple(self.m, "f_Ω")]
+        shown = [part for part in parts if part]
+        return " + ".join(shown).replace("+ -", "− ") or "0"
+
+
+def _multiple(count: int, symbol: str) -> str:
+    if count == 0:
+        return ""
+    return f"{'-' if count < 0 else ''}{'' if abs(count) == 1 else f'{abs(count)} '}{symbol}"
+
+
+class TimeFrequency(NamedTuple):
+    """Power against time and frequency: `time` (s) shape (n,), `frequency` (Hz) shape (m,), `power` shape (m, n)."""
+
+    time: Array
+    frequency: Array
+    power: Array
+
+
+def rate_of(time: Array) -> float:
+    """Sampling rate of uniform samples, Hz."""
+    return float((len(time) - 1) / (time[-1] - time[0]))
+
+
+def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
+    """One-sided amplitudes by a Blackman-Harris window (side lobes below -92 dB), mean removed.
+
+    Returns
+    -------
+    frequency, amplitude : Hz and the signal's unit, shape (len(time) // 2 + 1,); a sine of amplitude 1 has a line of
+        height 1, less what falls between two bins (at most 0.8 dB)
+    """
+    window = blackmanharris(len(time), sym=False)
+    transform = np.fft.rfft((values - np.mean(values)) * window)
+    amplitude: Array = 2 * np.abs(transform) / window.sum()
+    frequency: Array = np.asarray(np.fft.rfftfreq(len(time), 1 / rate_of(time)), dtype=np.float64)
+    return frequency, amplitude
+
+
+def lines(
+    time: Array,
+    values: Array,
+    *,
+    above: float = 0.0,
+    below: float = np.inf,
+    floor: float = 1e-3,
+    apart: float | None = None,
+) -> list[Line]:
+    """Lines of a signal's spectrum between two frequencies, by ascending frequency.
+
+    Parameters
+    ----------
+    above, below : Hz
+    floor : least amplitude, relative to the strongest line between them
+    apart : Hz, least distance of two lines, the stronger one wins; by default four bins, what the window resolves
+
+    Notes
+    -----
+    The place of a line between bins is that of the parabola through the logarithms of the three highest bins.
+    """
+    frequency, amplitude = amplitude_spectrum(time, values)
+    step = float(frequency[1])
+    inside = (frequency > above) & (frequency < below)
+    shown = np.where(inside, amplitude, 0.0)
+    if not shown.any():
+        return []
+    distance = max(1, round((4 * step if apart is None else apart) / step))
+    peaks, _ = find_peaks(shown, height=floor * shown.max(), distance=distance)
+    return [_interpolated(frequency, amplitude, int(i)) for i in peaks]
+
+
+def strongest(time: Array, values: Array, near: float, within: float) -> Line:
+    """The strongest line no further than `within` Hz from a frequency; raises ValueError if there is none."""
+    found = lines(time, values, above=near - within, below=near + within, floor=1e-12)
+    if not found:
+        raise ValueError(f"no line within {within:g} Hz of {near:g} Hz")
+    return max(found, key=lambda line: line.amplitude)
+
+
+def identify(frequency: float, f_s: float, f_drive: float, n_max: int = 12, m_max: int = 3) -> Combination:
+    """The combination ``n f_s + m f_drive`` (0 <= n <= n_max, abs(m) <= m_max) nearest to a frequency, all Hz.
+
+    Of combinations equally near, to a thousandth of a Hz, that with the smallest orders is taken.
+    """
+    orders = [(n, m) for n in range(n_max + 1) for m in range(-m_max, m_max + 1) if n > 0 or m > 0]
+
+    def cost(order: tuple[int, int]) -> tuple[float, int]:
+        n, m = order
+        return round(abs(n * f_s + m * f_drive - frequency), 3), n + abs(m)
+
+    n, m = min(orders, key=cost)
+    value = n * f_s + m * f_drive
+    return Combination(n, m, value, frequency - value)
+
+
+def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: float = 0.05) -> TimeFrequency:
+    """Short-time Fourier transform: power in a Hann window that slides over the samples, mean removed.
+
+    Parameters
+    ----------
+    time, values : uniform samples, shape (n,)
+    window, hop : s, length of the window and distance of two; lines 2/window Hz apart are told apart
+
+    Notes
+    -----
+    Only windows that lie within the samples are kept: the result begins half a window after the first sample and ends
+    half a window before the last. A sine of amplitude 1 has power 1/2. Raises ValueError if the samples are shorter
+    than the window.
+    """
+    rate = rate_of(time)
+    length, step = round(window * rate), max(1, round(hop * rate))
+    if len(values) < length + 2 * step:
+        raise ValueError(f"{len(values) / rate:g} s of samples are too few for a window of {window:g} s")
+    # scale_to="magnitude": the height of a line does not depend on the window's length
+    transform = ShortTimeFFT(hann(length, sym=False), step, rate, fft_mode="onesided2X", scale_to="magnitude")
+    centred = np.asarray(values, dtype=float) - np.mean(values)
+    first, last = transform.lower_border_end[1], transform.upper_border_begin(len(centred))[1]
+    power = np.abs(transform.stft(centred, p0=first, p1=last)) ** 2 / 2
+    return TimeFrequency(time[0] + transform.delta_t * np.arange(first, last), transform.f, power)
+
+
+def power_share(time: Array, values: Array, above: float, reference: float) -> float:
+    """Share of the power above one frequency in that above another, lower one (both Hz)."""
+    frequency, amplitude = amplitude_spectrum(time, values)
+    power = amplitude**2
+    return float(power[frequency > above].sum() / power[frequency > reference].sum())
+
+
+def coverage(time: Array, values: Array, low: float, high: float, floor: float = 1e-3) -> float:
+    """Share of the band from `low` to `high` Hz where the amplitude exceeds `floor` of the band's strongest.
+
+    A few lines cover a small share of their band, a broad, fuzzy spectrum much of it.
+    """
+    frequency, amplitude = amplitude_spectrum(time, values)
+    band = amplitude[(frequency >= low) & (frequency <= high)]
+    return float(np.mean(band > floor * band.max()))
+
+
+def _interpolated(frequency: Array, amplitude: Array, i: int) -> Line:
+    """The top of the parabola through the logarithms of three bins."""
+    if not 0 < i < len(amplitude) - 1:
+        return Line(float(frequency[i]), float(amplitude[i]))
+    low, mid, high = np.log(np.maximum(amplitude[i - 1 : i + 2], np.finfo(float).tiny))
+    curvature = low - 2 * mid + high
+    shift = 0.5 * (low - high) / curvature if curvature < 0 else 0.0
+    return Line(float(frequency[i] + shift * frequency[1]), float(np.exp(mid - 0.25 * (low - high) * shift)))

@@ -1,0 +1,109 @@
+"""Motions are named rightly for signals whose nature is known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model.analysis import classify
+from disc_model.analysis.classify import Kind, motion_of, separation_location, stick_disappears, zero_one
+
+
+def logistic(r: float, n: int) -> np.ndarray:
+    x = np.empty(n)
+    x[0] = 0.3
+    for i in range(1, n):
+        x[i] = r * x[i - 1] * (1 - x[i - 1])
+    return x[n // 4 :]
+
+
+@pytest.mark.parametrize("period", [1, 2, 3, 8, 12])
+def test_periodic_with_its_period(period: int) -> None:
+    intervals = np.tile(0.01 + 1e-3 * np.random.default_rng(1).random(period), 40)
+    motion = motion_of(intervals + 1e-9 * np.sin(np.arange(intervals.size)))
+    assert motion.kind is Kind.PERIODIC
+    assert motion.period == period
+    assert motion.closure < 1e-8
+
+
+def test_a_slow_approach_to_a_period_is_periodic_only_to_its_tolerance() -> None:
+    intervals = 0.01 + 1e-4 * np.exp(-np.arange(200) / 50)
+    assert motion_of(intervals, 1e-5).period == 1
+    assert motion_of(intervals, 1e-9).period == 0
+
+
+def test_quasi_periodic() -> None:
+    golden = (5**0.5 - 1) / 2
+    motion = motion_of(0.01 + 0.002 * np.cos(2 * np.pi * golden * np.arange(2000)))
+    assert motion.kind is Kind.QUASI_PERIODIC
+    assert motion.period == 0
+    assert motion.spread == pytest.approx(0.002 / 0.01 / 2**0.5, rel=1e-2)
+
+
+def test_irregular() -> None:
+    assert motion_of(0.01 + 0.005 * logistic(4.0, 3000)).kind is Kind.IRREGULAR
+    assert motion_of(0.01 + 0.005 * np.random.default_rng(3).random(2000)).kind is Kind.IRREGULAR
+
+
+@pytest.mark.parametrize(("r", "expected"), [(3.55, 0.0), (3.9, 1.0), (4.0, 1.0)])
+def test_zero_one_test_on_the_logistic_map(r: float, expected: float) -> None:
+    assert zero_one(logistic(r, 3000)) == pytest.approx(expected, abs=0.1)
+
+
+def test_zero_one_test_does_not_depend_on_scale_or_run() -> None:
+    signal = logistic(3.9, 1500)
+    assert zero_one(signal) == pytest.approx(zero_one(1e-6 * signal + 5), abs=1e-9)
+
+
+def test_too_few_intervals_are_not_judged() -> None:
+    with pytest.raises(ValueError, match="at least 20"):
+        motion_of(np.ones(5))
+
+
+def test_constant_intervals() -> None:
+    assert str(motion_of(np.full(50, 0.015))) == "periodic"
+    assert str(motion_of(np.tile([1.0, 2.0], 50))) == "periodic, period 2"
+    assert classify.irregularity(np.ones(5)) == 0
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "expected"),
+    [(0.3, 0.0, True), (0.3, 0.0009, True), (0.3, 0.01, False), (0.0, 0.0, False)],
+)
+def test_stick_disappears(before: float, after: float, expected: bool) -> None:
+    assert stick_disappears(before, after) is expected
+
+
+@pytest.mark.parametrize(
+    ("angle", "kind", "height"),
+    [
+        (0.0, "rising", 0.5),
+        (np.pi / 2, "at the highest position", 1.0),
+        (np.pi, "falling", 0.5),
+        (3 * np.pi / 2, "at the lowest position", 0.0),
+        (3 * np.pi / 2 - 0.4, "at the lowest position", 0.04),
+        (3 * np.pi / 2 + 0.4, "at the lowest position", 0.04),
+        (3 * np.pi / 2 - 0.9, "falling", 0.19),
+        (3 * np.pi / 2 + 0.9, "rising", 0.19),
+    ],
+)
+def test_where_a_sine_loses_contact(angle: float, kind: str, height: float) -> None:
+    f, rate = 100.0, 100_000.0
+    time = np.arange(0, 0.2, 1 / rate)
+    starts = np.round((np.arange(2, 17) + angle / (2 * np.pi)) / f * rate).astype(int)
+    found = separation_location(time, 3e-3 * np.sin(2 * np.pi * f * time), starts)
+    assert found.kind == kind
+    assert found.height == pytest.approx(height, abs=0.01)
+    assert found.velocity == pytest.approx(3e-3 * 2 * np.pi * f * np.cos(angle), abs=0.02)
+
+
+def test_a_loss_before_the_lowest_point_says_how_far_it_is() -> None:
+    time = np.arange(0, 0.2, 1e-5)
+    starts = np.round((np.arange(2, 17) + 0.75 - 0.05) / 100 / 1e-5).astype(int)
+    found = separation_location(time, np.sin(2 * np.pi * 100 * time), starts)
+    assert found.to_lowest == pytest.approx((1 - np.cos(0.1 * np.pi)) / 2, abs=1e-3)
+
+
+def test_no_separation_has_no_location() -> None:
+    with pytest.raises(ValueError, match="no separation"):
+        separation_location(np.arange(10.0), np.arange(10.0), np.array([], dtype=int))

@@ -1,0 +1,81 @@
+"""Lines, their names, and spectra in time, for signals made of known lines."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model.analysis import spectra
+
+RATE = 4000.0
+TIME = 3.0 + np.arange(40_000) / RATE
+F_S, F_DRIVE = 67.63, 2.4032
+KNOWN = {F_DRIVE: 1.0, F_S - F_DRIVE: 3e-2, F_S + F_DRIVE: 2e-2, 2 * F_S - F_DRIVE: 1e-2, 2 * F_S + F_DRIVE: 4e-3}
+
+
+def signal(parts: dict[float, float]) -> np.ndarray:
+    return 0.7 + sum(a * np.cos(2 * np.pi * f * TIME + i) for i, (f, a) in enumerate(parts.items()))
+
+
+def test_lines_are_found_with_frequency_and_amplitude() -> None:
+    found = spectra.lines(TIME, signal(KNOWN), floor=1e-3)
+    assert [line.frequency for line in found] == pytest.approx(list(KNOWN), abs=0.005)
+    assert [line.amplitude for line in found] == pytest.approx(list(KNOWN.values()), rel=0.02)
+
+
+def test_the_strongest_line_near_a_frequency() -> None:
+    line = spectra.strongest(TIME, signal(KNOWN), 70.0, 1.0)
+    assert line.frequency == pytest.approx(F_S + F_DRIVE, abs=0.005)
+    with pytest.raises(ValueError, match="no line"):
+        spectra.strongest(TIME, np.zeros_like(TIME), 500, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("frequency", "name"),
+    [
+        (F_DRIVE, "f_Ω"),
+        (2 * F_DRIVE, "2 f_Ω"),
+        (F_S - F_DRIVE, "f_s − f_Ω"),
+        (F_S + F_DRIVE, "f_s + f_Ω"),
+        (4 * F_S - F_DRIVE, "4 f_s − f_Ω"),
+        (3 * F_S, "3 f_s"),
+    ],
+)
+def test_lines_are_named(frequency: float, name: str) -> None:
+    found = spectra.identify(frequency + 0.1, F_S, F_DRIVE)
+    assert str(found) == name
+    assert found.deviation == pytest.approx(0.1)
+
+
+def test_time_frequency_follows_a_chirp() -> None:
+    t = TIME - TIME[0]
+    found = spectra.time_frequency(TIME, np.cos(2 * np.pi * (100 * t + 10 * t**2)), window=0.25, hop=0.05)
+    ridge = found.frequency[np.argmax(found.power, axis=0)]
+    np.testing.assert_allclose(ridge, 100 + 20 * (found.time - TIME[0]), atol=4)
+    assert found.time[0] == pytest.approx(TIME[0] + 0.125, abs=0.05)
+    assert found.time[-1] == pytest.approx(TIME[-1] - 0.125, abs=0.05)
+    assert found.power.shape == (found.frequency.size, found.time.size)
+
+
+def test_time_frequency_needs_a_window_of_samples() -> None:
+    with pytest.raises(ValueError, match="window"):
+        spectra.time_frequency(TIME[:100], TIME[:100])
+
+
+def test_time_frequency_power_is_that_of_the_line() -> None:
+    found = spectra.time_frequency(TIME, 3 * np.cos(2 * np.pi * 250 * TIME))
+    middle = found.power[:, found.time.size // 2]
+    assert found.frequency[np.argmax(middle)] == pytest.approx(250)
+    assert middle.max() == pytest.approx(4.5, rel=1e-3)
+
+
+def test_power_share() -> None:
+    values = np.cos(2 * np.pi * 100 * TIME) + 0.1 * np.cos(2 * np.pi * 900 * TIME)
+    assert spectra.power_share(TIME, values, 700, 20) == pytest.approx(0.01 / 1.01, rel=1e-3)
+    assert spectra.power_share(TIME, np.cos(2 * np.pi * 100 * TIME), 700, 20) < 1e-12
+
+
+def test_coverage_tells_lines_from_noise() -> None:
+    noise = np.random.default_rng(0).normal(size=TIME.size)
+    assert spectra.coverage(TIME, signal(KNOWN), 10, 300) < 0.06
+    assert spectra.coverage(TIME, noise, 10, 300) > 0.95
