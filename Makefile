@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
 
-.PHONY: env reproduce test test-long test-study lint format bench lock clean
+.PHONY: report orthonormal gallery env reproduce gc test test-long test-study lint format bench lock clean
 
 env: $(STAMP)
 
@@ -19,6 +19,24 @@ $(STAMP): requirements.lock pyproject.toml
 
 reproduce: env
 	$(BIN)/snakemake -j$(CORES)
+
+# Removes batches of grid studies to which no study refers any more.
+gc: env
+	$(BIN)/snakemake -j1 gc
+
+# One HTML file with every figure, the ledger and the provenance, from results that are there.
+report: env
+	$(BIN)/snakemake --report results/paper/report.html all $(wildcard results/paper/normalisation.html)
+
+# The paper's cases with modes normalised as Eq. (17) says, and what that changes.
+orthonormal: reproduce
+	$(BIN)/snakemake -j$(CORES) --configfile config/paper.yaml config/orthonormal.yaml
+	$(BIN)/snakemake -j$(CORES) results/paper/normalisation.html
+	cp results/paper/normalisation.md docs/normalisation.md
+
+# The small pictures of docs/ and of the README, from finished figures.
+gallery: env
+	$(BIN)/python workflow/scripts/make_gallery.py
 
 test: env
 	$(BIN)/pytest -m "not slow and not workflow"
@@ -47,8 +65,9 @@ $(VENV)/.bench: requirements-bench.lock $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-bench.lock
 	touch $@
 
+# Speed against accuracy, where methods fail, truncation: measured here and now, on one core at a time.
 bench: $(VENV)/.bench
-	$(BIN)/pytest --benchmark-enable --benchmark-only
+	$(BIN)/snakemake -j1 bench
 
 LOCK := $(BIN)/pip-compile --upgrade --generate-hashes --no-emit-index-url --no-emit-find-links --no-header --strip-extras --allow-unsafe
 lock: env

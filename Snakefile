@@ -11,6 +11,10 @@ include: "workflow/rules/simulate.smk"
 include: "workflow/rules/merge.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
+include: "workflow/rules/studies.smk"
+include: "workflow/rules/plots.smk"
+include: "workflow/rules/report.smk"
+include: "workflow/rules/benchmark.smk"
 
 
 rule all:
@@ -18,4 +22,11 @@ rule all:
     input:
         rules.merge_cases.output,
         rules.check_claims.output,
+        rules.describe_study.output,
+        collect(rules.make_table.output, table=TABLES),
         collect(rules.draw_figure.output, figure=STUDY.figures),
+        collect(rules.publish_study.output, study=GRIDS),
+        [
+            collect(rules.draw_plot.output, study=name, plot=study.plots)
+            for name, study in GRIDS.items()
+        ],

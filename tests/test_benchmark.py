@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -167,3 +168,11 @@ def test_every_method_has_a_look_and_every_scene_a_title():
     assert set(METHODS) <= set(figures.LOOKS)
     assert set(figures.TITLES) == set(scenes.SCENES)
     assert figures.VERDICTS == scenes.VERDICT_WORDS
+
+
+def test_the_rules_name_every_scene_and_every_failure_map() -> None:
+    rules = (Path(__file__).parents[1] / "workflow/rules/benchmark.smk").read_text()
+    from disc_model.failure_maps import VALUES
+
+    for name in (*scenes.SCENES, *VALUES):
+        assert f'"{name}"' in rules

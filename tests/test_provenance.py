@@ -27,11 +27,16 @@ def test_a_simulation_depends_on_the_whole_engine_and_on_no_figure_or_claim() ->
 
 @pytest.mark.parametrize("figure", CATALOGUE)
 def test_a_figure_depends_on_its_module_and_the_style_but_not_on_the_solver(figure: str) -> None:
+    def file_of(name: str) -> str:
+        return module_of(name).removeprefix("disc_model.").replace(".", "/") + ".py"
+
     found = names(module_of(figure))
-    assert {f"figures/{figure}.py", "figures/style.py"} <= found
+    assert {file_of(figure), "figures/style.py"} <= found
     assert not {name for name in found if name.startswith(("engine/", "claims/")) or name == "simulate.py"}
-    others = {f"figures/{other}.py" for other in CATALOGUE if other != figure}
-    assert not others & found
+    # figures of one kind share a module; another kind's module must not make this one be drawn again
+    own_parts = {file_of(figure), "figures/sections.py", "figures/response.py", "figures/spectrograms.py"}
+    own_parts |= {file_of("fig24")} if figure == "fig25" else set()  # the segments that Fig. 24 marks
+    assert not ({file_of(other) for other in CATALOGUE} - own_parts) & found
 
 
 def test_imports_of_every_kind_are_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

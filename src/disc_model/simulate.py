@@ -96,6 +96,7 @@ def simulate(
         collector.drain(counters)
         if progress is not None:
             progress(float(state.x[layout.TIME]))
+    wall_time = clock.perf_counter() - began
     samples, poincare = collector.finish()
     status = _STATUS[code]
     return Result(
@@ -108,7 +109,7 @@ def simulate(
         first_separation=collector.first_separation,
         final_state=read_state(p, model, state),
         u_0=model.u_0,
-        statistics=_statistics(counters, phase_times, sums, record.energy, clock.perf_counter() - began),
+        statistics=_statistics(counters, phase_times, sums, record.energy, wall_time),
         samples=samples,
         poincare=poincare,
     )

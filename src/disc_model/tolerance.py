@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-
 # Local truncation error for a tolerance of 1.  With it event times over a second come out 20 to 200 times better than
 # the tolerance, measured against the long-double references.
 LOCAL = 4.0

@@ -1,15 +1,34 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
 
-from disc_model.scenes import SCENES
-
 BENCH = "results/bench"
+# Named here because importing the methods would cost every start of Snakemake a second; a test compares.
+BENCH_SCENES = ["stick_slip", "separating", "many_modes", "rigid"]
+FAILURE_MAPS = ["RK4_stick_slip"] + [
+    f"{method}_separating"
+    for method in (
+        "series",
+        "RK4",
+        "RK45",
+        "DOP853",
+        "LSODA",
+        "Radau",
+        "regularised",
+        "heyoka",
+        "heyoka-unguarded",
+        "CVODE",
+    )
+]
 BENCH_FIGURES = [
     "overview",
-    *(f"work_precision_{scene}" for scene in SCENES),
+    *(f"work_precision_{scene}" for scene in BENCH_SCENES),
     "failure_maps",
     "truncation",
 ]
+BENCH_INPUTS = {
+    "truncation": f"{BENCH}/truncation.nc",
+    "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
+}
 BENCH_STYLE = Path(
     workflow.basedir, "src", "disc_model", "figures", "disc_model.mplstyle"
 )
@@ -17,26 +36,6 @@ BENCH_DATA = [
     Path(workflow.basedir, "src", "disc_model", "data", name)
     for name in ("benchmark_reference.json", "separating_start.json")
 ]
-
-
-def failure_map_methods():
-    """Method and scene of each map, in the order of the panels; methods that are not installed are left out."""
-    from disc_model.failure_maps import VALUES
-    from disc_model.methods import METHODS
-
-    pairs = [("RK4", "stick_slip")] + [(method, "separating") for method in VALUES]
-    return [pair for pair in pairs if not METHODS[pair[0]].unavailable()]
-
-
-def bench_inputs(wildcards):
-    if wildcards.figure == "truncation":
-        return f"{BENCH}/truncation.nc"
-    if wildcards.figure == "failure_maps":
-        return [
-            f"{BENCH}/failure_maps/{method}_{scene}.nc"
-            for method, scene in failure_map_methods()
-        ]
-    return f"{BENCH}/work_precision.nc"
 
 
 rule bench:
@@ -104,7 +103,9 @@ rule study_truncation:
 
 rule draw_benchmark:
     input:
-        bench_inputs,
+        lambda wildcards: BENCH_INPUTS.get(
+            wildcards.figure, f"{BENCH}/work_precision.nc"
+        ),
     output:
         pdf=f"{BENCH}/figures/{{figure}}.pdf",
         png=f"{BENCH}/figures/{{figure}}.png",
