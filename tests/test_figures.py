@@ -12,8 +12,9 @@ import xarray as xr
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
+from disc_model import Parameters
 from disc_model.figures import parts
-from disc_model.figures.catalogue import CATALOGUE, module_of
+from disc_model.figures.catalogue import CATALOGUE, SECTIONS, caption, label, module_of, number_of
 from disc_model.figures.style import COLUMN, PAGE, save
 
 
@@ -23,7 +24,7 @@ def made_up_case(*, separates: bool = True) -> xr.DataTree:
     grow = np.minimum(np.exp((t - 40) / 10), 1)
     history = {
         f"{name}_{end}": ("time", offset + sign * scale * grow)
-        for name, offset, scale in (("P", 200.0, 200.0), ("w_point", -5e-4, 0.01))
+        for name, offset, scale in (("P", 200.0, 200.0), ("w_point", -5e-4, 0.01), ("psi", 0.02, 0.05))
         for end, sign in (("min", -1), ("max", 1))
     }
     s = np.linspace(0, 0.035, 3501)
@@ -35,20 +36,60 @@ def made_up_case(*, separates: bool = True) -> xr.DataTree:
         "u": ("time", 0.009 * cycle),
         "w": ("time", 0.009 * cycle - 3e-5 * (force == 0)),
     }
-    root = xr.Dataset({"first_separation": 40.0 if separates else np.nan, "u_0": -0.001})
+    p = Parameters(N=200, Omega=20)
+    root = xr.Dataset(
+        {"first_separation": 40.0 if separates else np.nan, "u_0": -0.001, "time_reached": 60.0},
+        attrs={"parameters": p.canonical_json},
+    )
+    stretches = {
+        f"spectrum_{name}": made_up_samples(start, 4000, 3.0) for name, start in zip("abcd", STARTS, strict=True)
+    }
+    stretches["orbit"] = made_up_samples(59, 5000, 1.0)
+    stretches["poincare"] = made_up_samples(0, 3, 60.0)
+    if not separates:
+        stretches = {name: window.assign(phase=window["phase"] % 2) for name, window in stretches.items()}
     return xr.DataTree.from_dict(
         {
             "/": root,
             "/history": xr.Dataset(history, coords={"time": t}),
             "/zoom": xr.Dataset(zoom, coords={"time": 50 + s}),
         }
+        | {f"/{name}": window for name, window in stretches.items()}
     )
+
+
+STARTS = (0.0, 20.0, 38.5, 50.0)
+"""Of the stretches whose spectra are shown, s."""
+
+
+def made_up_samples(start: float, rate: float, length: float) -> xr.Dataset:
+    """A slider that sticks, slips and separates at 70 Hz, and a disc at 140 Hz."""
+    t = start + np.arange(round(length * rate)) / rate
+    cycle, turn = np.sin(2 * np.pi * 70 * t), np.cos(2 * np.pi * 3.2 * t)
+    values = {
+        "psi": 0.05 * cycle,
+        "psi_velocity": np.minimum(20.0, 22 * np.cos(2 * np.pi * 70 * t)),
+        "w_point": 1e-3 * turn + 1e-4 * np.sin(2 * np.pi * 140 * t),
+        "w_point_velocity": 0.1 * np.cos(2 * np.pi * 140 * t),
+        "phase": np.where(cycle > 0.9, 2, np.where(cycle > 0, 0, 1)).astype(np.int8),
+    }
+    return xr.Dataset({name: ("time", value) for name, value in values.items()}, coords={"time": t})
+
+
+OPTIONS = {
+    "fig26": CATALOGUE["fig26"].options | {"zooms": [["spectrum_c", 39.0], ["spectrum_d", 51.0]]},
+    "fig28": CATALOGUE["fig28"].options | {"zooms": [["spectrum_d", 50.5], ["spectrum_d", 51.0]]},
+}
+"""Closer looks at times that the made-up case has."""
 
 
 def draw(name: str, *, separates: bool = True) -> Figure:
     cases = {case: made_up_case(separates=separates) for case in CATALOGUE[name].cases}
-    figure: Figure = importlib.import_module(module_of(name)).draw(cases)
+    figure: Figure = importlib.import_module(module_of(name)).draw(cases, **OPTIONS.get(name, CATALOGUE[name].options))
     return figure
+
+
+UNLABELLED = ("shares the axis to its left",)
 
 
 @pytest.mark.parametrize("separates", [True, False])
@@ -57,6 +98,8 @@ def test_figures_name_their_quantities_and_units(name: str, separates: bool) -> 
     figure = draw(name, separates=separates)
     assert figure.get_figwidth() in (COLUMN, PAGE)
     for ax in figure.axes:
+        if ax.get_label() in UNLABELLED:
+            continue
         assert ax.get_ylabel().endswith(")"), "a unit in brackets"
         assert ax.has_data() or not separates
     assert any(ax.get_xlabel().endswith(")") for ax in figure.axes) or not separates
@@ -105,3 +148,21 @@ def test_first_separation_is_marked() -> None:
     assert "first separation 40.00 s" in texts
     lines = draw("fig13").axes[0].lines
     assert [to_hex(line.get_color()).upper() for line in lines] == [VERMILION]
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_captions_name_the_parameters_and_the_modes(name: str) -> None:
+    p = Parameters(N=385, Omega=15.1, c_p=0.5)
+    for normalization, words in (("as_published", "as in the published results"), ("orthonormal", "Eq. (17)")):
+        cases = dict.fromkeys(CATALOGUE[name].cases, p.replace(normalization=normalization))
+        text = caption(name, cases)
+        assert "N = 385 N, Ω = 15.1 rad/s, c_p = 0.5 N s/m" in text
+        assert words in text
+
+
+def test_every_figure_has_its_place() -> None:
+    assert all(entry.section in SECTIONS and entry.title for entry in CATALOGUE.values())
+    assert [number_of(name) for name in ("fig02", "fig29", "figA1")] == ["Fig. 2", "Fig. 29", "Fig. A1"]
+    assert sorted(["fig10", "fig02", "fig29"], key=label) == ["fig02", "fig10", "fig29"]
+    shown = {*range(2, 30)} - {15}  # 1 is a sketch, 15 belongs to a study of its own
+    assert set(CATALOGUE) == {f"fig{n:02d}" for n in shown} | {"figA1", "figA2"}

@@ -7,11 +7,59 @@ rule check_claims:
     output:
         csv=f"{RESULTS}/claims.csv",
         md=f"{RESULTS}/claims.md",
+        html=report(
+            f"{RESULTS}/claims.html",
+            caption="../report/claims.rst",
+            category="Claims of the paper",
+            labels={"table": "All statements, with verdicts"},
+        ),
     log:
         f"{RESULTS}/logs/check_claims.log",
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("check_claims.py", "disc_model.claims"),
+        sources=sources_of(
+            "check_claims.py", "disc_model.claims", "disc_model.claims.page"
+        ),
     shell:
-        "python workflow/scripts/check_claims.py {input} --csv {output.csv} --md {output.md} > {log} 2>&1"
+        "python workflow/scripts/check_claims.py {input} --csv {output.csv} --md {output.md} --html {output.html}"
+        " > {log} 2>&1"
+
+
+# The cases and windows that Tables 1 and 2 are made of may be missing from a study.
+TABLES = [
+    f"table{n}"
+    for n in (1, 2)
+    if "spectrum_a"
+    in (dict(STUDY.specs["F13"].windows) if "F13" in STUDY.specs else {})
+]
+
+
+rule make_table:
+    # Tables 1 and 2 of the paper.
+    input:
+        case_file("F13"),
+    output:
+        csv=f"{RESULTS}/tables/{{table}}.csv",
+        md=f"{RESULTS}/tables/{{table}}.md",
+        html=report(
+            f"{RESULTS}/tables/{{table}}.html",
+            caption="../report/table.rst",
+            category="Tables of the paper",
+            labels=lambda wildcards: {
+                "table": wildcards.table.replace("table", "Table ")
+            },
+        ),
+    log:
+        f"{RESULTS}/logs/make_table/{{table}}.log",
+    wildcard_constraints:
+        table="table[12]",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        sources=sources_of(
+            "make_table.py", "disc_model.claims.tables", "disc_model.claims.page"
+        ),
+    shell:
+        "python workflow/scripts/make_table.py {wildcards.table} {input}"
+        " --csv {output.csv} --md {output.md} --html {output.html} > {log} 2>&1"

@@ -1,4 +1,4 @@
-"""Check the paper's claims against the merged cases; write the table as CSV and as Markdown."""
+"""Check the paper's claims against the merged cases; write the table as CSV, as Markdown and as a page."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from disc_model.claims import check_claims, to_markdown
+from disc_model.claims.page import ledger
 from disc_model.dataset import load
 
 
@@ -14,10 +15,12 @@ def main() -> None:
     parser.add_argument("cases", help="netCDF file of the merged cases")
     parser.add_argument("--csv", type=Path, required=True)
     parser.add_argument("--md", type=Path, required=True)
+    parser.add_argument("--html", type=Path, required=True)
     args = parser.parse_args()
     table = check_claims(load(args.cases))
     table.to_csv(args.csv, index=False)
     args.md.write_text(to_markdown(table), encoding="utf-8")
+    args.html.write_text(ledger(table), encoding="utf-8")
 
 
 if __name__ == "__main__":

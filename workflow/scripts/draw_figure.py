@@ -4,23 +4,25 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import json
 from pathlib import Path
 
 from disc_model.dataset import load
-from disc_model.figures.catalogue import CATALOGUE, module_of
 from disc_model.figures.style import save
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("figure", choices=list(CATALOGUE))
+    parser.add_argument("module", help="module that draws it, such as disc_model.figures.fig02")
     parser.add_argument("cases", nargs="+", type=Path, help="netCDF files of the cases")
+    parser.add_argument("--options", type=json.loads, default={}, help="JSON: keyword arguments of its function draw")
+    parser.add_argument("--title", default="", help="written into the files")
     parser.add_argument("--out", action="append", required=True, help="file to write, .pdf or .png; may be repeated")
     args = parser.parse_args()
-    module = importlib.import_module(module_of(args.figure))
-    figure = module.draw({path.stem: load(path) for path in args.cases})
+    module = importlib.import_module(args.module)
+    figure = module.draw({path.stem: load(path) for path in args.cases}, **args.options)
     for path in args.out:
-        save(figure, path)
+        save(figure, path, title=args.title)
 
 
 if __name__ == "__main__":

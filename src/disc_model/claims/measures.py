@@ -8,9 +8,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from disc_model.analysis.classify import FEWEST, Motion, closure, irregularity, motion_of, shortest_period
 from disc_model.claims.model import CaseView, Missing
 from disc_model.result import EVENT_KINDS, PHASES
 
+__all__ = ["closure", "irregularity", "shortest_period"]  # beside what is defined here
 Array = NDArray[np.float64]
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 
@@ -41,24 +43,14 @@ def is_kind(events: xr.Dataset, kind: str) -> NDArray[np.bool_]:
 def release_intervals(case: CaseView) -> Array:
     """Times between successive releases of stick in the events kept, s."""
     intervals = np.diff(times_of(case.group("events"), "stick_to_slip"))
-    if intervals.size < 20:
-        raise Missing(f"case {case.name} keeps fewer than 20 stick-slip cycles")
+    if intervals.size < FEWEST:
+        raise Missing(f"case {case.name} keeps fewer than {FEWEST} stick-slip cycles")
     return intervals
 
 
-def irregularity(intervals: Array) -> float:
-    """Standard deviation over mean; 0 for a motion with one release a period."""
-    return float(np.std(intervals) / np.mean(intervals))
-
-
-def closure(intervals: Array, period: int) -> float:
-    """Largest difference between an interval and the one `period` releases later, s."""
-    return float(np.max(np.abs(intervals[period:] - intervals[:-period])))
-
-
-def shortest_period(intervals: Array, tolerance: float, longest: int = 8) -> int:
-    """Least number of releases after which intervals repeat to `tolerance` s; 0 if none up to `longest`."""
-    return next((n for n in range(1, longest + 1) if closure(intervals, n) <= tolerance), 0)
+def late_motion(case: CaseView, tolerance: float = 1e-6) -> Motion:
+    """What the in-plane motion is within the events kept; see `disc_model.analysis.classify`."""
+    return motion_of(release_intervals(case), tolerance)
 
 
 def rate_of(case: CaseView, kind: str) -> float:
@@ -116,3 +108,22 @@ def late_range(case: CaseView, name: str, last: float = 20.0) -> Range:
 def early_range(case: CaseView, name: str, first: float = 20.0) -> Range:
     """Range over the first seconds, the very first one left out."""
     return range_within(case, name, 1.0, 1.0 + first)
+
+
+def stretch(case: CaseView, window: str, start: float = -np.inf, stop: float = np.inf) -> xr.Dataset:
+    """The samples of a window between two times; raises `Missing` if there are none."""
+    samples = case.group(window)
+    found = samples.sel(time=slice(start, stop))
+    if found.sizes["time"] < 100:
+        raise Missing(f"case {case.name} has no samples in {window} from {start:g} to {stop:g} s")
+    return found
+
+
+def slope(case: CaseView, name: str, start: float, stop: float) -> float:
+    """Mean rate at which the logarithm of a variable's range grows between two times, 1/s."""
+    history = case.group("history")
+    part = history.sel(time=slice(start, stop))
+    if part.sizes["time"] < 4:
+        raise Missing(f"case {case.name} has no history from {start:g} to {stop:g} s")
+    width = part[f"{name}_max"].values - part[f"{name}_min"].values
+    return float(np.polyfit(part["time"].values, np.log(width), 1)[0])

@@ -32,10 +32,18 @@ class Finding:
 
 @dataclass(frozen=True)
 class Needed:
-    """A case that a claim is about: the values it must have beside base values, and how far it must run."""
+    """A case that a claim is about.
+
+    Attributes
+    ----------
+    parameters : values it must have beside base values
+    until : s, how far it must run
+    separates : whether the claim is about what separation does: without one it does not hold
+    """
 
     parameters: Mapping[str, Any]
     until: float = 0.0
+    separates: bool = False
 
 
 @dataclass(frozen=True)
@@ -48,6 +56,10 @@ class CaseView:
     def __getitem__(self, name: str) -> float:
         """A scalar: a parameter, or one of `disc_model.variables.SCALARS`."""
         return float(self.node.dataset[name].item())
+
+    @property
+    def parameters(self) -> Parameters:
+        return Parameters.model_validate_json(self.node.attrs["parameters"])
 
     @property
     def status(self) -> str:
@@ -98,6 +110,12 @@ class Claim:
         try:
             for name, needed in self.needs.items():
                 _require(cases, name, needed)
+            quiet = [
+                cases[name] for name, needed in self.needs.items() if needed.separates and not cases[name].separates
+            ]
+            if quiet:
+                said = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
+                return Finding(said, FAILS)
             return self.check(cases, self)
         except Missing as missing:
             return Finding("", f"{NOT_COMPUTED}: {missing}")
@@ -110,7 +128,8 @@ def _require(cases: Cases, name: str, needed: Needed) -> None:
     if case.status not in ("ok", "stopped"):
         raise Missing(f"{case.status} (case {name})")
     wanted = Parameters(**needed.parameters)
-    found = Parameters.model_validate_json(case.node.attrs["parameters"])
+    found = case.parameters
+    wanted = wanted.replace(normalization=found.normalization)  # the study's choice, not the claim's
     if wanted != found:
         differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")

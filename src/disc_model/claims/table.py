@@ -5,11 +5,11 @@ from __future__ import annotations
 import pandas as pd
 import xarray as xr
 
-from disc_model.claims import disc, section41, section42, section43
+from disc_model.claims import disc, section41, section42, section43, section44
 from disc_model.claims.model import CaseView, Claim
 
 COLUMNS = ("id", "location", "claim", "paper_value", "ours", "tolerance", "reason", "verdict", "remark")
-CLAIMS: tuple[Claim, ...] = (*disc.CLAIMS, *section41.CLAIMS, *section42.CLAIMS, *section43.CLAIMS)
+CLAIMS: tuple[Claim, ...] = (*disc.CLAIMS, *section41.CLAIMS, *section42.CLAIMS, *section43.CLAIMS, *section44.CLAIMS)
 
 
 def check_claims(tree: xr.DataTree) -> pd.DataFrame:
@@ -26,9 +26,9 @@ def check_claims(tree: xr.DataTree) -> pd.DataFrame:
 def to_markdown(table: pd.DataFrame) -> str:
     """The table as a Markdown document, with a count of the verdicts above it."""
     count = table["verdict"].str.partition(":")[0].value_counts()
-    summary = ", ".join(f"{number} {verdict}" for verdict, number in count.items())
+    summary = ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
     header = [name.replace("_", " ").replace("ours", "computed") for name in COLUMNS]
-    lines = ["# The paper's claims", "", f"{len(table)} claims: {summary}.", ""]
+    lines = ["# The paper's claims", "", f"{len(table)} claims; {summary}.", ""]
     lines += [_row(header), _row(["---"] * len(header))]
     lines += [_row(row) for row in table.itertuples(index=False)]
     return "\n".join(lines) + "\n"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -19,26 +20,33 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     figure = new_figure(PAGE, 2.3)
     whole, zoom = figure.subplots(1, 2)
     _whole(whole, case)
-    _zoom(zoom, case["zoom"].to_dataset())
+    _zoom(zoom, case)
     return figure
 
 
 def _whole(ax: Axes, case: xr.DataTree) -> None:
     parts.letter(ax, "a")
     parts.envelope(ax, case["history"].to_dataset(), "P", color=SEPARABLE)
-    ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
+    _show_zero(ax, case)
     parts.mark_first_separation(ax, float(case["first_separation"]))
     ax.set(xlabel="Time (s)", ylabel="Contact force (N)")
 
 
-def _zoom(ax: Axes, window: xr.Dataset) -> None:
+def _show_zero(ax: Axes, case: xr.DataTree) -> None:
+    """Where contact is lost, zero is shown; a force that hardly changes is shown close up."""
+    if np.isfinite(float(case["first_separation"])):
+        ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
+
+
+def _zoom(ax: Axes, case: xr.DataTree) -> None:
+    window = case["zoom"].to_dataset()
     parts.letter(ax, "b")
     time = window["time"].values
     start = float(time[0])
     spans = [((a - start) * 1e3, (b - start) * 1e3) for a, b in parts.separations(window)]
     parts.shade(ax, spans, "separation")
     ax.plot((time - start) * 1e3, window["P"].values, color=SEPARABLE)
-    ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
+    _show_zero(ax, case)
     ax.set(xlabel=f"Time after {start:.3f} s (ms)", ylabel="Contact force (N)")
     if spans:
         parts.legend_above(ax)

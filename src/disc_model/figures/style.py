@@ -10,7 +10,7 @@ from typing import Any, ParamSpec
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from disc_model.figures.catalogue import STYLE
+from disc_model.figures import STYLE
 
 P = ParamSpec("P")
 COLUMN = 89 / 25.4
@@ -48,11 +48,13 @@ def new_figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def save(figure: Figure, path: str | Path) -> None:
-    """Write a figure in the format of the path's suffix; equal figures give equal bytes."""
+def save(figure: Figure, path: str | Path, title: str = "") -> None:
+    """Write a figure in the format of the path's suffix, its title within; equal figures give equal bytes."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     metadata: dict[str, Any] = {"CreationDate": None} if path.suffix == ".pdf" else {"Software": None}
+    if title:
+        metadata["Title"] = title
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.style.use(STYLE)

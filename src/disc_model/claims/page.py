@@ -1,0 +1,93 @@
+"""Tables as self-contained HTML pages, readable on light and on dark backgrounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from typing import Any
+
+import pandas as pd
+
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
+
+STYLE = """
+:root { color-scheme: light dark; --text: #1b1b1b; --back: #ffffff; --line: #cccccc; --head: #f2f2f2; --soft: #555555;
+  --good: #00684b; --note: #7a4f00; --bad: #a63c00; }
+@media (prefers-color-scheme: dark) { :root { --text: #e6e6e6; --back: #16181b; --line: #444444; --head: #24272b;
+  --soft: #a8a8a8; --good: #4fd0a5; --note: #f0b54a; --bad: #ff9459; } }
+body { font: 14px/1.45 system-ui, sans-serif; color: var(--text); background: var(--back); margin: 1.5rem; }
+h1 { font-size: 1.3rem; margin: 0 0 .5rem; } p { max-width: 60rem; }
+table { border-collapse: collapse; width: 100%; } td.number { text-align: right; white-space: nowrap; }
+th, td { border-bottom: 1px solid var(--line); padding: .35rem .5rem; text-align: left; vertical-align: top; }
+th { background: var(--head); position: sticky; top: 0; }
+.small { color: var(--soft); font-size: 12px; } .verdict { font-weight: 600; }
+.good { color: var(--good); } .note { color: var(--note); } .bad { color: var(--bad); } .none { color: var(--soft); }
+"""
+CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad"}
+
+
+def page(title: str, *body: str) -> str:
+    """A whole HTML document."""
+    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{STYLE}</style>'
+    return f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{escape(title)}</h1>\n' + "\n".join(
+        [*body, "</body></html>\n"]
+    )
+
+
+def ledger(table: pd.DataFrame) -> str:
+    """The table of claims as a page, with the counts of the verdicts above it."""
+    count = table["verdict"].str.partition(":")[0].value_counts()
+    summary = f"{len(table)} statements; " + ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
+    rows = [_claim(row) for row in table.to_dict("records")]
+    head = ("", "Place", "Statement, in our words", "Paper", "Computed", "Verdict", "Tolerance")
+    return page("The paper's claims, checked", f"<p>{escape(summary)}.</p>", _table(head, rows, CLAIM_WIDTHS))
+
+
+def _claim(row: Mapping[Any, Any]) -> str:
+    verdict = str(row["verdict"])
+    remark = f'<div class="small">{escape(row["remark"])}</div>' if row["remark"] else ""
+    shown, _, missing = verdict.partition(":")
+    kind = CLASSES.get(shown, "none" if shown == NOT_COMPUTED else "")
+    why = f'<div class="small">{escape(row["reason"])}</div>' if row["reason"] else ""
+    return _row(
+        escape(row["id"]),
+        escape(row["location"]),
+        escape(row["claim"]),
+        escape(row["paper_value"]),
+        escape(row["ours"]) + remark,
+        f'<span class="verdict {kind}">{escape(shown)}</span><div class="small">{escape(missing)}</div>',
+        escape(row["tolerance"]) + why,
+    )
+
+
+def table_page(title: str, note: str, table: pd.DataFrame, names: Mapping[str, str] | None = None) -> str:
+    """Any table as a page; `names` are headings by column."""
+    return page(title, f"<p>{escape(note)}</p>" if note else "", table_html(table, names))
+
+
+def table_html(table: pd.DataFrame, names: Mapping[str, str] | None = None) -> str:
+    """The table alone."""
+    head = [(names or {}).get(str(name), str(name)) for name in table.columns]
+    rows = ["<tr>" + "".join(_cell(value) for value in row) + "</tr>" for row in table.itertuples(index=False)]
+    return _table(head, rows)
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, float):
+        return f'<td class="number">{"" if math.isnan(value) else f"{value:g}"}</td>'
+    return f"<td>{escape(str(value))}</td>"
+
+
+def _row(*cells: str) -> str:
+    return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+
+
+CLAIM_WIDTHS = (5, 11, 18, 13, 30, 9, 14)
+"""Of the columns of the ledger, in hundredths."""
+
+
+def _table(head: Sequence[str], rows: Iterable[str], widths: Sequence[int] = ()) -> str:
+    styles = [f' style="width: {width}%"' for width in widths] or [""] * len(head)
+    top = "".join(f"<th{style}>{escape(name)}</th>" for name, style in zip(head, styles, strict=True))
+    return f"<table><thead><tr>{top}</tr></thead><tbody>\n" + "\n".join(rows) + "\n</tbody></table>"

@@ -1,0 +1,415 @@
+"""Claims of Section 4.4: frequencies of the disc and of the slider, and how they change with time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from disc_model.analysis import spectra
+from disc_model.claims import measures
+from disc_model.claims.model import Cases, CaseView, Check, Claim, Finding, Needed
+from disc_model.claims.section41 import not_periodic
+from disc_model.claims.tables import LISTED, TABLE_2, mixing, stick_slip_rate, table_2
+from disc_model.claims.wording import finding, first_separation, many
+from disc_model.plate import plate_modes, slider_at_rest_frequencies
+
+F13 = Needed({"N": 385, "Omega": 15.1}, 110)
+SEPARATES = Needed(F13.parameters, 110, separates=True)
+F07 = Needed({"N": 300, "Omega": 20}, 190, separates=True)
+F21 = Needed({"N": 200, "Omega": 11, "E": 1e11}, 480)
+LOW, HIGH = 20.0, 700.0
+"""Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
+
+
+def _natural(case: CaseView) -> np.ndarray:
+    """Natural frequencies with the slider attached, Hz."""
+    return slider_at_rest_frequencies(case.parameters) / (2 * np.pi)
+
+
+def _lines(cases: Cases, claim: Claim) -> Finding:
+    table = table_2(cases["F13"])
+    off = np.abs(table["ours_Hz"] - table["paper_Hz"])
+    said = ", ".join(f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples())
+    ours = f"{said} Hz, with f_s = {stick_slip_rate(cases['F13']):.2f} Hz"
+    remark = "combinations of the stick-slip rate and the drive's, not natural frequencies: see T2c"
+    return finding(ours, bool(off.max() <= claim.bound), remark)
+
+
+def _drive(cases: Cases, claim: Claim) -> Finding:
+    window = measures.stretch(cases["F13"], "spectrum_a", 0, 10)
+    drive = cases["F13"]["Omega"] / (2 * np.pi)
+    time, values = window["time"].values, window["w_point"].values
+    found = [spectra.strongest(time, values, n * drive, 0.4 * drive) for n in (1, 2, 3)]
+    every = max(spectra.lines(time, values, above=0.5 * drive), key=lambda line: line.amplitude)
+    level = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
+    ours = ", ".join(f"{line.frequency:.2f} Hz at {x:.0f} dB" for line, x in zip(found, level, strict=True))
+    near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))
+    return finding(ours, near and every.amplitude <= found[0].amplitude * (1 + 1e-9) and min(level) > claim.bound)
+
+
+def _follow(cases: Cases, claim: Claim) -> Finding:
+    """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
+    said, worst, farthest = [], 0.0, 0.0
+    for name in ("F13", "T2kp18", "T2kp22", "T2Om12"):
+        case = cases[name]
+        rate, found = mixing(case)
+        worst = max(worst, max(abs(each.deviation) for _, each in found))
+        farthest = max(farthest, max(float(np.min(np.abs(_natural(case) - line.frequency))) for line, _ in found))
+        said.append(
+            f"k_p = {case['k_p']:g} N/m, Ω = {case['Omega']:g} rad/s (f_s = {rate:.2f} Hz): "
+            f"{many([line.frequency for line, _ in found], 1)} Hz"
+        )
+    remark = (
+        f"they follow n f_s ± f_Ω within {worst:.2f} Hz when the in-plane spring or the speed is changed, and lie up "
+        f"to {farthest:.0f} Hz from the nearest natural frequency, which does not change"
+    )
+    if worst > claim.bound:
+        remark = "not all of the strongest lines are combinations n f_s ± f_Ω here"
+    return finding("; ".join(said), worst > claim.bound, remark)
+
+
+def _inplane_line(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F13"]
+    rate = stick_slip_rate(case)
+    window = measures.stretch(case, "spectrum_a", 0, 10)
+    drive = case["Omega"] / (2 * np.pi)
+    pair = [
+        spectra.strongest(window["time"].values, window["w_point"].values, rate + side * drive, 0.5) for side in (-1, 1)
+    ]
+    free = float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
+    ours = f"ψ at {rate:.2f} Hz; the disc's point at {pair[0].frequency:.2f} and {pair[1].frequency:.2f} Hz"
+    remark = (
+        f"a pair f_s ± f_Ω, seen in the disc's frame; its middle is {rate:.2f} Hz, not 70 Hz: sticking makes it slower "
+        f"than the spring's own {free:.2f} Hz"
+    )
+    middle = (pair[0].frequency + pair[1].frequency) / 2
+    return finding(ours, abs(middle - rate) < claim.bound, remark)
+
+
+def _close_to_natural(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F13"]
+    table = table_2(case).iloc[3:]
+    natural = _natural(case)
+    nearest = [float(natural[np.argmin(np.abs(natural - f))]) for f in table["ours_Hz"]]
+    off = np.abs(np.array(nearest) - table["ours_Hz"].to_numpy())
+    said = ", ".join(f"{f:.1f} ({n:.1f})" for f, n in zip(table["ours_Hz"], nearest, strict=True))
+    remark = f"only those near 2 f_s are, by chance; the others are {off[2:].min():.0f} to {off[2:].max():.0f} Hz away"
+    return finding(f"{said} Hz, in brackets the nearest natural frequency", bool(off.max() <= claim.bound), remark)
+
+
+def _new_lines(cases: Cases, claim: Claim) -> Finding:
+    shares = [_fuzziness(cases["F13"], "spectrum_a", 0, 10), _fuzziness(cases["F13"], "spectrum_b", 38, 48)]
+    ours = f"lines fill {100 * shares[0]:.1f} % of 20..300 Hz in 0..10 s, {100 * shares[1]:.1f} % in 38..48 s"
+    return finding(ours, shares[1] > claim.bound * shares[0])
+
+
+def _higher(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F13"]
+    first = case["first_separation"]
+    before = _high_share(case, "spectrum_c", 50, first)
+    after = _high_share(case, "spectrum_c", first, 60)
+    late = _high_share(case, "spectrum_d", 100, 110)
+    ours = (
+        f"power above {HIGH:g} Hz, of that above {LOW:g} Hz: {before:.1e} before, {after:.1e} after, {late:.1e} later"
+    )
+    return finding(ours, after > claim.bound * before)
+
+
+def _steady_lines(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F13"]
+    fuzz = [_fuzziness(case, "spectrum_b", 38, 48), _fuzziness(case, "spectrum_d", 100, 110)]
+    halves = [measures.stretch(case, "spectrum_d", *span) for span in ((100, 105), (105, 110))]
+    found = [spectra.lines(x["time"].values, x["w_point"].values, above=LOW, floor=1e-2) for x in halves]
+    drift = max(min(abs(a.frequency - b.frequency) for b in found[1]) for a in found[0])
+    ours = (
+        f"lines fill {100 * fuzz[1]:.1f} % of 20..300 Hz ({100 * fuzz[0]:.1f} % in 38..48 s); from 100..105 to "
+        f"105..110 s they move by {drift:.0e} Hz at most"
+    )
+    return finding(ours, fuzz[1] < fuzz[0] / claim.bound and drift < 0.01)
+
+
+def _slider_settles(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F13"]
+    first = case["first_separation"]
+    spans = (("spectrum_c", 50, first), ("spectrum_d", 100, 100 + first - 50))
+    before, after = (_fuzziness(case, *span, name="psi") for span in spans)
+    motion = measures.late_motion(case)
+    ours = f"lines of ψ fill {100 * before:.1f} % of 20..300 Hz before, {100 * after:.1f} % after; then {motion}"
+    return finding(ours, after < before / claim.bound and motion.period > 0)
+
+
+def _growth_stages(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F07"]
+    first, end = case["first_separation"], case["time_reached"]
+    starts = np.arange(5.0, first - 5, 2.5)
+    rates = np.array([measures.slope(case, "w_point", t, t + 5) for t in starts])
+    peak = int(np.argmax(rates))
+    slow, sharp = float(rates[starts < first / 2].mean()), float(rates[peak])
+    last, after = measures.slope(case, "w_point", first - 3, first), measures.slope(case, "w_point", end - 20, end)
+    ours = (
+        f"growth of the range: {slow:.4f}/s over the first half, {sharp:.3f}/s at {starts[peak] + 2.5:.0f} s, "
+        f"{last:.3f}/s just before separation, {after:.4f}/s in the end"
+    )
+    return finding(ours, sharp > claim.bound * slow and last < sharp and abs(after) < 0.01 * sharp)
+
+
+def _natural_lines(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F07"]
+    window = measures.stretch(case, "spectrum_d", 143, 153)
+    found = spectra.lines(window["time"].values, window["w_point"].values, above=LOW, floor=1e-3)
+    strongest = sorted(found, key=lambda line: -line.amplitude)[:4]
+    natural = _natural(case)
+    drive = case["Omega"] / (2 * np.pi)
+    power = sum(line.amplitude**2 for line in strongest)
+    near = [line for line in strongest if np.min(np.abs(natural - line.frequency)) <= 4 * drive]
+    share = sum(line.amplitude**2 for line in near) / power
+    ours = f"strongest lines {many([line.frequency for line in strongest], 1)} Hz: {100 * share:.0f} % of their power "
+    ours += f"within 4 f_Ω of a natural frequency, the lowest being {natural[0]:.1f} Hz"
+    remark = "that is the lowest coupled mode, l f_Ω up and down in the disc's frame; the others hardly take part"
+    return finding(ours, share > claim.bound, remark)
+
+
+def _fuzz_stays(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F07"]
+    first = case["first_separation"]
+    before = _fuzziness(case, "spectrum_d", first - 4, first)
+    after = _fuzziness(case, "spectrum_d", first, first + 4)
+    high = [_high_share(case, "spectrum_d", first - 4, first), _high_share(case, "spectrum_d", first, first + 4)]
+    ours = (
+        f"lines fill {100 * before:.0f} % of 20..300 Hz before and {100 * after:.0f} % after; "
+        f"power above {HIGH:g} Hz {high[0]:.1e} before, {high[1]:.1e} after"
+    )
+    return finding(ours, after > before / claim.bound and high[1] > 10 * high[0])
+
+
+def _no_high_line(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F21"]
+    omega = float(plate_modes(case.parameters)["omega"].max())
+    base = float(plate_modes(case.parameters.replace(E=150e9))["omega"].max())
+    window = measures.stretch(case, "spectrum_d", 465, 475)
+    share = spectra.power_share(window["time"].values, window["w_point"].values, omega / (2 * np.pi), LOW)
+    ours = f"share of power above {omega:.1f} rad/s, of that above {LOW:g} Hz: {share:.0e}"
+    remark = f"at 100 GPa the highest natural frequency is {omega:.1f} rad/s; {base:.2f} rad/s belongs to 150 GPa"
+    return finding(ours, share < claim.bound, remark)
+
+
+def _erratic(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F21"]
+    window = measures.stretch(case, "spectrum_d", 465, 475)
+    rate, drive = stick_slip_rate(case, "spectrum_d", 465, 475), case["Omega"] / (2 * np.pi)
+    found = spectra.lines(window["time"].values, window["w_point"].values, above=LOW, below=600, floor=1e-2)
+    other = [line for line in found if abs(spectra.identify(line.frequency, rate, drive).deviation) > 0.2]
+    motion = measures.late_motion(case)
+    ours = (
+        f"{len(found)} lines above a hundredth of the strongest, {len(other)} of them no n f_s + m f_Ω; "
+        f"in-plane motion {motion}, 0-1 test {motion.chaos:.2f}"
+    )
+    return finding(ours, len(other) >= claim.bound and motion.period == 0)
+
+
+def _fuzziness(case: CaseView, window: str, start: float, stop: float, name: str = "w_point") -> float:
+    """Share of 20..300 Hz where a variable's amplitude exceeds 1e-4 of the strongest there.
+
+    Only stretches of equal length, which resolve equally, can be compared.
+    """
+    part = measures.stretch(case, window, start, stop)
+    return spectra.coverage(part["time"].values, part[name].values, LOW, 300.0, floor=1e-4)
+
+
+def _high_share(case: CaseView, window: str, start: float, stop: float) -> float:
+    part = measures.stretch(case, window, start, stop)
+    return spectra.power_share(part["time"].values, part["w_point"].values, HIGH, LOW)
+
+
+def _first(name: str, paper: float) -> Check:
+    def check(cases: Cases, claim: Claim) -> Finding:
+        time = cases[name]["first_separation"]
+        return finding(first_separation(cases[name]), bool(abs(time - paper) <= claim.bound))
+
+    return check
+
+
+FUZZ = "share of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: little for lines, much for fuzz"
+
+CLAIMS = (
+    Claim(
+        "T2a",
+        "Sec. 4.4, Table 2, Fig. 25a",
+        "N = 385 N, Omega = 15.1 rad/s, 0..10 s: the disc's significant frequencies",
+        f"{many(LISTED, 1)} Hz",
+        "1 Hz",
+        "most are printed to a Hz, read off a plot",
+        _lines,
+        1.0,
+        {"F13": F13},
+    ),
+    Claim(
+        "T2b",
+        "Sec. 4.4",
+        "The drive's frequency predominates; its double and triple take part",
+        "2.4 Hz and multiples",
+        "-60 dB",
+        "'take part' without a level; the other lines of Table 2 are at this level or below",
+        _drive,
+        -60.0,
+        {"F13": F13},
+    ),
+    Claim(
+        "T2c",
+        "Sec. 4.4",
+        "f_1 to f_6 are natural frequencies of the disc with the slider at rest, shifted by its rotation",
+        TABLE_2["f_1"][1],
+        "more than 0.3 Hz from n f_s + m f_Omega",
+        "what the stick-slip rate drifts by within the 10 s, times n",
+        _follow,
+        0.3,
+        {
+            "F13": F13,
+            "T2kp18": Needed({"N": 385, "Omega": 15.1, "k_p": 1.8e4}, 9.9),
+            "T2kp22": Needed({"N": 385, "Omega": 15.1, "k_p": 2.2e4}, 9.9),
+            "T2Om12": Needed({"N": 385, "Omega": 12}, 9.9),
+        },
+    ),
+    Claim(
+        "T2d",
+        "Sec. 4.4",
+        "f_h1 and f_h2 are the in-plane frequency of 70 Hz, split by the rotation",
+        "65.5 and 70 Hz",
+        "0.1 Hz in the middle of the pair",
+        "the stick-slip rate is known better than that",
+        _inplane_line,
+        0.1,
+        {"F13": F13},
+    ),
+    Claim(
+        "T2e",
+        "Sec. 4.4",
+        "f_1 to f_6 are close to 135.42, 237.55 and 288.85 Hz",
+        "close",
+        "5 Hz",
+        "twice the drive's frequency, which is what rotation can shift a line of the lowest modes by",
+        _close_to_natural,
+        5.0,
+        {"F13": F13},
+    ),
+    Claim(
+        "F25b",
+        "Sec. 4.4, Fig. 25b",
+        "In 38..48 s new frequencies emerge between the main ones",
+        "new, shifted frequencies",
+        "twice as much of the band filled",
+        FUZZ,
+        _new_lines,
+        2.0,
+        {"F13": SEPARATES},
+    ),
+    Claim(
+        "F25c",
+        "Sec. 4.4, Fig. 25c; conclusion 5",
+        "With the first separation higher frequencies show up suddenly",
+        "sudden change",
+        "a factor of 50 in power",
+        "before, the share is what a smooth motion leaves; 'sudden' is read off a plot of decades",
+        _higher,
+        50.0,
+        {"F13": SEPARATES},
+    ),
+    Claim(
+        "F25d",
+        "Sec. 4.4, Fig. 25d",
+        "Long after separation the frequencies are constant and the fuzzy ones gone",
+        "constant, no fuzz",
+        "half as much of the band filled; lines at rest within 0.01 Hz",
+        FUZZ,
+        _steady_lines,
+        2.0,
+        {"F13": SEPARATES},
+    ),
+    Claim(
+        "F26",
+        "Sec. 4.4, Fig. 26",
+        "The slider's irregular frequencies disappear after separation: stick-slip becomes periodic",
+        "periodic",
+        "half as much of the band filled; release intervals repeat to 1e-6 s",
+        FUZZ,
+        _slider_settles,
+        2.0,
+        {"F13": SEPARATES},
+    ),
+    Claim(
+        "F27",
+        "Sec. 4.4, Fig. 27",
+        "N = 300 N, Omega = 20 rad/s: first separation",
+        "149.5 s",
+        "0.2 s",
+        "'around' in the text, and slow growth: 1e-7 m in the start moves it by 0.02 s",
+        _first("F07", 149.5),
+        0.2,
+        {"F07": Needed({"N": 300, "Omega": 20}, 150)},
+    ),
+    Claim(
+        "F27a",
+        "Sec. 4.4, Fig. 27a",
+        "The vibration grows gradually, then sharply, then less, and is bounded after separation",
+        "slow, sharp, slower, bounded",
+        "sharp: 3 times the mean rate of the first half",
+        "what 'sharply' may mean",
+        _growth_stages,
+        3.0,
+        {"F07": F07},
+    ),
+    Claim(
+        "F27b",
+        "Sec. 4.4, Fig. 27b",
+        "143..153 s: the disc's vibration is mainly governed by its natural frequencies",
+        "natural frequencies",
+        "90 % of the power of the four strongest lines",
+        "what 'mainly' may mean; a mode of l nodal diameters is seen shifted by l f_Omega, l up to 4",
+        _natural_lines,
+        0.9,
+        {"F07": F07},
+    ),
+    Claim(
+        "F27c",
+        "Sec. 4.4, Fig. 27b; conclusion 5",
+        "After separation higher frequencies arise, and the fuzzy ones stay",
+        "both",
+        "not less than two thirds as much of the band filled; power above 700 Hz ten times",
+        FUZZ,
+        _fuzz_stays,
+        1.5,
+        {"F07": F07},
+    ),
+    Claim(
+        "F28",
+        "Sec. 4.4, Fig. 28b",
+        "The same case: stick-slip is quasi-periodic in the steady state",
+        "quasi-periodic",
+        "spread of the release intervals above 0.3",
+        "the paper shows a spectrum, no number; a periodic motion would have 0",
+        not_periodic("F07"),
+        0.3,
+        {"F07": F07},
+    ),
+    Claim(
+        "F29",
+        "Sec. 4.4, Fig. 29b",
+        "E = 100 GPa: no frequency above the highest natural one",
+        "none above 4383.04 rad/s",
+        "1e-7 of the power above 20 Hz",
+        "70 dB below the vibration is below what the figure shows",
+        _no_high_line,
+        1e-7,
+        {"F21": F21},
+    ),
+    Claim(
+        "F29b",
+        "Sec. 4.4, Fig. 29b",
+        "E = 100 GPa: erratic vibration with several incommensurate frequencies",
+        "several",
+        "at least 3 lines that are no combination of the stick-slip rate and the drive's",
+        "'several'; 0.2 Hz tells them apart in 10 s",
+        _erratic,
+        3.0,
+        {"F21": F21},
+    ),
+)

@@ -1,0 +1,101 @@
+"""Tables 1 and 2 of the paper: its values, ours, and for every line of Table 2 what it is."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from disc_model.analysis import spectra
+from disc_model.claims import measures
+from disc_model.claims.model import CaseView
+from disc_model.parameters import Parameters
+
+NATURAL = "natural frequency of the disc with the slider, shifted by the rotation"
+INPLANE = "in-plane frequency of the slider, split by the rotation"
+TABLE_2 = {
+    "f_Ω": (2.4, "the rotating drive point"),
+    "f_h1": (65.5, INPLANE),
+    "f_h2": (70.0, INPLANE),
+    "f_1": (133.0, NATURAL),
+    "f_2": (138.0, NATURAL),
+    "f_3": (200.0, NATURAL),
+    "f_4": (206.0, NATURAL),
+    "f_5": (269.0, NATURAL),
+    "f_6": (273.0, NATURAL),
+}
+"""By symbol: frequency in Hz and attribution, as the paper has them."""
+LISTED = tuple(value for value, _ in TABLE_2.values())
+TABLE_1 = {
+    "a": 0.044,
+    "b": 0.12,
+    "r_0": 0.1,
+    "h": 0.002,
+    "E": 150e9,
+    "nu": 0.211,
+    "D_star": 1e-5,
+    "mu_s": 0.4,
+    "mu_k": 0.24,
+    "k": 5e4,
+    "k_p": 2e4,
+    "m": 0.1,
+    "rho": 7200.0,
+    "c": 0.0,
+    "c_p": 0.0,
+}
+"""Base values as the paper has them, SI units."""
+
+
+def table_1(p: Parameters) -> pd.DataFrame:
+    """Table 1: symbol, what it is, unit, the paper's value and the one computed with."""
+    rows = [
+        (name, Parameters.model_fields[name].description or name, Parameters.unit(name), value, getattr(p, name))
+        for name, value in TABLE_1.items()
+    ]
+    return pd.DataFrame(rows, columns=["symbol", "quantity", "unit", "paper", "ours"])
+
+
+def table_2(case: CaseView) -> pd.DataFrame:
+    """Table 2: the lines of the disc's displacement at r_0, theta = 1 during the first 10 s.
+
+    Returns
+    -------
+    DataFrame
+        symbol, paper_Hz, ours_Hz, level_dB (relative to the drive's line), ours_is, predicted_Hz (of that
+        combination), paper_says
+    """
+    window = measures.stretch(case, "spectrum_a", 0, 10)
+    time, values = window["time"].values, window["w_point"].values
+    drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
+    found = [spectra.strongest(time, values, paper, 2.0 if paper > 10 else 0.5) for paper in LISTED]
+    names = [spectra.identify(line.frequency, rate, drive) for line in found]
+    return pd.DataFrame(
+        {
+            "symbol": list(TABLE_2),
+            "paper_Hz": LISTED,
+            "ours_Hz": [line.frequency for line in found],
+            "level_dB": [20 * np.log10(line.amplitude / found[0].amplitude) for line in found],
+            "ours_is": [str(name) for name in names],
+            "predicted_Hz": [name.frequency for name in names],
+            "paper_says": [said for _, said in TABLE_2.values()],
+        }
+    )
+
+
+def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
+    """Rate of stick and slip, Hz: the strongest line of psi, which is seen in the slider's own frame."""
+    part = measures.stretch(case, window, start, stop)
+    found = spectra.lines(part["time"].values, part["psi"].values, above=20.0)
+    return max(found, key=lambda line: line.amplitude).frequency
+
+
+def mixing(case: CaseView) -> tuple[float, list[tuple[spectra.Line, spectra.Combination]]]:
+    """The stick-slip rate, and the disc's eight strongest lines near its first four multiples with what they are."""
+    window = measures.stretch(case, "spectrum_a", 0, 10)
+    time, values = window["time"].values, window["w_point"].values
+    drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
+    found = []
+    for n in range(1, 5):
+        lines = spectra.lines(time, values, above=n * rate - 1.7 * drive, below=n * rate + 1.7 * drive, apart=drive)
+        pair = sorted(sorted(lines, key=lambda line: -line.amplitude)[:2])
+        found += [(line, spectra.identify(line.frequency, rate, drive)) for line in pair]
+    return rate, found

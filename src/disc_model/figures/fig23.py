@@ -1,0 +1,43 @@
+"""Figure 23 of the paper: a light slider leaves the disc near the lowest point of its swing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model.figures import parts
+from disc_model.figures.style import BLUE, COLUMN, GREEN, VERMILION, new_figure, styled
+
+SHOWN = 0.025
+"""Length of the stretch shown, s."""
+
+
+@styled
+def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Slider and disc from static equilibrium; losses of contact are marked."""
+    case = cases["F23"]
+    window = case["zoom"].to_dataset()
+    start = float(window["time"][0])
+    found = parts.complete_separations(window)
+    if found:
+        start = found[0][0] - 0.1 * SHOWN
+    part = window.sel(time=slice(start, start + SHOWN))
+    time = (part["time"].values - start) * 1e3
+    rest = float(case["u_0"])
+    figure = new_figure(COLUMN, 2.5)
+    ax = figure.subplots()
+    parts.shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in parts.separations(part)], "separation")
+    ax.plot(time, (part["w"].values - rest) * 1e3, color=BLUE, label="disc")
+    ax.plot(time, (part["u"].values - rest) * 1e3, color=GREEN, linestyle=(0, (4, 1.5)), label="slider")
+    losses = np.array([a for a, _ in parts.separations(part) if a > start])
+    if losses.size:
+        height = part["w"].sel(time=losses, method="nearest").values
+        ax.plot(
+            (losses - start) * 1e3, (height - rest) * 1e3, "o", color=VERMILION, markersize=3.5, label="contact lost"
+        )
+    ax.set(xlabel=f"Time after {start:.4f} s (ms)", ylabel="From equilibrium (mm)")
+    parts.legend_above(ax)
+    return figure

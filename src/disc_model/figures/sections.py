@@ -1,0 +1,69 @@
+"""Poincare sections of one case: the in-plane motion of the slider and the motion of a point of the disc.
+
+Figures 4 to 9, 12, 14 and 16 to 22 of the paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.analysis.poincare import Stages, stages
+from disc_model.figures import parts
+from disc_model.figures.style import BLUE, GREEN, PAGE, VERMILION, new_figure, styled
+
+MARKS: dict[str, dict[str, Any]] = {
+    "early": {"marker": "x", "color": BLUE, "s": 9, "linewidths": 0.5},
+    "later": {"marker": "o", "color": GREEN, "s": 3.5, "linewidths": 0},
+    "separated": {"marker": "^", "color": VERMILION, "s": 8, "linewidths": 0},
+}
+"""Symbol by stage: told apart by shape as well as by colour."""
+BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "separated": "separated"}
+BY_HALVES = {"early": "first half", "later": "second half", "separated": "separated"}
+
+
+@styled
+def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0, theta = 1."""
+    (case,) = cases.values()
+    samples = case["poincare"].to_dataset()
+    found = stages(
+        samples["time"].values,
+        samples["phase"].values,
+        float(case["first_separation"]),
+        float(case["time_reached"]),
+    )
+    figure = new_figure(PAGE, 2.75)
+    slider, disc = figure.subplots(1, 2)
+    _scatter(slider, samples["psi"].values, samples["psi_velocity"].values, found)
+    _scatter(disc, samples["w_point"].values * 1e3, samples["w_point_velocity"].values, found)
+    slider.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
+    disc.set(xlabel=r"Disc at $r_0$, $\theta$ = 1 (mm)", ylabel="Its velocity (m/s)")
+    parts.letter(slider, "a")
+    parts.letter(disc, "b")
+    _legend(figure, disc, found, float(case["first_separation"]))
+    return figure
+
+
+def _scatter(ax: Axes, x: np.ndarray, y: np.ndarray, found: Stages) -> None:
+    for name in ("early", "later", "separated"):
+        shown = getattr(found, name)
+        ax.scatter(x[shown], y[shown], **MARKS[name], rasterized=bool(shown.sum() > 2000))
+    for set_limits, values in ((ax.set_xlim, x), (ax.set_ylim, y)):
+        low, high = float(values.min()), float(values.max())
+        margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)
+        set_limits(low - margin, high + margin)
+
+
+def _legend(figure: Figure, ax: Axes, found: Stages, first: float) -> None:
+    labels = BY_SEPARATION if found.divided_by_separation else BY_HALVES
+    names = [name for name in ("early", "later", "separated") if getattr(found, name).any()]
+    handles = [ax.scatter([], [], label=labels[name], **(MARKS[name] | {"s": 14})) for name in names]
+    title = f"First separation at {first:.2f} s:" if found.divided_by_separation else "No separation:"
+    blank = ax.scatter([], [], s=0, label=title)
+    figure.legend(handles=[blank, *handles], loc="outside upper right", ncols=len(handles) + 1, handletextpad=0.2)

@@ -1,0 +1,117 @@
+"""A real browser, driven over WebDriver with the standard library alone."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import json
+import shutil
+import socket
+import subprocess
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+DRIVER = shutil.which("chromedriver")
+BROWSER = shutil.which("chromium") or shutil.which("google-chrome") or shutil.which("chrome")
+WHY_NOT = "" if DRIVER and BROWSER else "chromium and chromedriver are not installed"
+OPTIONS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-dev-shm-usage",
+)
+
+
+class Page:
+    """A page opened in a browser of its own."""
+
+    def __init__(self, address: str) -> None:
+        self.address = address
+
+    def call(self, method: str, path: str, body: Any = None) -> Any:
+        data = None if body is None else json.dumps(body).encode()
+        headers = {"Content-Type": "application/json"}
+        request = urllib.request.Request(self.address + path, method=method, data=data, headers=headers)
+        with urllib.request.urlopen(request, timeout=120) as answer:
+            return json.load(answer)["value"]
+
+    def open(self, file: Path) -> None:
+        self.call("POST", "/url", {"url": file.resolve().as_uri()})
+
+    def run(self, script: str, *arguments: Any) -> Any:
+        """Result of the body of a JavaScript function."""
+        return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
+
+    def wait_for(self, script: str, *arguments: Any, seconds: float = 20.0) -> Any:
+        """The first result that is not false, null or empty; fails after some time."""
+        until = time.monotonic() + seconds
+        while not (found := self.run(script, *arguments)):
+            assert time.monotonic() < until, f"still waiting for {script} {arguments}"
+            time.sleep(0.05)
+        return found
+
+    def click(self, text: str) -> None:
+        """Click the element with exactly this text."""
+        self.wait_for(
+            """const found = [...document.querySelectorAll("a, button, li, span")]
+                 .filter(x => x.innerText && x.innerText.trim() === arguments[0]);
+               if (found.length) found[found.length - 1].click();
+               return found.length;""",
+            text,
+        )
+
+    def messages(self) -> list[dict[str, Any]]:
+        """What the page wrote to the console since this was last asked."""
+        found: list[dict[str, Any]] = self.call("POST", "/se/log", {"type": "browser"})
+        return found
+
+    def screenshot(self, file: Path) -> None:
+        file.write_bytes(base64.b64decode(self.call("GET", "/screenshot")))
+
+
+@contextlib.contextmanager
+def browser(profile: Path, *, dark: bool = False) -> Iterator[Page]:
+    """A headless Chromium with an empty profile."""
+    assert DRIVER, WHY_NOT
+    assert BROWSER, WHY_NOT
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    driver = subprocess.Popen([DRIVER, f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        root = Page(f"http://127.0.0.1:{port}")
+        _wait(root)
+        arguments = [*OPTIONS, "--window-size=1400,1000", f"--user-data-dir={profile}"]
+        if dark:
+            arguments.append("--force-dark-mode")
+        wanted = {
+            "browserName": "chrome",
+            "goog:chromeOptions": {"args": arguments, "binary": BROWSER},
+            "goog:loggingPrefs": {"browser": "ALL"},
+        }
+        session = root.call("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})["sessionId"]
+        page = Page(f"{root.address}/session/{session}")
+        try:
+            yield page
+        finally:
+            page.call("DELETE", "")
+    finally:
+        driver.terminate()
+        driver.wait(20)
+
+
+def _wait(root: Page) -> None:
+    until = time.monotonic() + 30
+    while True:
+        try:
+            root.call("GET", "/status")
+        except (urllib.error.URLError, ConnectionError):
+            assert time.monotonic() < until, "chromedriver does not answer"
+            time.sleep(0.1)
+        else:
+            return

@@ -1,0 +1,25 @@
+"""Set the cases of both normalisations beside each other, as Markdown and as a page."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from disc_model.claims.normalisation import compare
+from disc_model.dataset import load
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("published", help="netCDF file of the merged cases, modes as published")
+    parser.add_argument("orthonormal", help="netCDF file of the merged cases, modes as Eq. (17) says")
+    parser.add_argument("--md", type=Path, required=True)
+    parser.add_argument("--html", type=Path, required=True)
+    args = parser.parse_args()
+    found = compare(load(args.published), load(args.orthonormal))
+    args.md.write_text(found.markdown(), encoding="utf-8")
+    args.html.write_text(found.html(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

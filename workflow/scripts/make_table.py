@@ -1,0 +1,63 @@
+"""Make Table 1 or 2 of the paper with our values beside its own: as CSV, as Markdown and as a page."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import pandas as pd
+
+from disc_model.claims.model import CaseView
+from disc_model.claims.page import table_page
+from disc_model.claims.tables import table_1, table_2
+from disc_model.dataset import load
+
+TITLES = {"table1": "Table 1: base values", "table2": "Table 2: frequencies of the disc in the first 10 s"}
+NOTES = {
+    "table1": "Defaults of disc_model.Parameters; SI units.",
+    "table2": (
+        "Lines of the disc's displacement at r_0 and θ = 1; levels relative to the drive's line. f_s is the rate of "
+        "stick and slip, the strongest line of ψ; f_Ω = Ω/2π. What a line is, is found among n f_s + m f_Ω."
+    ),
+}
+NAMES = {
+    "paper_Hz": "Paper (Hz)",
+    "ours_Hz": "Computed (Hz)",
+    "level_dB": "Level (dB)",
+    "ours_is": "What it is",
+    "predicted_Hz": "That is (Hz)",
+    "paper_says": "The paper's attribution",
+    "symbol": "Symbol",
+    "quantity": "Quantity",
+    "unit": "Unit",
+    "paper": "Paper",
+    "ours": "Here",
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("table", choices=list(TITLES))
+    parser.add_argument("case", type=Path, help="netCDF file of the case it is about")
+    parser.add_argument("--csv", type=Path, required=True)
+    parser.add_argument("--md", type=Path, required=True)
+    parser.add_argument("--html", type=Path, required=True)
+    args = parser.parse_args()
+    case = CaseView(args.case.stem, load(args.case))
+    table = table_1(case.parameters) if args.table == "table1" else table_2(case).round(3)
+    table.to_csv(args.csv, index=False)
+    args.md.write_text(_markdown(args.table, table), encoding="utf-8")
+    args.html.write_text(table_page(TITLES[args.table], NOTES[args.table], table, NAMES), encoding="utf-8")
+
+
+def _markdown(name: str, table: pd.DataFrame) -> str:
+    lines = [f"# {TITLES[name]}", "", NOTES[name], ""]
+    lines.append("| " + " | ".join(NAMES[str(column)] for column in table.columns) + " |")
+    lines.append("|" + " --- |" * table.shape[1])
+    for row in table.itertuples(index=False):
+        lines.append("| " + " | ".join(f"{x:g}" if isinstance(x, float) else str(x) for x in row) + " |")
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    main()
