@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, plate_modes, slider_at_rest_frequencies
+from disc_model import ParameterError, Parameters, plate_modes, simulate, slider_at_rest_frequencies
 from disc_model.errors import DiscModelError
 from disc_model.figures.benchmark import truncation as draw
 from disc_model.truncation import (
@@ -123,3 +123,23 @@ def test_growth_rate_converges_but_impacts_do_not():
     impacts = study["separations"].values
     assert impacts[0, 2] > 1.5 * impacts[0, 0]
     assert np.isfinite(impacts).all()
+
+
+def test_auto_picks_the_smallest_model_and_records_its_choice() -> None:
+    p = Parameters(N=385, Omega=15.1, n_diameters="auto", truncation_tolerance=1e-3)
+    chosen = truncation_choice(Parameters(N=385, Omega=15.1), 1e-3)
+    assert (p.n_diameters, p.n_circles) == (chosen.parameters.n_diameters, chosen.parameters.n_circles)
+    assert json.loads(p.truncation)["tolerance"] == 1e-3
+    explicit = Parameters(N=385, Omega=15.1, n_diameters=p.n_diameters, n_circles=p.n_circles)
+    assert p.key == explicit.key
+    assert explicit.truncation == ""
+    assert simulate(p, 0.01).to_dataset().attrs["truncation"] == p.truncation
+
+
+def test_auto_reports_faults_like_any_other_value() -> None:
+    with pytest.raises(ParameterError, match=r"N=-1\.0"):
+        Parameters(N=-1, Omega=15.1, n_diameters="auto")
+    with pytest.raises(ParameterError, match="tolerance=1e-09"):
+        Parameters(N=1, Omega=15.1, n_diameters="auto", truncation_tolerance=1e-9)
+    with pytest.raises(ParameterError, match="truncation_tolerance"):
+        Parameters(N=1, Omega=15.1, n_diameters=4, truncation_tolerance=1e-3)

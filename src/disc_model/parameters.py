@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import difflib
 import hashlib
+import importlib
 import json
 import math
 import numbers
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, ValidationError
 
 from disc_model.errors import ParameterError
 
@@ -61,6 +62,9 @@ def _choice(default: str, description: str) -> Any:
 class Parameters(BaseModel):
     """One case of the disc and slider. Base values are the paper's Table 1; `N` and `Omega` have none.
 
+    ``n_diameters="auto"`` chooses the fewest modes whose coupled frequencies are right to ``truncation_tolerance``
+    (relative, 1e-3 if not given; see `disc_model.truncation`); `truncation` then says what was chosen and why.
+
     Raises
     ------
     ParameterError
@@ -93,8 +97,13 @@ class Parameters(BaseModel):
     )
     contact: Literal["separable", "bonded"] = _choice("separable", "whether the slider may leave the disc")
 
+    _truncation: str = PrivateAttr("")
+
     def __init__(self, **data: Any) -> None:
         faults: list[str] = []
+        truncation = ""
+        if data.get("n_diameters") == "auto":
+            data, truncation = _automatic(type(self), data)
         try:
             super().__init__(**data)
         except ValidationError as error:
@@ -102,6 +111,7 @@ class Parameters(BaseModel):
         faults += _cross_faults(type(self), data)
         if faults:
             raise ParameterError(*faults) from None
+        self._truncation = truncation
 
     @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
@@ -133,6 +143,11 @@ class Parameters(BaseModel):
         return _rigidity(self.E, self.h, self.nu)
 
     @property
+    def truncation(self) -> str:
+        """How the number of modes was chosen, as JSON; "" if it was given."""
+        return self._truncation
+
+    @property
     def canonical_json(self) -> str:
         """The values as JSON with sorted keys: equal for equal parameters, however they were written."""
         return json.dumps(self.model_dump(), sort_keys=True, separators=(",", ":"))
@@ -147,6 +162,18 @@ class Parameters(BaseModel):
         """SI unit of a parameter; "1" if it has no dimension, "" if it is a choice."""
         extra = cls.model_fields[name].json_schema_extra
         return str(extra["unit"]) if isinstance(extra, dict) else ""
+
+
+def _automatic(model: type[Parameters], data: dict[str, Any]) -> tuple[dict[str, Any], str]:
+    """Values with the number of modes chosen, and the record of the choice."""
+    values = {name: value for name, value in data.items() if name not in ("n_diameters", "truncation_tolerance")}
+    case = model(**{**values, "n_diameters": 0, "n_circles": 0})
+    # by name: what a simulation depends on is the choice, which is in the values, and not how it was made
+    chosen = importlib.import_module("disc_model.truncation").truncation_choice(
+        case, data.get("truncation_tolerance", 1e-3)
+    )
+    counts = {"n_diameters": chosen.parameters.n_diameters, "n_circles": chosen.parameters.n_circles}
+    return {**values, **counts}, chosen.to_json()
 
 
 def _rigidity(E: float, h: float, nu: float) -> float:
