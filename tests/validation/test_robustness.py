@@ -236,6 +236,12 @@ class TestDegenerate:
         result = simulate(p, 5e-3, initial_state=start.replace(alpha=alpha))
         assert list(result.events.kind[:2]) == ["separation", "reattachment"]
 
+    def test_without_friction_the_slider_is_off_at_once(self) -> None:
+        result = simulate(Parameters(N=100, Omega=10, mu_s=0, mu_k=0), 1)
+        assert result.events.kind[0] == "stick_to_slip"
+        assert result.events.time[0] == 0
+        assert result.statistics["time_stick"] == pytest.approx(0, abs=1e-9)
+
     def test_grazing_contact(self) -> None:
         """A kick chosen so that P just touches zero: a bit more loses contact, a bit less does not."""
         p = Parameters(N=100, Omega=0)

@@ -139,24 +139,26 @@ def _first_switch(model, s, state, order, x_end):
     """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, _NOTHING)."""
     phase, known = state.x[PHASE], int(state.x[KNOWN])
     set_powers(s.powers, x_end)
+    cause = _NOTHING
     if phase == STICK:
+        x = first_root(s.switch, 0, order - 1, x_end, s.powers, s.roots)
+        if x != NO_ROOT:
+            x_end, cause = x, _RELEASE_FORWARD
+            set_powers(s.powers, x_end)
+        if s.switch2[0] < s.switch[0]:
+            x = first_root(s.switch2, 0, order - 1, x_end, s.powers, s.roots)
+            if x != NO_ROOT:
+                x_end, cause = x, _RELEASE_BACKWARD
+                set_powers(s.powers, x_end)
         if model.mu_s == 0.0 and not model.bonded:
             # the friction limit is zero all along and says nothing of contact
             x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
-            return (x, _CONTACT_LOST) if x != NO_ROOT else (x_end, _NOTHING)
-        x = first_root(s.switch, 0, order - 1, x_end, s.powers, s.roots)
-        if x != NO_ROOT:
-            x_end = x
-            set_powers(s.powers, x_end)
-        if s.switch2[0] < s.switch[0]:
-            back = first_root(s.switch2, 0, order - 1, x_end, s.powers, s.roots)
-            if back != NO_ROOT:
-                return back, _RELEASE_BACKWARD
-        return x_end, _RELEASE_FORWARD if x != NO_ROOT else _NOTHING
+            if x != NO_ROOT:
+                x_end, cause = x, _CONTACT_LOST
+        return x_end, cause
     if phase == SEPARATION:
         x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
         return (x, _GAP_CLOSED) if x != NO_ROOT else (x_end, _NOTHING)
-    cause = _NOTHING
     x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
     if x != NO_ROOT:
         x_end, cause = x, _AT_REST
