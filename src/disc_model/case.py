@@ -39,7 +39,7 @@ class CaseSpec:
     @property
     def canonical(self) -> str:
         """JSON text, equal for equal cases however they were written; `from_canonical` reads it."""
-        return _canonical(
+        return canonical_json(
             {
                 "parameters": self.parameters.model_dump(),
                 "t_end": self.t_end,
@@ -72,7 +72,7 @@ class CaseSpec:
         )
 
 
-def _canonical(value: Any) -> str:
+def canonical_json(value: Any) -> str:
     """JSON with sorted keys; infinities as text, since JSON has none; -0.0 as 0.0."""
 
     def plain(item: Any) -> Any:

@@ -97,11 +97,16 @@ def _module_path(name: str) -> Path | None:
     return module if module.is_file() else None
 
 
-def _imported(path: Path, name: str) -> list[str]:
+def _imported(path: Path, name: str) -> tuple[str, ...]:
     """Names a source file imports; ``from x import y`` gives x and x.y, since y may be a module."""
-    package = name if path.name == "__init__.py" else name.rpartition(".")[0]
+    return _names_in(path.read_bytes(), path.name, name)
+
+
+@functools.cache
+def _names_in(source: bytes, file: str, name: str) -> tuple[str, ...]:
+    package = name if file == "__init__.py" else name.rpartition(".")[0]
     names: list[str] = []
-    for node in ast.walk(ast.parse(path.read_bytes())):
+    for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
             names += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -109,4 +114,4 @@ def _imported(path: Path, name: str) -> list[str]:
             base = ".".join([*parts[: len(parts) - node.level + 1], *([node.module] if node.module else [])])
             module = base if node.level else (node.module or "")
             names += [module, *(f"{module}.{alias.name}" for alias in node.names)]
-    return names
+    return tuple(names)

@@ -47,7 +47,7 @@ class Project:
             capture_output=True,
             text=True,
             check=False,
-            timeout=300,
+            timeout=900,
         )
 
     def planned(self, *options: str, config: str | None = "config/tiny.yaml") -> set[str]:
@@ -69,15 +69,18 @@ class Project:
         assert old in text
         file.write_text(text.replace(old, new))
 
+    def copy(self, folder: Path) -> Project:
+        """A copy to change, times of files included."""
+        shutil.copytree(self.folder, folder, symlinks=True)
+        return Project(folder)
+
     def append(self, path: str, text: str) -> None:
         with (self.folder / path).open("a") as file:
             file.write(text)
 
 
-@pytest.fixture(scope="session")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """The small study, computed."""
-    folder = tmp_path_factory.mktemp("project")
+def copy_repository(folder: Path) -> Project:
+    """What a run needs of the repository, in a folder of its own."""
     for part in PARTS:
         source, target = ROOT / part, folder / part
         if source.is_symlink():
@@ -86,8 +89,14 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
             shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
         else:
             shutil.copy2(source, target)
-    (folder / "config" / "tiny.yaml").write_text(STUDY)
-    project = Project(folder)
+    return Project(folder)
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The small study, computed."""
+    project = copy_repository(tmp_path_factory.mktemp("project"))
+    (project.folder / "config" / "tiny.yaml").write_text(STUDY)
     done = project.snakemake("-j2")
     assert done.returncode == 0, done.stdout + done.stderr
     return project
@@ -96,6 +105,4 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
 @pytest.fixture
 def project(finished: Project, tmp_path: Path) -> Project:
     """A copy of the finished study, times included."""
-    folder = tmp_path / "project"
-    shutil.copytree(finished.folder, folder, symlinks=True)
-    return Project(folder)
+    return finished.copy(tmp_path / "project")

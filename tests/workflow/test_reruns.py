@@ -14,7 +14,7 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 SIMULATIONS = {"simulate_case:F11", "simulate_case:F13", "simulate_case:X"}
 FIGURES = {"draw_figure:fig11", "draw_figure:fig13"}
-TABLES = {"merge_cases", "check_claims"}
+TABLES = {"merge_cases", "check_claims", "describe_study"}
 TINY = "config/tiny.yaml"
 
 

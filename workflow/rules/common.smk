@@ -1,4 +1,5 @@
 # The study, checked before anything runs, and what all the rules share.
+import json
 import sys
 from pathlib import Path
 
@@ -6,6 +7,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.shell import shell
 
 from disc_model.figures.catalogue import CATALOGUE, STYLE, module_of
+from disc_model.grid import load_grids
 from disc_model.provenance import SIMULATION, source_hash
 from disc_model.study import StudyError, study_from_config
 
@@ -17,6 +19,16 @@ if not workflow.configfiles:
 
 try:
     STUDY = study_from_config(config, workflow.configfiles)
+    GRIDS = load_grids(
+        [
+            path
+            for pattern in STUDY.studies
+            for path in sorted(Path().glob(pattern)) or [pattern]
+        ],
+        config.get("overrides"),
+        config.get("resolution", 1),
+        taken={STUDY.name, "compiled"},
+    )
 except StudyError as error:
     raise WorkflowError(str(error)) from None
 
@@ -28,8 +40,12 @@ shell.prefix(f'set -euo pipefail; export PATH="{Path(sys.executable).parent}:$PA
 
 
 wildcard_constraints:
+    study="|".join(GRIDS) or "none",
+    batch=r"[0-9a-f]{12}",
+    key=r"[0-9a-f]{12}",
+    plot=r"[A-Za-z][A-Za-z0-9_]*",
     case=r"[A-Za-z][A-Za-z0-9_]*",
-    figure=r"fig[0-9]+",
+    figure=r"fig[A0-9]+",
 
 
 def sources_of(script, *modules, files=()):
@@ -39,3 +55,27 @@ def sources_of(script, *modules, files=()):
 
 def case_file(case):
     return f"{RESULTS}/cases/{case}.nc"
+
+
+def batch_file(study, batch):
+    return f"results/{study}/batches/{batch}.nc"
+
+
+def merged_file(study):
+    return f"results/{study}/merged/{GRIDS[study].key}.nc"
+
+
+def merge_plan(study):
+    """What a merge needs to know beyond its files, as JSON."""
+    plan = {
+        "batches": sorted(study.batches),
+        "grid": study.grid,
+        "attrs": {"study": study.name, "title": study.title},
+    }
+    return json.dumps(plan, sort_keys=True, ensure_ascii=False)
+
+
+def shown_by(wildcards):
+    """Merged files of the further studies that a figure shows, by role."""
+    plot = GRIDS[wildcards.study].plots[wildcards.plot]
+    return {role: merged_file(name) for role, name in sorted(plot.others.items())}

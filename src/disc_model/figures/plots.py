@@ -86,4 +86,62 @@ class CriticalSpeed(Plot):
         return "disc_model.figures.curves"
 
 
-PLOTS: dict[str, type[Plot]] = {"stability_map": StabilityMap, "critical_speed": CriticalSpeed}
+class Thresholds(CriticalSpeed):
+    """Where the cycle becomes unstable and where separation follows, on one chart."""
+
+    kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.thresholds"
+
+
+class GrowthMap(Plot):
+    """Growth rate of the stick-slip cycle over speed and preload, a panel for each normalization."""
+
+    kind: Literal["growth_map"] = "growth_map"
+
+    @property
+    def quantity(self) -> str:
+        return "floquet"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return ("N", "Omega", "normalization")
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.thresholds"
+
+
+class Bifurcation(Plot):
+    """Samples once a turn against a parameter.
+
+    scale : of the variable, 1e3 for mrad or mm
+    """
+
+    kind: Literal["bifurcation"] = "bifurcation"
+    x: str
+    variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
+    scale: Number = 1.0e3
+
+    @property
+    def quantity(self) -> str:
+        return "bifurcation"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return (self.x,)
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.attractors"
+
+
+PLOTS: dict[str, type[Plot]] = {
+    "stability_map": StabilityMap,
+    "critical_speed": CriticalSpeed,
+    "thresholds": Thresholds,
+    "growth_map": GrowthMap,
+    "bifurcation": Bifurcation,
+}

@@ -95,8 +95,9 @@ def _span(values: Array) -> tuple[float, float]:
 
 def _draw(ax: Axes, curve: Curve) -> None:
     ax.plot(curve.Omega, curve.N, color=BLACK, linewidth=1.0, linestyle="-" if curve.kind == "neutral" else DASHED)
-    if curve.label:
-        i = len(curve.N) // 2
+    there = np.flatnonzero(np.isfinite(curve.N))
+    if curve.label and len(there):
+        i = int(there[len(there) // 2])
         ax.annotate(
             curve.label,
             (curve.Omega[i], curve.N[i]),
@@ -129,26 +130,30 @@ def threshold_chart(
     neutral: Curve,
     folds: Sequence[Curve] = (),
     printed: Mapping[float, float] | None = None,
+    cycle: xr.Dataset | None = None,
 ) -> Figure:
     """Where the cycle becomes unstable, and where separation follows within a stated time, on one chart.
 
     N, separation : shape (n,), load (N) and the lowest speed (rad/s) with separation within `horizon` (s), nan if none
-    neutral : curve on which the cycle loses stability; the band from it to `separation` is shaded and named
+    neutral : curve on which the cycle loses stability; the band from it to `separation` is shaded and named. The
+        cycle may be stable again beyond: then give `cycle`
     folds : where the cycle ceases to exist
     printed : critical speeds of the paper by load
+    cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega: what is shaded is where no cycle is stable
     """
-    figure = new_figure(COLUMN, 2.8)
+    figure = new_figure(COLUMN, 3.4)
     ax = figure.subplots()
     order = np.argsort(N)
     N, separation = N[order], separation[order]
     ax.plot(separation, N, "o-", color=VERMILION, markersize=3, label=f"separation within {horizon:g} s")
     ax.plot(neutral.Omega, neutral.N, color=BLUE, label="cycle loses stability")
-    lowest = _lowest_speed(neutral, N)
-    both = np.isfinite(lowest) & np.isfinite(separation) & (lowest < separation)
-    ax.fill_betweenx(
-        N, lowest, separation, where=both, color=BLUE, alpha=0.15, linewidth=0,
-        label=f"unstable, no separation within {horizon:g} s",
-    )  # fmt: skip
+    band = f"no stable cycle, no separation within {horizon:g} s"
+    if cycle is None:
+        lowest = _lowest_speed(neutral, N)
+        both = np.isfinite(lowest) & np.isfinite(separation) & (lowest < separation)
+        ax.fill_betweenx(N, lowest, separation, where=both, color=BLUE, alpha=0.15, linewidth=0, label=band)
+    else:
+        _unstable_before(ax, cycle, N, separation, band)
     for i, fold in enumerate(folds):
         label = "fold: the cycle ends" if i == 0 else "_nolegend_"
         ax.plot(fold.Omega, fold.N, color=BLACK, linestyle=DASHED, label=label)
@@ -156,9 +161,24 @@ def threshold_chart(
             _draw(ax, fold)
     if printed:
         ax.plot(list(printed.values()), list(printed), "s", color=ORANGE, markersize=4, label="paper")
-    ax.set(xlabel=SPEED, ylabel=LOAD)
+    ax.set(xlabel=SPEED, ylabel=LOAD, ylim=(0.95 * N.min(), 1.02 * N.max()))
+    if cycle is not None:
+        ax.set_xlim(*_span(cycle["Omega"].values))
     figure.legend(loc="outside upper center", ncols=1)
     return figure
+
+
+def _unstable_before(ax: Axes, cycle: xr.Dataset, N: Array, separation: Array, label: str) -> None:
+    """Shade where no cycle is stable, at speeds below those of separation."""
+    rate = cycle["growth_rate"].transpose("N", "Omega")
+    loads, speeds = rate["N"].values, rate["Omega"].values
+    known = np.isfinite(separation)
+    until = np.interp(loads, N[known], separation[known]) if known.any() else np.full(len(loads), np.inf)
+    # none found at the loads on both sides
+    until[np.interp(loads, N, known.astype(float)) == 0] = np.inf
+    here = ~(rate.values < 0) & (speeds[None, :] < until[:, None])
+    ax.contourf(speeds, loads, here.astype(float), levels=[0.5, 1.5], colors=[BLUE], alpha=0.18)
+    ax.fill_between([], [], [], color=BLUE, alpha=0.18, linewidth=0, label=label)
 
 
 def _lowest_speed(curve: Curve, N: Array) -> Array:
@@ -174,14 +194,18 @@ def _lowest_speed(curve: Curve, N: Array) -> Array:
 
 
 @styled
-def bifurcation_diagram(samples: xr.Dataset, name: str, variable: str = "psi", scale: float = 1e3) -> Figure:
+def bifurcation_diagram(
+    samples: xr.Dataset, name: str, variable: str = "psi", scale: float = 1e3, lyapunov: xr.Dataset | None = None
+) -> Figure:
     """Samples once a turn against a parameter; those in stick apart from those in slip or separation.
 
     samples : as `disc_model.bifurcation.bifurcation_samples` returns; name : its parameter's dimension
     scale : factor for the axis, 1e3 shows mrad or mm
+    lyapunov : `exponent` and `exponent_error` (1/s) over the parameter and `exponent_number`, for a panel below
     """
-    figure = new_figure(PAGE, 2.6)
-    ax = figure.subplots()
+    figure = new_figure(PAGE, 2.6 if lyapunov is None else 4.0)
+    axes = figure.subplots(1 if lyapunov is None else 2, 1, sharex=True, squeeze=False)[:, 0]
+    ax = axes[0]
     values = samples[variable].transpose(name, "sample")
     phase = samples["phase"].transpose(name, "sample").values
     position = np.broadcast_to(values[name].values[:, None], values.shape)
@@ -192,9 +216,26 @@ def bifurcation_diagram(samples: xr.Dataset, name: str, variable: str = "psi", s
     unit = values.attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(scale, f"{1 / scale:g} ")
     parameter_unit = samples[name].attrs.get("units", "")
-    ax.set(xlabel=f"{name} ({parameter_unit})", ylabel=f"{variable} ({prefix}{unit})")
+    axes[-1].set_xlabel(f"{name} ({parameter_unit})")
+    ax.set_ylabel(f"{variable} ({prefix}{unit})")
+    if lyapunov is not None:
+        _exponents(axes[1], lyapunov, name)
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, markerscale=5, borderaxespad=0.2)
     return figure
+
+
+def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
+    """The largest exponents with four standard errors."""
+    exponent = lyapunov["exponent"].transpose("exponent_number", name)
+    error = lyapunov["exponent_error"].transpose("exponent_number", name)
+    ax.axhline(0, color=GREY, linewidth=0.8)
+    for i, color in zip(range(len(exponent)), (VERMILION, BLUE, ORANGE, BLACK), strict=False):
+        label = "largest exponent" if i == 0 else f"exponent {i + 1}"
+        low, high = (exponent[i].values + s * 4 * error[i].values for s in (-1, 1))
+        ax.plot(exponent[name], exponent[i], ".-", color=color, markersize=3, linewidth=0.8, label=label)
+        ax.fill_between(exponent[name].values, low, high, color=color, alpha=0.15, linewidth=0)
+    ax.set_ylabel("Lyapunov exponents (1/s)")
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, borderaxespad=0.2)
 
 
 __all__ = ["Curve", "bifurcation_diagram", "growth_map", "threshold_chart"]

@@ -1,0 +1,199 @@
+"""Reading YAML files that people write: all faults at once, each with its path, in one `StudyError`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+import yaml
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from disc_model.errors import DiscModelError, ParameterError
+
+M = TypeVar("M", bound=BaseModel)
+
+
+class StudyError(DiscModelError, ValueError):
+    """A study file that breaks rules; lists every fault as ``path = value: rule``."""
+
+    def __init__(self, *faults: str, source: str = "study") -> None:
+        self.faults = faults
+        self.source = source
+        count = f"{len(faults)} fault{'s' if len(faults) > 1 else ''}"
+        super().__init__("\n  ".join([f"{source}: {count}", *faults]))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_rebuild_error, (self.faults, self.source))
+
+
+def _rebuild_error(faults: tuple[str, ...], source: str) -> StudyError:
+    return StudyError(*faults, source=source)
+
+
+class Strict(BaseModel):
+    """What a file says: immutable, unknown keys refused."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Faults(list[str]):
+    """Faults in the order found; what several cases inherit is listed once."""
+
+    def add(self, path: tuple[str, ...], value: Any, rule: str) -> None:
+        shown = "" if value == "" else f" = {value!r}"
+        self.add_text(f"{dotted(path)}{shown}: {rule}")
+
+    def add_text(self, text: str) -> None:
+        if text not in self:
+            self.append(text)
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Tells for a place in an expanded case where the file says it: in the case, or in what it inherits."""
+
+    path: tuple[str, ...]
+    own: Mapping[str, Any]
+    inherited: Mapping[str, Any]
+
+    def of(self, place: tuple[str, ...]) -> tuple[str, ...]:
+        if _depth(self.own, place) >= _depth(self.inherited, place):
+            return (*self.path, *place)
+        return ("base" if place[0] == "parameters" else place[0], *place[1:])
+
+
+def _depth(mapping: Any, place: tuple[str, ...]) -> int:
+    """How many steps of the way to a place lead through mappings that say something."""
+    if not place or not isinstance(mapping, Mapping) or place[0] not in mapping:
+        return 0
+    return 1 + _depth(mapping[place[0]], place[1:])
+
+
+def validated(model: type[M], raw: Any, path: tuple[str, ...], faults: Faults, place: Origin | None = None) -> M | None:
+    """`raw` as a model, or None and its faults under `path`; `place` tells where inherited values stand."""
+    try:
+        return model.model_validate(raw)
+    except ValidationError as error:
+        _add_pydantic(error, path, faults, place)
+        return None
+
+
+def _add_pydantic(error: ValidationError, path: tuple[str, ...], faults: Faults, place: Origin | None = None) -> None:
+    for item in error.errors(include_url=False):
+        loc = tuple(str(step) for step in item["loc"] if step not in ("bool", "Span", "[key]"))
+        where = place.of(loc) if place and loc else (*path, *loc)
+        kind = item["type"]
+        if kind == "missing":
+            faults.add(where, "", "is required")
+        elif kind == "extra_forbidden":
+            faults.add(where, item["input"], "unknown key")
+        else:
+            value = item["input"] if not isinstance(item["input"], Mapping) else ""
+            faults.add(where, value, _rule(item["msg"]))
+
+
+def add_parameter_faults(error: ParameterError, place: Callable[[str], tuple[str, ...]], faults: Faults) -> None:
+    """Take over the faults of `disc_model.Parameters`; `place` tells where the file gives a parameter."""
+    for fault in error.faults:
+        name = fault.partition("=")[0].partition(":")[0]
+        rest = fault.removeprefix(name)
+        if rest.startswith("="):
+            rest = f" = {rest[1:]}"
+        faults.add_text(f"{dotted(place(name))}{rest}")
+
+
+def _rule(message: str) -> str:
+    for old, new in (
+        ("Value error, ", ""),
+        ("Input should be", "must be"),
+        ("greater than or equal to", ">="),
+    ):
+        message = message.replace(old, new)
+    return message.replace("less than or equal to", "<=").replace("greater than", ">").replace("less than", "<")
+
+
+def dotted(path: tuple[str, ...]) -> str:
+    """A path as messages show it."""
+    return ".".join(path) if path else "study"
+
+
+def read_file(path: Path) -> tuple[Any, list[str]]:
+    """A YAML file's content and the keys that it gives twice; raises `StudyError` if it cannot be read."""
+    try:
+        return read_yaml(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise StudyError(f"cannot be read: {error.strerror}", source=str(path)) from None
+    except StudyError as error:
+        raise StudyError(*error.faults, source=str(path)) from None
+
+
+def shown_path(path: Path) -> str:
+    """A path as short as the current folder allows."""
+    try:
+        return str(path.resolve().relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)
+
+
+def is_name(text: str) -> bool:
+    """Whether a text is letters, digits and _, beginning with a letter."""
+    return text.isascii() and text.replace("_", "a").isalnum() and text[:1].isalpha()
+
+
+def mapping(value: Any) -> Mapping[Any, Any]:
+    """The value if it is a mapping, else an empty one."""
+    return value if isinstance(value, Mapping) else {}
+
+
+def inherit(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
+    """`own` over `base`, mappings merged key by key; None drops what is inherited."""
+    merged = dict(base)
+    for key, value in own.items():
+        if value is None and key in base:
+            del merged[key]
+            continue
+        old = merged.get(key)
+        if isinstance(old, Mapping) and isinstance(value, Mapping):
+            merged[key] = inherit(old, value)
+        else:
+            merged[key] = value
+    return merged
+
+
+class _UniqueKeyLoader(yaml.SafeLoader):
+    """Remembers keys given twice instead of silently taking the last."""
+
+    def __init__(self, stream: Any) -> None:
+        super().__init__(stream)
+        self.faults: list[str] = []
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> Any:
+        first: dict[Any, int] = {}
+        for key_node, _ in node.value:
+            key = key_node.value
+            line = key_node.start_mark.line + 1
+            if key in first and key != "<<":
+                self.faults.append(f"{key}: given twice, in lines {first[key]} and {line}")
+            first.setdefault(key, line)
+        return super().construct_mapping(node, deep)
+
+
+def read_yaml(text: str) -> tuple[Any, list[str]]:
+    """A YAML document and the keys that it gives twice.
+
+    Raises
+    ------
+    StudyError
+        If the text is no YAML.
+    """
+    try:
+        loader = _UniqueKeyLoader(text)
+        try:
+            return loader.get_single_data(), loader.faults
+        finally:
+            loader.dispose()
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        # ValueError: numbers and dates that look like one but are none
+        raise StudyError(" ".join(str(error).split())) from None

@@ -1,0 +1,353 @@
+"""Grid studies in a real Snakemake: which jobs a change brings about, and what survives a crash."""
+
+from __future__ import annotations
+
+import base64
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from disc_model.grid import load_grid
+from tests.workflow.conftest import Project, copy_repository
+
+pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+
+CONFIG = "config/inc.yaml"
+GRID = "config/inc_map.yaml"
+MAIN = """\
+study: inc
+title: beside the grids
+cases:
+  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 1}
+studies: [config/inc_*.yaml]
+"""
+MAP = """\
+study: inc_map
+title: outcome
+quantity: outcome
+options: {horizon: 1, late: 0.2, after_separation: 0.2}
+axes:
+  N: [100, 200.0, 300]
+  Omega: [10, 15, 20, 25]
+  normalization: [as_published, orthonormal]
+batch: {over: [Omega, normalization], size: 8}
+figures:
+  chart: {kind: stability_map, x: Omega, y: N, others: {growth: inc_growth}}
+"""
+GROWTH = """\
+study: inc_growth
+quantity: floquet
+axes:
+  N: [100, 200, 300]
+  Omega: {start: 10, stop: 25, count: 3}
+batch: {over: [Omega], size: 3}
+"""
+MAP_TAIL = {("merge_batches", "inc_map"), ("publish_study", "inc_map"), ("draw_plot", "inc_map")}
+GROWTH_TAIL = {("merge_batches", "inc_growth"), ("publish_study", "inc_growth"), ("draw_plot", "inc_map")}
+Jobs = set[tuple[str, str]]
+RULES = ("warm_studies", "compute_batch", "merge_batches", "publish_study", "draw_plot")
+RUN = ("-j2", "--until", "publish_study", "draw_plot")
+"""Grid studies alone; the cases beside them have tests of their own."""
+
+
+@pytest.fixture(scope="session")
+def finished_grid(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """A map and its growth rates, computed."""
+    project = copy_repository(tmp_path_factory.mktemp("grid"))
+    for path, text in ((CONFIG, MAIN), (GRID, MAP), ("config/inc_growth.yaml", GROWTH)):
+        (project.folder / path).write_text(text)
+    done = project.snakemake(*RUN, config=CONFIG)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return project
+
+
+@pytest.fixture
+def grid(finished_grid: Project, tmp_path: Path) -> Project:
+    """A copy of it, times included."""
+    return finished_grid.copy(tmp_path / "project")
+
+
+def planned(project: Project, *options: str) -> Jobs:
+    """Jobs of grid studies that a run would do: rule and study, for batches the batch instead."""
+    done = project.snakemake("-n", *options, config=CONFIG)
+    assert done.returncode == 0, done.stdout + done.stderr
+    jobs = set()
+    for block in re.split(r"\n(?=(?:local)?rule \w+:)", done.stdout + done.stderr)[1:]:
+        rule = re.match(r"(?:local)?rule (\w+):", block)
+        wildcards = dict(re.findall(r"(\w+)=([\w]+)", re.search(r"wildcards: (.*)|$", block)[0]))  # type: ignore[index]
+        assert rule is not None
+        if rule[1] in RULES:
+            jobs.add((rule[1], wildcards.get("batch") or wildcards.get("study", "")))
+    return jobs
+
+
+def batches(project: Project, name: str) -> Jobs:
+    """The jobs of all batches that a study now has, its sources hashed as in the project."""
+    code = f"from disc_model.grid import load_grid; print(*load_grid('config/{name}.yaml').batches)"
+    environment = os.environ | {"PYTHONPATH": str(project.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+    found = subprocess.run(
+        [sys.executable, "-c", code], cwd=project.folder, env=environment, capture_output=True, text=True, check=True
+    )
+    return {("compute_batch", batch) for batch in found.stdout.split()}
+
+
+def test_the_studies_are_complete(finished_grid: Project) -> None:
+    results = finished_grid.folder / "results" / "inc_map"
+    with xr.open_dataset(results / "inc_map.nc") as study:
+        assert dict(study["status"].sizes) == {"N": 3, "Omega": 4, "normalization": 2}
+        assert (study["status"] == 0).all()
+    assert (results / "inc_map.failed.txt").read_text() == ""
+    assert (results / "figures" / "chart.pdf").read_bytes().startswith(b"%PDF")
+    assert not list(results.rglob("*.tmp"))
+    assert planned(finished_grid) == set()
+
+
+def test_an_added_value_runs_its_own_batch(grid: Project) -> None:
+    before = batches(grid, "inc_map")
+    grid.edit(GRID, "N: [100, 200.0, 300]", "N: [250, 100, 200, 300]")
+    new = batches(grid, "inc_map") - before
+    assert len(new) == 1
+    assert planned(grid) == new | MAP_TAIL
+
+
+def test_a_value_added_as_a_block_leaves_the_others_batches(grid: Project) -> None:
+    before = batches(grid, "inc_map")
+    grid.edit(GRID, "Omega: [10, 15, 20, 25]", "Omega: {blocks: [[10, 15, 20, 25], [30]]}")
+    new = batches(grid, "inc_map") - before
+    assert len(new) == 3
+    assert planned(grid) == new | MAP_TAIL
+
+
+def test_a_removed_value_computes_nothing_and_is_gone(grid: Project) -> None:
+    grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 300]")
+    assert planned(grid) == MAP_TAIL
+    assert grid.snakemake(*RUN, config=CONFIG).returncode == 0
+    with xr.open_dataset(grid.folder / "results" / "inc_map" / "inc_map.nc") as study:
+        assert list(study["N"].values) == [100, 300]
+    grid.edit(GRID, "N: [100, 300]", "N: [100, 200, 300]")
+    assert not {job for job in planned(grid) if job[0] in ("compute_batch", "merge_batches")}
+    assert grid.snakemake(*RUN, config=CONFIG).returncode == 0
+    with xr.open_dataset(grid.folder / "results" / "inc_map" / "inc_map.nc") as study:
+        assert list(study["N"].values) == [100, 200, 300]
+
+
+def test_order_spelling_and_times_run_nothing(grid: Project) -> None:
+    text = MAP.replace("[100, 200.0, 300]", "[3.0e+2, 100, '200', 100.00]").replace(
+        "[10, 15, 20, 25]", "[25, 20, 15, 10]"
+    )
+    axes = text[text.index("  N:") : text.index("batch")]
+    (grid.folder / GRID).write_text(text.replace(axes, "\n".join(axes.splitlines()[::-1]) + "\n"))
+    for path in [*(grid.folder / "src").rglob("*.py"), *(grid.folder / "config").glob("*")]:
+        os.utime(path)
+    assert planned(grid) == set()
+
+
+@pytest.mark.parametrize("line", ["base: {mu_k: 0.23}\n", "base: {c: 0.1}\n"])
+def test_a_base_value_runs_the_whole_study(grid: Project, line: str) -> None:
+    grid.edit(GRID, "axes:\n", f"{line}axes:\n")
+    assert planned(grid) == batches(grid, "inc_map") | MAP_TAIL
+
+
+def test_an_option_runs_the_whole_study(grid: Project) -> None:
+    grid.edit(GRID, "horizon: 1,", "horizon: 1.5,")
+    assert planned(grid) == batches(grid, "inc_map") | MAP_TAIL
+
+
+def test_a_base_value_that_was_the_default_runs_nothing(grid: Project) -> None:
+    grid.edit(GRID, "axes:\n", "base: {mu_k: 2.4e-1}\naxes:\n")
+    assert planned(grid) == set()
+
+
+def test_titles_reach_the_file_without_a_computation(grid: Project) -> None:
+    grid.edit(GRID, "title: outcome", "title: what becomes of it")
+    assert planned(grid) == MAP_TAIL
+
+
+def test_finer_resolution_keeps_what_is_there(grid: Project) -> None:
+    jobs = planned(grid, "--config", "resolution=2")
+    new = {job for job in jobs if job[0] == "compute_batch"}
+    assert jobs - new == GROWTH_TAIL
+    assert len(new) == 3
+    assert not new & batches(grid, "inc_growth")
+
+
+def test_an_overlay_changes_a_study(grid: Project) -> None:
+    grid.edit(CONFIG, "studies:", "overrides: {inc_map: {axes: {N: [100, 200, 300, 400]}}}\nstudies:")
+    jobs = planned(grid)
+    assert jobs > MAP_TAIL
+    assert len(jobs - MAP_TAIL) == 1
+
+
+ALL: Callable[[Project], Jobs] = lambda project: batches(project, "inc_map") | batches(project, "inc_growth")  # noqa: E731
+
+
+@pytest.mark.parametrize(
+    ("source", "jobs"),
+    [
+        ("src/disc_model/figures/maps.py", lambda _: {("draw_plot", "inc_map")}),
+        ("src/disc_model/figures/disc_model.mplstyle", lambda _: {("draw_plot", "inc_map")}),
+        ("workflow/scripts/draw_plot.py", lambda _: {("draw_plot", "inc_map")}),
+        ("src/disc_model/grid_merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
+        ("src/disc_model/grid.py", lambda _: set()),
+        ("src/disc_model/quantities/registry.py", lambda _: set()),
+        ("src/disc_model/quantities/hysteresis.py", lambda _: set()),
+        ("src/disc_model/quantities/floquet.py", lambda project: batches(project, "inc_growth") | GROWTH_TAIL),
+        ("src/disc_model/steady.py", lambda project: batches(project, "inc_map") | MAP_TAIL),
+        (
+            "src/disc_model/engine/machine.py",
+            lambda project: ALL(project) | MAP_TAIL | GROWTH_TAIL | {("warm_studies", "")},
+        ),
+    ],
+)  # fmt: skip
+def test_sources_run_what_uses_them(grid: Project, source: str, jobs: Callable[[Project], Jobs]) -> None:
+    grid.append(source, "\n# changed\n")
+    assert planned(grid) == jobs(grid)
+
+
+def test_a_point_that_fails_is_reported_and_the_study_completes(grid: Project) -> None:
+    grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 200, 1.0e+6]")
+    grid.edit(GRID, "axes:\n", "base: {k_p: 2.0e+6, mu_s: 3, mu_k: 2.9, E: 1.0e+9}\naxes:\n")
+    done = grid.snakemake(*RUN, config=CONFIG)
+    assert done.returncode == 0, done.stdout + done.stderr
+    results = grid.folder / "results" / "inc_map"
+    with xr.open_dataset(results / "inc_map.nc") as study:
+        bad = int((study["status"] != 0).sum())
+        assert dict(study["status"].sizes) == {"N": 3, "Omega": 4, "normalization": 2}
+    lines = (results / "inc_map.failed.txt").read_text().splitlines()
+    assert bad
+    assert len(lines) == bad
+    assert lines[-2].startswith("N = 1000000.0, Omega = 25.0, normalization = as_published: paradox: at t = ")
+
+
+def test_gc_removes_what_no_study_needs(grid: Project) -> None:
+    kept = {path.name for path in (grid.folder / "results" / "inc_growth").rglob("*.nc")}
+    grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 300, 400]")
+    assert grid.snakemake(*RUN, config=CONFIG).returncode == 0
+    assert grid.snakemake("-j1", "gc", config=CONFIG).returncode == 0
+    left = {path.stem for path in (grid.folder / "results" / "inc_map" / "batches").iterdir()}
+    assert left == {batch for _, batch in batches(grid, "inc_map")}
+    assert {path.name for path in (grid.folder / "results" / "inc_growth").rglob("*.nc")} == kept
+    assert planned(grid) == set()
+
+
+# ---- crashes
+
+
+def start(project: Project) -> subprocess.Popen[bytes]:
+    """Snakemake in the background, on a study whose four batches take some seconds each."""
+    grown = "N: [100, 200, 300, 400]", "horizon: 6000, settled: 0, near: 0,", "normalization: [as_published]"
+    project.edit(GRID, "N: [100, 200.0, 300]", grown[0])
+    project.edit(GRID, "horizon: 1,", grown[1])
+    project.edit(GRID, "normalization: [as_published, orthonormal]", grown[2])
+    project.edit(GRID, "Omega: [10, 15, 20, 25]", "Omega: [5, 6]")
+    return resume(project)
+
+
+def resume(project: Project) -> subprocess.Popen[bytes]:
+    environment = os.environ | {"PYTHONPATH": str(project.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+    command = [sys.executable, "-m", "snakemake", *RUN, "--configfile", CONFIG]
+    with (project.folder / "run.log").open("ab") as log:
+        return subprocess.Popen(
+            command,
+            cwd=project.folder,
+            env=environment,
+            stdout=log,
+            stderr=log,
+            start_new_session=True,
+            # background processes of a shell ignore it, and would hand that on
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )
+
+
+def running_batches(project: Project) -> dict[str, int]:
+    """Batches that are being computed in the project, and the process of each."""
+    found = {}
+    for entry in Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            words = (entry / "cmdline").read_bytes().split(b"\0")
+            here = (entry / "cwd").resolve() == project.folder.resolve()
+        except OSError:
+            continue
+        if here and b"workflow/scripts/compute_batch.py" in words:
+            found[Path(os.fsdecode(words[-2])).stem] = int(entry.name)
+    return found
+
+
+def wait_for_batches(project: Project, process: subprocess.Popen[bytes]) -> dict[str, int]:
+    """Times of the files of finished batches, once there are some while others are being computed.
+
+    A batch is finished when Snakemake has taken note of it, a moment after the file has appeared.
+    """
+    folder = project.folder / "results" / "inc_map" / "batches"
+    wanted = {batch for _, batch in batches(project, "inc_map")}
+    for _ in range(6000):
+        running = running_batches(project)
+        files = {path.stem: path.stat().st_mtime_ns for path in folder.glob("*.nc") if path.stem in wanted}
+        finished = {batch: at for batch, at in files.items() if batch not in unfinished(project)}
+        if finished and running:
+            return finished
+        assert process.poll() is None, (project.folder / "run.log").read_text()
+        time.sleep(0.1)
+    raise AssertionError("no batch was finished")
+
+
+def unfinished(project: Project) -> set[str]:
+    """Batches that Snakemake holds for begun and not finished."""
+    marks = (project.folder / ".snakemake" / "incomplete").iterdir()
+    return {Path(base64.b64decode(mark.name).decode()).stem for mark in marks}
+
+
+def check_the_rest_is_done(project: Project, finished: dict[str, int]) -> None:
+    folder = project.folder / "results" / "inc_map"
+    for path in folder.rglob("*.nc"):
+        xr.open_dataset(path).close()
+    left = {job for job in planned(project) if job[0] == "compute_batch"}
+    assert left
+    assert not left & {("compute_batch", batch) for batch in finished}
+    assert resume(project).wait(timeout=900) == 0, (project.folder / "run.log").read_text()
+    assert {batch: (folder / "batches" / f"{batch}.nc").stat().st_mtime_ns for batch in finished} == finished
+    assert planned(project) == set()
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
+def test_a_killed_job_costs_only_its_own_batch(grid: Project) -> None:
+    process = start(grid)
+    finished = wait_for_batches(grid, process)
+    killed = []
+    for _ in range(100):
+        for batch, pid in running_batches(grid).items():
+            os.kill(pid, signal.SIGKILL)
+            killed.append(batch)
+        if killed:
+            break
+        time.sleep(0.05)
+    assert process.wait(timeout=900) != 0
+    assert killed
+    check_the_rest_is_done(grid, finished)
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
+def test_an_interrupted_run_loses_no_finished_batch(grid: Project) -> None:
+    process = start(grid)
+    finished = wait_for_batches(grid, process)
+    os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C in a terminal does
+    assert process.wait(timeout=900) != 0
+    check_the_rest_is_done(grid, finished)
+
+
+def test_study_names_must_differ_from_the_cases_study(grid: Project) -> None:
+    grid.edit(CONFIG, "study: inc\n", "study: inc_map\n")
+    done = grid.snakemake("-n", config=CONFIG)
+    assert done.returncode != 0
+    assert "study = 'inc_map': is the name of another folder of results" in done.stdout + done.stderr
+    assert load_grid(grid.folder / GRID).name == "inc_map"

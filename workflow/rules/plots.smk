@@ -1,0 +1,27 @@
+# Figures of grid studies: maps and curves. One job per figure, from the merged datasets of the studies it shows.
+rule draw_plot:
+    input:
+        study=lambda wildcards: merged_file(wildcards.study),
+        others=lambda wildcards: list(shown_by(wildcards).values()),
+    output:
+        pdf="results/{study}/figures/{plot}.pdf",
+        png="results/{study}/figures/{plot}.png",
+    log:
+        "results/{study}/logs/draw_plot/{plot}.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        plot=lambda wildcards: GRIDS[wildcards.study]
+        .plots[wildcards.plot]
+        .model_dump_json(),
+        others=lambda wildcards: [
+            f"{role}={file}" for role, file in shown_by(wildcards).items()
+        ],
+        sources=lambda wildcards: sources_of(
+            "draw_plot.py",
+            GRIDS[wildcards.study].plots[wildcards.plot].module,
+            files=[STYLE],
+        ),
+    shell:
+        "python workflow/scripts/draw_plot.py {params.plot:q} {input.study} {params.others:q}"
+        " --out {output.pdf} --out {output.png} > {log} 2>&1"

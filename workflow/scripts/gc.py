@@ -1,0 +1,32 @@
+"""Remove files of grid studies to which no study refers any more, and say how much that was.
+
+What to keep is read from standard input as JSON: by study, names of batches and merged files.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--results", type=Path, default=Path("results"))
+    args = parser.parse_args()
+    for study, names in json.load(sys.stdin).items():
+        stale = [path for path in _files(args.results / study) if path.name.split(".")[0] not in names]
+        size = sum(path.stat().st_size for path in stale)
+        for path in stale:
+            path.unlink()
+        print(f"{study}: {len(stale)} files, {size / 1e6:.1f} MB")
+
+
+def _files(study: Path) -> list[Path]:
+    folders = ("batches", "merged", "logs/compute_batch", "logs/merge_batches")
+    return sorted(path for folder in folders for path in (study / folder).glob("*.*") if path.is_file())
+
+
+if __name__ == "__main__":
+    main()
