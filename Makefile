@@ -30,7 +30,7 @@ report: env
 
 # The paper's cases with modes normalised as Eq. (17) says, and what that changes.
 orthonormal: reproduce
-	$(BIN)/snakemake -j$(CORES) --configfile config/paper.yaml config/orthonormal.yaml
+	$(BIN)/snakemake -j$(CORES) --configfile config/paper.yaml config/paper_orthonormal.yaml
 	$(BIN)/snakemake -j$(CORES) results/paper/normalisation.html
 	cp results/paper/normalisation.md docs/normalisation.md
 
