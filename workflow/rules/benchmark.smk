@@ -49,7 +49,7 @@ rule bench:
         ),
 
 
-# Takes the whole machine, so that nothing else disturbs the clock.
+# Takes the whole machine (Snakemake lowers the threads to the cores there are), so that nothing else disturbs the clock.
 rule measure_work_precision:
     output:
         nc=f"{BENCH}/work_precision.nc",
@@ -59,7 +59,7 @@ rule measure_work_precision:
         f"{BENCH}/logs/measure_work_precision.log",
     conda:
         "../envs/disc_model.yaml"
-    threads: workflow.cores
+    threads: 1024
     params:
         sources=sources_of(
             "measure_work_precision.py", "disc_model.benchmark", files=BENCH_DATA
