@@ -11,17 +11,17 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.batch import run_case
 from disc_model.claims import COLUMNS, check_claims, disc, measures, to_markdown
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Needed
 from disc_model.claims.table import CLAIMS
 from disc_model.dataset import events_dataset
-from disc_model.study import parse_study
+from disc_model.studies.batch import run_case
+from disc_model.studies.study import parse_study
 
 
 def tree_of(**cases: dict[str, Any]) -> xr.DataTree:
     """Merged cases of a study with these cases."""
-    from disc_model.merge import merge_cases
+    from disc_model.studies.merge import merge_cases
 
     study = parse_study({"study": "x", "cases": {name: {"title": ""} | case for name, case in cases.items()}})
     return merge_cases({name: run_case(spec) for name, spec in study.specs.items()}, study.labels)
@@ -89,7 +89,8 @@ def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -
 
 
 def test_status_of_a_failed_case_is_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
-    from disc_model import NonFinite, batch
+    from disc_model import NonFinite
+    from disc_model.studies import batch
 
     def fail(*_: object, **__: object) -> None:
         raise NonFinite("overflow")

@@ -14,11 +14,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import Parameters, Poincare, Record, Result, Status, StepLimit, Window, batch, simulate
-from disc_model.batch import run_case
-from disc_model.case import CaseSpec
+from disc_model import Parameters, Poincare, Record, Result, Status, StepLimit, Window, simulate
 from disc_model.dataset import load, result_to_dataset, save
-from disc_model.merge import merge_cases
+from disc_model.studies import batch
+from disc_model.studies.batch import run_case
+from disc_model.studies.case import CaseSpec
+from disc_model.studies.merge import merge_cases
 from disc_model.variables import STATUSES, attributes, flag_names
 
 P = Parameters(N=385, Omega=15.1)

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from disc_model import ParameterError, Parameters
 from disc_model.cli import main
-from disc_model.faults import StudyError, read_yaml
-from disc_model.grid import parse_grid
-from disc_model.study import parse_study
+from disc_model.studies.faults import StudyError, read_yaml
+from disc_model.studies.grid import parse_grid
+from disc_model.studies.study import parse_study
 
 ROOT = Path(__file__).parents[1]
 NAMES = [*Parameters.model_fields, "n", "Ω", "", "__class__", "N ", "omega"]

@@ -22,8 +22,8 @@ _HOMES = {
     "plate_modes": "plate",
     "slider_at_rest_frequencies": "plate",
     "simulate": "simulate",
-    "floquet": "floquet",
-    "steady_sliding": "steady_sliding",
+    "floquet": "stability.floquet",
+    "steady_sliding": "stability.steady_sliding",
     "Record": "record",
     "Window": "record",
     "Poincare": "record",
@@ -53,13 +53,13 @@ if TYPE_CHECKING:
         Stalled,
         StepLimit,
     )
-    from disc_model.floquet import floquet
     from disc_model.parameters import Parameters
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
     from disc_model.record import Poincare, Record, Window
     from disc_model.result import Result, State, Status
     from disc_model.simulate import simulate
-    from disc_model.steady_sliding import steady_sliding
+    from disc_model.stability.floquet import floquet
+    from disc_model.stability.steady_sliding import steady_sliding
 
 
 def __getattr__(name: str) -> Any:

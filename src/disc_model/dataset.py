@@ -6,7 +6,7 @@ A case is a tree of groups, which is also how its file is laid out:
 - ``events`` holds one entry per switch along `event`;
 - every recorded window is a group under its name, along `time`; so is ``poincare``.
 
-`disc_model.merge` puts many cases into one file. Nothing here holds a time stamp or a duration that differs
+`disc_model.studies.merge` puts many cases into one file. Nothing here holds a time stamp or a duration that differs
 from run to run, so that equal runs give equal bytes.
 """
 

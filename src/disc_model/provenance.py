@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
-SIMULATION = ("disc_model.simulate", "disc_model.dataset", "disc_model.batch")
+SIMULATION = ("disc_model.simulate", "disc_model.dataset", "disc_model.studies.batch")
 """What decides the bytes of a case's file: the solver, how its result is encoded, and what calls both."""
 VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
 

@@ -268,7 +268,7 @@ def _measure(normalization: str, diameters: int, circles: int, horizon: float, g
 
 def _growth_rate(p: Parameters) -> float:
     """Growth rate of the stick-slip cycle, 1/s; nan if there is no cycle."""
-    from disc_model.floquet import floquet
+    from disc_model.stability.floquet import floquet
 
     return float(floquet(p).growth_rate)
 

@@ -106,10 +106,10 @@ def test_touching_sources_without_changing_them_runs_nothing(project: Project) -
         ("workflow/scripts/draw_figure.py", FIGURES),
         # the provenance page is written by the same package as the ledger
         ("src/disc_model/claims/section42.py", {"check_claims", "describe_study"}),
-        ("src/disc_model/merge.py", TABLES),
+        ("src/disc_model/studies/merge.py", TABLES),
         ("workflow/scripts/simulate_case.py", SIMULATIONS | FIGURES | TABLES),
         ("src/disc_model/cli.py", set()),
-        ("src/disc_model/study.py", set()),
+        ("src/disc_model/studies/study.py", set()),
     ],
 )
 def test_other_sources_run_only_what_uses_them(project: Project, source: str, jobs: set[str]) -> None:

@@ -33,7 +33,7 @@ BENCH_STYLE = Path(
     workflow.basedir, "src", "disc_model", "figures", "disc_model.mplstyle"
 )
 BENCH_DATA = [
-    Path(workflow.basedir, "src", "disc_model", "data", name)
+    Path(workflow.basedir, "src", "disc_model", "benchmarks", "data", name)
     for name in ("benchmark_reference.json", "separating_start.json")
 ]
 
@@ -62,7 +62,9 @@ rule measure_work_precision:
     threads: 1024
     params:
         sources=sources_of(
-            "measure_work_precision.py", "disc_model.benchmark", files=BENCH_DATA
+            "measure_work_precision.py",
+            "disc_model.benchmarks.work_precision",
+            files=BENCH_DATA,
         ),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_work_precision.py {output.nc}"
@@ -81,7 +83,7 @@ rule map_failures:
         "../envs/disc_model.yaml"
     params:
         sources=sources_of(
-            "map_failures.py", "disc_model.failure_maps", files=BENCH_DATA
+            "map_failures.py", "disc_model.benchmarks.failure_maps", files=BENCH_DATA
         ),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_failures.py {wildcards.method}"

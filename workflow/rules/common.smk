@@ -7,9 +7,9 @@ from snakemake.exceptions import WorkflowError
 from snakemake.shell import shell
 
 from disc_model.figures.catalogue import CATALOGUE, STYLE, module_of
-from disc_model.grid import load_grids
+from disc_model.studies.grid import load_grids
 from disc_model.provenance import SIMULATION, source_hash
-from disc_model.study import StudyError, study_from_config
+from disc_model.studies.study import StudyError, study_from_config
 
 # A study named with --configfile replaces the paper's instead of being mixed with it.
 if not workflow.configfiles:

@@ -13,6 +13,6 @@ rule merge_cases:
         "../envs/disc_model.yaml"
     params:
         labels=json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False),
-        sources=sources_of("merge_cases.py", "disc_model.merge"),
+        sources=sources_of("merge_cases.py", "disc_model.studies.merge"),
     shell:
         "python workflow/scripts/merge_cases.py --labels {params.labels:q} {output} {input} > {log} 2>&1"

@@ -6,8 +6,8 @@ import argparse
 
 import xarray as xr
 
+from disc_model.benchmarks.failure_maps import VALUES, failure_map
 from disc_model.dataset import save
-from disc_model.failure_maps import VALUES, failure_map
 
 
 def main() -> None:

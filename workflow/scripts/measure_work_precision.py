@@ -8,7 +8,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.benchmark import Point, table, to_markdown, work_precision
+from disc_model.benchmarks.work_precision import Point, table, to_markdown, work_precision
 from disc_model.dataset import save
 
 

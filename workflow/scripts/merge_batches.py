@@ -13,7 +13,7 @@ from pathlib import Path
 import xarray as xr
 
 from disc_model.dataset import load, save
-from disc_model.grid_merge import failures, merge_batches
+from disc_model.studies.grid_merge import failures, merge_batches
 
 
 def main() -> None:

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 from disc_model.dataset import load, save
-from disc_model.merge import merge_cases
+from disc_model.studies.merge import merge_cases
 
 
 def main() -> None:

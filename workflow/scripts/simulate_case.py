@@ -1,13 +1,13 @@
-"""Simulate one case, given as the text of `disc_model.case.CaseSpec.canonical`, and save it."""
+"""Simulate one case, given as the text of `disc_model.studies.case.CaseSpec.canonical`, and save it."""
 
 from __future__ import annotations
 
 import argparse
 import logging
 
-from disc_model.batch import run_case
-from disc_model.case import CaseSpec
 from disc_model.dataset import save
+from disc_model.studies.batch import run_case
+from disc_model.studies.case import CaseSpec
 
 
 def main() -> None:

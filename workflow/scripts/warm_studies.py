@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from disc_model.floquet import floquet
 from disc_model.parameters import Parameters
+from disc_model.stability.floquet import floquet
 
 
 def main() -> None:

@@ -41,7 +41,7 @@ class Comparison:
 
 
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
-    """Compare merged cases (see `disc_model.merge`) of the two normalisations."""
+    """Compare merged cases (see `disc_model.studies.merge`) of the two normalisations."""
     old, new = (
         {name: CaseView(name, node) for name, node in tree.children.items()} for tree in (published, orthonormal)
     )

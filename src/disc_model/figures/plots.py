@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from disc_model.faults import Strict
 from disc_model.parameters import Real
+from disc_model.studies.faults import Strict
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
 

@@ -199,7 +199,7 @@ def bifurcation_diagram(
 ) -> Figure:
     """Samples once a turn against a parameter; those in stick apart from those in slip or separation.
 
-    samples : as `disc_model.bifurcation.bifurcation_samples` returns; name : its parameter's dimension
+    samples : as `disc_model.stability.bifurcation.bifurcation_samples` returns; name : its parameter's dimension
     scale : factor for the axis, 1e3 shows mrad or mm
     lyapunov : `exponent` and `exponent_error` (1/s) over the parameter and `exponent_number`, for a panel below
     """

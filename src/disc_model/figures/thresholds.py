@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from disc_model.figures.plots import GrowthMap, Thresholds
 from disc_model.figures.stability import Curve, growth_map, threshold_chart
-from disc_model.tongue import Tongue
+from disc_model.stability.tongue import Tongue
 from disc_model.variables import flag_names
 
 NEAR = 3.0

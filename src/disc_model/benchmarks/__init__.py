@@ -1,0 +1,1 @@
+"""Speed against accuracy, and where methods fail: rival methods on the same scenes, judged by stored references."""

@@ -1,0 +1,182 @@
+"""A regularised model instead of switches: a smooth friction law and a penalty for penetration, one stiff ODE.
+
+    friction  mu(f) = tanh(f/eps) (mu_k + dmu exp(-(f/(30 eps))^2)),  dmu such that the maximum is mu_s
+    contact   P = max(0, K (w - u) + C (w' - u')),  with C from the critical damping of slider against disc
+
+``eps`` (rad/s) is the setting.  The penalty K follows it, so that one number says how close to the switching model the
+smooth one is: K = `PENALTY`/eps.  Stick is a creep abs(f) < 3 eps, and switches are read off afterwards at the
+crossings of abs(f) = 3 eps and of P = 0.  The error is that of the model, about eps^(2/3): stick breaks by slow
+passage through the maximum of the law, a fold.  The error falls slowly, and the stiffness is
+mu P/(m r_0 eps), which grows without bound as eps falls: explicit methods are hopeless, implicit ones pay for it at
+every switch.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from disc_model.benchmarks.methods.base import BudgetExceeded, Meter, Method, MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods.physics import Array, Physics
+from disc_model.benchmarks.methods.solve_ivp import absolute_scale
+from disc_model.result import State
+
+PENALTY = 1e7
+"""N/m times rad/s: K eps."""
+CREEP = 3.0
+"""abs(f)/eps below which the slider counts as sticking."""
+STRIBECK = 30.0
+"""f/eps at which static friction has fallen to kinetic."""
+RTOL = 1e-8
+
+
+class Law:
+    """Regularised friction and contact for one eps."""
+
+    def __init__(self, physics: Physics, eps: float) -> None:
+        self.physics, self.eps = physics, eps
+        self.K = PENALTY / eps
+        self.excess = _excess(physics.p.mu_s, physics.p.mu_k)
+        self.C = 2.0 * math.sqrt(self.K / (1.0 / physics.p.m + physics.compliance))
+
+    def friction(self, f: float) -> float:
+        """Coefficient of friction with the sign of f."""
+        p, x = self.physics.p, f / self.eps
+        return math.tanh(x) * (p.mu_k + self.excess * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
+
+    def force(self, y: Array) -> float:
+        """Signed penalty force; contact where it is positive."""
+        w, velocity = self.physics.disc_point(y)
+        physics = self.physics
+        return self.K * (w - float(y[physics.u])) + self.C * (velocity - float(y[physics.v]))
+
+    def rate(self, y: Array) -> Array:
+        """dy/dt, shape of ``y``: separation's equations plus whatever force there is."""
+        physics, p = self.physics, self.physics.p
+        dy = physics.rate("separation", 0, y)
+        P = max(0.0, self.force(y))
+        dy[physics.alpha] -= physics.shape * P
+        dy[physics.v] += P / p.m
+        dy[physics.f] -= self.friction(float(y[physics.f])) * P / (p.m * p.r_0)
+        return dy
+
+    def stiffness(self, P: float) -> float:
+        """Largest decay rate of the law under the contact force ``P``, 1/s."""
+        p = self.physics.p
+        return p.mu_s * P / (p.m * p.r_0 * self.eps)
+
+
+def _excess(mu_s: float, mu_k: float) -> float:
+    """Height of the Stribeck peak over kinetic friction at which the law's maximum is the static friction."""
+    x = np.linspace(0.0, 2.0 * STRIBECK, 20_001)
+    rise, fall = np.tanh(x), np.exp(-((x / STRIBECK) ** 2))
+    excess = mu_s - mu_k
+    for _ in range(50):
+        excess += mu_s - float(np.max(rise * (mu_k + excess * fall)))
+    return excess
+
+
+class Regularised(Method):
+    """LSODA on the regularised model."""
+
+    name = "regularised"
+    label = "regularised, LSODA"
+    setting = "epsilon"
+    order = 2.0 / 3.0
+
+    def __init__(self, algorithm: str = "LSODA") -> None:
+        self.algorithm = algorithm
+
+    def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
+        physics = Physics(problem.parameters)
+        law = Law(physics, value)
+        y = self._start(problem, physics, law)
+        meter = Meter(budget)
+        events = [_event(lambda z: abs(z[physics.f]) - CREEP * value, 0), _event(law.force, 0)]
+        origin, outcome, message = problem.start.time, Outcome.FINISHED, ""
+        times, t, span = np.empty(0), 0.0, problem.span
+        kinds: tuple[str, ...] = ()
+        try:
+            with np.errstate(over="ignore", invalid="ignore"):
+                found = solve_ivp(
+                    meter.counted(lambda _t, z: law.rate(z)), (0.0, span), y,
+                    method=self.algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
+                )  # fmt: skip
+            meter.steps(found.t)
+            t, y = float(found.t[-1]), found.y[:, -1]
+            times, kinds = _read_off(law, found.t_events, found.y_events)
+            if found.status < 0:
+                outcome, message = Outcome.FAILED, found.message
+        except BudgetExceeded:
+            outcome, message = Outcome.TOO_SLOW, f"not finished after {budget:g} s"
+        if not np.all(np.isfinite(y)):
+            outcome = Outcome.NON_FINITE
+        return MethodResult(
+            times=origin + times,
+            kinds=kinds,
+            final=_state(law, origin + t, y),
+            seconds=meter.seconds,
+            work=meter.work,
+            outcome=outcome,
+            message=message,
+            longest_step=meter.longest_step,
+        )
+
+    @staticmethod
+    def _start(problem: Problem, physics: Physics, law: Law) -> Array:
+        """The start with the penetration that carries the contact force, the slider moving with the disc's point."""
+        start = problem.start
+        y = physics.pack(start)
+        if start.phase != "separation":
+            y[physics.u], y[physics.v] = physics.disc_point(y)
+            y[physics.u] -= physics.force(y, start.direction) / law.K
+        return y
+
+
+def _event(function: Any, direction: int) -> Any:
+    def g(_t: float, z: Array) -> float:
+        return float(function(z))
+
+    g.terminal, g.direction = False, direction  # type: ignore[attr-defined]
+    return g
+
+
+def _read_off(law: Law, times: list[Array], states: list[Array]) -> tuple[Array, tuple[str, ...]]:
+    """Switches in order of time: which way each crossing goes is read from the rates there."""
+    found: list[tuple[float, str]] = []
+    f = law.physics.f
+    for t, y in zip(times[0], states[0], strict=True):
+        if law.force(y) <= 0:
+            continue  # in flight f may pass zero: no switch
+        leaving = float(np.sign(y[f]) * law.rate(y)[f]) > 0
+        found.append((float(t), "stick_to_slip" if leaving else "slip_to_stick"))
+    crossings = zip(times[1], states[1], strict=True)
+    for t, y in crossings:
+        rising = law.force(y + 1e-9 * law.rate(y)) > law.force(y)
+        found.append((float(t), "reattachment" if rising else "separation"))
+    found.sort()
+    found = _without_reversals(found)
+    return np.array([t for t, _ in found]), tuple(kind for _, kind in found)
+
+
+def _without_reversals(found: list[tuple[float, str]]) -> list[tuple[float, str]]:
+    """A stick that ends within a microsecond is f passing through zero: one slip reversal."""
+    kept: list[tuple[float, str]] = []
+    for t, kind in found:
+        if kind == "stick_to_slip" and kept and kept[-1][1] == "slip_to_stick" and t - kept[-1][0] < 1e-6:
+            kept[-1] = (kept[-1][0], "slip_reversal")
+        else:
+            kept.append((t, kind))
+    return kept
+
+
+def _state(law: Law, time: float, y: Array) -> State:
+    f = float(y[law.physics.f])
+    if law.force(y) <= 0:
+        return law.physics.unpack(time, "separation", 0, y)
+    if abs(f) < CREEP * law.eps:
+        return law.physics.unpack(time, "stick", 0, y)
+    return law.physics.unpack(time, "slip", 1 if f > 0 else -1, y)

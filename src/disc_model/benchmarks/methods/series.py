@@ -1,0 +1,38 @@
+"""The package's own engine behind the common interface."""
+
+from __future__ import annotations
+
+from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
+from disc_model.result import Status
+from disc_model.simulate import simulate
+
+STEPS_PER_SECOND = 300_000
+"""What the budget of seconds is turned into: the engine stops by steps, not by the clock."""
+
+
+class Series(Method):
+    """`disc_model.simulate`: Taylor series of high order, switches as roots of polynomials."""
+
+    name = "series"
+    label = "series (this package)"
+
+    def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
+        steps = int(max(1, min(budget, 1e6) * STEPS_PER_SECOND))
+        result = simulate(
+            problem.parameters, problem.t_end, tol=value, initial_state=problem.start, max_steps=steps
+        )  # fmt: skip
+        outcome = {
+            Status.OK: Outcome.FINISHED,
+            Status.STEP_LIMIT: Outcome.TOO_SLOW,
+            Status.STALLED: Outcome.STALLED,
+            Status.NON_FINITE: Outcome.NON_FINITE,
+        }.get(result.status, Outcome.FAILED)
+        return MethodResult(
+            times=result.events["time"].to_numpy(),
+            kinds=tuple(result.events["kind"]),
+            final=result.final_state,
+            seconds=result.statistics["wall_time"],
+            work=int(result.statistics["steps"]),
+            outcome=outcome,
+            message=result.message,
+        )

@@ -1,0 +1,225 @@
+"""The benchmark's scenes: four motions whose right answer is known, and how far a method's answer is from it.
+
+``stick_slip``
+    N = 385 N, Omega = 15.1 rad/s, the first second: stick-slip without separation, 135 switches
+``separating``
+    the same from 54.4 to 55.4 s: 398 switches, 131 separations among them
+``many_modes``
+    13 mode families (l up to 12) for 0.2 s: frequencies from 1492 to 33711 rad/s
+``rigid``
+    E = 1e20 Pa, one diameter, 20 ms: the classical stick-slip cycle, known in closed form; frequencies up to 3.9e7
+    rad/s that nothing excites
+
+The answers of the first three are stored in ``data/benchmark_reference.json``, computed in long double by
+``workflow/scripts/make_benchmark_reference.py``; that of the last is `rigid_cycle`.
+"""
+
+from __future__ import annotations
+
+import enum
+import json
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from disc_model.benchmarks.methods.base import MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods.physics import Physics
+from disc_model.errors import DiscModelError
+from disc_model.parameters import Parameters
+from disc_model.result import State
+
+DATA = Path(__file__).parent / "data"
+REFERENCED = ("stick_slip", "separating", "many_modes")
+SCENES = (*REFERENCED, "rigid")
+TITLES = {
+    "stick_slip": "stick-slip",
+    "separating": "separating",
+    "many_modes": "many modes",
+    "rigid": "rigid disc",
+}
+CONVERGED = 1e-6
+"""s; an answer with every event and no event time further off counts as converged."""
+LOST = 2.0
+"""Energy norm of the error over that of the motion from which on the answer counts as unstable: two unrelated motions
+of the same energy are sqrt(2) apart."""
+
+
+class Verdict(enum.IntEnum):
+    """What became of a method."""
+
+    CONVERGED = 0
+    INACCURATE = 1
+    MISSED = 2
+    UNSTABLE = 3
+    GAVE_UP = 4
+    NOT_RUN = 5
+
+
+VERDICT_WORDS = ("converged", "inaccurate", "wrong_events", "unstable", "gave_up", "not_run")
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """The right answer: event times (s, long double, (n,)), kinds (n words), state at the end, its own error (s)."""
+
+    times: np.ndarray
+    kinds: tuple[str, ...]
+    final: State
+    error: float
+
+
+@dataclass(frozen=True)
+class Errors:
+    """How far a result is off: largest event-time error (s; nan if events are wrong), energy norm, verdict."""
+
+    event_time: float
+    state: float
+    verdict: Verdict
+
+
+def static_start(p: Parameters) -> State:
+    """The published start: static equilibrium under the preload, in stick, spring relaxed."""
+    physics = Physics(p)
+    zero = np.zeros(physics.n)
+    a = -p.N * physics.shape / physics.stiffness
+    return State(0.0, "stick", 0, 0.0, 0.0, physics.u_0, 0.0, a, zero, zero, zero)
+
+
+def separating_start(p: Parameters) -> State:
+    """The state at 54.4 s of N = 385 N, Omega = 15.1 rad/s, the modes of ``p`` that it lacks at static deflection."""
+    stored = json.loads((DATA / "separating_start.json").read_text(encoding="utf-8"))
+    diameters = stored.pop("diameters")
+    start = static_start(p)
+    arrays: dict[str, Any] = {name: np.array(getattr(start, name)) for name in ("a", "b", "alpha", "beta")}
+    physics = Physics(p)
+    for i in range(physics.n):
+        l = int(physics.l[i])
+        if i <= p.n_diameters and l in diameters:
+            for name, array in arrays.items():
+                array[i] = stored[name][diameters.index(l)] * math.copysign(1.0, physics.shape[i])
+    scalars = {name: stored[name] for name in ("time", "phase", "direction", "psi", "f")}
+    state = State(**scalars, u=0.0, u_velocity=0.0, **arrays)
+    u, v = physics.disc_point(physics.pack(state))
+    return state.replace(u=u, u_velocity=v)
+
+
+@lru_cache(maxsize=8)
+def problem(name: str) -> Problem:
+    """The problem of a scene."""
+    p = Parameters(N=385.0, Omega=15.1)
+    if name == "stick_slip":
+        return Problem(p, static_start(p), 1.0)
+    if name == "separating":
+        return Problem(p, separating_start(p), 55.4)
+    if name == "many_modes":
+        p = p.replace(n_diameters=12)
+        return Problem(p, static_start(p), 0.2)
+    if name == "rigid":
+        p = p.replace(E=1e20, n_diameters=1)
+        return Problem(p, static_start(p), 0.02)
+    raise KeyError(name)
+
+
+@lru_cache(maxsize=8)
+def answer(name: str) -> Answer:
+    """The right answer of a scene."""
+    if name == "rigid":
+        return rigid_cycle(problem(name))
+    stored = json.loads((DATA / "benchmark_reference.json").read_text(encoding="utf-8"))[name]
+    if stored["parameters"] != problem(name).parameters.key:
+        raise DiscModelError(f"the stored reference of {name} is of other parameters: make it anew")
+    final: dict[str, Any] = {
+        key: np.array(value) if isinstance(value, list) else value for key, value in stored["final"].items()
+    }
+    return Answer(
+        times=np.array([np.longdouble(t) for t in stored["times"]]),
+        kinds=tuple(stored["kinds"]),
+        final=State(**final),
+        error=stored["largest_difference_to_check_run"],
+    )
+
+
+def rigid_cycle(problem: Problem) -> Answer:
+    """Stick-slip on a rigid disc from a relaxed spring, in closed form (contact force N, no damping).
+
+    A rigid disc is the limit of E to infinity: at E = 1e20 Pa what is left of the disc's compliance, k psi^2/omega^2,
+    is 3e-9, and the answer is exact to about that.
+    """
+    p = problem.parameters
+    w = math.sqrt(p.k_p / p.m)
+    held, slipping = p.mu_s * p.N / (p.k_p * p.r_0), p.mu_k * p.N / (p.k_p * p.r_0)
+    d, Omega = held - slipping, p.Omega
+    slip = 2.0 / w * (math.pi - math.atan(d * w / Omega))
+    times: list[float] = []
+    kinds: list[str] = []
+    t, phase, since, psi = 0.0, "stick", 0.0, 0.0
+    while True:
+        length = (held - psi) / Omega if phase == "stick" else slip
+        if since + length >= problem.t_end:
+            break
+        t = since = since + length
+        psi = held if phase == "stick" else slipping - d
+        kinds.append("stick_to_slip" if phase == "stick" else "slip_to_stick")
+        phase = "slip" if phase == "stick" else "stick"
+        times.append(t)
+    tau = problem.t_end - since
+    start = problem.start
+    if phase == "stick":
+        psi, f = psi + Omega * tau, 0.0
+    else:
+        psi = slipping + d * math.cos(w * tau) + Omega / w * math.sin(w * tau)
+        f = Omega + d * w * math.sin(w * tau) - Omega * math.cos(w * tau)
+    final = start.replace(time=problem.t_end, phase=phase, direction=int(phase == "slip"), psi=psi, f=f)
+    return Answer(np.array(times, dtype=np.longdouble), tuple(kinds), final, error=1e-9 * problem.t_end)
+
+
+def errors(problem: Problem, answer: Answer, result: MethodResult) -> Errors:
+    """Compare a result with the right answer."""
+    state = Physics(problem.parameters).distance(result.final, answer.final)
+    time = event_time_error(answer, result, problem.t_end)
+    if result.outcome is Outcome.NON_FINITE or not math.isfinite(state):
+        return Errors(math.nan, math.nan, Verdict.UNSTABLE)
+    if result.outcome is not Outcome.FINISHED:
+        return Errors(math.nan, math.nan, Verdict.GAVE_UP)
+    if state > LOST:
+        return Errors(time, state, Verdict.UNSTABLE)
+    if math.isnan(time):
+        return Errors(time, state, Verdict.MISSED)
+    return Errors(time, state, Verdict.CONVERGED if time <= CONVERGED else Verdict.INACCURATE)
+
+
+def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> float:
+    """Largest error of an event time, s; nan if the events are not the right ones.
+
+    An event that the one has just before the end and the other therefore not yet counts as late, not as wrong.
+    """
+    common = min(len(answer.kinds), len(result.kinds))
+    if common == 0 or answer.kinds[:common] != result.kinds[:common]:
+        return math.nan
+    found = np.max(np.abs(result.times[:common].astype(np.longdouble) - answer.times[:common]))
+    late = [t_end - float(t) for t in (*answer.times[common:], *result.times[common:])]
+    if late and max(late) > 2.0 * float(found):
+        return math.nan
+    return float(max([found, *late]))
+
+
+def shortest_phase(answer: Answer) -> float:
+    """Shortest time between two events, s: what a step must not jump over."""
+    gaps = np.diff(answer.times.astype(float))
+    return float(gaps[gaps > 0].min())
+
+
+def describe(name: str) -> dict[str, Any]:
+    """Facts about a scene for a dataset's attributes."""
+    case, right = problem(name), answer(name)
+    return {
+        "parameters": case.parameters.canonical_json,
+        "span": case.span,
+        "events": len(right.kinds),
+        "separations": right.kinds.count("separation"),
+        "reference_error": right.error,
+    }

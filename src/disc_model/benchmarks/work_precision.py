@@ -1,0 +1,393 @@
+"""Speed against accuracy: every method on every scene, at settings from coarse to fine, in one run on one core.
+
+Rounds go through all the points in turn, so that a disturbance of the machine hits all methods alike; what is reported
+is the median over the rounds.  Points that take long are measured less often (``repeats`` says how often).
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import platform
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.scenes import VERDICT_WORDS, Verdict
+from disc_model.dataset import json_attribute
+from disc_model.provenance import VERSIONS_OF, versions
+
+BUDGET = 12.0
+"""s that a method may take for a point before it is stopped."""
+BUDGETS = {"rigid": 4.0}
+"""s, where it is known that a method in Python cannot finish."""
+ROUNDS = 11
+LONG = 0.5
+"""s; a point that takes longer is measured only in the first round, one that takes a tenth of it in all of them."""
+FLOOR = 1e-13
+"""Errors below this (s, or relative) are rounding and take no part in the fit of the order."""
+
+
+def _decades(*exponents: int) -> tuple[float, ...]:
+    return tuple(10.0**e for e in exponents)
+
+
+_STEPS = tuple(m * 10.0**e for e in (-4, -5, -6) for m in (4, 2, 1))
+SETTINGS: Mapping[str, Mapping[str, tuple[float, ...]]] = {
+    "stick_slip": {
+        "series": _decades(-4, -6, -8, -10, -12, -14),
+        "RK4": _STEPS,
+        "RK45": _decades(-3, -5, -7, -9),
+        "DOP853": _decades(-3, -5, -7, -9, -11),
+        "LSODA": _decades(-3, -5, -7, -9),
+        "Radau": _decades(-2, -3, -4, -5),
+        "regularised": _decades(0, -1, -2),
+        "heyoka": _decades(-4, -6, -8, -10, -12, -14),
+        "CVODE": _decades(-4, -6, -8, -10),
+    },
+    "separating": {
+        "series": _decades(-4, -6, -8, -10, -12, -14),
+        "RK4": _STEPS,
+        "RK45": _decades(-3, -5, -7, -9),
+        "DOP853": _decades(-3, -5, -7, -9, -11),
+        "LSODA": _decades(-3, -5, -7, -9),
+        "Radau": _decades(-2, -3, -4),
+        "regularised": _decades(0, -1, -2),
+        "heyoka": _decades(-4, -6, -8, -10, -12, -14),
+        "CVODE": _decades(-4, -6, -8, -10),
+    },
+    "many_modes": {
+        "series": _decades(-4, -6, -8, -10, -12, -14),
+        "RK4": tuple(m * 10.0**e for e in (-5, -6) for m in (8, 4, 2, 1)),
+        "RK45": _decades(-3, -5, -7),
+        "DOP853": _decades(-3, -5, -7, -9),
+        "LSODA": _decades(-3, -5, -7),
+        "Radau": _decades(-2, -3, -4),
+        "regularised": _decades(0, -1),
+        "heyoka": _decades(-4, -6, -8, -10, -12),
+        "CVODE": _decades(-4, -6, -8, -10),
+    },
+    "rigid": {
+        "series": _decades(-4, -8, -12),
+        "RK4": (8e-8, 6.5e-8, 4e-8, 2e-8),
+        "RK45": _decades(-3),
+        "DOP853": _decades(-3),
+        "LSODA": _decades(-3, -5, -7, -9),
+        "Radau": _decades(-2, -4, -6, -8),
+        "regularised": _decades(0, -1, -2),
+        "heyoka": _decades(-4, -8),
+        "CVODE": _decades(-4),
+        "CVODE-BDF": _decades(-4, -6, -8, -10),
+    },
+}
+
+VARIABLES: Mapping[str, tuple[str, str]] = {
+    "value": ("1", "setting of the method: tolerance, step (s) or regularisation (rad/s)"),
+    "seconds": ("s", "wall time of the integration, median of the repeats"),
+    "seconds_spread": ("s", "largest less smallest wall time of the repeats"),
+    "cost": ("1", "seconds of wall time per simulated second"),
+    "event_error": ("s", "largest error of an event time, nan if events are missing or invented"),
+    "state_error": ("1", "energy norm of the error of the state at the end over that of the state"),
+    "work": ("1", "right-hand sides evaluated; steps for methods that work with series"),
+    "events": ("1", "number of events found"),
+    "separations": ("1", "number of separations found"),
+    "repeats": ("1", "number of times measured"),
+}
+COUNTS = ("work", "events", "separations", "repeats")
+
+
+class Point(NamedTuple):
+    """One method at one setting on one scene."""
+
+    scene: str
+    method: str
+    place: int
+    value: float
+
+
+def points(settings: Mapping[str, Mapping[str, Sequence[float]]]) -> list[Point]:
+    """All points whose method is installed."""
+    return [
+        Point(scene, method, place, value)
+        for scene, by_method in settings.items()
+        for method, values in by_method.items()
+        if not METHODS[method].unavailable()
+        for place, value in enumerate(values)
+    ]
+
+
+def work_precision(
+    settings: Mapping[str, Mapping[str, Sequence[float]]] = SETTINGS,
+    *,
+    rounds: int = ROUNDS,
+    budget: float = BUDGET,
+    progress: Callable[[Point, float], object] | None = None,
+) -> xr.Dataset:
+    """Measure all points.
+
+    Parameters
+    ----------
+    settings : by scene and method, the settings from coarse to fine
+    rounds : how often the quick points are measured
+    budget : s for a point; a method that gives up at a coarse setting is not tried at finer ones
+    progress : called with each point and the seconds it took
+
+    Returns
+    -------
+    Dataset along (scene, solver, point), unused points nan; the variables of `VARIABLES`, the flag ``verdict``, and
+    along (scene, solver) the fitted ``order_event`` and ``order_state``, see `fitted_order`.
+    """
+    use_one_core()
+    todo = points(settings)
+    walls: dict[Point, list[float]] = {}
+    rows: dict[Point, dict[str, float]] = {}
+    hopeless: set[tuple[str, str]] = set()
+    for turn in range(rounds):
+        for point in todo:
+            lane = (point.scene, point.method)
+            if turn and (point not in walls or not _again(walls[point], turn)):
+                continue
+            if not turn and lane in hopeless:
+                continue
+            problem, limit = scenes.problem(point.scene), min(budget, BUDGETS.get(point.scene, budget))
+            result = METHODS[point.method].solve(problem, point.value, limit)
+            if not turn and result.seconds < LONG:  # the first call compiles and warms caches
+                result = METHODS[point.method].solve(problem, point.value, limit)
+            if result.outcome is Outcome.TOO_SLOW:
+                hopeless.add(lane)
+            walls.setdefault(point, []).append(result.seconds)
+            if not turn:
+                found = scenes.errors(problem, scenes.answer(point.scene), result)
+                rows[point] = {
+                    "event_error": found.event_time,
+                    "state_error": found.state,
+                    "verdict": found.verdict,
+                    "work": result.work,
+                    "events": len(result.kinds),
+                    "separations": result.separations,
+                }
+            if progress is not None:
+                progress(point, result.seconds)
+    return _dataset(settings, walls, rows)
+
+
+def _again(walls: Sequence[float], turn: int) -> bool:
+    """Whether to measure a point in a later round: always if it is quick, twice more at most if it is not."""
+    typical = float(np.median(walls))
+    return typical < 0.1 * LONG or (typical < LONG and turn < 3)
+
+
+def use_one_core() -> None:
+    """Keep this process, and the libraries it uses, on one of its cores."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+
+
+def _dataset(
+    settings: Mapping[str, Mapping[str, Sequence[float]]],
+    walls: Mapping[Point, Sequence[float]],
+    rows: Mapping[Point, Mapping[str, float]],
+) -> xr.Dataset:
+    names = list(settings)
+    methods = [name for name in METHODS if any(name in by_method for by_method in settings.values())]
+    most = max(len(values) for by_method in settings.values() for values in by_method.values())
+    shape = (len(names), len(methods), most)
+    data = {name: np.full(shape, math.nan) for name in VARIABLES}
+    verdict = np.full(shape, int(Verdict.NOT_RUN), dtype=np.int8)
+    for point, row in rows.items():
+        place = (names.index(point.scene), methods.index(point.method), point.place)
+        seconds = float(np.median(walls[point]))
+        values = dict(row) | {
+            "value": point.value,
+            "seconds": seconds,
+            "seconds_spread": max(walls[point]) - min(walls[point]),
+            "cost": seconds / scenes.problem(point.scene).span,
+            "repeats": len(walls[point]),
+        }
+        verdict[place] = int(row["verdict"])
+        for name in VARIABLES:
+            data[name][place] = values[name]
+    dims = ("scene", "solver", "point")
+    dataset = xr.Dataset(
+        {name: (dims, data[name], {"units": unit, "long_name": text}) for name, (unit, text) in VARIABLES.items()},
+        coords={"scene": names, "solver": methods},
+        attrs={"Conventions": "CF-1.11", "machine": machine(), "title": "Speed against accuracy"}
+        | {"versions": json_attribute(versions() | _extra_versions())}
+        | {f"scene_{name}": json_attribute(scenes.describe(name)) for name in names},
+    )
+    dataset["verdict"] = (dims, verdict, verdict_attributes())
+    dataset["label"] = ("solver", [METHODS[name].label for name in methods], {"long_name": "name in words"})
+    theory = [METHODS[name].order for name in methods]
+    dataset["order_theory"] = ("solver", theory, {"units": "1", "long_name": "theoretical order, nan if variable"})
+    for error in ("event", "state"):
+        orders = [[_line_order(dataset, scene, method, error) for method in methods] for scene in names]
+        text = f"fitted order of the error of the {error} in the step; in the tolerance, if the order is variable"
+        dataset[f"order_{error}"] = (dims[:2], np.array(orders), {"units": "1", "long_name": text})
+    return dataset
+
+
+def verdict_attributes() -> dict[str, Any]:
+    """CF attributes of a flag of verdicts."""
+    return {
+        "units": "1",
+        "long_name": "what became of the method",
+        "flag_values": np.arange(len(VERDICT_WORDS), dtype=np.int8),
+        "flag_meanings": " ".join(VERDICT_WORDS),
+    }
+
+
+def _line_order(dataset: xr.Dataset, scene: str, method: str, error: str) -> float:
+    """Order against the step, or against what grows like its inverse; of methods of variable order, the exponent q of
+    error ~ tolerance^q instead."""
+    line = dataset.sel(scene=scene, solver=method)
+    usable = np.isin(line["verdict"].values, (int(Verdict.CONVERGED), int(Verdict.INACCURATE)))
+    own = METHODS[method]
+    # right-hand sides count the steps of a method of fixed order; a step or a regularisation stands for itself
+    n = line["work"].values if own.setting == "tol" and math.isfinite(own.order) else 1.0 / line["value"].values
+    return fitted_order(n[usable], line[f"{error}_error"].values[usable])
+
+
+def fitted_order(n: np.ndarray, error: np.ndarray, floor: float = FLOOR) -> float:
+    """Order p of error ~ n^-p by least squares on the asymptotic part; nan if fewer than two points are left.
+
+    n, error : (k,), from coarse to fine; n is the number of steps, or what grows like it.  The asymptotic part: errors
+    above ``floor`` (rounding) and below a tenth of the largest, or all above the floor if that leaves fewer than three.
+    """
+    usable = np.isfinite(n) & np.isfinite(error) & (error > floor) & (n > 0)
+    if np.count_nonzero(usable) < 2:
+        return math.nan
+    below = usable & (error <= 0.1 * np.max(error[usable]))
+    if np.count_nonzero(below) >= 3:
+        usable = below
+    x, y = np.log(n[usable]), np.log(error[usable])
+    if np.ptp(x) < math.log(1.5):  # the steps are not what decides the error, but stability or events
+        return math.nan
+    return float(-np.polyfit(x, y, 1)[0])
+
+
+def machine() -> str:
+    """Processor and number of cores, as the system names them."""
+    model = platform.processor() or platform.machine()
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        model = next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        pass
+    return f"{model}, {os.cpu_count()} cores, {platform.system()}"
+
+
+def _extra_versions() -> dict[str, str]:
+    import importlib.metadata
+
+    found = {}
+    for name in ("heyoka", "scikit-sundae"):
+        if name not in VERSIONS_OF:
+            try:
+                found[name] = importlib.metadata.version(name)
+            except importlib.metadata.PackageNotFoundError:
+                found[name] = "not installed"
+    return found
+
+
+# ----------------------------------------------------------------------------------------------------
+# The table
+
+
+def table(dataset: xr.Dataset) -> pd.DataFrame:
+    """One row per measured point, with the ratio of its cost to the series engine's at the same event-time error.
+
+    ``times_series`` is cost over the cost at which the series engine (interpolated in log-log between its points, or
+    its finest point if it is more accurate than asked) reaches the same or a smaller event-time error.
+    """
+    rows = [row for scene in dataset["scene"].values for row in _scene_rows(dataset, str(scene))]
+    return pd.DataFrame(rows)
+
+
+def _scene_rows(dataset: xr.Dataset, scene: str) -> Iterator[dict[str, Any]]:
+    part = dataset.sel(scene=scene)
+    yardstick = _cost_at(part.sel(solver="series")) if "series" in part["solver"].values else None
+    for method in part["solver"].values:
+        line = part.sel(solver=method)
+        for i in range(line.sizes["point"]):
+            point = line.isel(point=i)
+            if int(point["verdict"]) == Verdict.NOT_RUN:
+                continue
+            error = float(point["event_error"])
+            yield {
+                "scene": scene,
+                "method": str(method),
+                "setting": f"{METHODS[str(method)].setting}={float(point['value']):.3g}",
+                "verdict": VERDICT_WORDS[int(point["verdict"])],
+                "seconds_per_simulated_second": float(point["cost"]),
+                "event_time_error": error,
+                "state_error": float(point["state_error"]),
+                "events": int(point["events"]),
+                "separations": int(point["separations"]),
+                "order_event": float(line["order_event"]),
+                "order_state": float(line["order_state"]),
+                "order_theory": float(line["order_theory"]),
+                "times_series": float(point["cost"]) / yardstick(error) if yardstick else math.nan,
+                "repeats": int(point["repeats"]),
+            }
+
+
+def _cost_at(line: xr.Dataset) -> Callable[[float], float]:
+    """Cost of the cheapest point of a line whose event-time error is at most the one asked for."""
+    good = np.isfinite(line["event_error"].values)
+    error, cost = line["event_error"].values[good], line["cost"].values[good]
+
+    def cost_at(wanted: float) -> float:
+        if not math.isfinite(wanted) or error.size == 0:
+            return math.nan
+        reached = cost[error <= wanted]
+        return float(reached.min()) if reached.size else float(cost[np.argmin(error)])
+
+    return cost_at
+
+
+def to_markdown(dataset: xr.Dataset) -> str:
+    """The table as Markdown, a section a scene, with the machine above and the orders beside each method."""
+    frame = table(dataset)
+    text = ["# Speed against accuracy", "", f"Machine: {dataset.attrs['machine']}, one core. Medians of repeats.", ""]
+    text += [
+        "Cost is seconds of wall time per simulated second; `x series` is cost over that of the series engine at the",
+        "same or a smaller event-time error, in the same run. A dash: events are missing or invented.",
+        "",
+    ]
+    for scene in dict.fromkeys(frame["scene"]):
+        text += [f"## {scenes.TITLES[scene]}", ""]
+        text += [
+            "| method | setting | verdict | cost | event-time error (s) | state error | events | order | x series |"
+        ]
+        text += ["|---|---|---|---|---|---|---|---|---|"]
+        for row in frame[frame["scene"] == scene].itertuples():
+            cells = (
+                METHODS[row.method].label,
+                row.setting,
+                row.verdict.replace("_", " "),
+                _short(row.seconds_per_simulated_second),
+                _short(row.event_time_error),
+                _short(row.state_error),
+                f"{row.events}",
+                _order_text(row.order_event, row.order_theory),
+                _short(row.times_series),
+            )
+            text.append("| " + " | ".join(cells) + " |")
+        text.append("")
+    return "\n".join(text)
+
+
+def _short(x: float) -> str:
+    return f"{x:.2g}" if math.isfinite(x) else "-"
+
+
+def _order_text(found: float, theory: float) -> str:
+    if not math.isfinite(found):
+        return "-"
+    return f"{found:.1f} ({theory:.2g})" if math.isfinite(theory) else f"tol^{found:.2f}"

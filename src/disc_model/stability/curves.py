@@ -1,0 +1,228 @@
+"""Where the cycle loses stability and where it ceases to exist, in the plane of two parameters.
+
+Along a few lines across the plane, cycles are looked for; between those that differ in stability, or of which one is
+missing, the cycle is followed to where its leading multiplier leaves the unit circle or to its fold. From there the
+curve is traced by continuation in both parameters, both ways.  What no line meets is not found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.errors import ParameterError
+from disc_model.parameters import Parameters
+from disc_model.stability.continuation import (
+    Branch,
+    continue_cycle,
+    continue_fold,
+    continue_neutral,
+    default_scale,
+    nearest_tongue,
+)
+from disc_model.stability.floquet_batch import solve
+from disc_model.stability.tongue import Tongue
+
+Array = NDArray[np.float64]
+
+SAME_PLACE, SAME_PERIOD = 0.01, 0.02
+"""A curve known already passes within that share of the parameters' ranges, its cycles within that relative period."""
+OTHERS_GROW = 1e-3
+"""1/s; a neutral curve is the border of stability where no other multiplier grows faster than this."""
+
+SHORTEST = 1e-4
+"""Arclength of the shortest step: where more is needed, as where switches graze, a curve ends."""
+
+
+@dataclass(frozen=True, eq=False)
+class StabilityCurve:
+    """A curve in the plane of two parameters.
+
+    Attributes
+    ----------
+    kind : "neutral", the leading multiplier has modulus one; or "fold", two cycles meet and vanish
+    values : shape (n_points, 2), SI units
+    border : bool, (n_points,), whether a stable cycle is on one side: no other multiplier lies outside the unit circle
+    period : s, (n_points,)
+    multipliers : complex, (n_points,), the leading one
+    tongue : the resonance that it belongs to, at its middle
+    """
+
+    kind: str
+    values: Array
+    border: NDArray[np.bool_]
+    period: Array
+    multipliers: NDArray[np.complex128]
+    tongue: Tongue
+
+
+@dataclass(frozen=True)
+class _Seed:
+    kind: str
+    case: Parameters
+    point: Array
+    period: float
+
+
+def stability_curves(
+    p: Parameters,
+    names: tuple[str, str],
+    bounds: Mapping[str, tuple[float, float]],
+    lines: Sequence[float],
+    *,
+    points: int = 31,
+    max_points: int = 200,
+    longest: float = 0.1,
+    tol: float = 1e-12,
+) -> tuple[list[StabilityCurve], list[str]]:
+    """Neutral curves and folds of the cycles near the published start.
+
+    Parameters
+    ----------
+    p : the case; its values of the two parameters do not matter
+    names : the parameters
+    bounds : of both
+    lines : values of the second parameter at which the bounds of the first are crossed in search of curves
+    points : cycles looked for along each line; between those that differ in stability or existence lies a curve
+    max_points : of a curve, each way from where it was met
+    longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`
+    tol : as in `floquet`
+
+    Returns
+    -------
+    The curves, and what could not be followed, in words.
+    """
+    found: list[StabilityCurve] = []
+    notes: list[str] = []
+    span = np.array([bounds[name][1] - bounds[name][0] for name in names])
+    for line in map(float, lines):
+        along = np.linspace(*bounds[names[0]], points)
+        for seed in _seeds([p.replace(**{names[1]: line, names[0]: float(x)}) for x in along], names[0], tol, notes):
+            place = np.array([getattr(seed.case, name) for name in names])
+            if _known(found, seed.kind, place, seed.period, span):
+                continue
+            try:
+                curve = _trace(seed, names, bounds, max_points, longest, tol)
+            except ParameterError as error:
+                where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, place, strict=True))
+                notes.append(f"{seed.kind} near {where}: {error}")
+                continue
+            i = len(curve.period) // 2
+            if len(curve.period) > 1 and not _known(found, curve.kind, curve.values[i], float(curve.period[i]), span):
+                found.append(curve)
+    return found, notes
+
+
+def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
+    """Where the cycle changes stability or ends along a line: followed from either side, into the gap between cases."""
+    growth = solve(list(cases), tol)["growth_rate"]
+    for i, (one, two) in enumerate(pairwise(growth)):
+        if (np.isnan(one) and np.isnan(two)) or one * two > 0:
+            continue
+        for begin, end, direction in ((i, i + 1, 1), (i + 1, i, -1)):
+            if np.isnan(growth[begin]):
+                continue
+            seed = _first_event(cases[begin], name, float(getattr(cases[end], name)), direction, tol, notes)
+            if seed is None:
+                continue
+            yield seed
+            if seed.kind == "neutral":
+                break
+
+
+def _first_event(case: Parameters, name: str, end: float, direction: int, tol: float, notes: list[str]) -> _Seed | None:
+    """The first fold, or crossing of the unit circle, on the way from a case to another value of a parameter."""
+    begin = float(getattr(case, name))
+    scale, low, high = abs(end - begin), min(begin, end), max(begin, end)
+    how = {"direction": direction, "scale": scale, "step": 0.02, "longest": 0.1, "max_points": 40}
+    try:
+        branch = continue_cycle(case, name, (low, high), tol=tol, **how)  # type: ignore[arg-type]
+    except ParameterError as error:
+        notes.append(f"{name}={begin:.6g}: {error}")
+        return None
+    values, growth = branch.values[:, 0], branch.growth_rate
+    turns = np.flatnonzero(np.diff(values)[:-1] * np.diff(values)[1:] < 0) + 1
+    crossings = np.flatnonzero(growth[:-1] * growth[1:] < 0)
+    fold = int(turns[0]) if len(turns) else len(values)
+    if len(crossings) and crossings[0] + 1 < fold:
+        i = int(crossings[0])
+        kind, j = "neutral", i if abs(growth[i]) < abs(growth[i + 1]) else i + 1
+    elif len(turns):
+        kind, j = "fold", fold
+    else:
+        return None
+    return _Seed(kind, case.replace(**{name: float(values[j])}), branch.points[j], float(branch.period[j]))
+
+
+def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: float, span: Array) -> bool:
+    """Whether a curve of this kind, of cycles of this period, passes a place of the plane."""
+    for curve in found:
+        if curve.kind != kind:
+            continue
+        corners = (curve.values - place) / span
+        steps = np.diff(corners, axis=0)
+        size = np.sum(steps**2, axis=1)
+        share = np.clip(-np.sum(corners[:-1] * steps, axis=1) / np.where(size > 0, size, 1.0), 0.0, 1.0)
+        distance = np.linalg.norm(corners[:-1] + share[:, None] * steps, axis=1)
+        i = int(np.argmin(distance))
+        there = curve.period[i] + share[i] * (curve.period[i + 1] - curve.period[i])
+        if distance[i] < SAME_PLACE and abs(there / period - 1) < SAME_PERIOD:
+            return True
+    return False
+
+
+def _trace(
+    seed: _Seed,
+    names: tuple[str, str],
+    bounds: Mapping[str, tuple[float, float]],
+    max_points: int,
+    longest: float,
+    tol: float,
+) -> StabilityCurve:
+    """The curve through a seed, both ways."""
+    follow = continue_neutral if seed.kind == "neutral" else continue_fold
+    scales = {name: default_scale(seed.case, name) for name in names}
+    ways = []
+    for direction in (-1, 1):
+        way = follow(
+            seed.case,
+            names,
+            bounds,
+            direction=direction,
+            longest=longest,
+            shortest=SHORTEST,
+            max_points=max_points,
+            start=seed.point,
+            scales=scales,
+            tol=tol,
+        )
+        ways.append(way)
+        if way.ended == "the curve is closed":
+            break
+    first = ways[0]
+    if len(ways) == 1:
+        return _curve(seed, names, first, None)
+    return _curve(seed, names, first, ways[1])
+
+
+def _curve(seed: _Seed, names: tuple[str, str], back: Branch, on: Branch | None) -> StabilityCurve:
+    def joined(name: str) -> NDArray[np.generic]:
+        one = getattr(back, name)
+        return one if on is None else np.concatenate([one[:0:-1], getattr(on, name)])
+
+    values, period = joined("values").astype(float), joined("period").astype(float)
+    every, diameters = joined("multipliers").astype(complex), joined("diameters")
+    leading = every[:, 0]
+    border = np.log(np.abs(leading)) / period < OTHERS_GROW
+    middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(period) // 2
+    case = seed.case.replace(**dict(zip(names, map(float, values[middle]), strict=True)))
+    mu = 1.0 + 0j if seed.kind == "fold" else complex(leading[middle])
+    tongue = nearest_tongue(case, float(period[middle]), mu, int(diameters[middle]))
+    return StabilityCurve(seed.kind, values, border, period, leading, tongue)
+
+
+__all__ = ["StabilityCurve", "stability_curves"]

@@ -1,0 +1,261 @@
+"""The rival methods: that each is right where it should be, and wrong where it must be."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import METHODS, MethodUnavailable, Outcome, kernels
+from disc_model.benchmarks.methods.base import Method, Problem
+from disc_model.benchmarks.methods.cvode import Cvode
+from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.methods.regularised import Law, Regularised
+from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
+from disc_model.benchmarks.methods.solve_ivp import SolveIvp
+from disc_model.benchmarks.methods.taylor_heyoka import Heyoka
+from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
+from disc_model.benchmarks.work_precision import fitted_order
+from tests.references import stored
+
+P = Parameters(N=385.0, Omega=15.1)
+INSTALLED = [name for name, method in METHODS.items() if not method.unavailable()]
+
+
+def _judge(name, scene, value, budget=30.0):
+    result = METHODS[name].solve(problem(scene), value, budget)
+    return result, errors(problem(scene), answer(scene), result)
+
+
+@functools.cache
+def _smooth(duration=0.1):
+    """Slip without any switch: steady sliding with the disc set ringing; the drive point stays ahead."""
+    start = scenes.static_start(P)
+    ring = 2e-4 * Physics(P).omega
+    psi = P.mu_k * P.N / (P.k_p * P.r_0)
+    start = start.replace(phase="slip", direction=1, psi=psi, f=P.Omega, alpha=ring, u=0.0, u_velocity=0.0)
+    y = Physics(P).pack(start)
+    u, v = Physics(P).disc_point(y)
+    task = Problem(P, start.replace(u=u, u_velocity=v), duration)
+    exact = METHODS["series"].solve(task, 1e-15)
+    assert exact.kinds == ()
+    return task, exact.final
+
+
+# ------------------------------------------------------------------------------------- physics
+@pytest.mark.parametrize(("phase", "direction"), [("stick", 0), ("slip", 1), ("slip", -1), ("separation", 0)])
+def test_numpy_and_compiled_right_hand_sides_agree(phase, direction):
+    p = P.replace(n_circles=1, c=3.0, c_p=0.5)
+    physics = Physics(p)
+    y = np.random.default_rng(1).normal(size=4 * physics.n + 4) * 1e-3
+    y[physics.f] = 0.0 if phase == "stick" else 20.0 * (direction or 1)
+    modes, c = kernels.tables(physics)
+    rate = np.empty_like(y)
+    kernels.rate(modes, c, ("stick", "slip", "separation").index(phase), direction, y, rate)
+    np.testing.assert_allclose(rate, physics.rate(phase, direction, y), rtol=1e-11, atol=1e-9)
+
+
+def test_impact_is_plastic_and_the_same_in_both():
+    physics = Physics(P)
+    y = np.random.default_rng(2).normal(size=4 * physics.n + 4) * 1e-3
+    after = physics.impact(y)
+    assert physics.disc_point(after)[1] == pytest.approx(after[physics.v], rel=1e-12)
+    modes, c = kernels.tables(physics)
+    other = y.copy()
+    kernels.switch(modes, c, kernels.SEPARATION, 1, other, np.zeros(2, np.int64))
+    np.testing.assert_allclose(other[physics.alpha], after[physics.alpha], rtol=1e-12)
+
+
+def test_the_stored_start_is_that_of_the_references():
+    ours = scenes.separating_start(P)
+    theirs = stored.engine_state(stored.load("C")["start"], P)
+    assert Physics(P).distance(ours, theirs) < 1e-14
+
+
+@pytest.mark.parametrize(("scene", "name"), [("stick_slip", "A"), ("separating", "C")])
+def test_the_stored_answers_are_those_of_the_references(scene, name):
+    data = stored.load(name)
+    assert answer(scene).kinds == tuple(stored.kinds_of(data))
+    assert float(np.abs(answer(scene).times - stored.times_of(data)).max()) < 1e-15
+    assert answer(scene).error < 1e-15
+
+
+# ------------------------------------------------------------------------------------- order
+@pytest.mark.parametrize(
+    ("name", "values", "order", "margin"),
+    [
+        ("RK4", (2e-4, 1e-4, 5e-5, 2.5e-5), 4, 0.3),
+        ("RK45", (1e-5, 1e-6, 1e-7, 1e-8), 5, 0.6),
+        ("DOP853", (1e-6, 1e-7, 1e-8, 1e-9), 8, 1.2),
+        ("Radau", (1e-3, 1e-4, 1e-5), 5, 1.2),
+    ],
+)
+def test_theoretical_order_on_smooth_motion(name, values, order, margin):
+    task, exact = _smooth(0.05)
+    results = [METHODS[name].solve(task, value) for value in values]
+    assert all(result.kinds == () for result in results)
+    found = [Physics(P).distance(result.final, exact) for result in results]
+    work = np.array([result.work for result in results], float)
+    assert fitted_order(work, np.array(found)) == pytest.approx(order, abs=margin)
+
+
+def test_the_series_engine_reaches_rounding():
+    task, exact = _smooth()
+    result = METHODS["series"].solve(task, 1e-13)
+    assert Physics(P).distance(result.final, exact) < 1e-12
+    for scene in ("stick_slip", "separating", "many_modes"):
+        result, found = _judge("series", scene, 1e-15)
+        assert found.verdict is Verdict.CONVERGED
+        assert found.event_time < 2e-14
+        assert found.state < 1e-11
+
+
+@pytest.mark.parametrize("name", [name for name in ("heyoka", "LSODA", "CVODE") if name in INSTALLED])
+def test_methods_of_variable_order_follow_their_tolerance(name):
+    task, exact = _smooth()
+    errors_ = [Physics(P).distance(METHODS[name].solve(task, tol).final, exact) for tol in (1e-5, 1e-7, 1e-9)]
+    assert errors_[2] < 0.1 * errors_[1] < 0.01 * errors_[0]
+    assert errors_[2] < 1e-5
+
+
+# ------------------------------------------------------------------------------------- where they succeed
+@pytest.mark.parametrize(
+    ("name", "value", "allowed"),
+    [
+        ("series", 1e-10, 1e-10),
+        ("RK4", 1e-5, 1e-10),
+        ("RK45", 1e-6, 1e-6),
+        ("DOP853", 1e-8, 1e-8),
+        ("LSODA", 1e-6, 1e-5),
+        ("Radau", 1e-4, 1e-4),
+        ("heyoka", 1e-10, 1e-10),
+        ("CVODE", 1e-8, 1e-7),
+    ],
+)
+def test_every_method_finds_the_135_switches_of_stick_slip(name, value, allowed):
+    if name not in INSTALLED:
+        pytest.skip(METHODS[name].unavailable())
+    result, found = _judge(name, "stick_slip", value)
+    assert (result.outcome, len(result.kinds)) == (Outcome.FINISHED, 135)
+    assert found.event_time < allowed
+
+
+def test_rigid_cycle_is_met_by_an_implicit_method_at_once():
+    _, found = _judge("LSODA", "rigid", 1e-7)
+    assert found.verdict is Verdict.CONVERGED
+    assert found.event_time < 1e-7
+
+
+# ------------------------------------------------------------------------------------- where they fail
+def test_rk4_at_its_stability_limit():
+    """h omega_max = 2 sqrt(2) lies at 6.453e-4 s."""
+    limit = STABILITY_LIMIT / Physics(P).omega.max()
+    assert limit == pytest.approx(6.453e-4, rel=1e-3)
+    below, found = _judge("RK4", "stick_slip", 6.40e-4)
+    assert (len(below.kinds), below.separations) == (135, 0)
+    assert found.verdict is Verdict.INACCURATE
+    at, found = _judge("RK4", "stick_slip", 6.45e-4)
+    assert at.separations > 100  # there are none
+    assert found.verdict is Verdict.UNSTABLE
+    above, found = _judge("RK4", "stick_slip", 7e-4)
+    assert above.outcome is Outcome.NON_FINITE
+    assert found.verdict is Verdict.UNSTABLE
+
+
+def test_rk4_misses_separations_shorter_than_a_step():
+    result, found = _judge("RK4", "separating", 1e-4)
+    assert result.separations == 129  # of 131
+    assert found.verdict is Verdict.MISSED
+
+
+@pytest.mark.parametrize(("name", "most"), [("RK45", 100), ("DOP853", 60), ("LSODA", 20)])
+def test_default_steps_jump_over_losses_of_contact(name, most):
+    result, found = _judge(name, "separating", 1e-3)  # scipy's default rtol
+    assert found.verdict is Verdict.MISSED
+    assert result.separations < most  # of 131
+    assert result.longest_step > scenes.shortest_phase(answer("separating"))
+
+
+@pytest.mark.slow
+def test_a_tight_tolerance_does_not_help_dop853_but_short_steps_do():
+    result, found = _judge("DOP853", "separating", 1e-11, budget=120.0)
+    assert found.verdict is Verdict.MISSED
+    assert result.separations < 131
+    short = SolveIvp("DOP853", 8, max_step=2e-5).solve(problem("separating"), 1e-9)
+    assert errors(problem("separating"), answer("separating"), short).event_time < 1e-9
+
+
+@pytest.mark.parametrize("tol", [1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14])
+def test_the_engine_misses_none(tol):
+    result, found = _judge("series", "separating", tol)
+    assert result.separations == 131
+    assert found.verdict in (Verdict.CONVERGED, Verdict.INACCURATE)
+
+
+@pytest.mark.skipif("heyoka" not in INSTALLED, reason="needs the extra bench")
+def test_native_events_fail_on_the_triple_root_without_a_guard():
+    """Whether they do hangs on the rounding of a gap that should be zero; in compact mode it is on the wrong side."""
+    assert _judge("heyoka", "separating", 1e-10)[1].event_time < 1e-10
+    result = Heyoka(guard=0.0, compact=True).solve(problem("separating"), 1e-8, 5.0)
+    found = errors(problem("separating"), answer("separating"), result)
+    assert found.verdict in (Verdict.MISSED, Verdict.GAVE_UP, Verdict.UNSTABLE)
+
+
+# ------------------------------------------------------------------------------------- the regularised model
+def test_the_regularised_law_has_the_static_friction_as_its_maximum():
+    law = Law(Physics(P), 0.1)
+    friction = [law.friction(f) for f in np.linspace(0.0, 10.0, 20_001)]
+    assert max(friction) == pytest.approx(P.mu_s, rel=1e-6)
+    assert friction[-1] == pytest.approx(P.mu_k, rel=1e-3)
+    assert law.friction(-1.0) == -law.friction(1.0)
+
+
+def test_the_regularised_model_is_of_order_two_thirds_in_eps():
+    """Stick breaks by slow passage through the maximum of the law, a fold: late by eps^(2/3)."""
+    task = Problem(P, scenes.static_start(P), 0.01)
+    first = answer("stick_slip").times[0]
+    eps = np.array([0.3, 0.1, 0.03])
+    results = [METHODS["regularised"].solve(task, value) for value in eps]
+    assert all(result.kinds == ("stick_to_slip",) for result in results)
+    late = np.array([float(result.times[0] - first) for result in results])
+    assert fitted_order(1.0 / eps, late) == pytest.approx(2 / 3, abs=0.12)
+
+
+def test_the_regularised_model_is_stiff_in_proportion_to_its_sharpness():
+    law = Law(Physics(P), 0.1)
+    assert Law(Physics(P), 0.01).stiffness(P.N) == pytest.approx(10.0 * law.stiffness(P.N))
+    assert law.stiffness(P.N) > 30.0 * Physics(P).omega.max()
+    task = Problem(P, scenes.static_start(P), 0.004)  # stick: nothing moves but the drive
+    coarse, fine = (Regularised("RK45").solve(task, eps).work for eps in (0.1, 0.01))
+    assert fine > 4 * coarse
+
+
+# ------------------------------------------------------------------------------------- the interface
+def test_a_method_out_of_time_says_so():
+    result = METHODS["RK45"].solve(problem("many_modes"), 1e-6, budget=0.05)
+    assert result.outcome is Outcome.TOO_SLOW
+    assert "0.05 s" in result.message
+    assert result.seconds < 5.0
+
+
+def test_a_missing_package_is_named():
+    class Missing(Cvode):
+        requires = ("no_such_package",)
+
+    assert isinstance(METHODS["CVODE"], Method)
+    assert "no_such_package" in Missing().unavailable()
+    assert "bench" in Missing().unavailable()
+    with pytest.raises(MethodUnavailable, match="no_such_package"):
+        Missing().solve(problem("stick_slip"), 1e-6)
+
+
+def test_names_and_orders():
+    for name, method in METHODS.items():
+        assert method.name == name
+        assert method.label
+        assert method.setting in ("tol", "step", "epsilon")
+        assert math.isnan(method.order) or method.order > 0

@@ -1,0 +1,50 @@
+"""Largest Lyapunov exponents."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import ParameterError, Parameters, floquet, simulate
+from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
+
+
+def test_on_a_cycle_they_are_its_exponents_and_zero():
+    p = Parameters(N=200, Omega=20, c=2.0, D_star=1e-3)
+    cycle = floquet(p)
+    assert cycle.stable
+    expected = np.sort(np.append(cycle.exponents.real, 0.0))[::-1]
+    found = lyapunov_exponents(p, 40.0, count=1, initial_state=cycle.state)
+    assert found.status is LyapunovStatus.OK
+    assert found.duration == pytest.approx(40.0)
+    assert found.exponents[0] == pytest.approx(0, abs=0.02)
+    assert not found.chaotic
+    pair = lyapunov_exponents(p, 40.0, count=3, initial_state=cycle.state)
+    # a complex pair has one rate: the two following zero are equal in the mean
+    assert np.mean(pair.exponents[1:]) == pytest.approx(np.mean(expected[1:3]), rel=0.02)
+
+
+def test_an_unstable_cycle_grows_at_its_rate_while_near():
+    """Started on the cycle, with columns that have turned into the leading pair before the motion has left it."""
+    p = Parameters(N=600, Omega=50)
+    cycle = floquet(p)
+    assert cycle.growth_rate > 0.2
+    near = lyapunov_exponents(p, 20.0, count=2, initial_state=cycle.state, tol=1e-13)
+    assert np.mean(near.exponents) == pytest.approx(cycle.growth_rate, rel=0.1)
+
+
+def test_through_separations_the_motion_itself_is_the_simulators():
+    p = Parameters(N=385, Omega=15.1)
+    start = simulate(p, 70.0).final_state
+    found = lyapunov_exponents(p, 4.0, count=2, initial_state=start, tol=1e-12)
+    run = simulate(p, 75.0, initial_state=start, tol=1e-12)
+    assert found.separations > 100
+    assert found.final_state.time == pytest.approx(75.0, abs=1e-9)
+    assert np.allclose(found.final_state.a, run.final_state.a, rtol=0, atol=1e-6 * np.max(np.abs(run.final_state.a)))
+    assert np.all(np.isfinite(found.exponents))
+    assert found.history.shape == (16, 2)
+
+
+def test_bad_input_is_named_in_full():
+    with pytest.raises(ParameterError, match=r"duration=-1: .*; count=9: .*; interval=0: "):
+        lyapunov_exponents(Parameters(N=1, Omega=1), -1, count=9, interval=0)
