@@ -6,17 +6,21 @@ d/dt (in-plane)               = Omega r_0^2 F - mu_k r_0 P |f| - c_p r_0^2 (Omeg
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from .compile import kernel
-from .evaluate import state_at
+from .evaluate import force_at, move_to
 from .layout import PSI, SEPARATION, SLIP, SPEED, U_VELOCITY, U
-from .polynomial import value
 from .switches import disc_point, spring_force
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
 _NODES = _NODES + 0.5
+
+# Time units that the nodes resolve; only a coast is longer.
+_PANEL = 8.0
 
 # Where the sums stand in the audit's array.
 # TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy at stake in one step; *_TURNOVER: sum of the
@@ -78,19 +82,20 @@ def _powers_in(model, state, phase, direction, P):
 def audit_step(model, s, order, x_end, phase, direction, probe, audit):
     """Add the residuals of both balances over the step (0, x_end) to ``audit``."""
     work_t, work_p, size_t, size_p = 0.0, 0.0, 0.0, 0.0
-    for i in range(len(_NODES)):
-        x = _NODES[i] * x_end
-        state_at(model, s, order, x, phase, probe)
-        P = 0.0 if phase == SEPARATION else value(s.P, 0, order - 1, x)
-        weight = _WEIGHTS[i] * x_end * model.unit
+    panels = math.ceil(x_end / _PANEL)
+    for i in range(len(_NODES) * panels):
+        x = (i // len(_NODES) + _NODES[i % len(_NODES)]) * x_end / panels
+        move_to(model, s, order, x, phase, probe)
+        P = force_at(model, s, order, x, phase, probe)
+        weight = _WEIGHTS[i % len(_NODES)] * x_end / panels * model.unit
         t, p, st, sp = _powers_in(model, probe, phase, direction, P)
         work_t += weight * t
         work_p += weight * p
         size_t += weight * st
         size_p += weight * sp
-    state_at(model, s, order, 0.0, phase, probe)
+    move_to(model, s, order, 0.0, phase, probe)
     start_t, start_p = transverse_energy(model, probe, phase), inplane_energy(model, probe)
-    state_at(model, s, order, x_end, phase, probe)
+    move_to(model, s, order, x_end, phase, probe)
     residual_t = transverse_energy(model, probe, phase) - start_t - work_t
     residual_p = inplane_energy(model, probe) - start_p - work_p
     book(audit, residual_t, residual_p, size_t + abs(start_t), size_p + abs(start_p))

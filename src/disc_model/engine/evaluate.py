@@ -5,8 +5,13 @@ from __future__ import annotations
 from .compile import inlined
 from .lanes import WIDTH, fma, load, splat, store
 from .layout import PHASE, PSI, SEPARATION, SPEED, STICK, U_VELOCITY, E, U
+from .linear import coast_to
 from .polynomial import value
 from .series import lane_count
+from .switches import stick_force
+
+# Stands for the order of a series where stick has no series but its closed form.
+COAST = 0
 
 
 @inlined
@@ -43,6 +48,23 @@ def state_at(model, s, order, x, phase, state):
     if phase == SEPARATION:
         state.x[U] = value(s.u, 0, order, x)
         state.x[U_VELOCITY] = value(s.v, 0, order, x)
+
+
+@inlined
+def move_to(model, s, order, x, phase, state):
+    """Fill ``state`` with the dense output at x (time units): the series of this order, or the closed form of stick."""
+    if order == COAST:
+        coast_to(model, s, x, state)
+    else:
+        state_at(model, s, order, x, phase, state)
+
+
+@inlined
+def force_at(model, s, order, x, phase, state):
+    """Contact force at x, where ``move_to`` has put ``state``."""
+    if order == COAST:
+        return stick_force(model, state)
+    return 0.0 if phase == SEPARATION else value(s.P, 0, order - 1, x)
 
 
 @inlined

@@ -14,7 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .lanes import WIDTH
+from .lanes import WIDTH, aligned
+from .stick_modes import StickModes, build_stick_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
 
@@ -72,6 +73,7 @@ class Model(NamedTuple):
     slider_scale: float  # m/s: what u' is compared with in separation
     speed_scale: float  # rad/s: what f is compared with
     bonded: bool
+    modes: StickModes  # closed form of stick
 
 
 class Series(NamedTuple):
@@ -98,11 +100,13 @@ class Series(NamedTuple):
     down: np.ndarray  # (k + 1) / unit: differentiates
     scratch: np.ndarray
     roots: np.ndarray  # work space of the root finder
+    amplitudes: np.ndarray  # of the modes of stick: real parts, imaginary parts; then those at a later time
 
 
 class State(NamedTuple):
-    """Where the system is.  ``x`` holds the scalars of the slider, at the indices below."""
+    """Where the system is.  z to g are views of ``disc``; ``x`` holds the slider's scalars, at the indices below."""
 
+    disc: np.ndarray  # z, e, y, g, padded to whole blocks of lanes
     z: np.ndarray
     e: np.ndarray
     y: np.ndarray
@@ -110,17 +114,10 @@ class State(NamedTuple):
     x: np.ndarray
 
 
-# Indices into State.x; the time is TIME + TIME_LOW, added up with compensation so that event times stay exact
-# to rounding after hours.
-TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE = range(10)
-
-
-def aligned(n):
-    """Zeros, shape (n,), on a cache line: lanes that straddle two lines load and store at half the speed."""
-    line = 64
-    raw = np.zeros(n + line // 8)
-    skip = -raw.ctypes.data % line // 8
-    return raw[skip : skip + n]
+# Indices into State.x.  KNOWN: multiplicity of the root that the switch function is known to have now; COASTED: 1 if
+# stick has already been followed in closed form as far as that goes; the time is TIME + TIME_LOW, added up with
+# compensation so that event times stay exact to rounding after hours.
+TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, COASTED, SCALARS = range(12)
 
 
 def lanes_for(n_pairs):
@@ -132,6 +129,11 @@ def pair_lanes(n_pairs):
     """Lane of the a-component of each pair, shape (n_pairs,); b follows ``HALF`` lanes later."""
     i = np.arange(n_pairs)
     return WIDTH * (i // HALF) + i % HALF
+
+
+def disc_size(width, n_single):
+    """Length of ``State.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes."""
+    return padded(2 * (width + n_single))
 
 
 def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, mu_s, mu_k, r_0, bonded) -> Model:
@@ -152,7 +154,12 @@ def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, 
     row["bend"][lane] = -(diameters[pairs] ** 2) * psi[pairs]
     row["minus_force_damping"][:] = -row["force"] * row["damping"]
     row["minus_force_stiffness"][:] = -row["force"] * row["stiffness"]
-    more = width // WIDTH - 1
+    more, unit = width // WIDTH - 1, 1.0 / float(omega.max())
+    modes = build_stick_modes(
+        (omega[pairs], damping[pairs], psi[pairs], lane, lane + HALF, width),
+        (omega[single], damping[single], psi[single], 2 * width + np.arange(len(single)), len(single)),
+        length=disc_size(width, len(single)), N=N, k=k, c=c, m=m, unit=unit,
+    )  # fmt: skip
     return Model(
         lanes=lanes,
         more_blocks=(more,) if more else (0, 0),
@@ -173,11 +180,12 @@ def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, 
         u_0=-N * float(np.sum(psi**2 / omega**2)),
         compliance=float(np.sum(psi**2)),
         damped_compliance=float(np.sum(damping * psi**2)),
-        unit=1.0 / float(omega.max()),
+        unit=unit,
         velocity_scale=N * float(np.max(np.abs(psi) / omega)),
         slider_scale=N * float(np.sum(psi**2 / omega)),
         speed_scale=Omega,
         bonded=bonded,
+        modes=modes,
     )
 
 
@@ -198,15 +206,18 @@ def build_series(model: Model, order: int) -> Series:
         **rows,
         scratch=modes[SCRATCH * width :],
         roots=np.zeros((56, order + 4)),
+        amplitudes=aligned(4 * len(model.modes.gain)),
     )
 
 
 def build_state(model: Model) -> State:
     """The published start: static equilibrium under the preload, in stick, spring relaxed."""
-    z, e, y, g = (aligned(len(a)) for a in (model.force, model.force, model.force0, model.force0))
+    width, n0 = len(model.force), len(model.force0)
+    disc = aligned(disc_size(width, n0))
+    z, e, y, g = np.split(disc[: 2 * (width + n0)], [width, 2 * width, 2 * width + n0])
     np.divide(-model.N * model.force, model.stiffness, out=z, where=model.stiffness > 0)
     np.divide(-model.N * model.force0, model.stiffness0, out=y, where=model.stiffness0 > 0)
-    x = np.zeros(10)
+    x = np.zeros(SCALARS)
     x[U] = model.u_0
     x[PHASE] = STICK
-    return State(z, e, y, g, x)
+    return State(disc, z, e, y, g, x)

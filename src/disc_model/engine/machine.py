@@ -10,9 +10,10 @@ import math
 
 from .audit import audit_impact, audit_step, transverse_energy
 from .compile import inlined, kernel
-from .evaluate import load_state, state_at
+from .evaluate import COAST, load_state, move_to
 from .lanes import WIDTH, absolute, largest, load, maximum, splat
 from .layout import (
+    COASTED,
     DIRECTION,
     FORCE,
     KNOWN,
@@ -28,6 +29,7 @@ from .layout import (
     E,
     U,
 )
+from .linear import LONGEST_COAST, coast_length
 from .polynomial import NO_ROOT, first_root, set_powers
 from .sampling import sample_step
 from .series import lane_count, separation_series, slip_series, stick_series
@@ -227,6 +229,27 @@ def _switch(model, state, cause, counters, rows, audit):
     return outcome
 
 
+@inlined
+def _move(
+    model, s, state, probe, order, x_end, audit_every, counters, phase_times, audit, samplers, sampled, sample_rows,
+):  # fmt: skip
+    """Carry the state and the clock over a step, or a coast (order ``COAST``), auditing and sampling on the way."""
+    x, phase = state.x, state.x[PHASE]
+    counters[STEPS] += 1
+    counters[FROM_AUDIT] += 1
+    if counters[FROM_AUDIT] >= audit_every:
+        counters[FROM_AUDIT] = 0
+        audit_step(model, s, order, x_end, phase, x[DIRECTION], probe, audit)
+    if len(samplers) > 0:
+        counters[SAMPLE_ROWS] = sample_step(
+            model, s, order, state, x_end, samplers, sampled, probe, sample_rows, counters[SAMPLE_ROWS]
+        )
+    move_to(model, s, order, x_end, phase, state)
+    x[KNOWN], x[FORCE], x[COASTED] = 0.0, 0.0, 1.0 if x_end < LONGEST_COAST else 0.0
+    _advance_time(x, x_end * model.unit)
+    phase_times[int(phase)] += x_end * model.unit
+
+
 @kernel
 def run(
     model, s, state, probe, order, tolerance, t_end, stop_at_first, max_steps, pause_after, audit_every,
@@ -246,31 +269,29 @@ def run(
         full = len(event_rows) > 0 and counters[EVENT_ROWS] > len(event_rows) - MAX_EVENTS_PER_STEP
         if full or counters[STEPS] >= pause or counters[SAMPLE_ROWS] > sample_capacity:
             return PAUSED
-        phase, direction = x[PHASE], x[DIRECTION]
+        phase = x[PHASE]
+        left = ((t_end - x[TIME]) - x[TIME_LOW]) / model.unit
+        if phase == STICK and x[COASTED] == 0.0:
+            x_end = min(coast_length(model, s, state), left)
+            if x_end > 0.0:
+                _move(
+                    model, s, state, probe, COAST, x_end,
+                    audit_every, counters, phase_times, audit, samplers, sampled, sample_rows,
+                )  # fmt: skip
+                if x_end >= left:
+                    return FINISHED
+                continue
         if _expand(model, s, state, order) <= PAINLEVE_MARGIN:
             return NO_SOLUTION
         x_end = step_size(model, s, order, tolerance, phase)
         if not x_end > 0.0:
             return NON_FINITE
-        left = ((t_end - x[TIME]) - x[TIME_LOW]) / model.unit
-        x_end = min(x_end, left)
-        x_end, cause = _first_switch(model, s, state, order, x_end)
-
-        counters[STEPS] += 1
-        counters[FROM_AUDIT] += 1
-        if counters[FROM_AUDIT] >= audit_every:
-            counters[FROM_AUDIT] = 0
-            audit_step(model, s, order, x_end, phase, direction, probe, audit)
-        if len(samplers) > 0:
-            counters[SAMPLE_ROWS] = sample_step(
-                model, s, order, state, x_end, samplers, sampled, probe, sample_rows, counters[SAMPLE_ROWS]
-            )
-        state_at(model, s, order, x_end, phase, state)
-        x[KNOWN] = 0.0
-        x[FORCE] = 0.0
+        x_end, cause = _first_switch(model, s, state, order, min(x_end, left))
         before = x[TIME]
-        _advance_time(x, x_end * model.unit)
-        phase_times[int(phase)] += x_end * model.unit
+        _move(
+            model, s, state, probe, order, x_end,
+            audit_every, counters, phase_times, audit, samplers, sampled, sample_rows,
+        )  # fmt: skip
         if cause != _NOTHING:
             counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[TIME] == before else 0
             if counters[IN_A_ROW] > MAX_EVENTS_IN_A_ROW:

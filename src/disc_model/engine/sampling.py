@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 from .compile import kernel
-from .evaluate import state_at
+from .evaluate import force_at, move_to
 from .layout import HALF, PHASE, PSI, SEPARATION, SPEED, TIME, TIME_LOW, U_VELOCITY, WIDTH, U
-from .polynomial import value
 from .switches import disc_point
 
 # Columns of a row of samples.
@@ -32,11 +31,11 @@ def point_motion(model, state, angle):
 
 @kernel
 def _write_row(model, s, order, x, time, phase, theta, probe, row):
-    state_at(model, s, order, x, phase, probe)
+    move_to(model, s, order, x, phase, probe)
     w, velocity, _ = disc_point(model, probe)
     angle = theta - (model.Omega * time - probe.x[PSI])
     row[1] = time
-    row[2] = 0.0 if phase == SEPARATION else value(s.P, 0, order - 1, x)
+    row[2] = force_at(model, s, order, x, phase, probe)
     row[3] = probe.x[U] if phase == SEPARATION else w
     row[4] = probe.x[U_VELOCITY] if phase == SEPARATION else velocity
     row[5] = w

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .compile import inlined, kernel
 from .layout import (
+    COASTED,
     DIRECTION,
     FORCE,
     KNOWN,
@@ -107,6 +108,7 @@ def _enter_stick(state, P):
     state.x[PHASE] = STICK
     state.x[DIRECTION] = 0.0
     state.x[KNOWN] = 0
+    state.x[COASTED] = 0.0
     state.x[FORCE] = P
 
 

@@ -1,0 +1,93 @@
+"""Stick in closed form: as long as it cannot end, it need not be integrated.
+
+In the modes of ``stick_modes`` the contact force stays within |P - N| <= sum gain_i |q_i|.  The growing spring force
+reaches the friction limit mu_s P at the earliest where it meets mu_s (N - that sum).  Until then the state is known
+without a step: the motion *coasts*.  The series take over to find the release.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .compile import inlined, kernel
+from .lanes import WIDTH, add, fma, load, mul, splat, spread, store, sub
+from .layout import PHASE, PSI, SPEED, STICK
+from .stick_modes import DEGREE, LONGEST_COAST, QUANTUM
+
+# A coast is worth its cost from about the length of a usual step (time units).
+SHORTEST_COAST = 5.0
+
+
+@kernel
+def _enter_modes(modes, disc, states, amplitudes):
+    """Modal amplitudes of a disc, into ``amplitudes``.  Returns the bound on abs(P - N) from now on."""
+    n, width, swing = len(modes.gain), len(modes.offset), 0.0
+    for b in range(0, width, WIDTH):
+        q = load(modes.offset, b)
+        for j in range(states):
+            q = fma(spread(disc, j), load(modes.enter, j * width + b), q)
+        store(amplitudes, b, q)
+    for i in range(n):
+        swing += modes.gain[i] * math.sqrt(amplitudes[i] ** 2 + amplitudes[n + i] ** 2)
+    return swing
+
+
+@inlined
+def _times(ar, ai, br, bi):
+    """Product of two complex numbers in every lane."""
+    return sub(mul(ar, br), mul(ai, bi)), fma(ar, bi, mul(ai, br))
+
+
+@kernel
+def _leave_modes(modes, amplitudes, x, disc):
+    """The disc at ``x`` (time units) after ``amplitudes``: exp(lambda x) from its series and tabled powers."""
+    n, length = len(modes.gain), len(disc)
+    quanta = int(x / QUANTUM)
+    rest = splat(x - quanta * QUANTUM)
+    for b in range(0, n, WIDTH):
+        re, im = mul(load(modes.decay, b), rest), mul(load(modes.turn, b), rest)
+        er, ei = splat(1.0), splat(0.0)
+        for k in range(DEGREE, 0, -1):
+            er, ei = _times(mul(splat(1.0 / k), re), mul(splat(1.0 / k), im), er, ei)
+            er = add(splat(1.0), er)
+        qr, qi = _times(er, ei, load(amplitudes, b), load(amplitudes, n + b))
+        at, left = b, quanta
+        while left > 0:
+            if left % 2 == 1:
+                qr, qi = _times(qr, qi, load(modes.powers, at), load(modes.powers, at + n))
+            at += 2 * n
+            left //= 2
+        store(amplitudes, 2 * n + b, qr)
+        store(amplitudes, 3 * n + b, qi)
+    for b in range(0, length, WIDTH):
+        v = load(modes.rest, b)
+        for i in range(2 * n):
+            v = fma(spread(amplitudes, 2 * n + i), load(modes.leave, i * length + b), v)
+        store(disc, b, v)
+
+
+@inlined
+def coast_length(model, s, state):
+    """How long (time units) stick is sure to last, 0 if that is not worth a coast; ``coast_to`` may then be asked."""
+    if len(model.modes.gain) == 0:
+        return 0.0
+    swing = _enter_modes(model.modes, state.disc, 2 * (len(model.shift) + len(model.force0)), s.amplitudes)
+    s.psi[0] = state.x[PSI]
+    friction = model.mu_s * (model.N - swing) / model.r_0
+    spring = model.k_p * state.x[PSI] + model.c_p * model.Omega
+    # the spring force only grows, so that a backward release is out of question if it is now
+    if not abs(spring) < friction:
+        return 0.0
+    growth = model.k_p * model.Omega * model.unit
+    if growth * LONGEST_COAST <= friction - spring:
+        return LONGEST_COAST
+    x = (friction - spring) / growth
+    return x if x >= SHORTEST_COAST else 0.0
+
+
+@inlined
+def coast_to(model, s, x, state):
+    """Fill ``state`` with stick at x (time units) from where ``coast_length`` was asked."""
+    _leave_modes(model.modes, s.amplitudes, x, state.disc)
+    state.x[PHASE], state.x[SPEED] = STICK, 0.0
+    state.x[PSI] = s.psi[0] + model.Omega * model.unit * x

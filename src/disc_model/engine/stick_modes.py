@@ -1,0 +1,144 @@
+"""The modes of stick, in which the closed form of ``linear`` moves.
+
+With f = 0, disc and slider are one linear system.  In deviations d from the static equilibrium,
+
+    (1 + m psi psi^T) d'' + (2 xi omega + c psi psi^T) d' + (omega^2 + k psi psi^T) d = 0
+
+for the a-components and l = 0, and the same without the slider for the b-components.  Its modes q only turn and decay,
+q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are kept as lanes of real parts followed by lanes of imaginary parts.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from .lanes import WIDTH, aligned
+
+# exp(lambda x) is the product of tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the rest;
+# with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_COAST bounds the table, and the samples that
+# fall into one coast.  (Time units.)
+QUANTUM = 0.25
+LONGEST_COAST = 512.0
+DEGREE = 12
+POWERS = 12  # 2**POWERS quanta exceed LONGEST_COAST
+LARGEST_RATE = 1.5
+# The matrices are dense: beyond this number of modes the series are as fast.
+MOST_MODES = 64
+# Eigenvectors that are nearly parallel (modes near critical damping) would cost digits: such systems do not coast.
+WORST_CONDITION = 100.0
+
+
+class StickModes(NamedTuple):
+    """n modes, padded with zeros to whole blocks of lanes; L = len(State.disc).  Empty if stick is not to coast."""
+
+    decay: np.ndarray  # Re lambda in 1 / time unit, shape (n,)
+    turn: np.ndarray  # Im lambda, likewise
+    gain: np.ndarray  # |dP / dq|, shape (n,)
+    powers: np.ndarray  # exp(lambda QUANTUM 2^i), shape (powers * 2 * n,)
+    enter: np.ndarray  # q of a unit change of each state, shape (L * 2 * n,)
+    offset: np.ndarray  # q of the zero state, shape (2 * n,)
+    leave: np.ndarray  # state of a unit change of the real parts, then of the imaginary parts of q, shape (2 * n * L,)
+    rest: np.ndarray  # static equilibrium, shape (L,)
+
+
+def padded(n: int) -> int:
+    """n rounded up to whole blocks of lanes."""
+    return -(-n // WIDTH) * WIDTH
+
+
+def no_modes() -> StickModes:
+    """Of a system whose stick is left to the series."""
+    return StickModes(*(np.zeros(0) for _ in StickModes._fields))
+
+
+@lru_cache(maxsize=256)
+def _eigenmodes(frequencies, dampings, shapes, k, c, m, unit):
+    """Modes of d'' = -M^-1 (C d' + K d): lambda (n,), V (2n, n), W (n, 2n), where (d, d') = 2 Re V q, q = W (d, d').
+
+    frequencies: omega; dampings: 2 xi omega; shapes: psi, 0 for a mode that does not feel the slider; lambda is in
+    1 / ``unit``.  None if a mode does not oscillate, is too fast for the series, or is nearly parallel to another.
+    """
+    omega, damping, psi = np.array(frequencies), np.array(dampings), np.array(shapes)
+    n, rank_one = len(omega), np.outer(psi, psi)
+    inverse = np.eye(n) - rank_one * (m / (1.0 + m * psi @ psi))
+    # displacements are scaled by omega, so that both halves of an eigenvector are of one size
+    scale = omega * unit
+    A = np.zeros((2 * n, 2 * n))
+    A[:n, n:] = np.diag(scale)
+    A[n:, :n] = -inverse @ (np.diag(omega**2) + k * rank_one) * (unit**2 / scale)
+    A[n:, n:] = -inverse @ (np.diag(damping) + c * rank_one) * unit
+    if not np.isfinite(A).all():
+        return None
+    rates, vectors = np.linalg.eig(A)
+    up = np.flatnonzero(rates.imag > 0.0)
+    if len(up) != n or (rates.real > 1e-12).any() or np.abs(rates).max() > LARGEST_RATE:
+        return None
+    rates, vectors = rates[up], vectors[:, up]
+    both = np.hstack([vectors, vectors.conj()])
+    if np.linalg.cond(both) > WORST_CONDITION:
+        return None
+    to_modes = np.linalg.inv(both)[:n]
+    # back to displacements and to velocities per second
+    to_modes = to_modes * np.concatenate([scale, np.full(n, unit)])
+    vectors = vectors / np.concatenate([scale, np.full(n, unit)])[:, None]
+    decay = np.where(rates.real > -1e-15, 0.0, rates.real)
+    return decay + 1j * rates.imag, vectors, to_modes
+
+
+def build_stick_modes(pairs, single, *, length, N, k, c, m, unit) -> StickModes:
+    """Modes of stick for the model of `layout.build_model`.
+
+    pairs : of the diametral modes: omega, damping, psi, places of a and b in `State.disc`, how far on are velocities
+    single : of the axisymmetric modes: omega, damping, psi, their places, how far on are velocities
+    length : of `State.disc`
+    """
+    omega, damping, psi = (np.concatenate([pairs[i], single[i], pairs[i]]) for i in range(3))
+    n, held = len(omega), len(pairs[0]) + len(single[0])
+    shape = np.where(np.arange(n) < held, psi, 0.0)
+    if n > MOST_MODES or not (omega > 0.0).all():
+        return no_modes()
+    numbers = (tuple(a.tolist()) for a in (omega, damping, shape))
+    modes = _eigenmodes(*numbers, float(k), float(c), float(m), float(unit))
+    if modes is None:
+        return no_modes()
+    rates, vectors, to_modes = modes
+    place = np.concatenate([pairs[3], single[3], pairs[4]])
+    where = np.concatenate([place, pairs[3] + pairs[5], single[3] + single[4], pairs[4] + pairs[5]])
+
+    rest = aligned(length)
+    rest[place] = -N * shape / omega**2
+    # dP of a unit change of each displacement and velocity
+    force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
+    return _packed(rates, vectors, to_modes, where, rest, force)
+
+
+def _packed(rates, vectors, to_modes, where, rest, force) -> StickModes:
+    """Modes (see `_eigenmodes`) as lanes; ``where`` the displacements and velocities stand in `State.disc`."""
+    n, length = len(rates), len(rest)
+    enter = np.zeros((length, 2, padded(n)))
+    enter[where, 0, :n], enter[where, 1, :n] = to_modes.real.T, to_modes.imag.T
+    leave = np.zeros((2, padded(n), length))
+    leave[0][:n, where], leave[1][:n, where] = 2.0 * vectors.real.T, -2.0 * vectors.imag.T
+    powers = np.zeros((POWERS, 2, padded(n)))
+    tabled = np.exp(np.outer(QUANTUM * 2.0 ** np.arange(POWERS), rates))
+    powers[:, 0, :n], powers[:, 1, :n] = tabled.real, tabled.imag
+    return StickModes(
+        decay=_in_lanes(rates.real),
+        turn=_in_lanes(rates.imag),
+        gain=_in_lanes(2.0 * np.abs(force @ vectors)),
+        powers=_in_lanes(powers),
+        enter=_in_lanes(enter),
+        offset=_in_lanes(-np.tensordot(rest, enter, 1)),
+        leave=_in_lanes(leave),
+        rest=rest,
+    )
+
+
+def _in_lanes(a: np.ndarray) -> np.ndarray:
+    """Flat copy, padded to whole blocks of lanes."""
+    out = aligned(padded(a.size))
+    out[: a.size] = a.ravel()
+    return out
