@@ -16,15 +16,11 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.stability.continuation import (
-    Branch,
-    continue_cycle,
-    continue_fold,
-    continue_neutral,
-    default_scale,
-    nearest_tongue,
-)
+from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.cycle_problem import Branch, default_scale
 from disc_model.stability.floquet_batch import solve
+from disc_model.stability.neutral import continue_fold, continue_neutral
+from disc_model.stability.resonances import nearest_tongue
 from disc_model.stability.tongue import Tongue
 
 Array = NDArray[np.float64]
