@@ -30,7 +30,6 @@ from __future__ import annotations
 
 import json
 import math
-import time as clock
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -280,18 +279,8 @@ def _contact_range(p: Parameters) -> dict[str, float]:
 
     record = Record(windows=(Window(start=WINDOW[0], stop=WINDOW[1], rate=20_000.0, envelope=100),))
     window = simulate(p, WINDOW[1], record=record).samples[0]
-    simulate(p, 0.1)
-    cost = float(np.median([_wall(p) for _ in range(7)]))
+    cost = float(np.median([simulate(p, 1.0).statistics["wall_time"] for _ in range(11)]))
     return {"force_min": float(window["P_min"].min()), "force_max": float(window["P_max"].max()), "cost": cost}
-
-
-def _wall(p: Parameters) -> float:
-    """Wall time of the first simulated second, s."""
-    from disc_model.simulate import simulate
-
-    began = clock.perf_counter()
-    simulate(p, 1.0)
-    return clock.perf_counter() - began
 
 
 def _separating(p: Parameters, horizon: float) -> dict[str, float]:

@@ -16,6 +16,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 from disc_model.figures import parts
@@ -62,7 +63,8 @@ WORDS = {
     "gave_up": "gave up",
     "not_run": "not run",
 }
-SHADES = ("#1B7837", "#B8E186", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
+_HALO = [withStroke(linewidth=1.5, foreground="white")]
+SHADES = ("#08519C", "#9ECAE1", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
 SETTING_LABELS = {"tol": "Tolerance", "step": "Step (s)", "epsilon": r"$\epsilon$ (rad/s)"}
 ERRORS = {"event": "Event-time error (s)", "state": "State error (energy norm)"}
 
@@ -141,7 +143,7 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
                     fontsize=6, color=GREY, linespacing=0.9)  # fmt: skip
     for at_x, at_y, text, color in _spread(labels):
         ax.annotate(text, (at_x, at_y), xytext=(-5, 0), textcoords="offset points", ha="right", va="center",
-                    fontsize=6.5, color=color)  # fmt: skip
+                    fontsize=6.5, color=color, path_effects=_HALO, zorder=4)  # fmt: skip
 
 
 def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float, float, str, str]]:
@@ -276,7 +278,9 @@ def _cut(ax: Axes, values: np.ndarray) -> None:
     if values.max() > top:
         ax.set_ylim(top=top)
         text = "beyond: " + ", ".join(f"{value:.0f} s" for value in values[values > top])
-        ax.text(1.0, 0.97, text, transform=ax.transAxes, ha="right", va="top", fontsize=6, color=GREY)
+        ax.text(
+            1.0, 0.97, text, transform=ax.transAxes, ha="right", va="top", fontsize=6, color=GREY, path_effects=_HALO
+        )
 
 
 @styled
