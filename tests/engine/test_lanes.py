@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model.engine import lanes
-from disc_model.engine.compile import kernel
+from tests.engine.compiled import kernel
 
 
 @kernel

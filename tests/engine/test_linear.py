@@ -7,9 +7,9 @@ import pytest
 
 from disc_model import Parameters, Record, Window, simulate
 from disc_model.engine import evaluate, layout, linear, series, stick_modes
-from disc_model.engine.compile import kernel
 from disc_model.engine.switches import stick_force
 from disc_model.simulate import build_model
+from tests.engine.compiled import kernel
 
 ORDER = 40
 VARIANTS = {

@@ -8,8 +8,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from disc_model.engine import layout
-from disc_model.engine.compile import kernel
 from disc_model.engine.polynomial import NO_ROOT, first_root, set_powers
+from tests.engine.compiled import kernel
 
 DEGREE = 24
 

@@ -7,8 +7,8 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.engine import layout, plain, series
-from disc_model.engine.compile import kernel
 from disc_model.simulate import build_model
+from tests.engine.compiled import kernel
 
 ORDER = 23
 SHAPES = {

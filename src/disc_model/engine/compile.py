@@ -14,7 +14,7 @@ from typing import Any
 import numba
 
 # Kernels allocate nothing, so reference counting (_nrt) is off: it cost more than the arithmetic.
-_RULES: dict[str, Any] = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy", "_nrt": False}
+RULES: dict[str, Any] = {"cache": True, "fastmath": {"contract"}, "error_model": "numpy", "_nrt": False}
 
-kernel = numba.njit(**_RULES)
-inlined = numba.njit(forceinline=True, **_RULES)
+kernel = numba.njit(**RULES)
+inlined = numba.njit(forceinline=True, **RULES)

@@ -54,7 +54,6 @@ def no_modes() -> StickModes:
     return StickModes(*(np.zeros(0) for _ in StickModes._fields))
 
 
-@lru_cache(maxsize=256)
 def _eigenmodes(frequencies, dampings, shapes, k, c, m, unit):
     """Modes of d'' = -M^-1 (C d' + K d): lambda (n,), V (2n, n), W (n, 2n), where (d, d') = 2 Re V q, q = W (d, d').
 
@@ -100,19 +99,25 @@ def build_stick_modes(pairs, single, *, length, N, k, c, m, unit) -> StickModes:
     shape = np.where(np.arange(n) < held, psi, 0.0)
     if n > MOST_MODES or not (omega > 0.0).all():
         return no_modes()
-    numbers = (tuple(a.tolist()) for a in (omega, damping, shape))
-    modes = _eigenmodes(*numbers, float(k), float(c), float(m), float(unit))
-    if modes is None:
-        return no_modes()
-    rates, vectors, to_modes = modes
     place = np.concatenate([pairs[3], single[3], pairs[4]])
     where = np.concatenate([place, pairs[3] + pairs[5], single[3] + single[4], pairs[4] + pairs[5]])
+    numbers = (tuple(a.tolist()) for a in (omega, damping, shape, where))
+    modes = _under_unit_load(*numbers, length, float(k), float(c), float(m), float(unit))
+    return modes._replace(rest=N * modes.rest, offset=N * modes.offset)
 
+
+@lru_cache(maxsize=256)
+def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, unit) -> StickModes:
+    """`StickModes` for N = 1, the same for many cases; ``places`` of (d, d') in `State.disc`."""
+    modes = _eigenmodes(frequencies, dampings, shapes, k, c, m, unit)
+    if modes is None:
+        return no_modes()
+    omega, damping, shape, where = (np.array(a) for a in (frequencies, dampings, shapes, places))
     rest = aligned(length)
-    rest[place] = -N * shape / omega**2
+    rest[where[: len(omega)]] = -shape / omega**2
     # dP of a unit change of each displacement and velocity
     force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
-    return _packed(rates, vectors, to_modes, where, rest, force)
+    return _packed(*modes, where, rest, force)
 
 
 def _packed(rates, vectors, to_modes, where, rest, force) -> StickModes:
