@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, floquet, simulate, steady_sliding
-from disc_model.engine import layout, machine, variational
+from disc_model.engine import layout, machine, saltation, tangent, variational
 from disc_model.errors import DiscModelError
 from disc_model.result import State
 from disc_model.simulate import build_model
@@ -52,8 +52,8 @@ class Full:
         psi = 2 * width + 2 * n0
         self.rows = np.concatenate([used, width + used, 2 * width + single, 2 * width + n0 + single, [psi, psi + 1]])
         self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
-        self.tangent = variational.build_tangent(self.model, len(self.rows), self.order)
-        self.n_rows = variational.n_rows(self.model)
+        self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
+        self.n_rows = tangent.n_rows(self.model)
         write_state(p, self.model, start, self.state)
         self.set_columns(np.eye(len(self.rows)))
 
@@ -75,12 +75,12 @@ class Full:
     @property
     def rates(self):
         out = np.zeros(self.n_rows * 8)
-        variational.rates(self.model, self.state, out)
+        saltation.rates(self.model, self.state, out)
         return out[::8][self.rows]
 
     def release(self):
-        log = np.zeros(variational.LOG_SIZE)
-        variational._change_phase(self.model, self.state, machine._RELEASE_FORWARD, log)
+        log = np.zeros(tangent.LOG_SIZE)
+        variational.change_phase(self.model, self.state, machine.RELEASE_FORWARD, log)
 
     def fly(self, duration, tangent=True):
         return variational.fly(
@@ -90,7 +90,7 @@ class Full:
     def release_change(self, vector):
         """Gradient of the release condition times a vector of coordinates, f's left out."""
         self.set_columns(np.where(np.arange(len(vector)) < len(vector) - 1, vector, 0)[:, None])
-        variational._switch_times(self.model, self.state, self.tangent, machine._RELEASE_FORWARD)
+        saltation.switch_times(self.model, self.state, self.tangent, machine.RELEASE_FORWARD)
         return -self.tangent.tau[0]
 
 
@@ -237,7 +237,7 @@ def test_product_of_multipliers_is_that_of_divergence_and_saltation():
     carried = np.linalg.solve(run.columns, jump)
     section = Full(DAMPED, start)
     section.tangent.before[:] = 0.0
-    variational.rates(section.model, section.state, section.tangent.before)
+    saltation.rates(section.model, section.state, section.tangent.before)
 
     def h(vector):
         return section.release_change(vector)

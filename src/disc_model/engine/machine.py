@@ -43,7 +43,7 @@ from .switches import (
     STICK_TO_SLIP,
     come_to_rest,
     disc_point,
-    leave_rest,
+    enter_slip,
     lose_contact,
     touch_down,
 )
@@ -57,7 +57,7 @@ STEPS, EVENTS, SEPARATIONS, IN_A_ROW, EVENT_ROWS, SAMPLE_ROWS, FROM_AUDIT, N_COU
 EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
 
 # What can end a step.
-_NOTHING, _RELEASE_FORWARD, _RELEASE_BACKWARD, _AT_REST, _CONTACT_LOST, _GAP_CLOSED = range(6)
+NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
 
 MAX_EVENTS_PER_STEP = 3
 # More switches than this without the clock moving end the run: a guard, not a tuned interval.
@@ -123,7 +123,7 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
-def _expand(model, s, state, order):
+def expand(model, s, state, order):
     """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
     load_state(s, state)
     phase = state.x[PHASE]
@@ -137,43 +137,43 @@ def _expand(model, s, state, order):
 
 
 @inlined
-def _first_switch(model, s, state, order, x_end):
-    """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, _NOTHING)."""
+def first_switch(model, s, state, order, x_end):
+    """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
     phase, known = state.x[PHASE], int(state.x[KNOWN])
     set_powers(s.powers, x_end)
-    cause = _NOTHING
+    cause = NOTHING
     if phase == STICK:
         x = first_root(s.switch, 0, order - 1, x_end, s.powers, s.roots)
         if x != NO_ROOT:
-            x_end, cause = x, _RELEASE_FORWARD
+            x_end, cause = x, RELEASE_FORWARD
             set_powers(s.powers, x_end)
         if s.switch2[0] < s.switch[0]:
             x = first_root(s.switch2, 0, order - 1, x_end, s.powers, s.roots)
             if x != NO_ROOT:
-                x_end, cause = x, _RELEASE_BACKWARD
+                x_end, cause = x, RELEASE_BACKWARD
                 set_powers(s.powers, x_end)
         if model.mu_s == 0.0 and not model.bonded:
             # the friction limit is zero all along and says nothing of contact
             x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
             if x != NO_ROOT:
-                x_end, cause = x, _CONTACT_LOST
+                x_end, cause = x, CONTACT_LOST
         return x_end, cause
     if phase == SEPARATION:
         x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
-        return (x, _GAP_CLOSED) if x != NO_ROOT else (x_end, _NOTHING)
+        return (x, GAP_CLOSED) if x != NO_ROOT else (x_end, NOTHING)
     x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
     if x != NO_ROOT:
-        x_end, cause = x, _AT_REST
+        x_end, cause = x, AT_REST
         set_powers(s.powers, x_end)
     if not model.bonded:
         x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
         if x != NO_ROOT:
-            x_end, cause = x, _CONTACT_LOST
+            x_end, cause = x, CONTACT_LOST
     return x_end, cause
 
 
 @inlined
-def _advance_time(x, dt):
+def advance_time(x, dt):
     """Compensated sum: TIME + TIME_LOW is the time to twice the digits."""
     dt += x[TIME_LOW]
     new = x[TIME] + dt
@@ -204,20 +204,20 @@ def _record(model, state, kind, counters, rows):
 def _switch(model, state, cause, counters, rows, audit):
     """Carry out the switch and record its events.  Returns CONSISTENT or PARADOX."""
     came_from = state.x[DIRECTION]
-    if cause == _GAP_CLOSED:
+    if cause == GAP_CLOSED:
         before, velocity = transverse_energy(model, state, SEPARATION), state.x[U_VELOCITY]
         _, _, slope = disc_point(model, state)
         outcome = touch_down(model, state)
         audit_impact(model, before, model.m * (state.x[U_VELOCITY] - velocity), slope, state, audit)
         kind = REATTACHMENT
-    elif cause == _AT_REST:
+    elif cause == AT_REST:
         outcome = come_to_rest(model, state)
         kind = SLIP_TO_STICK if state.x[PHASE] == STICK else SLIP_REVERSAL
-    elif cause == _CONTACT_LOST:
+    elif cause == CONTACT_LOST:
         outcome = lose_contact(model, state)
         kind = LOSS_OF_CONTACT
     else:
-        outcome = leave_rest(model, state, 1.0 if cause == _RELEASE_FORWARD else -1.0)
+        outcome = enter_slip(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
         kind = STICK_TO_SLIP
     if outcome == PARADOX:
         return outcome
@@ -246,7 +246,7 @@ def _move(
         )
     move_to(model, s, order, x_end, phase, state)
     x[KNOWN], x[FORCE], x[COASTED] = 0.0, 0.0, 1.0 if x_end < LONGEST_COAST else 0.0
-    _advance_time(x, x_end * model.unit)
+    advance_time(x, x_end * model.unit)
     phase_times[int(phase)] += x_end * model.unit
 
 
@@ -281,18 +281,18 @@ def run(
                 if x_end >= left:
                     return FINISHED
                 continue
-        if _expand(model, s, state, order) <= PAINLEVE_MARGIN:
+        if expand(model, s, state, order) <= PAINLEVE_MARGIN:
             return NO_SOLUTION
         x_end = step_size(model, s, order, tolerance, phase)
         if not x_end > 0.0:
             return NON_FINITE
-        x_end, cause = _first_switch(model, s, state, order, min(x_end, left))
+        x_end, cause = first_switch(model, s, state, order, min(x_end, left))
         before = x[TIME]
         _move(
             model, s, state, probe, order, x_end,
             audit_every, counters, phase_times, audit, samplers, sampled, sample_rows,
         )  # fmt: skip
-        if cause != _NOTHING:
+        if cause != NOTHING:
             counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[TIME] == before else 0
             if counters[IN_A_ROW] > MAX_EVENTS_IN_A_ROW:
                 return STALLED

@@ -117,7 +117,8 @@ def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, uni
     rest[where[: len(omega)]] = -shape / omega**2
     # dP of a unit change of each displacement and velocity
     force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
-    return _packed(*modes, where, rest, force)
+    rates, vectors, to_modes = modes
+    return _packed(rates, vectors, to_modes, where, rest, force)
 
 
 def _packed(rates, vectors, to_modes, where, rest, force) -> StickModes:

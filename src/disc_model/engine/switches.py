@@ -113,7 +113,7 @@ def _enter_stick(state, P):
 
 
 @kernel
-def _enter_slip(model, state, direction):
+def enter_slip(model, state, direction):
     """Slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or PARADOX."""
     P, denominator = slip_force(model, state, direction)
     if denominator <= PAINLEVE_MARGIN * (1.0 + model.m * model.compliance):
@@ -137,12 +137,6 @@ def _enter_slip(model, state, direction):
 
 
 @kernel
-def leave_rest(model, state, direction):
-    """Stick breaks into slip (or, at P = 0 with a relaxed spring, into separation)."""
-    return _enter_slip(model, state, direction)
-
-
-@kernel
 def lose_contact(model, state):
     """P has reached zero."""
     _enter_separation(model, state, 3)
@@ -161,7 +155,7 @@ def come_to_rest(model, state):
     if P < 0.0 and not model.bonded:
         _enter_separation(model, state, 2)
         return CONSISTENT
-    return _enter_slip(model, state, -1.0 if F < 0.0 else 1.0)
+    return enter_slip(model, state, -1.0 if F < 0.0 else 1.0)
 
 
 @kernel
@@ -171,4 +165,4 @@ def touch_down(model, state):
     f = state.x[SPEED]
     if f == 0.0:
         return come_to_rest(model, state)
-    return _enter_slip(model, state, 1.0 if f > 0.0 else -1.0)
+    return enter_slip(model, state, 1.0 if f > 0.0 else -1.0)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import layout, variational
+from disc_model.engine import layout, tangent, variational
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.result import State
@@ -120,13 +120,13 @@ def lyapunov_exponents(
     series, state = layout.build_series(model, order), layout.build_state(model)
     if start is not None:
         write_state(p, model, start, state)
-    t = variational.build_tangent(model, layout.WIDTH, order)
-    metric, rows = _metric(model), variational.n_rows(model)
+    t = tangent.build_tangent(model, layout.WIDTH, order)
+    metric, rows = _metric(model), tangent.n_rows(model)
     columns = t.now.reshape(rows, layout.WIDTH)
     columns[:] = 0.0
     columns[:, :count] = _first_columns(model, state, metric, count)
     steps = max(_BLOCKS, math.ceil(duration / interval))
-    longest = variational.longest_step(order, 10 * tolerance)
+    longest = tangent.longest_step(order, 10 * tolerance)
     logs, status = np.zeros((steps, count)), LyapunovStatus.OK
     done = 0
     for i in range(-(steps // 4), steps):
@@ -151,7 +151,7 @@ def _summary(
     p: Parameters,
     model: layout.Model,
     state: layout.State,
-    t: variational.Tangent,
+    t: tangent.Tangent,
     status: LyapunovStatus,
     logs: Array,
     interval: float,

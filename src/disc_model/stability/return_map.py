@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import layout, variational
+from disc_model.engine import tangent as columns
 from disc_model.parameters import Parameters
 from disc_model.result import State
 from disc_model.simulate import build_model
@@ -84,7 +85,7 @@ class ReturnMap:
         self.size = n = len(self._rows)
         self._first = layout.WIDTH * -(-n // layout.WIDTH)
         self._names = parameters
-        self._tangent = variational.build_tangent(model, self._first + len(parameters), self.order, self._first)
+        self._tangent = columns.build_tangent(model, self._first + len(parameters), self.order, self._first)
         if parameters:
             self._set_changes()
         self._end, self._jacobian = np.zeros(n), np.zeros((n, self._tangent.columns))
@@ -96,7 +97,7 @@ class ReturnMap:
 
     def _set_changes(self) -> None:
         """Columns of the changes of parameters: what a unit of each changes in the equations."""
-        model, p, t, v = self.model, self.parameters, self._tangent, variational
+        model, p, t, v = self.model, self.parameters, self._tangent, columns
         width, n0 = len(model.force), len(model.force0)
         blocks = t.columns // layout.WIDTH
         rows = t.parameters.reshape(blocks, -1, layout.WIDTH)
@@ -144,7 +145,7 @@ class ReturnMap:
         """
         t = self._tangent
         order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
-        longest = variational.longest_step(order, COLUMNS_COARSE if coarse else 10 * tolerance) if tangent else math.inf
+        longest = columns.longest_step(order, COLUMNS_COARSE if coarse else 10 * tolerance) if tangent else math.inf
         code = variational.section_map(
             self.model, self._series, self._state, t, order, tolerance, longest, releases * self.longest, releases,
             may_separate, tangent, self._rows, self.scale, x, self._end, self._jacobian,

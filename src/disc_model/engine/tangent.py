@@ -1,0 +1,307 @@
+"""Small changes carried along a motion: Taylor series of the variational equations.
+
+A change of the state is a column; the columns lie side by side in blocks of eight lanes, so that one pass of the
+recurrence moves eight of them.  The Taylor coefficients of the variational equations are those of the model with
+each product f x replaced by f dx + df x, the coefficients of the motion itself being known; the contact force of
+order k then follows from the same scalar division as that of the motion.
+
+Rows of a column: displacements z and velocities e of all lanes, then y, g of the axisymmetric modes, then psi, f, and
+u, u' of the slider (which are the disc's in contact, and mean something in separation only).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from .compile import inlined, kernel
+from .lanes import WIDTH, add, aligned, fma, load, mul, splat, spread, store, sub
+from .layout import HALF, SEPARATION, SLIP, STICK, Model
+
+# Entries of ``Tangent.log``; ``variational`` says what they are.
+LOG_SIZE = 16
+
+# Rows of the parameters' changes that a column carries; after them stiffness and damping of all lanes and of the
+# axisymmetric modes.
+LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, N_SCALARS = range(8)
+
+
+class Tangent(NamedTuple):
+    """Columns and their work space.  ``columns`` is a multiple of eight."""
+
+    series: np.ndarray  # [block][order][row][8]
+    force: np.ndarray  # [block][order][8] of P
+    slope: np.ndarray  # [block][order][8] of B
+    base_slope: np.ndarray  # [order], B of the motion
+    now: np.ndarray  # [block][row][8]
+    parameters: np.ndarray  # [block][row][8], changes of parameters
+    before: np.ndarray  # [row][8], rates before a switch in the first lane
+    after: np.ndarray
+    still: np.ndarray  # like ``parameters``, zero, eight columns
+    tau: np.ndarray  # [column], change of a switch's time
+    log: np.ndarray
+    columns: int
+    plain: int  # columns before this one carry no change of a parameter
+
+
+def longest_step(order: int, tolerance: float) -> float:
+    """Step (time units) at which the last term of an oscillation at the fastest rate falls below ``tolerance``."""
+    return math.exp((math.log(tolerance) + math.lgamma(order + 1)) / order)
+
+
+def n_rows(model: Model) -> int:
+    """Number of rows of a column."""
+    return 2 * len(model.force) + 2 * len(model.force0) + 4
+
+
+def build_tangent(model: Model, columns: int, order: int, plain: int | None = None) -> Tangent:
+    """Work space for ``columns`` columns; the first ``plain`` (all by default) carry no changes of parameters."""
+    columns = WIDTH * -(-columns // WIDTH)
+    plain = columns if plain is None else WIDTH * (plain // WIDTH)
+    rows, parameters = n_rows(model), N_SCALARS + 2 * len(model.force) + 2 * len(model.force0)
+    return Tangent(
+        series=aligned((order + 2) * rows * columns),
+        force=aligned((order + 2) * columns),
+        slope=aligned((order + 2) * columns),
+        base_slope=aligned(order + 2),
+        now=aligned(rows * columns),
+        parameters=aligned(parameters * columns),
+        before=aligned(rows * WIDTH),
+        after=aligned(rows * WIDTH),
+        still=aligned(parameters * WIDTH),
+        tau=aligned(columns),
+        log=np.zeros(LOG_SIZE),
+        columns=columns,
+        plain=plain,
+    )
+
+
+@inlined
+def _convolve(s, t, origin, R, k, j, width, f_row):
+    """Order k of f dx + df x for a, b, alpha, beta of the pair whose a is lane j."""
+    zero = splat(0.0)
+    a0, b0, p0, q0, a1, b1, p1, q1 = zero, zero, zero, zero, zero, zero, zero, zero
+    a, b = origin + (k * R + j) * WIDTH, origin + (k * R + j + HALF) * WIDTH
+    p, q = a + width * WIDTH, b + width * WIDTH
+    at, low, stride = origin + f_row * WIDTH, k * width + j, R * WIDTH
+    for i in range(k + 1):
+        f, df = spread(s.f, i), load(t.series, at)
+        a0, b0 = fma(f, load(t.series, a), a0), fma(f, load(t.series, b), b0)
+        p0, q0 = fma(f, load(t.series, p), p0), fma(f, load(t.series, q), q0)
+        a1, b1 = fma(df, spread(s.z, low), a1), fma(df, spread(s.z, low + HALF), b1)
+        p1, q1 = fma(df, spread(s.e, low), p1), fma(df, spread(s.e, low + HALF), q1)
+        a, b, p, q, at, low = a - stride, b - stride, p - stride, q - stride, at + stride, low - width
+    return add(a0, a1), add(b0, b1), add(p0, p1), add(q0, q1)
+
+
+@inlined
+def _motion_slope(model, s, t, order):
+    """B of the motion, all orders."""
+    width = len(model.force)
+    for k in range(order + 1):
+        slope = 0.0
+        for j in range(width):
+            slope += model.slope[j] * s.z[k * width + j]
+        t.base_slope[k] = slope
+
+
+@inlined
+def point_change(model, x, at, f, B):
+    """du, d(u'), dB of the disc under the slider from columns x; f, B of the motion."""
+    width, n0 = len(model.force), len(model.force0)
+    zero = splat(0.0)
+    du, dv, dB = zero, zero, zero
+    for j in range(width):
+        if model.shift[j] > 0.0:
+            force = splat(model.force[j])
+            du = fma(force, load(x, at + j * WIDTH), du)
+            dv = fma(force, load(x, at + (width + j) * WIDTH), dv)
+            dB = fma(splat(model.slope[j + HALF]), load(x, at + (j + HALF) * WIDTH), dB)
+    for j in range(n0):
+        force = splat(model.force0[j])
+        du = fma(force, load(x, at + (2 * width + j) * WIDTH), du)
+        dv = fma(force, load(x, at + (2 * width + n0 + j) * WIDTH), dv)
+    df = load(x, at + (2 * width + 2 * n0 + 1) * WIDTH)
+    return du, fma(splat(f), dB, fma(splat(B), df, dv)), dB
+
+
+@inlined
+def n_rows_of(model):
+    """As ``n_rows``, inside kernels."""
+    return 2 * len(model.force) + 2 * len(model.force0) + 4
+
+
+@inlined
+def n_inputs(model):
+    """Number of rows of ``Tangent.parameters``."""
+    return N_SCALARS + 2 * len(model.force) + 2 * len(model.force0)
+
+
+@inlined
+def _diametral_rates(model, s, t, block, k, phase, R):
+    """Rates of the diametral modes without the contact force, order k; a and b of order k + 1 are final.
+
+    Returns their share of d(u'') and dB of order k + 1 (lanes).
+    """
+    width, origin = len(model.force), block * len(t.base_slope) * R * WIDTH
+    f_row, q = R - 3, block * n_inputs(model) * WIDTH
+    here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
+    up, free, dB = splat(s.up[k]), splat(0.0), splat(0.0)
+    for j in range(width):
+        if model.shift[j] > 0.0:
+            i, z = j + HALF, k * width + j
+            da, db = load(t.series, here + j * WIDTH), load(t.series, here + i * WIDTH)
+            dp, dq = load(t.series, here + (width + j) * WIDTH), load(t.series, here + (width + i) * WIDTH)
+            stiffness, damping = splat(-model.stiffness[j]), splat(-model.damping[j])
+            rate_p, rate_q = fma(stiffness, da, mul(damping, dp)), fma(stiffness, db, mul(damping, dq))
+            if phase != STICK:
+                l = splat(model.shift[j])
+                fa, fb, fp, fq = _convolve(s, t, origin, R, k, j, width, f_row)
+                dp, dq = fma(l, fb, dp), sub(dq, mul(l, fa))
+                rate_p, rate_q = fma(l, fq, rate_p), sub(rate_q, mul(l, fp))
+            if block * WIDTH >= t.plain:
+                d_stiffness = load(t.parameters, q + (N_SCALARS + j) * WIDTH)
+                d_damping = load(t.parameters, q + (N_SCALARS + width + j) * WIDTH)
+                rate_p = sub(rate_p, fma(d_stiffness, splat(s.z[z]), mul(d_damping, splat(s.e[z]))))
+                rate_q = sub(rate_q, fma(d_stiffness, splat(s.z[z + HALF]), mul(d_damping, splat(s.e[z + HALF]))))
+            db_next = mul(dq, up)
+            store(t.series, there + j * WIDTH, mul(dp, up))
+            store(t.series, there + i * WIDTH, db_next)
+            store(t.series, there + (width + j) * WIDTH, rate_p)
+            store(t.series, there + (width + i) * WIDTH, mul(rate_q, up))
+            free = fma(splat(model.force[j]), rate_p, free)
+            dB = fma(splat(model.slope[i]), db_next, dB)
+    return free, dB
+
+
+@inlined
+def _axisymmetric_rates(model, s, t, block, k, R):
+    """As ``_diametral_rates`` for the modes without nodal diameter.  Returns their share of d(u'')."""
+    width, n0, origin = len(model.force), len(model.force0), block * len(t.base_slope) * R * WIDTH
+    q, here, there = block * n_inputs(model) * WIDTH, origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
+    up, free = splat(s.up[k]), splat(0.0)
+    for j in range(n0):
+        y, g = 2 * width + j, 2 * width + n0 + j
+        dy, dg = load(t.series, here + y * WIDTH), load(t.series, here + g * WIDTH)
+        rate = fma(splat(-model.stiffness0[j]), dy, mul(splat(-model.damping0[j]), dg))
+        if block * WIDTH >= t.plain:
+            d_stiffness = load(t.parameters, q + (N_SCALARS + 2 * width + j) * WIDTH)
+            d_damping = load(t.parameters, q + (N_SCALARS + 2 * width + n0 + j) * WIDTH)
+            rate = sub(rate, fma(d_stiffness, splat(s.y[k * n0 + j]), mul(d_damping, splat(s.g[k * n0 + j]))))
+        store(t.series, there + y * WIDTH, mul(dg, up))
+        store(t.series, there + g * WIDTH, rate)
+        free = fma(splat(model.force0[j]), rate, free)
+    return free
+
+
+@inlined
+def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
+    """Changes, of order k, of F, of the vertical force but for m u'', and of psi' (lanes)."""
+    q = block * n_inputs(model) * WIDTH
+    pull = sub(mul(splat(model.k_p), dpsi), mul(splat(model.c_p), df))
+    vertical = fma(splat(model.k), du, mul(splat(model.c), dv))
+    turn = sub(splat(0.0), df)
+    if block * WIDTH >= t.plain:
+        d_m, d_omega = load(t.parameters, q + D_M * WIDTH), load(t.parameters, q + D_OMEGA * WIDTH)
+        d_c_p = load(t.parameters, q + D_C_P * WIDTH)
+        pull = fma(load(t.parameters, q + D_K_P * WIDTH), splat(s.psi[k]), pull)
+        pull = sub(pull, mul(d_c_p, splat(s.f[k])))
+        pull = sub(pull, mul(d_m, splat(s.f[k + 1] * s.down[k])))
+        vertical = fma(load(t.parameters, q + D_K * WIDTH), splat(s.u[k]), vertical)
+        vertical = fma(load(t.parameters, q + D_C * WIDTH), splat(s.v[k]), vertical)
+        vertical = fma(d_m, splat(s.v[k + 1] * s.down[k]), vertical)
+        if k == 0:
+            pull = fma(splat(model.c_p), d_omega, fma(d_c_p, splat(model.Omega), pull))
+            vertical = add(vertical, load(t.parameters, q + LOAD * WIDTH))
+            turn = add(turn, d_omega)
+    return pull, vertical, turn
+
+
+@inlined
+def _path_change(s, t, block, k, R):
+    """Change of f B without f'_k B_0, order k + 1: what the slope of the disc adds to d(u') (lanes)."""
+    orders = len(t.base_slope)
+    origin, chain, f_row = block * orders * R * WIDTH, block * orders * WIDTH, R - 3
+    carried = mul(splat(s.f[k + 1]), load(t.slope, chain))
+    for i in range(k + 1):
+        carried = fma(splat(s.f[i]), load(t.slope, chain + (k + 1 - i) * WIDTH), carried)
+        carried = fma(splat(t.base_slope[k + 1 - i]), load(t.series, origin + (i * R + f_row) * WIDTH), carried)
+    return carried
+
+
+@inlined
+def _apply_force(model, s, t, block, k, R, P):
+    """Velocities of order k + 1, once the change P of the contact force of order k is known."""
+    width, n0, up = len(model.force), len(model.force0), splat(s.up[k])
+    there = (block * len(t.base_slope) + k + 1) * R * WIDTH
+    for j in range(width):
+        if model.shift[j] > 0.0:
+            e = there + (width + j) * WIDTH
+            store(t.series, e, mul(up, sub(load(t.series, e), mul(splat(model.force[j]), P))))
+    for j in range(n0):
+        g = there + (2 * width + n0 + j) * WIDTH
+        store(t.series, g, mul(up, sub(load(t.series, g), mul(splat(model.force0[j]), P))))
+
+
+@kernel
+def tangent_series(model, s, t, order, phase, direction):
+    """Taylor coefficients of all columns along the step whose series is ``s``, from ``t.now``."""
+    R, orders = n_rows_of(model), len(t.base_slope)
+    psi_row, f_row, u_row, v_row = R - 4, R - 3, R - 2, R - 1
+    _motion_slope(model, s, t, order)
+    B0 = t.base_slope[0]
+    friction = direction * model.mu_k / model.r_0 if phase == SLIP else 0.0
+    inverse = 1.0 / (1.0 + model.m * model.compliance + friction * B0)
+    lightness = splat(1.0 / model.m)
+    for block in range(t.columns // WIDTH):
+        at, chain, origin = block * R * WIDTH, block * orders * WIDTH, block * orders * R * WIDTH
+        for i in range(0, R * WIDTH, WIDTH):
+            store(t.series, origin + i, load(t.now, at + i))
+        du, dv, dB = point_change(model, t.now, at, s.f[0], B0)
+        if phase == SEPARATION:
+            du, dv = load(t.now, at + u_row * WIDTH), load(t.now, at + v_row * WIDTH)
+        store(t.slope, chain, dB)
+        for k in range(order):
+            up = splat(s.up[k])
+            here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
+            free, dB = _diametral_rates(model, s, t, block, k, phase, R)
+            free = add(free, _axisymmetric_rates(model, s, t, block, k, R))
+            store(t.slope, chain + (k + 1) * WIDTH, dB)
+            dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
+            pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
+            P, rate_f = splat(0.0), splat(0.0)
+            if phase == SEPARATION:
+                rate_f, acceleration = mul(pull, lightness), sub(P, mul(vertical, lightness))
+            else:
+                if phase == SLIP:
+                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, R), free)
+                    vertical = fma(splat(B0), pull, vertical)
+                P = mul(splat(inverse), fma(splat(model.m), free, vertical))
+                acceleration = sub(free, mul(splat(model.compliance), P))
+                if phase == SLIP:
+                    rate_f = mul(lightness, sub(pull, mul(splat(friction), P)))
+                    acceleration = fma(splat(B0), rate_f, acceleration)
+            store(t.force, chain + k * WIDTH, P)
+            _apply_force(model, s, t, block, k, R, P)
+            store(t.series, there + psi_row * WIDTH, mul(turn, up))
+            store(t.series, there + f_row * WIDTH, mul(rate_f, up))
+            du, dv = mul(dv, up), mul(acceleration, up)
+            store(t.series, there + u_row * WIDTH, du)
+            store(t.series, there + v_row * WIDTH, dv)
+
+
+@kernel
+def tangent_at(model, t, order, x):
+    """``t.now`` at x (time units) of the step."""
+    size, at = n_rows_of(model) * WIDTH, splat(x)
+    for block in range(t.columns // WIDTH):
+        origin, now = block * len(t.base_slope) * size, block * size
+        for i in range(0, size, WIDTH):
+            j = origin + order * size + i
+            value = load(t.series, j)
+            for _ in range(order):
+                j -= size
+                value = fma(value, at, load(t.series, j))
+            store(t.now, now + i, value)
