@@ -12,8 +12,10 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.benchmarks import failure_maps, scenes, work_precision
+from disc_model.benchmarks.flops import vector_flops
 from disc_model.benchmarks.methods import METHODS, MethodResult, Outcome
 from disc_model.benchmarks.scenes import Verdict, answer, errors, event_time_error, problem
+from disc_model.benchmarks.table import headline, table, to_markdown
 from disc_model.dataset import load, save
 from disc_model.figures import benchmark as figures
 
@@ -111,14 +113,38 @@ def test_dataset(dataset, tmp_path):
 
 
 def test_table(dataset):
-    frame = work_precision.table(dataset)
+    frame = table(dataset)
     assert len(frame) == 8
     best = frame[(frame["method"] == "RK4") & (frame["verdict"] == "converged")]
     assert (best["times_series"] > 1.0).all()
-    text = work_precision.to_markdown(dataset)
+    text = to_markdown(dataset)
     assert dataset.attrs["machine"] in text
     assert "wrong events" in text
     assert "(4)" in text
+
+
+def test_headline_compares_the_default_with_the_cheapest_right_setting(dataset):
+    """RK4 with 1e-5 s is the coarsest of the three that is right to 1e-10 s; the wrong ones do not count."""
+    cost = {"series": (2e-3, 5e-4), "RK4": (1e-3, 4e-3, 4e-2)}
+    error = {"series": (1e-7, 2e-12), "RK4": (1e-5, 1e-11, 1e-13)}
+    value = {"series": (1e-6, 1e-10), "RK4": (1e-4, 1e-5, 1e-6)}
+    grids = {name: np.full((1, 2, 3), np.nan) for name in ("cost", "event_error", "value")}
+    for i, method in enumerate(("series", "RK4")):
+        for name, given in (("cost", cost), ("event_error", error), ("value", value)):
+            grids[name][0, i, : len(given[method])] = given[method]
+    verdict = np.where(np.isfinite(grids["cost"]), int(Verdict.CONVERGED), int(Verdict.NOT_RUN))
+    made = xr.Dataset(
+        {name: (("scene", "solver", "point"), grid) for name, grid in (grids | {"verdict": verdict}).items()},
+        coords={"scene": ["stick_slip"], "solver": ["series", "RK4"]},
+    )
+    assert headline(made) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(8.0)}}
+
+
+def test_arithmetic_is_that_of_the_convolutions_and_some_more():
+    """A slip step of order 22: two products (f e, f z) of 231 inner terms on eight lanes, multiply and add: 7.4 kFlop."""
+    flops = vector_flops("stick_slip", 1e-10)
+    steps = 677  # of slip in this second
+    assert steps * 7392 < flops < 3 * steps * 7392
 
 
 def test_a_hopeless_method_is_not_tried_again():

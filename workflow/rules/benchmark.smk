@@ -64,6 +64,8 @@ rule measure_work_precision:
         sources=sources_of(
             "measure_work_precision.py",
             "disc_model.benchmarks.work_precision",
+            "disc_model.benchmarks.table",
+            "disc_model.benchmarks.flops",
             files=BENCH_DATA,
         ),
     shell:
