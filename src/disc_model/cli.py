@@ -9,6 +9,7 @@ exit code 1.
 from __future__ import annotations
 
 import inspect
+import logging
 import math
 import sys
 from collections.abc import Callable, Iterator
@@ -108,15 +109,26 @@ def run(
     plot: Annotated[
         Path | None, typer.Option("--plot", metavar="FILE", help="draw contact force and disc displacement")
     ] = None,
+    checkpoint: Annotated[
+        Path | None,
+        typer.Option(
+            "--checkpoint", metavar="FILE", help="from it the same command goes on if this one is interrupted"
+        ),
+    ] = None,
     case: dict[str, str],
 ) -> None:
     """Simulate one case from static equilibrium and print what happened."""
-    parameters, end, tolerance = _checked(case, t_end, tol, stop_at, plot)
+    parameters, end, tolerance = _checked(case, t_end, tol, stop_at, plot, checkpoint)
     from disc_model.simulate import simulate
 
     record = _plot_record(end) if plot is not None else None
+    if checkpoint is not None:  # where a run goes on, or why it does not
+        logging.basicConfig(format="%(message)s")
+        logging.getLogger("disc_model").setLevel(logging.INFO)
     with _progress(end) as progress:
-        result = simulate(parameters, end, tol=tolerance, record=record, stop_at=stop_at, progress=progress)
+        result = simulate(
+            parameters, end, tol=tolerance, record=record, stop_at=stop_at, progress=progress, checkpoint=checkpoint
+        )
     _print_summary(result)
     if plot is not None:
         _save_plot(result, plot)
@@ -159,7 +171,12 @@ def warm() -> None:
 
 
 def _checked(
-    case: dict[str, str], t_end: str | None, tol: str, stop_at: str | None, plot: Path | None
+    case: dict[str, str],
+    t_end: str | None,
+    tol: str,
+    stop_at: str | None,
+    plot: Path | None,
+    checkpoint: Path | None,
 ) -> tuple[Parameters, float, float]:
     """Parameters, t_end and tol; refuses all that is bad in one error, before the kernels are loaded."""
     faults: list[str] = []
@@ -173,6 +190,8 @@ def _checked(
         faults.append(f"stop_at={stop_at!r}: must be 'first_separation'")
     if plot is not None:
         faults += _plot_faults(plot)
+    if checkpoint is not None:
+        faults += _checkpoint_faults(checkpoint)
     if faults:
         raise ParameterError(*faults)
     return parameters, end, tolerance
@@ -202,6 +221,12 @@ def _plot_faults(path: Path) -> Iterator[str]:
         yield f"plot={str(path)!r}: must end in one of {', '.join(sorted(kinds))}"
     if not path.parent.is_dir():
         yield f"plot={str(path)!r}: must be in a folder that exists"
+
+
+def _checkpoint_faults(path: Path) -> Iterator[str]:
+    from disc_model.checkpoint import faults
+
+    return faults(path, 0)
 
 
 def _plot_record(t_end: float) -> Record:

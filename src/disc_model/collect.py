@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +17,6 @@ Array = NDArray[np.float64]
 
 BUFFER = 1 << 15  # rows of a buffer: large enough that draining costs nothing, small enough to stay in the cache
 _COLUMN = {name: i for i, name in enumerate(sampling.ROW)}
-_SAMPLED = sampling.ROW[1:]
 _FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 
 
@@ -35,11 +36,33 @@ class Collector:
         self.rows = np.zeros((self.capacity + per_step if grids else 0, len(sampling.ROW)))
         self.event_rows = np.zeros((BUFFER, len(machine.EVENT_ROW)))
         self._keep_events = record.events
+        # what was kept, in the order in which it came: arrays are added to these lists and nothing else
         self._events: list[Array] = []
         self._parts: list[list[Array]] = [[] for _ in grids]
         self._rest: list[Array] = [np.zeros((0, len(sampling.ROW))) for _ in grids]
         self._poincare = record.poincare is not None
-        self.first_separation = math.nan
+        self._first_separation = np.full(1, math.nan)
+
+    @property
+    def first_separation(self) -> float:
+        """Time of the first loss of contact, s; nan if there was none."""
+        return float(self._first_separation[0])
+
+    def position(self) -> dict[str, NDArray[Any]]:
+        """What the rest of the run depends on.  Only just after `drain`: the buffers are not part of it."""
+        rest = {f"rest_{i}": rows for i, rows in enumerate(self._rest)}
+        return {"sampled": self.sampled, "first_separation": self._first_separation, **rest}
+
+    def kept(self) -> dict[str, list[Array]]:
+        """What was kept so far: lists that only grow."""
+        return {"events": self._events} | {f"samples_{i}": parts for i, parts in enumerate(self._parts)}
+
+    def restore(self, position: Mapping[str, NDArray[Any]], kept: Mapping[str, Sequence[Array]]) -> None:
+        """Go on from what `position` and `kept` gave."""
+        self.sampled[:], self._first_separation[:] = position["sampled"], position["first_separation"]
+        self._rest = [position[f"rest_{i}"] for i in range(len(self._rest))]
+        for name, parts in self.kept().items():
+            parts[:] = kept.get(name, ())
 
     def drain(self, counters: NDArray[np.int64]) -> None:
         """Take over what the buffers hold and empty them."""
@@ -47,7 +70,7 @@ class Collector:
         if math.isnan(self.first_separation):
             lost = np.flatnonzero(events[:, 1] == switches.LOSS_OF_CONTACT)
             if lost.size:
-                self.first_separation = float(events[lost[0], 0])
+                self._first_separation[0] = events[lost[0], 0]
         if self._keep_events and len(events):
             self._events.append(events.copy())
         counters[machine.EVENT_ROWS] = 0
@@ -57,15 +80,21 @@ class Collector:
         counters[machine.SAMPLE_ROWS] = 0
 
     def _take(self, i: int, rows: Array) -> None:
-        fold = self._windows[i].envelope if i < len(self._windows) else None
+        if not len(rows):
+            return
+        fold = self._fold_of(i)
         if fold is None:
             self._parts[i].append(rows.copy())
             return
         rows = np.concatenate((self._rest[i], rows))
         whole = len(rows) // fold * fold
-        self._rest[i] = rows[whole:]
+        self._rest[i] = rows[whole:].copy()  # a view would keep all of them
         if whole:
             self._parts[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
+
+    def _fold_of(self, i: int) -> int | None:
+        """Samples to a bin of an envelope, None where samples are kept as they are."""
+        return self._windows[i].envelope if i < len(self._windows) else None
 
     def events(self) -> Array:
         """All events kept, shape (n, len(EVENT_ROW))."""
@@ -73,17 +102,24 @@ class Collector:
 
     def finish(self) -> tuple[tuple[dict[str, Array], ...], dict[str, Array] | None]:
         """Samples of each window, and the Poincare samples."""
-        shaped = []
-        for i, parts in enumerate(self._parts):
-            fold = self._windows[i].envelope if i < len(self._windows) else None
-            width = len(sampling.ROW) if fold is None else 1 + 2 * len(_FOLDED)
-            table = np.concatenate([np.zeros((0, width)), *parts])
-            if fold is None:
-                shaped.append({name: np.ascontiguousarray(table[:, _COLUMN[name]]) for name in _SAMPLED})
-            else:
-                names = ["time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max"))]
-                shaped.append({name: np.ascontiguousarray(table[:, j]) for j, name in enumerate(names)})
+        folded = ["time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max"))]
+        shaped = [
+            _columns(parts, sampling.ROW if self._fold_of(i) is None else folded) for i, parts in enumerate(self._parts)
+        ]
+        for samples in shaped:
+            samples.pop("sampler", None)
         return tuple(shaped[: len(self._windows)]), shaped[-1] if self._poincare else None
+
+
+def _columns(parts: Sequence[Array], names: Sequence[str]) -> dict[str, Array]:
+    """Columns of all parts, one after the other; filled part by part, because a part fits into the cache."""
+    columns = {name: np.empty(sum(map(len, parts))) for name in names}
+    start = 0
+    for part in parts:
+        for column, values in zip(columns.values(), part.T, strict=True):
+            column[start : start + len(part)] = values
+        start += len(part)
+    return columns
 
 
 def _fold(cells: Array) -> Array:

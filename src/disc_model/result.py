@@ -5,6 +5,7 @@ from __future__ import annotations
 import enum
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,8 @@ Array = NDArray[np.float64]
 
 PHASES = ("stick", "slip", "separation")
 EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
+EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
+"""Columns of `Result.event_rows`, as the engine writes them; kind and phase by their places in the tuples above."""
 
 
 class Status(enum.StrEnum):
@@ -109,8 +112,9 @@ class Result:
     ----------
     parameters, t_end (s), tol : what was asked
     status, message : how it ended; the message says at what time, in what phase and why
+    event_rows : shape (n_events, len(EVENT_ROW)), what `events` is made of
     events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
-        just after the event
+        just after the event; made when it is first asked for
     first_separation : s, nan if contact was never lost
     final_state : `State` at the end
     u_0 : m, static height of the slider
@@ -125,13 +129,25 @@ class Result:
     tol: float
     status: Status
     message: str
-    events: pd.DataFrame
+    event_rows: Array = field(repr=False)
     first_separation: float
     final_state: State
     u_0: float
     statistics: Mapping[str, float]
     samples: tuple[dict[str, Array], ...] = ()
     poincare: dict[str, Array] | None = field(default=None)
+
+    @cached_property
+    def events(self) -> pd.DataFrame:
+        """The switches as a table: to make one takes longer than a short simulation."""
+        import pandas as pd
+
+        def words(name: str, meanings: tuple[str, ...]) -> pd.Categorical[str]:
+            return pd.Categorical.from_codes(columns[name].astype(np.int64), categories=pd.Index(list(meanings)))
+
+        columns = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
+        named = {"time": columns["time"], "kind": words("kind", EVENT_KINDS), "phase": words("phase", PHASES)}
+        return pd.DataFrame(named | {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")})
 
     def to_dataset(self) -> xr.Dataset:
         """All of it as one dataset with CF attributes; see `disc_model.dataset`."""

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
+import logging
 import math
+import os
 import time as clock
 from collections.abc import Callable
 
 import numpy as np
-import pandas as pd
 
+from disc_model.checkpoint import Checkpoint, Contents, faults, identity
 from disc_model.collect import Collector
 from disc_model.engine import audit, layout, machine
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.record import Record
-from disc_model.result import EVENT_KINDS, PHASES, Result, State, Status
+from disc_model.result import PHASES, Result, State, Status
 from disc_model.states import read_state, write_state
 from disc_model.tolerance import series_order, series_tolerance
 
+log = logging.getLogger(__name__)
+
 TOLERANCES = (1e-15, 1e-2)
 AUDIT_EVERY = 64
-STEPS_PER_PAUSE = 200_000
+STEPS_PER_PAUSE = 100_000
+"""Steps between two pauses of the engine, about 0.1 s of work, where a step costs least."""
 
 _STATUS = {
     machine.FINISHED: Status.OK,
@@ -43,6 +48,8 @@ def simulate(
     stop_at: str | None = None,
     max_steps: int | None = None,
     progress: Callable[[float], object] | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    checkpoint_every: float = 5.0,
 ) -> Result:
     """Simulate from the static equilibrium (or ``initial_state``) to the absolute time ``t_end``.
 
@@ -56,6 +63,9 @@ def simulate(
     stop_at : None, or "first_separation" to end at the first loss of contact
     max_steps : bound on the number of steps; None bounds it generously by the highest frequency
     progress : called now and then with the time reached
+    checkpoint : file by which the same call, made again after an interruption, goes on where this one was; its result
+        is the same to the last bit (but for ``wall_time``). Removed at the end. Not for two runs at the same time
+    checkpoint_every : s of wall time between checkpoints
 
     Returns
     -------
@@ -69,50 +79,117 @@ def simulate(
     """
     record = Record() if record is None else record
     start = 0.0 if initial_state is None else initial_state.time
-    _check_arguments(p, t_end, tol, start, record, stop_at, max_steps)
-    model = build_model(p)
-    order = series_order(tol)
-    series, state, probe = layout.build_series(model, order), layout.build_state(model), layout.build_state(model)
-    if initial_state is not None:
-        write_state(p, model, initial_state, state)
-    collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_STEP * model.unit)
-    counters, phase_times, sums = np.zeros(machine.N_COUNTERS, np.int64), np.zeros(3), np.zeros(audit.N_SUMS)
-    limit = _step_limit(model, t_end - start) if max_steps is None else max_steps
+    _check_arguments(p, t_end, tol, start, record, stop_at, max_steps, (checkpoint, checkpoint_every))
+    run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps)
+    kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
+    if kept is not None and (contents := kept.load()) is not None:
+        run.restore(contents)
+        log.info("goes on at t = %.9g s from checkpoint %s", run.time, kept.path)
+    code = machine.PAUSED
+    while code == machine.PAUSED:
+        code = run.advance()
+        if kept is not None and code == machine.PAUSED and kept.due:
+            kept.save(run.contents())
+        if progress is not None:
+            progress(run.time)
+    result = run.result(_STATUS[code])
+    if kept is not None:
+        kept.remove()
+    return result
 
-    def advance(limit: int) -> int:
+
+class _Run:
+    """One run: the engine's arrays, and the buffers that collect what is kept."""
+
+    def __init__(
+        self,
+        p: Parameters,
+        t_end: float,
+        tol: float,
+        initial_state: State | None,
+        record: Record,
+        stop_at: str | None,
+        max_steps: int | None,
+    ) -> None:
+        self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
+        self.model = model = build_model(p)
+        self.order = series_order(tol)
+        self.series = layout.build_series(model, self.order)
+        self.state, self.probe = layout.build_state(model), layout.build_state(model)
+        if initial_state is not None:
+            write_state(p, model, initial_state, self.state)
+        start = float(self.state.x[layout.TIME])
+        self.collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_COAST * model.unit)
+        self.counters, self.phase_times = np.zeros(machine.N_COUNTERS, np.int64), np.zeros(3)
+        self.sums, self.wall_time = np.zeros(audit.N_SUMS), np.zeros(1)
+        self.max_steps = _step_limit(model, t_end - start) if max_steps is None else max_steps
+        self.pause_after = _pause_after(model, record.energy)
+        if not _compiled_for(model):
+            self._call(max_steps=0)  # compiles, so that the wall time is the simulation's own
+
+    @property
+    def time(self) -> float:
+        """The time reached, s."""
+        return float(self.state.x[layout.TIME])
+
+    @property
+    def identity(self) -> dict[str, str]:
+        """What a checkpoint has to share to be this run's; asked for before the first step."""
+        return identity(self.p, self.t_end, self.tol, self.record, self.stop_at, self.max_steps, self.state)
+
+    def advance(self) -> int:
+        """Compute until the engine pauses or ends, and take over what it gave.  Returns the reason it stopped."""
+        began = clock.perf_counter()
+        code = self._call(self.max_steps)
+        self.collector.drain(self.counters)
+        self.wall_time += clock.perf_counter() - began
+        return code
+
+    def _call(self, max_steps: int) -> int:
+        keep = self.collector
         code: int = machine.run(
-            model, series, state, probe, order, series_tolerance(tol), float(t_end), stop_at is not None, limit,
-            STEPS_PER_PAUSE, 1 if record.energy else AUDIT_EVERY, counters, phase_times, sums,
-            collector.samplers, collector.sampled, collector.capacity, collector.rows, collector.event_rows,
+            self.model, self.series, self.state, self.probe, self.order, series_tolerance(self.tol), self.t_end,
+            self.stop_at is not None, max_steps, self.pause_after, 1 if self.record.energy else AUDIT_EVERY,
+            self.counters, self.phase_times, self.sums,
+            keep.samplers, keep.sampled, keep.capacity, keep.rows, keep.event_rows,
         )  # fmt: skip
         return code
 
-    if not _compiled_for(model):
-        advance(limit=0)  # compiles, so that the wall time below is the simulation's own
-    began = clock.perf_counter()
-    code = machine.PAUSED
-    while code == machine.PAUSED:
-        code = advance(limit)
-        collector.drain(counters)
-        if progress is not None:
-            progress(float(state.x[layout.TIME]))
-    wall_time = clock.perf_counter() - began
-    samples, poincare = collector.finish()
-    status = _STATUS[code]
-    return Result(
-        parameters=p,
-        t_end=float(t_end),
-        tol=float(tol),
-        status=status,
-        message=_message(status, state, model),
-        events=_events_frame(collector.events()),
-        first_separation=collector.first_separation,
-        final_state=read_state(p, model, state),
-        u_0=model.u_0,
-        statistics=_statistics(counters, phase_times, sums, record.energy, wall_time),
-        samples=samples,
-        poincare=poincare,
-    )
+    def _changing(self) -> dict[str, np.ndarray]:
+        """The arrays through which one call of the engine acts on the next."""
+        state = {f"state_{name}": array for name, array in self.state._asdict().items()}
+        own = {name: getattr(self, name) for name in ("counters", "phase_times", "sums", "wall_time")}
+        return state | own
+
+    def contents(self) -> Contents:
+        """All that the rest of the run depends on and all that was kept so far, for `restore`."""
+        return Contents(self._changing() | self.collector.position(), self.collector.kept())
+
+    def restore(self, contents: Contents) -> None:
+        """Go on from where `contents` was called."""
+        for name, array in self._changing().items():
+            array[:] = contents.state[name]
+        self.collector.restore(*contents)
+
+    def result(self, status: Status) -> Result:
+        """What there is to return."""
+        samples, poincare = self.collector.finish()
+        return Result(
+            parameters=self.p,
+            t_end=self.t_end,
+            tol=self.tol,
+            status=status,
+            message=_message(status, self.state, self.model),
+            event_rows=self.collector.events(),
+            first_separation=self.collector.first_separation,
+            final_state=read_state(self.p, self.model, self.state),
+            u_0=self.model.u_0,
+            statistics=_statistics(
+                self.counters, self.phase_times, self.sums, self.record.energy, float(self.wall_time[0])
+            ),
+            samples=samples,
+            poincare=poincare,
+        )
 
 
 def _compiled_for(model: layout.Model, _seen: set[int] = set()) -> bool:  # noqa: B006 - the set is the memory
@@ -146,24 +223,32 @@ def build_model(p: Parameters) -> layout.Model:
 
 
 def _check_arguments(
-    p: object, t_end: float, tol: float, start: float, record: object, stop_at: str | None, max_steps: int | None
+    p: object,
+    t_end: float,
+    tol: float,
+    start: float,
+    record: object,
+    stop_at: str | None,
+    max_steps: int | None,
+    checkpoint: tuple[object, object],
 ) -> None:
     """Raise one ParameterError that lists every fault."""
-    faults = []
+    found = []
     if not isinstance(p, Parameters):
-        faults.append(f"p={p!r}: must be Parameters")
+        found.append(f"p={p!r}: must be Parameters")
     if not isinstance(record, Record):
-        faults.append(f"record={record!r}: must be a Record")
+        found.append(f"record={record!r}: must be a Record")
     if not _is_number(t_end) or not math.isfinite(t_end) or t_end <= start:
-        faults.append(f"t_end={t_end!r}: must be finite and > {start:g} (the time of the initial state)")
+        found.append(f"t_end={t_end!r}: must be finite and > {start:g} (the time of the initial state)")
     if not _is_number(tol) or not TOLERANCES[0] <= tol <= TOLERANCES[1]:
-        faults.append(f"tol={tol!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}")
+        found.append(f"tol={tol!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}")
     if stop_at not in (None, "first_separation"):
-        faults.append(f"stop_at={stop_at!r}: must be None or 'first_separation'")
+        found.append(f"stop_at={stop_at!r}: must be None or 'first_separation'")
     if max_steps is not None and (not isinstance(max_steps, int) or max_steps < 1):
-        faults.append(f"max_steps={max_steps!r}: must be a whole number >= 1")
-    if faults:
-        raise ParameterError(*faults)
+        found.append(f"max_steps={max_steps!r}: must be a whole number >= 1")
+    found += faults(*checkpoint)
+    if found:
+        raise ParameterError(*found)
 
 
 def _is_number(value: object) -> bool:
@@ -175,16 +260,10 @@ def _step_limit(model: layout.Model, duration: float) -> int:
     return int(min(10_000 + 20 * duration / model.unit, 2**62))
 
 
-def _events_frame(rows: np.ndarray) -> pd.DataFrame:
-    columns = {name: rows[:, i] for i, name in enumerate(machine.EVENT_ROW)}
-    kind = _categories(columns["kind"], EVENT_KINDS)
-    phase = _categories(columns["phase"], PHASES)
-    kept = {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")}
-    return pd.DataFrame({"time": columns["time"], "kind": kind, "phase": phase, **kept})
-
-
-def _categories(codes: np.ndarray, names: tuple[str, ...]) -> pd.Categorical[str]:
-    return pd.Categorical.from_codes(codes.astype(np.int64), categories=pd.Index(list(names)))
+def _pause_after(model: layout.Model, energy: bool) -> int:
+    """Steps between pauses, fewer where they cost more: checkpoints, progress and Ctrl-C have their turn then."""
+    cost = (1 + model.more_blocks[0]) * (6 if energy else 1)
+    return max(1, STEPS_PER_PAUSE // cost)
 
 
 def _message(status: Status, state: layout.State, model: layout.Model) -> str:

@@ -1,9 +1,14 @@
-"""Simulate one case, given as the text of `disc_model.studies.case.CaseSpec.canonical`, and save it."""
+"""Simulate one case, given as the text of `disc_model.studies.case.CaseSpec.canonical`, and save it.
+
+A job that was killed goes on when it is run again: from a hidden file beside its output, which Snakemake, not knowing
+of it, leaves alone when it removes what a failed job has written.
+"""
 
 from __future__ import annotations
 
 import argparse
 import logging
+from pathlib import Path
 
 from disc_model.dataset import save
 from disc_model.studies.batch import run_case
@@ -13,10 +18,13 @@ from disc_model.studies.case import CaseSpec
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("case", help="canonical JSON text of the case")
-    parser.add_argument("output", help="netCDF file to write")
+    parser.add_argument("output", type=Path, help="netCDF file to write")
     args = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
-    save(run_case(CaseSpec.from_canonical(args.case)), args.output)
+    args.output.parent.mkdir(parents=True, exist_ok=True)
+    checkpoint = args.output.with_name(f".{args.output.stem}.checkpoint")
+    save(run_case(CaseSpec.from_canonical(args.case), checkpoint), args.output)
+    checkpoint.unlink(missing_ok=True)  # one of a former content of the case may have been left
 
 
 if __name__ == "__main__":

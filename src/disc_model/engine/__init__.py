@@ -1,7 +1,7 @@
 """The event-driven engine: kernels on floats and arrays, nothing else.
 
 Numba's cache does not notice that a callee in another file has changed.  The cache therefore lives in a folder named
-by a hash of all sources of this package, set before the kernels are defined.
+by a hash of all sources of this package, set before the kernels are defined; `cache` says what is in it.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import hashlib
 import os
 from pathlib import Path
 
-import numba
+from .cache import kept_in
 
 
 def source_hash() -> str:
@@ -29,24 +29,36 @@ def _cache_folder() -> str:
     return str(Path(base) / f"engine-{source_hash()}")
 
 
-_SETTING = "CACHE_DIR"
-# Only the kernels of this package go there: the setting of other users of numba is put back.
-_before = getattr(numba.config, _SETTING)
-setattr(numba.config, _SETTING, _cache_folder())
-try:
-    from . import audit, evaluate, layout, machine, polynomial, sampling, series, switches, variational
-finally:
-    setattr(numba.config, _SETTING, _before)
+with kept_in(_cache_folder()):
+    from . import (
+        audit,
+        evaluate,
+        layout,
+        linear,
+        machine,
+        polynomial,
+        saltation,
+        sampling,
+        series,
+        stick_modes,
+        switches,
+        tangent,
+        variational,
+    )
 
 __all__ = [
     "audit",
     "evaluate",
     "layout",
+    "linear",
     "machine",
     "polynomial",
+    "saltation",
     "sampling",
     "series",
     "source_hash",
+    "stick_modes",
     "switches",
+    "tangent",
     "variational",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from pathlib import Path
 
 import xarray as xr
 
@@ -15,11 +16,14 @@ from disc_model.studies.case import CaseSpec
 log = logging.getLogger(__name__)
 
 
-def run_case(spec: CaseSpec) -> xr.DataTree:
-    """Simulate one case; the tree has the layout described in `disc_model.dataset`."""
+def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
+    """Simulate one case; the tree has the layout described in `disc_model.dataset`.
+
+    ``checkpoint``: file from which an interrupted case goes on, see `disc_model.simulate`.
+    """
     p = spec.parameters
     try:
-        result = simulate(p, spec.t_end, tol=spec.tol, record=spec.record, stop_at=spec.stop_at)
+        result = simulate(p, spec.t_end, tol=spec.tol, record=spec.record, stop_at=spec.stop_at, checkpoint=checkpoint)
     except DiscModelError as error:
         log.error("no result: %s", error)
         groups = failed_groups(p, spec.t_end, spec.tol, f"{type(error).__name__}: {error}")

@@ -1,0 +1,133 @@
+"""The cache of compiled kernels: found again, and never trusted when damaged."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import textwrap
+import warnings
+from pathlib import Path
+
+import numba
+import pytest
+from numba.core import caching, dispatcher
+
+from disc_model.engine import machine
+from disc_model.engine.cache import KernelCache, KernelFiles, kept_in
+
+KERNEL = """
+    import sys
+    import numba
+    from disc_model.engine.cache import kept_in
+    with kept_in(sys.argv[1]):
+        @numba.njit(cache=True)
+        def twice(x):
+            return 2 * x
+    print(twice(21), sum(twice.stats.cache_hits.values()))
+"""
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> KernelFiles:
+    return KernelFiles(str(tmp_path), "module.kernel-1.py3", b"source")
+
+
+def only(folder: Path) -> Path:
+    (path,) = folder.glob("*.kernel")
+    return path
+
+
+def test_gives_back_what_was_saved_for_a_key(files: KernelFiles, tmp_path: Path) -> None:
+    files.save(("float64",), [1, 2])
+    files.save(("int64",), [3])
+    assert files.load(("float64",)) == [1, 2]
+    assert files.load(("int64",)) == [3]
+    assert files.load(("int8",)) is None
+    assert not list(tmp_path.glob("*.tmp"))
+
+
+def test_other_sources_find_nothing(files: KernelFiles, tmp_path: Path) -> None:
+    files.save("key", 1)
+    assert KernelFiles(str(tmp_path), "module.kernel-1.py3", b"changed").load("key") is None
+
+
+def test_any_damage_is_noticed(files: KernelFiles, tmp_path: Path) -> None:
+    files.save("key", list(range(20)))
+    path = only(tmp_path)
+    whole = path.read_bytes()
+    for at in range(len(whole)):
+        path.write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :])
+        assert files.load("key") is None
+        path.write_bytes(whole[:at])
+        assert files.load("key") is None
+    path.write_bytes(whole)
+    assert files.load("key") == list(range(20))
+
+
+def test_a_file_of_another_key_is_not_taken(files: KernelFiles, tmp_path: Path) -> None:
+    """As happens with numba's own index when two processes compile at the same time."""
+    files.save("a", 1)
+    first = only(tmp_path)
+    files.save("b", 2)
+    (second,) = set(tmp_path.glob("*.kernel")) - {first}
+    os.replace(second, first)
+    assert files.load("a") is None
+
+
+def test_flush_forgets_this_kernel_only(files: KernelFiles, tmp_path: Path) -> None:
+    other = KernelFiles(str(tmp_path), "module.other-9.py3", b"source")
+    files.save("a", 1)
+    other.save("a", 2)
+    files.flush()
+    assert files.load("a") is None
+    assert other.load("a") == 2
+
+
+def test_a_damaged_kernel_is_compiled_again(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(textwrap.dedent(KERNEL))
+
+    def run() -> str:
+        command = [sys.executable, str(script), str(tmp_path / "cache")]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+    assert run() == "42 0"
+    assert run() == "42 1"
+    path = only(tmp_path / "cache")
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    assert run() == "42 0"
+    assert run() == "42 1"
+    assert path.stat().st_size == len(whole)
+
+
+def test_a_full_disk_costs_time_not_the_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(KernelFiles, "save", full)
+    with kept_in(str(tmp_path / "cache")):
+
+        @numba.njit(cache=True)
+        def thrice(x: int) -> int:
+            return 3 * x
+
+    with pytest.warns(RuntimeWarning, match=r"cannot be kept there \(No space left on device\)"):
+        assert thrice(14) == 42
+
+
+def test_other_users_of_numba_are_left_alone(tmp_path: Path) -> None:
+    before = numba.config.CACHE_DIR
+    with kept_in(str(tmp_path)):
+        assert dispatcher.FunctionCache is KernelCache
+    assert dispatcher.FunctionCache is caching.FunctionCache
+    assert before == numba.config.CACHE_DIR
+
+
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
+def test_the_engine_uses_it() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert isinstance(machine.run._cache, KernelCache)
+    assert Path(machine.run.stats.cache_path).name.startswith("engine-")
