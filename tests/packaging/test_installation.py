@@ -1,0 +1,283 @@
+"""The package as others get it: built, installed from the locked versions, and used without the sources."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from packaging.markers import default_environment
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+pytestmark = pytest.mark.slow
+
+ROOT = Path(__file__).parents[2]
+VERSIONS = ("3.11", "3.12", "3.13")
+THIS = f"{sys.version_info.major}.{sys.version_info.minor}"
+LOCKS = ("requirements.lock", "requirements-bench.lock")
+PIN = re.compile(r"^([A-Za-z0-9._-]+)==(\S+)", re.MULTILINE)
+
+
+def run(*command: str | Path, cwd: Path, **environment: str) -> str:
+    """Output of a command that must succeed, run with nothing in the environment that leads to the sources."""
+    kept = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
+    done = subprocess.run(
+        [str(word) for word in command],
+        cwd=cwd,
+        env=kept | environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=1800,
+    )
+    assert done.returncode == 0, f"{command}: {done.stdout}{done.stderr}"
+    return done.stdout
+
+
+def interpreter(version: str) -> str:
+    """A Python of that version that can make environments; skips where there is none."""
+    if version == THIS:
+        return sys.executable
+    for name in (f"python{version}", "python3"):
+        found = shutil.which(name)
+        check = f"import ensurepip, sys, venv; sys.exit('%d.%d' % sys.version_info[:2] != '{version}')"
+        if found and subprocess.run([found, "-c", check], capture_output=True, check=False).returncode == 0:
+            return found
+    pytest.skip(f"no Python {version} here")
+
+
+@pytest.fixture(scope="session")
+def index() -> None:
+    """A package index that answers."""
+    ask = [sys.executable, "-m", "pip", "install", "--dry-run", "--ignore-installed", "--no-deps", "--quiet", "wheel"]
+    if subprocess.run(ask, capture_output=True, check=False, timeout=600).returncode:
+        pytest.skip("no package index can be reached")
+
+
+@pytest.fixture(scope="session")
+def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What a clone would have: the files that git knows or would take, as they are now."""
+    listing = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    try:
+        known = subprocess.run(listing, cwd=ROOT, capture_output=True, check=True).stdout.decode().split("\0")
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("not in a git repository")
+    folder = tmp_path_factory.mktemp("clone") / "disc_model"
+    for name in filter(None, known):
+        source, target = ROOT / name, folder / name
+        if source.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(source, target, follow_symlinks=False)
+    return folder
+
+
+@dataclass(frozen=True)
+class Built:
+    """The distributions, and the wheel that was made without an sdist in between."""
+
+    sdist: Path
+    wheel: Path
+    direct_wheel: Path
+
+
+@pytest.fixture(scope="session")
+def built(tree: Path, index: None, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    out = tmp_path_factory.mktemp("dist")
+    run(sys.executable, "-m", "build", "--outdir", out, tree, cwd=out)  # the sdist, and from that the wheel
+    run(sys.executable, "-m", "build", "--wheel", "--outdir", out / "direct", tree, cwd=out)
+    [sdist], [wheel], [direct] = out.glob("*.tar.gz"), out.glob("*.whl"), out.glob("direct/*.whl")
+    return Built(sdist, wheel, direct)
+
+
+def sources(tree: Path) -> set[str]:
+    """Every file of the package, from its parent folder."""
+    src = tree / "src"
+    files = {path.relative_to(src).as_posix() for path in (src / "disc_model").rglob("*") if path.is_file()}
+    return {name for name in files if "__pycache__" not in name}
+
+
+def wheel_files(wheel: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(wheel) as archive:
+        return {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
+
+
+def test_the_wheel_is_the_package_and_nothing_else(built: Built, tree: Path) -> None:
+    files = set(wheel_files(built.wheel))
+    package = {name for name in files if name.startswith("disc_model/")}
+    assert package == sources(tree)
+    assert {"disc_model/py.typed", "disc_model/figures/disc_model.mplstyle"} <= package
+    assert any(name.endswith(".json") for name in package)
+    [info] = {name.split("/")[0] for name in files - package}
+    assert {name.removeprefix(f"{info}/") for name in files - package} == {
+        "METADATA",
+        "WHEEL",
+        "RECORD",
+        "entry_points.txt",
+        "top_level.txt",
+        "licenses/LICENSE",
+    }
+
+
+def test_the_sdist_holds_what_a_build_needs_and_nothing_else(built: Built, tree: Path) -> None:
+    with tarfile.open(built.sdist) as archive:
+        files = {member.name.split("/", 1)[1] for member in archive.getmembers() if member.isfile()}
+    package = {f"src/{name}" for name in sources(tree)}
+    assert package <= files
+    metadata = {name for name in files if name.startswith("src/disc_model.egg-info/")}
+    besides = files - package - metadata
+    assert besides - {"MANIFEST.in"} == {"LICENSE", "PKG-INFO", "README.md", "pyproject.toml", "setup.cfg"}
+
+
+def test_a_wheel_from_the_sdist_is_the_same(built: Built) -> None:
+    one, other = wheel_files(built.wheel), wheel_files(built.direct_wheel)
+    assert one == other
+
+
+# ---- installed
+
+
+@dataclass(frozen=True)
+class Installed:
+    """An environment with the wheel, and an empty folder elsewhere to work in."""
+
+    bin: Path
+    work: Path
+
+    def run(self, *command: str | Path) -> str:
+        first, *rest = command
+        cache = str(self.work / "numba")  # not the user's
+        return run(self.bin / first, *rest, cwd=self.work, NUMBA_CACHE_DIR=cache, MPLBACKEND="agg")
+
+
+@pytest.fixture(scope="module", params=VERSIONS)
+def installed(request: pytest.FixtureRequest, built: Built, tree: Path, tmp_path_factory: Any) -> Installed:
+    """The wheel among the locked versions, for each Python that there is."""
+    python = interpreter(request.param)
+    folder = tmp_path_factory.mktemp("installed")
+    run(python, "-m", "venv", folder / "venv", cwd=folder)
+    work = folder / "work"
+    work.mkdir()
+    made = Installed(folder / "venv" / "bin", work)
+    made.run("python", "-m", "pip", "install", "--require-hashes", "-r", tree / "requirements.lock")
+    made.run("python", "-m", "pip", "install", "--no-deps", built.wheel)
+    return made
+
+
+def test_requirements_fit_together(installed: Installed) -> None:
+    assert "No broken requirements found" in installed.run("python", "-m", "pip", "check")
+
+
+USE = """\
+import importlib, json, pkgutil, sys
+import disc_model
+
+result = disc_model.simulate(disc_model.Parameters(N=385, Omega=15.1), 2)
+result.to_dataset().to_netcdf("run.nc")
+for module in pkgutil.walk_packages(disc_model.__path__, "disc_model."):
+    if module.name not in ("disc_model.__main__", *OPTIONAL):
+        importlib.import_module(module.name)
+files = [module.__file__ for module in sys.modules.values() if getattr(module, "__file__", None)]
+print(json.dumps({"status": result.status.value, "steps": int(result.statistics["steps"]), "files": files}))
+"""
+
+
+def test_it_works_without_the_sources(installed: Installed) -> None:
+    """A run, a dataset, and every module with the data it reads."""
+    optional = [f"disc_model.benchmarks.methods.{name}" for name in ("cvode", "taylor_heyoka")]
+    said = installed.run("python", "-I", "-W", "error::SyntaxWarning", "-c", USE.replace("*OPTIONAL", f"*{optional}"))
+    result = json.loads(said.splitlines()[-1])
+    assert result["status"] == "ok"
+    assert result["steps"] > 0
+    assert not [name for name in result["files"] if Path(name).is_relative_to(ROOT)]
+    assert (installed.work / "run.nc").stat().st_size > 0
+
+
+@pytest.mark.parametrize("start", [("disc-model",), ("python", "-I", "-m", "disc_model")], ids=["script", "module"])
+def test_the_command_line(installed: Installed, start: tuple[str, ...]) -> None:
+    picture = installed.work / f"{start[0]}.png"
+    said = installed.run(*start, "run", "--N", "385", "--Omega", "15.1", "--t-end", "2", "--plot", picture)
+    assert "ok" in said
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert picture.stat().st_size > 10_000
+    assert "psi" in installed.run(*start, "modes", "--normalization", "orthonormal")
+
+
+# ---- the lock file
+
+
+def names(text: str) -> set[str]:
+    lines = [line.split("#")[0].strip() for line in text.splitlines()]
+    return {canonicalize_name(Requirement(line).name) for line in lines if line and not line.startswith("-")}
+
+
+def check_lock(lock: str, wanted: str) -> None:
+    """Everything wanted is pinned, every pin has hashes, and nothing says where the files came from."""
+    pins = {canonicalize_name(name) for name, _ in PIN.findall(lock)}
+    assert names(wanted) <= pins
+    assert not re.search(r"://|--(extra-)?index-url|--find-links|--trusted-host| @ ", lock)
+    for block in re.split(r"^(?=[A-Za-z0-9])", lock, flags=re.MULTILINE)[1:]:
+        assert PIN.match(block), block
+        assert "--hash=sha256:" in block, block
+
+
+@pytest.mark.parametrize("lock", LOCKS)
+def test_the_lock_names_versions_and_hashes_only(lock: str) -> None:
+    file = ROOT / lock
+    check_lock(file.read_text(), file.with_suffix(".in").read_text())
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_lock_is_complete_for_every_python(version: str, index: None, tmp_path: Path) -> None:
+    """Each pin has a file for that version, and nothing that a pin then requires is missing."""
+    report = tmp_path / "report.json"
+    options = ["--dry-run", "--ignore-installed", "--no-deps", "--require-hashes", "--target", tmp_path / "target"]
+    chosen = ["--python-version", version, "--report", report, "-r", ROOT / "requirements.lock"]
+    run(sys.executable, "-m", "pip", "install", "--quiet", *options, *chosen, cwd=tmp_path)
+    found = [item["metadata"] for item in json.loads(report.read_text())["install"]]
+    packages = {canonicalize_name(item["name"]): item for item in found}
+    wanted = names((ROOT / "requirements.in").read_text())
+    assert list(unmet(packages, sorted(wanted), version)) == []
+
+
+def unmet(packages: dict[str, Any], wanted: list[str], version: str) -> Iterator[str]:
+    """Requirements, followed from the wanted packages, that no pin meets under that version of Python."""
+    environment = {**default_environment(), "python_version": version, "python_full_version": f"{version}.0"}
+    waiting: list[tuple[str, str]] = [(name, "") for name in wanted]  # a package, with one of its extras
+    seen = set(waiting)
+    while waiting:
+        name, extra = waiting.pop()
+        for text in packages[name].get("requires_dist", []):
+            needed = Requirement(text)
+            if needed.marker and not needed.marker.evaluate({**environment, "extra": extra}):
+                continue
+            target = canonicalize_name(needed.name)
+            if target not in packages or not needed.specifier.contains(packages[target]["version"], prereleases=True):
+                yield f"{name} needs {text}"
+                continue
+            new = {(target, option) for option in ("", *needed.extras)} - seen
+            seen |= new
+            waiting += new
+
+
+@pytest.mark.skipif(shutil.which("make") is None, reason="make is not installed")
+@pytest.mark.skipif(not Path(sys.prefix, "bin", "pip-compile").exists(), reason="pip-tools is not installed")
+def test_make_lock(tree: Path, index: None, tmp_path: Path) -> None:
+    """The target works and writes files of the same form."""
+    project = tmp_path / "project"
+    shutil.copytree(tree, project, symlinks=True)
+    # the environment that runs the tests stands for the one that `make env` would make
+    run("make", f"--old-file={sys.prefix}/.installed", "lock", f"VENV={sys.prefix}", cwd=project)
+    for name in LOCKS:
+        file = project / name
+        check_lock(file.read_text(), file.with_suffix(".in").read_text())

@@ -1,0 +1,223 @@
+"""A SLURM of one node for tests: daemons, key, ports, state and logs of its own, all in one folder."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import getpass
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+SEARCH = os.pathsep.join([os.environ.get("PATH", ""), "/usr/sbin", "/sbin"])
+TOOLS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue", "scancel", "scontrol")
+MISSING = [tool for tool in TOOLS if shutil.which(tool, path=SEARCH) is None]
+WHY_NOT = f"SLURM is not installed (Debian: slurm-wlm, munge): no {', '.join(MISSING)}" if MISSING else ""
+
+# No cgroups, so that it starts in any container: SLURM looks at the memory of jobs once a second instead, and kills
+# what exceeds its share.
+CONFIGURATION = """\
+ClusterName=test
+SlurmctldHost=localhost(127.0.0.1)
+SlurmctldPort={controller_port}
+SlurmdPort={node_port}
+SlurmUser={user}
+SlurmdUser={user}
+AuthInfo=socket={folder}/munge.socket
+MpiDefault=none
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+ReturnToService=2
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+SlurmdSpoolDir={folder}/spool
+StateSaveLocation={folder}/state
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.log
+SlurmdParameters=config_overrides
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core_Memory
+JobAcctGatherType=jobacct_gather/linux
+JobAcctGatherFrequency=task=1
+JobAcctGatherParams=OverMemoryKill,UsePss
+AccountingStorageType=accounting_storage/none
+JobCompType=jobcomp/filetxt
+JobCompLoc={folder}/finished.log
+MailProg=/bin/true
+MinJobAge=3600
+KillWait=5
+NodeName=localhost NodeAddr=127.0.0.1 NodeHostname={host} CPUs=2 RealMemory=6000 State=UNKNOWN
+PartitionName=main Nodes=localhost Default=YES MaxTime=INFINITE State=UP OverSubscribe=NO
+"""
+
+
+class Unavailable(Exception):
+    """SLURM cannot run here; the text says why."""
+
+
+@dataclass
+class Cluster:
+    """A running SLURM; commands and Snakemake find it through `environment`."""
+
+    folder: Path
+    environment: dict[str, str]
+    daemons: dict[str, subprocess.Popen[bytes]] = field(default_factory=dict)
+
+    def call(self, *command: str) -> str:
+        """Output of one of SLURM's commands."""
+        answer = subprocess.run(
+            command, env=os.environ | self.environment, capture_output=True, text=True, timeout=60, check=False
+        )
+        if answer.returncode:
+            raise Unavailable(f"{' '.join(command)}: {answer.stderr.strip()}")
+        return answer.stdout
+
+    def queue(self) -> dict[str, str]:
+        """State of every job that is not finished."""
+        return dict(line.split() for line in self.call("squeue", "--noheader", "--format=%i %T").splitlines())
+
+    def finished(self) -> dict[str, dict[str, str]]:
+        """What the controller noted of each finished job: JobState, NodeList, TimeLimit (minutes), Tres, ..."""
+        log = self.folder / "finished.log"
+        lines = log.read_text().splitlines() if log.exists() else []
+        jobs = [dict(re.findall(r"(\w+)=(\S*)", line)) for line in lines]
+        return {job["JobId"]: job for job in jobs}
+
+    def start(self, daemon: str, *options: str) -> None:
+        """Start a daemon that ends when the tests do, even if these are killed."""
+        program = shutil.which(daemon, path=SEARCH)
+        assert program, WHY_NOT
+        with (self.folder / f"{daemon}.out").open("ab") as out:
+            self.daemons[daemon] = subprocess.Popen(
+                [program, *options],
+                env=os.environ | self.environment,
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=out,
+                start_new_session=True,
+                preexec_fn=die_with_parent,
+            )
+
+    def stop(self, daemon: str) -> None:
+        process = self.daemons.pop(daemon)
+        process.terminate()
+        try:
+            process.wait(20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+    def start_controller(self) -> None:
+        self.start("slurmctld", "-D", "-f", str(self.folder / "slurm.conf"))
+        self.wait_until(lambda: "UP" in self.call("scontrol", "ping"), "slurmctld")
+
+    def wait_until(self, ready: Callable[[], bool], daemon: str, seconds: float = 30.0) -> None:
+        """Wait for a condition; a daemon that ended or is late makes SLURM unavailable, with what it said."""
+        until = time.monotonic() + seconds
+        while True:
+            with contextlib.suppress(Unavailable):
+                if ready():
+                    return
+            if self.daemons[daemon].poll() is not None or time.monotonic() > until:
+                logs = [self.folder / f"{daemon}.out", self.folder / f"{daemon}.log"]
+                said = [line for log in logs if log.exists() for line in log.read_text(errors="replace").splitlines()]
+                raise Unavailable(f"{daemon} does not start: " + " | ".join(said[-5:]))
+            time.sleep(0.2)
+
+
+@contextlib.contextmanager
+def cluster(folder: Path) -> Iterator[Cluster]:
+    """A SLURM with two processors and one partition, main; raises Unavailable where it cannot be started."""
+    if WHY_NOT:
+        raise Unavailable(WHY_NOT)
+    slurm = Cluster(folder, _environment(folder))
+    _configure(folder)
+    try:
+        _start(slurm)
+        yield slurm
+    finally:
+        _clean_up(slurm)
+
+
+def die_with_parent() -> None:
+    """Run in a new process: it gets SIGTERM when the process that started it ends, however that comes about."""
+    pr_set_pdeathsig = 1
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGTERM)
+
+
+def _environment(folder: Path) -> dict[str, str]:
+    bin_folder = folder / "bin"
+    return {"SLURM_CONF": str(folder / "slurm.conf"), "PATH": os.pathsep.join([str(bin_folder), SEARCH])}
+
+
+def _configure(folder: Path) -> None:
+    for name in ("spool", "state", "bin"):
+        (folder / name).mkdir()
+    key = folder / "munge.key"
+    key.touch(mode=0o600)
+    key.write_bytes(os.urandom(128))
+    controller_port, node_port = _free_ports()
+    text = CONFIGURATION.format(
+        folder=folder,
+        user=getpass.getuser(),
+        host=socket.gethostname().split(".")[0],
+        controller_port=controller_port,
+        node_port=node_port,
+    )
+    (folder / "slurm.conf").write_text(text)
+    if _version() >= (23, 2):  # before, this plugin did not exist, and none was loaded without need
+        (folder / "cgroup.conf").write_text("CgroupPlugin=disabled\n")
+    # Snakemake clears the environment of srun inside a job, and with it where the configuration is.
+    srun = folder / "bin" / "srun"
+    srun.write_text(f'#!/bin/sh\nSLURM_CONF={folder}/slurm.conf exec {shutil.which("srun", path=SEARCH)} "$@"\n')
+    srun.chmod(0o755)
+
+
+def _version() -> tuple[int, ...]:
+    program = shutil.which("slurmd", path=SEARCH)
+    assert program, WHY_NOT
+    said = subprocess.run([program, "-V"], capture_output=True, text=True, timeout=60, check=True).stdout
+    return tuple(int(number) for number in re.findall(r"\d+", said)[:2])
+
+
+def _free_ports() -> tuple[int, int]:
+    with socket.socket() as one, socket.socket() as two:
+        one.bind(("127.0.0.1", 0))
+        two.bind(("127.0.0.1", 0))
+        return one.getsockname()[1], two.getsockname()[1]
+
+
+def _start(slurm: Cluster) -> None:
+    here = {name: str(slurm.folder / f"munge.{name}") for name in ("key", "socket", "pid", "seed")}
+    slurm.start(
+        "munged",
+        "--foreground",
+        "--force",  # temporary folders are closed to others, which munge takes for a mistake
+        f"--key-file={here['key']}",
+        f"--socket={here['socket']}",
+        f"--pid-file={here['pid']}",
+        f"--seed-file={here['seed']}",
+    )
+    slurm.wait_until(Path(here["socket"]).exists, "munged")
+    slurm.start_controller()
+    slurm.start("slurmd", "-D", "-f", str(slurm.folder / "slurm.conf"))
+    slurm.wait_until(lambda: "State=IDLE" in slurm.call("scontrol", "show", "node", "localhost"), "slurmd")
+
+
+def _clean_up(slurm: Cluster) -> None:
+    """End jobs first: they are not children of the daemons' processes and would outlive them."""
+    with contextlib.suppress(Unavailable, subprocess.TimeoutExpired):
+        if "slurmd" in slurm.daemons and (jobs := slurm.queue()):
+            slurm.call("scancel", *jobs)
+            until = time.monotonic() + 30
+            while slurm.queue() and time.monotonic() < until:
+                time.sleep(0.5)
+    for daemon in reversed(list(slurm.daemons)):
+        slurm.stop(daemon)
