@@ -141,7 +141,7 @@ def test_headline_compares_the_default_with_the_cheapest_right_setting(dataset):
 
 
 def test_arithmetic_is_that_of_the_convolutions_and_some_more():
-    """A slip step of order 22: two products (f e, f z) of 231 inner terms on eight lanes, multiply and add: 7.4 kFlop."""
+    """A slip step of order 22 has two products (f e, f z) of 231 inner terms on eight lanes, multiply and add."""
     flops = vector_flops("stick_slip", 1e-10)
     steps = 677  # of slip in this second
     assert steps * 7392 < flops < 3 * steps * 7392

@@ -12,7 +12,26 @@ from disc_model.studies.study import load_study
 
 SHOWN = ("fig13", "fig02", "fig03", "fig05", "fig09", "fig10", "fig14", "fig25", "fig27", "fig28", "figA1", "figA2")
 OTHERS = {
-    "results/critical_speed/figures/fig15.png": "Fig. 15. Critical speed for separation against preload.",
+    "critical_speed/figures/fig15.png": (
+        "Fig. 15. Critical speed for separation against preload.",
+        "(a) First separation from the published start within 500, 1000, 2000 s; (b) sweeps of the speed up and down.",
+    ),
+    "map_N/figures/map_N.png": (
+        "Stability over speed and preload.",
+        "Colour: growth rate of the stick-slip cycle from its multipliers. Symbols: what becomes of the published start.",
+    ),
+    "critical_speed/figures/thresholds.png": (
+        "Where the cycle becomes unstable, and where separation follows.",
+        "Neutral curves and folds by continuation, named after their resonances n f_s = f ± l Ω / 2π.",
+    ),
+    "bench/figures/overview.png": (
+        "Speed against accuracy.",
+        "Wall time of a simulated second against the error of event times, one core, medians of repeats.",
+    ),
+    "bench/figures/failure_maps.png": (
+        "Where methods fail.",
+        "Over step or tolerance and number of modes, in the separating second but for (a).",
+    ),
 }
 """Figures of other studies; left out as long as they are not there."""
 WIDTH = 900
@@ -33,10 +52,11 @@ def main() -> None:
         small = shrink(args.results / f"{name}.png", args.docs / "gallery" / f"{name}.png")
         text = f"**{number_of(name)}. {CATALOGUE[name].title}.** {caption(name, parameters)}"
         lines += [f"![{number_of(name)}](gallery/{small.name})", "", text, ""]
-    for source, text in OTHERS.items():
-        if Path(source).is_file():
-            small = shrink(Path(source), args.docs / "gallery" / Path(source).name)
-            lines += [f"![{text.partition('.')[0]}](gallery/{small.name})", "", text, ""]
+    for name, (title, text) in OTHERS.items():
+        source = args.results.parents[1] / name
+        if source.is_file():
+            small = shrink(source, args.docs / "gallery" / source.name)
+            lines += [f"![{title}](gallery/{small.name})", "", f"**{title}** {text}", ""]
     (args.docs / "gallery.md").write_text("\n".join(lines), encoding="utf-8")
 
 

@@ -20,7 +20,7 @@ JUDGED = ("stick_slip", "separating")
 
 
 def headline(dataset: xr.Dataset) -> dict[str, dict[str, float]]:
-    """By scene and method: least cost with all events right to ``DEFAULT`` s, over the series engine's at its default."""
+    """By scene and method: least cost with events right to ``DEFAULT`` s, over the series engine's at its default."""
     found: dict[str, dict[str, float]] = {}
     for scene in (str(name) for name in dataset["scene"].values if str(name) in JUDGED):
         part = dataset.sel(scene=scene)
