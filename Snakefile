@@ -1,6 +1,8 @@
 # From a study file to its dataset, figures and claims:
 #   snakemake -j2                                    the paper's named cases (config/paper.yaml)
 #   snakemake -j2 --configfile config/test.yaml      the same pipeline in small
+from itertools import chain
+
 from snakemake.utils import min_version
 
 min_version("9.27")
@@ -17,16 +19,22 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/benchmark.smk"
 
 
+PRODUCTS = [
+    *rules.merge_cases.output,
+    *rules.check_claims.output,
+    *rules.describe_study.output,
+    *collect(rules.make_table.output, table=TABLES),
+    *collect(rules.draw_figure.output, figure=STUDY.figures),
+    *collect(rules.publish_study.output, study=GRIDS),
+    *chain.from_iterable(
+        collect(rules.draw_plot.output, study=name, plot=study.plots)
+        for name, study in GRIDS.items()
+    ),
+]
+refuse_unrecorded([*map(case_file, STUDY.specs), *PRODUCTS])
+
+
 rule all:
     default_target: True
     input:
-        rules.merge_cases.output,
-        rules.check_claims.output,
-        rules.describe_study.output,
-        collect(rules.make_table.output, table=TABLES),
-        collect(rules.draw_figure.output, figure=STUDY.figures),
-        collect(rules.publish_study.output, study=GRIDS),
-        [
-            collect(rules.draw_plot.output, study=name, plot=study.plots)
-            for name, study in GRIDS.items()
-        ],
+        PRODUCTS,

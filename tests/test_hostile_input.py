@@ -1,22 +1,30 @@
-"""Malformed, huge, hostile and contradictory input ends in one of the package's own errors, never in anything else."""
+"""Malformed, huge, hostile and contradictory input ends in one of the package's own errors, never in anything else.
+
+The long tests try more than 10,000 inputs; how many of each kind is said at the end of the tests' output.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import io
 import math
+import sys
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import pytest
 import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+import disc_model.simulate  # noqa: F401 - replaced by name below
 from disc_model import ParameterError, Parameters
 from disc_model.cli import main
 from disc_model.studies.faults import StudyError, read_yaml
 from disc_model.studies.grid import parse_grid
 from disc_model.studies.study import parse_study
+from tests.tally import tried
 
 ROOT = Path(__file__).parents[1]
 NAMES = [*Parameters.model_fields, "n", "Ω", "", "__class__", "N ", "omega"]
@@ -44,7 +52,12 @@ HOSTILE = [
     {"N": {"N": 1}},
 ]
 QUICK = settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
-LONG = settings(QUICK, max_examples=5000)
+LONG = settings(QUICK, max_examples=4000)
+
+
+def count(what: str) -> None:
+    tried("hostile inputs", what)
+
 
 values = st.one_of(st.sampled_from(HOSTILE), st.floats(), st.integers(), st.text(max_size=20), st.booleans())
 fields = st.dictionaries(st.sampled_from(NAMES), values, max_size=8)
@@ -56,6 +69,7 @@ trees = st.recursive(
 
 
 def try_parameters(given_fields: dict[str, Any]) -> None:
+    count("parameters")
     with contextlib.suppress(ParameterError):
         p = Parameters(**given_fields)
         assert len(p.key) == 12
@@ -82,6 +96,7 @@ GRIDS = [yaml.safe_load(path.read_text()) for path in sorted((ROOT / "config/stu
 
 
 def try_study(parse: Any, tree: Any) -> None:
+    count("studies")
     with contextlib.suppress(StudyError):
         parse(tree)
 
@@ -113,12 +128,180 @@ def test_anything_for_a_study(tree: Any) -> None:
     try_study(parse_grid, tree)
 
 
+# ---- YAML as text
+
+TEXTS = [path.read_text() for path in [ROOT / "config/test.yaml", *sorted((ROOT / "config/studies").glob("*.yaml"))]]
+LAUGHS = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n" + "".join(
+    f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]\n" for i in range(1, 12)
+)
+"""Twelve lines that stand for 10^12 values."""
+SNIPPETS = [
+    *(
+        "\t",
+        ":",
+        ": ",
+        "- ",
+        "{",
+        "}",
+        "[",
+        "]",
+        "'",
+        '"',
+        "|",
+        ">",
+        "? ",
+        "#",
+        "\n",
+        "  ",
+        "\x00",
+        "\x85",
+        "\ufeff",
+        "é",
+    ),
+    *("~", "yes", "0x1F", "0o17", "1_000", "1:30", "2020-01-01", "2020-99-99", ".nan", "-.inf", "1e999", "9" * 5000),
+    *("&a [*a]", "*a", "<<: *a", "<<: [1]", "&a {b: *a}", "!!binary x", "!!set {a}", "!!float x", "!!timestamp x"),
+    *("!!python/object/apply:os.system ['true']", "!!python/name:os.system", "%YAML 3.0\n", "---\n", "...\n"),
+    *(
+        "[" * 200,
+        "{a: " * 200,
+        "[" * 500,
+        "- " * 1500,
+        "!!bool x",
+        "!!int x",
+        "!!omap [a]",
+        "!!pairs x",
+        LAUGHS,
+        "x" * 100_000,
+    ),
+]
+
+
+@st.composite
+def edited_texts(draw: st.DrawFn) -> str:
+    """A study file with some places overwritten, some text put in, some lines lost or repeated."""
+    text = draw(st.sampled_from(TEXTS))
+    for _ in range(draw(st.integers(1, 4))):
+        lines = text.splitlines(keepends=True)
+        kind = draw(st.sampled_from(["insert", "overwrite", "lose", "repeat", "cut"]))
+        at = draw(st.integers(0, max(len(text) - 1, 0)))
+        line = text[:at].count("\n")
+        if kind in ("insert", "overwrite"):
+            snippet = draw(st.one_of(st.sampled_from(SNIPPETS), st.text(max_size=10)))
+            text = text[:at] + snippet + text[at + (len(snippet) if kind == "overwrite" else 0) :]
+        elif kind == "lose":
+            text = "".join(lines[:line] + lines[line + 1 :])
+        elif kind == "repeat":
+            text = "".join(lines[: line + 1] + lines[line:])
+        else:
+            text = text[:at]
+    return text
+
+
+def try_text(text: str) -> None:
+    count("YAML files")
+    for parse in (parse_study, parse_grid):
+        with contextlib.suppress(StudyError):
+            tree, _ = read_yaml(text)
+            parse(tree)
+
+
 @QUICK
 @given(st.text(max_size=200))
 def test_any_text_as_yaml(text: str) -> None:
-    with contextlib.suppress(StudyError):
-        tree, _ = read_yaml(text)
-        parse_study(tree)
+    try_text(text)
+
+
+@QUICK
+@given(edited_texts())
+def test_edited_study_files(text: str) -> None:
+    try_text(text)
+
+
+@pytest.mark.parametrize("snippet", SNIPPETS)
+def test_every_snippet(snippet: str) -> None:
+    for text in (snippet, f"study: {snippet}", f"study: s\ncases: {snippet}", f"{snippet}\nstudy: s"):
+        try_text(text)
+
+
+def test_aliases_of_aliases_are_counted_before_they_are_followed() -> None:
+    with pytest.raises(StudyError, match="more than 100000 values"):
+        read_yaml(LAUGHS)
+    with pytest.raises(StudyError, match="contains itself"):
+        read_yaml("&a {study: s, cases: *a}")
+
+
+# ---- the command line
+
+OPTIONS = [
+    *(f"--{name}" for name in Parameters.model_fields),
+    *("--t-end", "--tol", "--stop-at", "--plot", "--help", "--no-such", "--N=", "-N", "-", "--", ""),
+]
+WORDS = [
+    *(
+        "nan",
+        "inf",
+        "-inf",
+        "-0.0",
+        "1e999",
+        "1e-999",
+        "-1",
+        "0",
+        "1",
+        "3.5",
+        "0x10",
+        "1_0",
+        "١٢",
+        "",
+        " ",
+        "auto",
+        "true",
+    ),
+    *("first_separation", "bonded", "as_published", "/no/such/folder/x.png", "x.png", ".", "..", "/", "~", "x" * 5000),
+    *("a/" * 3000, "\x00", "\n", "$(true)", "`true`", "; true", "%s%n", "{}", "--N", "9" * 5000, "\ud800", "é"),
+]
+words = st.one_of(st.sampled_from(WORDS), st.text(max_size=12), st.floats().map(str), st.integers().map(str))
+
+
+@st.composite
+def command_lines(draw: st.DrawFn) -> list[str]:
+    """Often a good run with something bad in it, else anything."""
+    line = [draw(st.sampled_from(["run", "run", "run", "modes", "warm", "", "--help", "ruin"]))]
+    if line == ["run"] and draw(st.booleans()):
+        line += ["--N", "385", "--Omega", "15", "--t-end", "1"]
+    for option, word in draw(st.lists(st.tuples(st.sampled_from(OPTIONS), words), max_size=6)):
+        line += draw(st.sampled_from([[option, word], [option], [word], [f"{option}={word}"]]))
+    return line
+
+
+class Simulated(Exception):
+    """Input was taken; nothing is simulated here."""
+
+
+def try_command_line(arguments: list[str]) -> None:
+    """It ends with a result, with help, or with code 2 and what is wrong on stderr."""
+    count("command lines")
+    said = io.StringIO()
+    module = sys.modules["disc_model.simulate"]
+    with (
+        mock.patch.object(module, "simulate", side_effect=Simulated),
+        contextlib.redirect_stdout(io.StringIO()),
+        contextlib.redirect_stderr(said),
+        pytest.raises((SystemExit, Simulated)) as stop,
+    ):
+        main(arguments)
+    if isinstance(stop.value, SystemExit):
+        assert stop.value.code in (0, 2)
+        assert "Traceback" not in said.getvalue()
+        assert bool(said.getvalue().strip()) == (stop.value.code == 2)
+
+
+@QUICK
+@given(command_lines())
+def test_any_command_line(arguments: list[str]) -> None:
+    try_command_line(arguments)
+
+
+# ---- at length
 
 
 @pytest.mark.slow
@@ -127,6 +310,20 @@ def test_any_text_as_yaml(text: str) -> None:
 def test_at_length(given_fields: dict[str, Any], path: tuple[Any, ...], what: Any) -> None:
     try_parameters(given_fields)
     try_study(parse_study, planted(STUDY, path, what))
+
+
+@pytest.mark.slow
+@LONG
+@given(edited_texts())
+def test_edited_study_files_at_length(text: str) -> None:
+    try_text(text)
+
+
+@pytest.mark.slow
+@LONG
+@given(command_lines())
+def test_any_command_line_at_length(arguments: list[str]) -> None:
+    try_command_line(arguments)
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -23,11 +21,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.files import check_whole, write_whole
 from disc_model.parameters import Parameters
 from disc_model.result import Result
 from disc_model.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
 
 CONVENTIONS = "CF-1.11"
+OVERHEAD = 1 << 18
+"""About what attributes and the file format take, in bytes."""
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -146,22 +147,27 @@ def to_tree(groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
 
 
 def save(tree: xr.DataTree, path: str | Path) -> None:
-    """Write a tree as netCDF 4, compressed, in one piece: `path` is either what it was before or complete."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".tmp", dir=path.parent)
-    os.close(handle)
-    try:
-        tree.to_netcdf(temporary, engine="netcdf4", encoding=_encoding(tree))
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    """Write a tree as netCDF 4, compressed, in one piece: `path` is either what it was before or complete.
+
+    Raises
+    ------
+    disc_model.files.WriteError
+        If the disk is full.
+    """
+    encoding = _encoding(tree)
+    size = sum(node.to_dataset(inherit=False).nbytes for node in tree.subtree)
+    write_whole(Path(path), lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)
 
 
 def load(path: str | Path) -> xr.DataTree:
-    """Read a file written by `save` into memory."""
+    """Read a file written by `save` into memory.
+
+    Raises
+    ------
+    disc_model.files.DamagedFile
+        If it is not what was written.
+    """
+    check_whole(Path(path))
     with xr.open_datatree(path, engine="netcdf4", decode_timedelta=False) as tree:
         return tree.load()
 

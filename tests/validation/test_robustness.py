@@ -8,6 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from disc_model import Parameters, Record, Result, Status, Window, plate_modes, simulate
+from tests.tally import tried
 
 # phase left -> (kind, phase entered): the table of switches
 LEGAL = {
@@ -57,6 +58,7 @@ def parameters(draw: st.DrawFn) -> Parameters:
 
 def run(p: Parameters, radians: float, tol: float) -> Result:
     """A run of so many radians of the highest mode, a second at most, sampled throughout."""
+    tried("hostile inputs", "simulations of anything in and beyond the parameter box")
     t_end = min(1.0, radians / float(plate_modes(p).omega.max()))
     window = Window(start=0, stop=t_end, rate=400 / t_end)
     return simulate(p, t_end, tol=tol, max_steps=20_000, record=Record(windows=(window,), energy=True))

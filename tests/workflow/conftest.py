@@ -7,7 +7,8 @@ import re
 import shutil
 import subprocess
 import sys
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
@@ -33,22 +34,30 @@ class Project:
     """A copy of the repository in which Snakemake runs."""
 
     folder: Path
+    variables: Mapping[str, str] = field(default_factory=dict)
+    """Of the environment, beyond those of the tests."""
 
     def snakemake(self, *options: str, config: str | None = "config/tiny.yaml") -> subprocess.CompletedProcess[str]:
         """Run Snakemake as a user would, with the copy's own sources."""
-        command = [sys.executable, "-m", "snakemake", *options]
-        if config is not None:
-            command += ["--configfile", config]
-        environment = os.environ | {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
         return subprocess.run(
-            command,
+            self.command(*options, config=config),
             cwd=self.folder,
-            env=environment,
+            env=self.environment,
             capture_output=True,
             text=True,
             check=False,
             timeout=900,
         )
+
+    def command(self, *options: str, config: str | None = "config/tiny.yaml") -> list[str]:
+        """The command of such a run."""
+        return [sys.executable, "-m", "snakemake", *options, *(["--configfile", config] if config else [])]
+
+    @property
+    def environment(self) -> dict[str, str]:
+        """The environment of such a run."""
+        own = {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+        return os.environ | own | self.variables
 
     def planned(self, *options: str, config: str | None = "config/tiny.yaml") -> set[str]:
         """Jobs that a run would do, as rule or rule:wildcard, without the target `all`."""

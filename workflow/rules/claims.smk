@@ -18,6 +18,7 @@ rule check_claims:
     conda:
         "../envs/disc_model.yaml"
     params:
+        made_of=merged_cases_made_of(),
         sources=sources_of(
             "check_claims.py", "disc_model.claims", "disc_model.claims.page"
         ),
@@ -57,6 +58,7 @@ rule make_table:
     conda:
         "../envs/disc_model.yaml"
     params:
+        made_of=lambda wildcards: cases_made_of(["F13"]),
         sources=sources_of(
             "make_table.py", "disc_model.claims.tables", "disc_model.claims.page"
         ),

@@ -1,4 +1,5 @@
 # The study, checked before anything runs, and what all the rules share.
+import hashlib
 import json
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ from snakemake.shell import shell
 from disc_model.figures.catalogue import CATALOGUE, STYLE, module_of
 from disc_model.studies.grid import load_grids
 from disc_model.provenance import SIMULATION, source_hash
+from disc_model.studies.records import unrecorded
 from disc_model.studies.study import StudyError, study_from_config
 
 # A study named with --configfile replaces the paper's instead of being mixed with it.
@@ -53,6 +55,19 @@ def sources_of(script, *modules, files=()):
     return source_hash(*modules, files=[SCRIPTS / script, *files])
 
 
+def refuse_unrecorded(files):
+    """Stop if there are results of which Snakemake has no record: it would take them for up to date, whatever they are."""
+    mending = {"check", "--unlock", "--touch"} & set(sys.argv)
+    if not workflow.is_main_process or mending:
+        return
+    if unknown := unrecorded(files):
+        raise WorkflowError(
+            f"{unknown[0]} and {len(unknown) - 1} more are there, but not Snakemake's record of how they were made"
+            " (was .snakemake removed?), so nothing tells whether they are up to date."
+            " `snakemake -j1 check` removes them; then run again."
+        )
+
+
 def case_file(case):
     return f"{RESULTS}/cases/{case}.nc"
 
@@ -73,6 +88,38 @@ def merge_plan(study):
         "attrs": {"study": study.name, "title": study.title},
     }
     return json.dumps(plan, sort_keys=True, ensure_ascii=False)
+
+
+# What files are made of, as hashes. Jobs that read the files are told, so that a file that was made anew is not
+# overlooked if the clock has been set back since they last ran: by its time it would be the older one.
+CASE_SOURCES = sources_of("simulate_case.py", *SIMULATION)
+BATCH_SOURCES = sources_of("compute_batch.py", "disc_model.dataset")
+LABELS = json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False)
+
+
+def digest(*parts):
+    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:12]
+
+
+def cases_made_of(cases):
+    return digest(CASE_SOURCES, [STUDY.specs[case].canonical for case in cases])
+
+
+def merged_cases_made_of():
+    sources = sources_of("merge_cases.py", "disc_model.studies.merge")
+    return digest(cases_made_of(sorted(STUDY.specs)), LABELS, sources)
+
+
+def grid_made_of(study):
+    sources = sources_of("merge_batches.py", "disc_model.studies.grid_merge")
+    return digest(BATCH_SOURCES, merge_plan(GRIDS[study]), sources)
+
+
+def plot_made_of(study, name):
+    plot = GRIDS[study].plots[name]
+    shown = [grid_made_of(other) for _, other in sorted(plot.others.items())]
+    sources = sources_of("draw_plot.py", plot.module, files=[STYLE])
+    return digest(plot.model_dump_json(), grid_made_of(study), shown, sources)
 
 
 def shown_by(wildcards):

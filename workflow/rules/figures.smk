@@ -34,6 +34,7 @@ rule draw_figure:
             CATALOGUE[wildcards.figure].options, sort_keys=True
         ),
         module=lambda wildcards: module_of(wildcards.figure),
+        made_of=lambda wildcards: cases_made_of(CATALOGUE[wildcards.figure].cases),
         sources=lambda wildcards: sources_of(
             "draw_figure.py", module_of(wildcards.figure), files=[STYLE]
         ),
@@ -65,5 +66,7 @@ if "critical_speed" in GRIDS:
             f"{RESULTS}/logs/show_figure_15.log",
         conda:
             "../envs/disc_model.yaml"
+        params:
+            made_of=lambda wildcards: plot_made_of("critical_speed", "fig15"),
         shell:
             "(cp {input.pdf} {output.pdf} && cp {input.png} {output.png}) 2> {log}"

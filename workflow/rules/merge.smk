@@ -1,5 +1,4 @@
 # All cases of the study in one file.
-import json
 
 
 rule merge_cases:
@@ -12,7 +11,8 @@ rule merge_cases:
     conda:
         "../envs/disc_model.yaml"
     params:
-        labels=json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False),
+        labels=LABELS,
+        made_of=cases_made_of(sorted(STUDY.specs)),
         sources=sources_of("merge_cases.py", "disc_model.studies.merge"),
     shell:
         "python workflow/scripts/merge_cases.py --labels {params.labels:q} {output} {input} > {log} 2>&1"

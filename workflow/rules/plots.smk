@@ -14,14 +14,10 @@ rule draw_plot:
         plot=lambda wildcards: GRIDS[wildcards.study]
         .plots[wildcards.plot]
         .model_dump_json(),
+        made_of=lambda wildcards: plot_made_of(wildcards.study, wildcards.plot),
         others=lambda wildcards: [
             f"{role}={file}" for role, file in shown_by(wildcards).items()
         ],
-        sources=lambda wildcards: sources_of(
-            "draw_plot.py",
-            GRIDS[wildcards.study].plots[wildcards.plot].module,
-            files=[STYLE],
-        ),
     shell:
         "python workflow/scripts/draw_plot.py {params.plot:q} {input.study} {params.others:q}"
         " --out {output.pdf} --out {output.png} > {log} 2>&1"

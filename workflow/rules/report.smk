@@ -21,6 +21,7 @@ rule describe_study:
         "../envs/disc_model.yaml"
     params:
         title=STUDY.title or STUDY.name,
+        made_of=merged_cases_made_of(),
         sources=sources_of("describe_study.py", "disc_model.claims.page"),
     shell:
         "python workflow/scripts/describe_study.py {input} {output} --title {params.title:q} > {log} 2>&1"

@@ -30,6 +30,6 @@ rule simulate_case:
         "../envs/disc_model.yaml"
     params:
         case=lambda wildcards: STUDY.specs[wildcards.case].canonical,
-        sources=sources_of("simulate_case.py", *SIMULATION),
+        sources=CASE_SOURCES,
     shell:
         "python workflow/scripts/simulate_case.py {params.case:q} {output} > {log} 2>&1"

@@ -30,10 +30,9 @@ rule compute_batch:
         "../envs/disc_model.yaml"
     resources:
         runtime=30,
-        mem_mb=700,
     params:
         batch=lambda wildcards: GRIDS[wildcards.study].batches[wildcards.batch],
-        sources=sources_of("compute_batch.py", "disc_model.dataset"),
+        sources=BATCH_SOURCES,
     shell:
         "python workflow/scripts/compute_batch.py {output} <<< {params.batch:q} > {log} 2>&1"
 
@@ -53,6 +52,7 @@ rule merge_batches:
         "../envs/disc_model.yaml"
     params:
         plan=lambda wildcards: merge_plan(GRIDS[wildcards.study]),
+        made_of=BATCH_SOURCES,
         folder=lambda wildcards, input: Path(input[0]).parent,
         sources=sources_of("merge_batches.py", "disc_model.studies.grid_merge"),
     shell:
@@ -78,8 +78,10 @@ rule publish_study:
         "results/{study}/logs/publish_study.log",
     conda:
         "../envs/disc_model.yaml"
+    params:
+        made_of=lambda wildcards: grid_made_of(wildcards.study),
     shell:
-        "(cp {input.nc} {output.nc} && cp {input.failed} {output.failed}) 2> {log}"
+        "python workflow/scripts/publish_study.py {input.nc} {input.failed} {output.nc} {output.failed} > {log} 2>&1"
 
 
 rule gc:
@@ -98,3 +100,18 @@ rule gc:
         ),
     shell:
         "python workflow/scripts/gc.py <<< {params.kept:q} 2>&1 | tee {log}"
+
+
+rule check:
+    # What was damaged on the disk, or is there without a record of how it was made: out of the way, to be made anew.
+    log:
+        "results/check.log",
+    localrule: True
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        unrecorded=lambda wildcards: json.dumps(
+            unrecorded([*map(case_file, STUDY.specs), *PRODUCTS])
+        ),
+    shell:
+        "python workflow/scripts/check_results.py <<< {params.unrecorded:q} 2>&1 | tee {log}"

@@ -7,17 +7,18 @@ from pathlib import Path
 
 from disc_model.claims import check_claims, to_markdown
 from disc_model.claims.page import ledger
-from disc_model.dataset import load
+from disc_model.studies.inputs import load_inputs
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("cases", help="netCDF file of the merged cases")
+    parser.add_argument("cases", type=Path, help="netCDF file of the merged cases")
     parser.add_argument("--csv", type=Path, required=True)
     parser.add_argument("--md", type=Path, required=True)
     parser.add_argument("--html", type=Path, required=True)
     args = parser.parse_args()
-    table = check_claims(load(args.cases))
+    (cases,) = load_inputs([args.cases])
+    table = check_claims(cases)
     table.to_csv(args.csv, index=False)
     args.md.write_text(to_markdown(table), encoding="utf-8")
     args.html.write_text(ledger(table), encoding="utf-8")

@@ -6,17 +6,17 @@ import argparse
 from pathlib import Path
 
 from disc_model.claims.normalisation import compare
-from disc_model.dataset import load
+from disc_model.studies.inputs import load_inputs
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("published", help="netCDF file of the merged cases, modes as published")
-    parser.add_argument("orthonormal", help="netCDF file of the merged cases, modes as Eq. (17) says")
+    parser.add_argument("published", type=Path, help="netCDF file of the merged cases, modes as published")
+    parser.add_argument("orthonormal", type=Path, help="netCDF file of the merged cases, modes as Eq. (17) says")
     parser.add_argument("--md", type=Path, required=True)
     parser.add_argument("--html", type=Path, required=True)
     args = parser.parse_args()
-    found = compare(load(args.published), load(args.orthonormal))
+    found = compare(*load_inputs([args.published, args.orthonormal]))
     args.md.write_text(found.markdown(), encoding="utf-8")
     args.html.write_text(found.html(), encoding="utf-8")
 

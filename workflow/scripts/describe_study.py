@@ -11,19 +11,19 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.claims.page import page, table_html
-from disc_model.dataset import load
 from disc_model.figures.catalogue import said_parameters
 from disc_model.parameters import Parameters
+from disc_model.studies.inputs import load_inputs
 from disc_model.variables import STATUSES
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("cases", help="netCDF file of the merged cases")
+    parser.add_argument("cases", type=Path, help="netCDF file of the merged cases")
     parser.add_argument("output", type=Path, help="HTML file to write")
     parser.add_argument("--title", default="", help="of the study")
     args = parser.parse_args()
-    tree = load(args.cases)
+    (tree,) = load_inputs([args.cases])
     found = f"<h2>Sources</h2>{table_html(sources(tree))}"
     cases = f"<h2>Cases</h2>{table_html(rows(tree))}"
     args.output.write_text(page(args.title or "Provenance", f"<p>{escape(SAID)}</p>", found, cases), encoding="utf-8")

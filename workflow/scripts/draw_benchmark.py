@@ -7,15 +7,15 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from disc_model.dataset import load
 from disc_model.figures import benchmark
 from disc_model.figures.style import save
+from disc_model.studies.inputs import load_inputs
 
 PREFIX = "work_precision_"
 
 
 def draw(name: str, paths: list[Path]) -> Figure:
-    datasets = [load(path).to_dataset() for path in paths]
+    datasets = [tree.to_dataset() for tree in load_inputs(paths)]
     if name.startswith(PREFIX):
         return benchmark.work_precision(datasets[0], name.removeprefix(PREFIX))
     if name == "overview":

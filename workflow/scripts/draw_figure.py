@@ -7,8 +7,8 @@ import importlib
 import json
 from pathlib import Path
 
-from disc_model.dataset import load
 from disc_model.figures.style import save
+from disc_model.studies.inputs import load_inputs
 
 
 def main() -> None:
@@ -20,7 +20,8 @@ def main() -> None:
     parser.add_argument("--out", action="append", required=True, help="file to write, .pdf or .png; may be repeated")
     args = parser.parse_args()
     module = importlib.import_module(args.module)
-    figure = module.draw({path.stem: load(path) for path in args.cases}, **args.options)
+    names = [path.stem for path in args.cases]
+    figure = module.draw(dict(zip(names, load_inputs(args.cases), strict=True)), **args.options)
     for path in args.out:
         save(figure, path, title=args.title)
 

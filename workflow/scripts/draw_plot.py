@@ -5,23 +5,24 @@ from __future__ import annotations
 import argparse
 import importlib
 import json
+from pathlib import Path
 
-from disc_model.dataset import load
 from disc_model.figures.plots import PLOTS
 from disc_model.figures.style import save
+from disc_model.studies.inputs import load_inputs
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("plot", type=json.loads, help="JSON: what the study file says about the figure")
-    parser.add_argument("study", help="netCDF file of the merged study")
+    parser.add_argument("study", type=Path, help="netCDF file of the merged study")
     parser.add_argument("others", nargs="*", help="role=netCDF file of a further study")
     parser.add_argument("--out", action="append", required=True, help="file to write, .pdf or .png; may be repeated")
     args = parser.parse_args()
     plot = PLOTS[args.plot["kind"]].model_validate(args.plot)
     others = dict(pair.split("=", 1) for pair in args.others)
-    datasets = {role: load(path).to_dataset() for role, path in others.items()}
-    figure = importlib.import_module(plot.module).draw(load(args.study).to_dataset(), datasets, plot)
+    study, *shown = [tree.to_dataset() for tree in load_inputs([args.study, *map(Path, others.values())])]
+    figure = importlib.import_module(plot.module).draw(study, dict(zip(others, shown, strict=True)), plot)
     for path in args.out:
         save(figure, path)
 

@@ -18,7 +18,7 @@ OTHERS = {
     ),
     "map_N/figures/map_N.png": (
         "Stability over speed and preload.",
-        "Colour: growth rate of the stick-slip cycle from its multipliers. Symbols: what becomes of the published start.",
+        "Colour: growth rate of the stick-slip cycle from its multipliers. Symbols: what the published start comes to.",
     ),
     "critical_speed/figures/thresholds.png": (
         "Where the cycle becomes unstable, and where separation follows.",

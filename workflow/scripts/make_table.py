@@ -10,7 +10,7 @@ import pandas as pd
 from disc_model.claims.model import CaseView
 from disc_model.claims.page import table_page
 from disc_model.claims.tables import table_1, table_2
-from disc_model.dataset import load
+from disc_model.studies.inputs import load_inputs
 
 TITLES = {"table1": "Table 1: base values", "table2": "Table 2: frequencies of the disc in the first 10 s"}
 NOTES = {
@@ -43,7 +43,8 @@ def main() -> None:
     parser.add_argument("--md", type=Path, required=True)
     parser.add_argument("--html", type=Path, required=True)
     args = parser.parse_args()
-    case = CaseView(args.case.stem, load(args.case))
+    (tree,) = load_inputs([args.case])
+    case = CaseView(args.case.stem, tree)
     table = table_1(case.parameters) if args.table == "table1" else table_2(case).round(3)
     table.to_csv(args.csv, index=False)
     args.md.write_text(_markdown(args.table, table), encoding="utf-8")

@@ -12,8 +12,9 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.dataset import load, save
+from disc_model.dataset import save
 from disc_model.studies.grid_merge import failures, merge_batches
+from disc_model.studies.inputs import load_inputs
 
 
 def main() -> None:
@@ -23,8 +24,8 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="where the batches are")
     args = parser.parse_args()
     plan = json.load(sys.stdin)
-    batches = [load(args.folder / f"{name}.nc").to_dataset() for name in plan["batches"]]
-    study = merge_batches(batches, plan["grid"], plan["attrs"])
+    batches = load_inputs([args.folder / f"{name}.nc" for name in plan["batches"]])
+    study = merge_batches([batch.to_dataset() for batch in batches], plan["grid"], plan["attrs"])
     args.report.write_text("".join(f"{line}\n" for line in failures(study)), encoding="utf-8")
     save(xr.DataTree(study), args.output)
 

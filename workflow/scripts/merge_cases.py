@@ -6,7 +6,8 @@ import argparse
 import json
 from pathlib import Path
 
-from disc_model.dataset import load, save
+from disc_model.dataset import save
+from disc_model.studies.inputs import load_inputs
 from disc_model.studies.merge import merge_cases
 
 
@@ -16,7 +17,8 @@ def main() -> None:
     parser.add_argument("cases", nargs="+", type=Path, help="netCDF files of the cases")
     parser.add_argument("--labels", type=json.loads, required=True, help="JSON: by case, its title and reference")
     args = parser.parse_args()
-    save(merge_cases({path.stem: load(path) for path in args.cases}, args.labels), args.output)
+    names = [path.stem for path in args.cases]
+    save(merge_cases(dict(zip(names, load_inputs(args.cases), strict=True)), args.labels), args.output)
 
 
 if __name__ == "__main__":

@@ -180,6 +180,28 @@ class _UniqueKeyLoader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
+LARGEST = 100_000
+"""Values in a file, repeated ones counted each time."""
+
+
+def _count(node: yaml.Node, known: dict[int, int]) -> int:
+    """Number of values below a node; a few lines of aliases of aliases can stand for more than fit into memory."""
+    if id(node) in known:
+        if not known[id(node)]:
+            raise ValueError("a value contains itself")
+        return known[id(node)]
+    known[id(node)] = 0
+    children: list[yaml.Node] = []
+    if isinstance(node, yaml.MappingNode):
+        children = [part for pair in node.value for part in pair]
+    elif isinstance(node, yaml.SequenceNode):
+        children = node.value
+    known[id(node)] = 1 + sum(_count(child, known) for child in children)
+    if known[id(node)] > LARGEST:
+        raise ValueError(f"more than {LARGEST} values, repeated ones counted each time")
+    return known[id(node)]
+
+
 def read_yaml(text: str) -> tuple[Any, list[str]]:
     """A YAML document and the keys that it gives twice.
 
@@ -191,9 +213,16 @@ def read_yaml(text: str) -> tuple[Any, list[str]]:
     try:
         loader = _UniqueKeyLoader(text)
         try:
-            return loader.get_single_data(), loader.faults
+            node = loader.get_single_node()
+            if node is None:
+                return None, loader.faults
+            _count(node, {})
+            return loader.construct_document(node), loader.faults
         finally:
             loader.dispose()
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # ValueError: numbers and dates that look like one but are none
         raise StudyError(" ".join(str(error).split())) from None
+    except (AttributeError, KeyError, TypeError) as error:
+        # so ends a tag such as !!timestamp or !!bool before a value that is none
+        raise StudyError(f"a value does not fit its tag ({' '.join(str(error).split())})") from None

@@ -1,0 +1,54 @@
+"""Reading what other jobs of the workflow have written."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TypeVar
+
+import xarray as xr
+
+from disc_model.dataset import load
+from disc_model.files import DamagedFile
+
+T = TypeVar("T")
+
+SET_ASIDE = ".damaged"
+"""Ending that a damaged file gets."""
+
+
+def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
+    """Read files written by `disc_model.dataset.save`; `each_intact` says what becomes of damaged ones."""
+    return each_intact(load, paths)
+
+
+def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
+    """Apply a function to files.
+
+    Those it finds damaged are set aside under another name, so that the next run finds them missing and computes them
+    anew.
+
+    Raises
+    ------
+    SystemExit
+        If any is damaged or missing: one line for each.
+    """
+    found, faults = [], []
+    for path in paths:
+        try:
+            found.append(read(path))
+        except DamagedFile as error:
+            faults.append(f"{error}; now called {set_aside(path).name}")
+        except FileNotFoundError:
+            faults.append(f"{path}: not there; another job may just have set it aside")
+    if faults:
+        raise SystemExit("\n".join([*faults, "Run snakemake again: it computes them anew."]))
+    return found
+
+
+def set_aside(path: Path) -> Path:
+    """Give a file another name, under which nothing looks for it."""
+    aside = path.with_name(path.name + SET_ASIDE)
+    os.replace(path, aside)
+    return aside

@@ -1,0 +1,131 @@
+"""A small study that is treated badly, and what its results are compared by."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from tests.workflow.conftest import Project
+
+CONFIG = "config/faulty.yaml"
+MAIN = """\
+study: faulty
+record:
+  windows:
+    history: {rate: 500, envelope: 50}
+cases:
+  F11: {title: quiet, parameters: {N: 385, Omega: 15}, t_end: 2}
+  F13: {title: growing, parameters: {N: 385, Omega: 15.1}, t_end: 2}
+figures: [fig11]
+studies: [config/faulty_*.yaml]
+"""
+MAP = """\
+study: faulty_map
+quantity: outcome
+options: {horizon: 1, late: 0.2, after_separation: 0.2}
+axes:
+  N: [100, 300]
+  Omega: [10, 15, 20]
+batch: {over: [Omega], size: 3}
+"""
+KINDS = {".nc", ".csv", ".md", ".html", ".pdf", ".png"}
+INPUT = re.compile("/(cases|batches|merged)/")
+PARTS = ("workflow/scripts/", "disc_model")
+"""In the command of every job."""
+
+
+def write_study(project: Project) -> None:
+    (project.folder / CONFIG).write_text(MAIN)
+    (project.folder / "config" / "faulty_map.yaml").write_text(MAP)
+
+
+def run(project: Project, *options: str) -> subprocess.CompletedProcess[str]:
+    return project.snakemake("-j2", *options, config=CONFIG)
+
+
+def complete(project: Project, *options: str) -> None:
+    """Run, successfully."""
+    done = run(project, *options)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def mend(project: Project) -> str:
+    """What is to be typed after a fault; what it says."""
+    done = project.snakemake("-j1", "check", config=CONFIG)
+    assert done.returncode == 0, said(done)
+    return said(done)
+
+
+def said(done: subprocess.CompletedProcess[str]) -> str:
+    return done.stdout + done.stderr
+
+
+def products(project: Project) -> dict[str, bytes]:
+    """Content of every file that the study is about; no logs."""
+    results = project.folder / "results"
+    return {
+        str(path.relative_to(results)): path.read_bytes()
+        for path in sorted(results.rglob("*"))
+        if path.suffix in KINDS and not path.name.startswith(".")
+    }
+
+
+def check_same(project: Project, undisturbed: dict[str, bytes]) -> None:
+    """Every file has the same bytes. Inputs of finished files may be missing: nothing asks for them."""
+    found = products(project)
+    assert set(found) <= set(undisturbed)
+    assert {name for name in set(undisturbed) - set(found) if not INPUT.search(name)} == set()
+    assert [name for name in found if found[name] != undisturbed[name]] == []
+
+
+def start(
+    project: Project, *options: str, log: str = "run.log", wrapper: tuple[str, ...] = ()
+) -> subprocess.Popen[bytes]:
+    """Run in the background, in a process group of its own."""
+    with (project.folder / log).open("ab") as file:
+        return subprocess.Popen(
+            [*wrapper, *project.command("-j2", *options, config=CONFIG)],
+            cwd=project.folder,
+            env=project.environment,
+            stdout=file,
+            stderr=file,
+            start_new_session=True,
+        )
+
+
+def jobs(project: Project) -> list[int]:
+    """Processes of the project's jobs."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            words = (entry / "cmdline").read_bytes().split(b"\0")
+            here = (entry / "cwd").resolve() == project.folder.resolve()
+        except OSError:
+            continue
+        is_job = len(words) > 1 and any(word.decode().startswith(PARTS) for word in words[1:3])
+        if here and is_job:
+            found.append(int(entry.name))
+    return sorted(found)
+
+
+def kill(process: int) -> bool:
+    """Whether there was still something to kill."""
+    try:
+        os.kill(process, signal.SIGKILL)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def wait_until(holds: Callable[[], bool], seconds: float = 120.0) -> None:
+    until = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < until
+        time.sleep(0.05)

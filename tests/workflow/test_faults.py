@@ -1,0 +1,409 @@
+"""Faults during a study: after a rerun the results are those of an undisturbed run, byte for byte.
+
+What was tried, and how often, is said at the end of the tests' output.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from base64 import urlsafe_b64encode
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.tally import tried
+from tests.workflow.conftest import Project, copy_repository
+from tests.workflow.faulty import (
+    CONFIG,
+    check_same,
+    complete,
+    jobs,
+    kill,
+    mend,
+    products,
+    run,
+    said,
+    start,
+    wait_until,
+    write_study,
+)
+
+pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+needs_proc = pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
+LOCKED = "Directory cannot be locked"
+
+
+def fault(what: str, count: int = 1) -> None:
+    tried("faults, after which a rerun gave the same bytes", what, count)
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The study, undisturbed."""
+    project = copy_repository(tmp_path_factory.mktemp("undisturbed"))
+    write_study(project)
+    complete(project)
+    return project
+
+
+@pytest.fixture(scope="module")
+def undisturbed(done: Project) -> dict[str, bytes]:
+    return products(done)
+
+
+@pytest.fixture
+def finished(done: Project, tmp_path: Path) -> Project:
+    """A copy of it, times included."""
+    return done.copy(tmp_path / "project")
+
+
+@pytest.fixture
+def fresh(done: Project, tmp_path: Path) -> Project:
+    """The study before its first run."""
+    project = done.copy(tmp_path / "project")
+    for made in ("results", ".snakemake"):
+        shutil.rmtree(project.folder / made)
+    return project
+
+
+# ---- killed
+
+
+@needs_proc
+def test_jobs_killed_at_random(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+    wanted, killed, chance = 8, 0, random.Random(7)
+    while killed < wanted:
+        process = start(fresh)
+        while process.poll() is None:
+            time.sleep(chance.uniform(0.2, 2.0))
+            running = jobs(fresh)
+            if running and killed < wanted:
+                killed += kill(chance.choice(running))
+        assert process.returncode or not killed
+    complete(fresh)
+    check_same(fresh, undisturbed)
+    fault("jobs killed", killed)
+
+
+@needs_proc
+def test_whole_runs_killed_at_random(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+    """What a power failure does: Snakemake and its jobs are gone at once, and its lock stays."""
+    chance = random.Random(3)
+    for number in range(4):
+        process = start(fresh)
+        wait_until(lambda: bool(jobs(fresh)))
+        time.sleep(chance.uniform(0.0, 3.0 + 2.0 * number))
+        os.killpg(process.pid, signal.SIGKILL)
+        assert process.wait() == -signal.SIGKILL
+        locked = run(fresh)
+        assert locked.returncode != 0
+        assert LOCKED in said(locked)
+        assert "--unlock" in said(locked)
+        assert run(fresh, "--unlock").returncode == 0
+    complete(fresh)
+    check_same(fresh, undisturbed)
+    fault("whole runs killed", 4)
+
+
+@needs_proc
+def test_snakemake_killed_while_its_jobs_go_on(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+    """The next run makes the same files at the same time."""
+    process = start(fresh)
+    wait_until(lambda: bool(jobs(fresh)))
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
+    assert jobs(fresh)
+    assert run(fresh, "--unlock").returncode == 0
+    complete(fresh)
+    wait_until(lambda: not jobs(fresh))
+    check_same(fresh, undisturbed)
+    fault("Snakemake alone killed")
+
+
+# ---- disk full
+
+
+FULL = """
+mount -t tmpfs -o size=64m none "$DISK"
+cp -a "$PROJECT/." "$DISK"
+cd "$DISK"
+mount -o remount,size=$(($(df --output=used -k . | tail -1) + ROOM))k "$DISK"
+! "$@" > "$PROJECT/full.log" 2>&1
+mkdir -p results
+find results -name "*.nc" | while read -r file; do cmp "$file" "$UNDISTURBED/$file"; done
+mount -o remount,size=64m "$DISK"
+"$@"
+cp -a results/. "$PROJECT/results"
+"""
+NAMESPACE = ("unshare", "--map-root-user", "--mount")
+CAN_MOUNT = shutil.which("unshare") is not None and subprocess.run([*NAMESPACE, "true"], check=False).returncode == 0
+
+
+@pytest.mark.skipif(not CAN_MOUNT, reason="needs a mount namespace of its own")
+@pytest.mark.parametrize("room", [0, 150, 300])
+def test_disk_full(fresh: Project, done: Project, undisturbed: dict[str, bytes], tmp_path: Path, room: int) -> None:
+    """So many kB are left for everything: results, logs, Snakemake's records."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    places = {"DISK": str(disk), "PROJECT": str(fresh.folder), "UNDISTURBED": str(done.folder), "ROOM": str(room)}
+    script = ["bash", "-euo", "pipefail", "-c", FULL, "bash", *fresh.command("-j2", config=CONFIG)]
+    ran = subprocess.run(
+        [*NAMESPACE, *script], env=fresh.environment | places, capture_output=True, text=True, check=False, timeout=900
+    )
+    assert ran.returncode == 0, said(ran)
+    assert "No space left on device" in (fresh.folder / "full.log").read_text()
+    check_same(fresh, undisturbed)
+    fault("disk full")
+
+
+def test_files_may_not_grow(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+    """A limit to the size of files, as quotas impose: the library that writes them only says "HDF error"."""
+    limit = 80_000
+    ran = subprocess.run(
+        fresh.command("-j2", config=CONFIG),
+        cwd=fresh.folder,
+        env=fresh.environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=900,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+    )
+    assert ran.returncode != 0
+    assert "results/faulty/cases/F13.nc: cannot be written: File too large" in said(ran)
+    found = products(fresh)
+    assert found
+    assert all(found[name] == undisturbed[name] for name in found)
+    complete(fresh)
+    check_same(fresh, undisturbed)
+    fault("file size limited")
+
+
+# ---- damaged files
+
+
+def cut(path: Path, _: random.Random) -> None:
+    os.truncate(path, path.stat().st_size // 2)
+
+
+def empty(path: Path, _: random.Random) -> None:
+    os.truncate(path, 0)
+
+
+def flip(path: Path, chance: random.Random) -> None:
+    """One bit."""
+    content = bytearray(path.read_bytes())
+    content[chance.randrange(len(content))] ^= 1 << chance.randrange(8)
+    path.write_bytes(content)
+
+
+def lose_the_end(path: Path, _: random.Random) -> None:
+    """The last block is zero, as after a crash of the machine."""
+    content = path.read_bytes()
+    path.write_bytes(content[:-4096] + bytes(4096))
+
+
+DAMAGE = [cut, flip, empty, lose_the_end]
+
+
+def damage(paths: Iterable[Path], seed: int, *, keep_times: bool = False) -> list[Path]:
+    chance, damaged = random.Random(seed), sorted(paths)
+    for i, path in enumerate(damaged):
+        times = path.stat()
+        DAMAGE[i % len(DAMAGE)](path, chance)
+        if keep_times:
+            os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+    return damaged
+
+
+def test_damaged_inputs(finished: Project, undisturbed: dict[str, bytes]) -> None:
+    """Every damaged file that a job reads is named, and the same command again computes it anew."""
+    results = finished.folder / "results"
+    damaged = damage([*results.glob("faulty/cases/*.nc"), *results.glob("faulty_map/batches/*.nc")], 1)
+    assert len(damaged) == 4
+    (results / "faulty_map" / "faulty_map.nc").unlink()  # else nothing asks for the batches
+    failed = run(finished)
+    assert failed.returncode != 0
+    for path in damaged:
+        assert f"{path.relative_to(finished.folder)}: damaged" in said(failed)
+    assert "Run snakemake again" in said(failed)
+    complete(finished)
+    check_same(finished, undisturbed)
+    fault("input datasets damaged", len(damaged))
+
+
+def test_damaged_merged_files(finished: Project, undisturbed: dict[str, bytes]) -> None:
+    results = finished.folder / "results"
+    damaged = damage([results / "faulty" / "cases.nc", *(results / "faulty_map" / "merged").glob("*.nc")], 2)
+    assert len(damaged) == 2
+    failed = run(finished)
+    assert failed.returncode != 0
+    for path in damaged:
+        assert f"{path.relative_to(finished.folder)}: damaged" in said(failed)
+    complete(finished)
+    check_same(finished, undisturbed)
+    fault("merged datasets damaged", len(damaged))
+
+
+def test_damage_that_left_the_times_is_found_by_check(finished: Project, undisturbed: dict[str, bytes]) -> None:
+    results = finished.folder / "results"
+    damaged = damage(results.rglob("*.nc"), 3, keep_times=True)
+    (results / "faulty" / "cases" / ".F11.nc.abc.tmp").write_text("left by a killed job")
+    checked = mend(finished)
+    for path in damaged:
+        assert f"{path.relative_to(finished.folder)}: damaged" in checked
+    assert not list(results.rglob(".*.tmp"))
+    complete(finished)
+    check_same(finished, undisturbed)
+    fault("datasets damaged without a change of times", len(damaged))
+
+
+def test_damaged_kernels(fresh: Project, undisturbed: dict[str, bytes], tmp_path: Path) -> None:
+    """What is damaged in the cache of compiled kernels is compiled again: no crash, no other numbers."""
+    kept = cache_of(fresh)
+    cache = tmp_path / "cache" / kept.name
+    shutil.copytree(kept, cache)
+    by_size = sorted(cache.glob("*.kernel"), key=lambda path: path.stat().st_size)
+    damaged = damage([*by_size[:11], by_size[-1]], 4)
+    bad = {path: path.read_bytes() for path in damaged}
+    complete(replace(fresh, variables={"NUMBA_CACHE_DIR": str(cache.parent)}))
+    check_same(fresh, undisturbed)
+    assert by_size[-1].read_bytes() != bad[by_size[-1]]
+    fault("compiled kernels damaged", len(damaged))
+
+
+def cache_of(project: Project) -> Path:
+    """Folder of the compiled kernels."""
+    code = "from disc_model.engine import machine; print(machine.run.stats.cache_path)"
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=project.environment, capture_output=True, text=True, check=True
+    )
+    return Path(done.stdout.strip())
+
+
+# ---- Snakemake's records
+
+
+def test_lost_records(finished: Project, undisturbed: dict[str, bytes]) -> None:
+    """Without its records Snakemake would take everything for up to date."""
+    shutil.rmtree(finished.folder / ".snakemake")
+    finished.edit(CONFIG, "Omega: 15.1", "Omega: 15.2")
+    refused = run(finished)
+    assert refused.returncode != 0
+    assert "`snakemake -j1 check` removes them" in said(refused)
+    mend(finished)
+    finished.edit(CONFIG, "Omega: 15.2", "Omega: 15.1")
+    complete(finished)
+    check_same(finished, undisturbed)
+    fault("all records lost")
+
+
+def test_a_damaged_record(finished: Project, undisturbed: dict[str, bytes]) -> None:
+    records = finished.folder / ".snakemake" / "metadata"
+    record = records / urlsafe_b64encode(b"results/faulty/cases/F13.nc").decode()
+    os.truncate(record, record.stat().st_size // 2)
+    refused = run(finished)
+    assert refused.returncode != 0
+    assert "results/faulty/cases/F13.nc and 0 more are there" in said(refused)
+    mend(finished)
+    (finished.folder / "results" / "faulty" / "cases.nc").unlink()
+    complete(finished)
+    check_same(finished, undisturbed)
+    fault("record damaged")
+
+
+# ---- two at once
+
+
+def test_a_second_workflow_is_told_and_leaves_the_first_alone(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+    first = start(fresh)
+    wait_until(lambda: any((fresh.folder / ".snakemake" / "locks").glob("*")))
+    second = run(fresh)
+    assert first.poll() is None
+    assert second.returncode != 0
+    assert said(second).count(LOCKED) == 1
+    assert "Traceback" not in said(second)
+    assert first.wait(timeout=900) == 0, (fresh.folder / "run.log").read_text()
+    check_same(fresh, undisturbed)
+    fault("second workflow started")
+
+
+def test_two_workflows_without_lock(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+    """They remove each other's files and may fail, but no file is ever half one's and half the other's."""
+    both = [start(fresh, "--nolock", log=f"run{i}.log") for i in range(2)]
+    for process in both:
+        process.wait(timeout=900)
+    found = {name: content for name, content in products(fresh).items() if name.endswith(".nc")}
+    assert all(content == undisturbed[name] for name, content in found.items())
+    complete(fresh)
+    check_same(fresh, undisturbed)
+    fault("two workflows without lock")
+
+
+# ---- the clock
+
+
+def test_clock_set_back_between_two_runs(finished: Project, undisturbed: dict[str, bytes]) -> None:
+    """A case computed anew by an earlier clock looks older than what was made of its former self."""
+    finished.edit(CONFIG, "Omega: 15.1", "Omega: 15.2")
+    complete(finished, "--until", "simulate_case", "compute_batch")
+    case = finished.folder / "results" / "faulty" / "cases" / "F13.nc"
+    assert case.read_bytes() != undisturbed["faulty/cases/F13.nc"]
+    set_times(case, days=-2)
+    complete(finished)
+    assert products(finished)["faulty/cases.nc"] != undisturbed["faulty/cases.nc"]
+    finished.edit(CONFIG, "Omega: 15.2", "Omega: 15.1")
+    complete(finished, "--until", "simulate_case", "compute_batch")
+    set_times(case, days=-4)
+    complete(finished)
+    check_same(finished, undisturbed)
+    fault("clock set back between runs", 2)
+
+
+def test_results_from_the_future(finished: Project, undisturbed: dict[str, bytes]) -> None:
+    """Snakemake says so and stops; `check` puts the times right."""
+    results = finished.folder / "results"
+    files = [*results.glob("faulty/cases/*.nc"), *results.glob("faulty_map/batches/*.nc")]
+    for path in files:
+        set_times(path, days=1)
+    for made_of_them in (results / "faulty" / "cases.nc", results / "faulty_map" / "faulty_map.nc"):
+        made_of_them.unlink()
+    shutil.rmtree(results / "faulty_map" / "merged")
+    refused = run(finished)
+    assert refused.returncode != 0
+    assert "has older modification time" in said(refused)
+    mend(finished)
+    complete(finished)
+    check_same(finished, undisturbed)
+    fault("files from the future", len(files))
+
+
+def set_times(path: Path, days: float) -> None:
+    at = time.time() + 86400 * days
+    os.utime(path, (at, at))
+
+
+@pytest.mark.skipif(shutil.which("faketime") is None, reason="needs faketime")
+@needs_proc
+def test_clock_set_back_during_a_run(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+    """The first part is made tomorrow, and killed; the rest today."""
+    process = start(fresh, wrapper=("faketime", "+1 day"))
+    wait_until(lambda: bool(list((fresh.folder / "results").rglob("*.nc"))) or process.poll() is not None)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    assert products(fresh)
+    run(fresh, "--unlock")
+    assert "has older modification time" in said(run(fresh))
+    mend(fresh)
+    complete(fresh)
+    check_same(fresh, undisturbed)
+    fault("clock set back within a run")

@@ -1,0 +1,24 @@
+"""Copy a merged study, if it is intact, and its list of points that failed."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+from pathlib import Path
+
+from disc_model.files import check_whole
+from disc_model.studies.inputs import each_intact
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name in ("nc", "failed", "to_nc", "to_failed"):
+        parser.add_argument(name, type=Path)
+    args = parser.parse_args()
+    each_intact(check_whole, [args.nc])
+    shutil.copyfile(args.nc, args.to_nc)
+    shutil.copyfile(args.failed, args.to_failed)
+
+
+if __name__ == "__main__":
+    main()
