@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
 
-.PHONY: report orthonormal gallery env reproduce gc test test-long test-study lint format bench lock clean
+.PHONY: report orthonormal gallery env reproduce gc test test-long coverage test-study lint format bench lock clean
 
 env: $(STAMP)
 
@@ -44,6 +44,12 @@ test: env
 test-long: env
 	$(BIN)/pytest
 
+# Lines and branches of everything, the engine included: without compilation its kernels are Python, a thousand times
+# slower, so that tests/uncompiled.txt says which tests can be afforded.
+coverage: env
+	NUMBA_DISABLE_JIT=1 $(BIN)/pytest @tests/uncompiled.txt -m "not slow and not workflow" --cov --cov-fail-under=95 \
+	  --durations=5
+
 # The whole pipeline on a study of a few seconds.
 test-study: env
 	$(BIN)/snakemake -j$(CORES) --configfile config/test.yaml
@@ -74,6 +80,7 @@ lock: env
 	$(LOCK) --output-file requirements.lock requirements.in
 	$(LOCK) --output-file requirements-bench.lock requirements-bench.in
 
+# Results stay, and so does .snakemake, the record of how they were made.
 clean:
-	rm -rf $(VENV) .snakemake .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks build dist
+	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks build dist
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

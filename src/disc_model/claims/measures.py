@@ -92,7 +92,7 @@ def range_within(case: CaseView, name: str, start: float, stop: float) -> Range:
     """Range of a variable from the whole bins of the window `history` between two times."""
     history = case.group("history")
     time = history["time"].values
-    half = (time[1] - time[0]) / 2
+    half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # a single bin does not say how long it is
     inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
     if not inside.any():
         raise Missing(f"case {case.name} has no history from {start:g} to {stop:g} s")

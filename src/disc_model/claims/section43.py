@@ -33,15 +33,6 @@ def _range(cases: Cases, name: str) -> str:
     return f"P {late.low:.2f}..{late.high:.2f} N in the end"
 
 
-def _stable(name: str, remark: str = "") -> Check:
-    def check(cases: Cases, claim: Claim) -> Finding:
-        case = cases[name]
-        ours = f"{first_separation(case)}; {_range(cases, name)}"
-        return finding(ours, not case.separates and not _grew(cases, name), remark)
-
-    return check
-
-
 def _small_periodic(cases: Cases, claim: Claim) -> Finding:
     case = cases["F16"]
     intervals = measures.release_intervals(case)

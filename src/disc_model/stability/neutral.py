@@ -105,9 +105,9 @@ def _continue_on_surface(
     mu = former if former is not None else complex(multipliers(point.jacobian)[0])
     try:
         point, mu = _reach(problem, point, test, mu)
+        here = _direction(problem, point, test, mu)
     except Lost as lost:
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
-    here = _direction(problem, point, test, mu)
     tangent = here.along
     lead = tangent[problem.n] if abs(tangent[problem.n]) > 1e-12 else tangent[problem.n + 1]
     tangent = tangent * direction * math.copysign(1.0, lead)

@@ -175,7 +175,7 @@ def follow(p: Parameters, horizon: float, *, tol: float, settled: float, near: f
     settling = Settling(p)
     state: State | None = None
     for start, stop in _probes(horizon, late):
-        if start > 0:
+        if start > (0.0 if state is None else state.time):
             result = simulate(p, start, tol=tol, initial_state=state, record=_NOTHING, stop_at="first_separation")
             if result.status is not Status.OK:
                 break
@@ -297,8 +297,9 @@ def _probes(horizon: float, late: float) -> list[tuple[float, float]]:
     spans: list[tuple[float, float]] = []
     stop = FIRST_PROBE
     while stop * SPACING**0.5 < horizon - late:
-        spans.append((stop - late if late < FIRST_PROBE else 0.0, stop))
-        stop *= SPACING
+        # a probe begins where the one before has ended, or later
+        spans.append((max(stop - late, spans[-1][1] if spans else 0.0), stop))
+        stop = max(stop * SPACING, stop + late)
     last = max(horizon - late, spans[-1][1] if spans else 0.0)
     return [*spans, (last, horizon)]
 

@@ -1,0 +1,154 @@
+"""Verdicts follow the evidence: the claims of the paper judged by motions made up to fit them, and not to fit them."""
+
+from __future__ import annotations
+
+import pandas as pd
+import pytest
+import xarray as xr
+
+from disc_model import Parameters
+from disc_model.claims import check_claims, growth, measures, normalisation, section43, to_markdown
+from disc_model.claims.growth import cycle_of
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Missing
+from tests.claims import made_up
+
+#: Wrong whatever the motion does: the load's critical speed, and two attributions that contradict Table 2.
+NEVER = {"P07", "T2c", "T2e"}
+#: Right whatever the motion does, or about the disc alone.
+ALWAYS = {"P01", "P02", "P04", "P05", "P06", "F15b"}
+
+
+def verdicts(monkeypatch: pytest.MonkeyPatch, cycle, tree: xr.DataTree) -> pd.DataFrame:
+    monkeypatch.setattr(growth, "cycle_of", cycle)
+    monkeypatch.setattr(section43, "cycle_of", cycle)
+    return check_claims(tree).set_index("id")
+
+
+@pytest.fixture(scope="module")
+def told() -> xr.DataTree:
+    return made_up.made_up(made_up.as_told())
+
+
+@pytest.fixture(scope="module")
+def contrary() -> xr.DataTree:
+    return made_up.made_up(made_up.to_the_contrary())
+
+
+def test_what_happened_as_told_holds(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+    table = verdicts(monkeypatch, made_up.cycle_as_told, told)
+    assert set(table.index[table["verdict"] == FAILS]) == NEVER
+    assert set(table["verdict"]) == {HOLDS, REMARK, FAILS}
+    assert table["ours"].str.len().min() > 0
+    assert table.loc["F13", "ours"] == "first separation at 54.45 s"
+    assert table.loc["F12", "ours"].startswith("67.6300 Hz, spread")
+    assert table.loc["F03b", "ours"].startswith("median 0.74 ms")  # a twentieth of a cycle
+    assert "stuck" not in to_markdown(table.reset_index())
+
+
+def test_the_contrary_does_not_hold(contrary: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+    table = verdicts(monkeypatch, made_up.cycle_to_the_contrary, contrary)
+    holds = set(table.index[table["verdict"] != FAILS])
+    assert holds == ALWAYS | {"T2c"}
+    assert not table["verdict"].str.startswith(NOT_COMPUTED).any()
+
+
+def view(tree: xr.DataTree, name: str) -> CaseView:
+    return CaseView(name, tree.children[name])
+
+
+def test_evidence_that_is_not_there_is_named(told: xr.DataTree) -> None:
+    case = view(told, "F11")
+    with pytest.raises(Missing, match="did not record zoom"):
+        case.group("zoom")
+    with pytest.raises(Missing, match="no history from 300 to 310"):
+        measures.range_within(case, "P", 300, 310)
+    with pytest.raises(Missing, match="no history from 300 to 310"):
+        measures.slope(case, "P", 300, 310)
+    with pytest.raises(Missing, match="no samples in spectrum_a from 20 to 30"):
+        measures.stretch(view(told, "F13"), "spectrum_a", 20, 30)
+    with pytest.raises(Missing, match="no events after 1000"):
+        measures.phase_share(case, "stick", 1000)
+    with pytest.raises(Missing, match="no whole separation"):
+        measures.separation_durations(case)
+    with pytest.raises(Missing, match="fewer than 20 stick-slip cycles"):
+        measures.release_intervals(view(told, "S43Ninf"))
+
+
+def test_a_history_of_one_bin_is_no_evidence(told: xr.DataTree) -> None:
+    """A run that separates in its first second: this used to end the whole table with an IndexError."""
+    root = told.children["F11"].to_dataset()
+    bin_ = xr.Dataset({"P_min": ("time", [1.0]), "P_max": ("time", [2.0])}, coords={"time": [0.25]})
+    case = CaseView("X", xr.DataTree.from_dict({"/": root, "/history": bin_}))
+    with pytest.raises(Missing, match="no history from 0 to 1 s"):
+        measures.range_within(case, "P", 0, 1)
+
+
+def test_few_releases_judge_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cases that hardly stick once they have separated, and a window without a separation."""
+    stories = made_up.as_told()
+    stories |= {name: stories[name].replace(stick=0.0) for name in ("F02", "F22")}
+    stories["F23"] = made_up.GROWING
+    table = verdicts(monkeypatch, made_up.cycle_as_told, made_up.made_up(stories))
+    assert table.loc["A2", "verdict"] == f"{NOT_COMPUTED}: case F02 keeps fewer than 20 releases"
+    assert table.loc["F22", "verdict"] == f"{NOT_COMPUTED}: case F22 keeps fewer than 20 stick-slip cycles"
+    assert table.loc["F23", "verdict"] == FAILS
+    assert table.loc["F05", "verdict"].startswith(f"{NOT_COMPUTED}: case F02")
+
+
+def test_growth_is_that_of_the_cycle(told: xr.DataTree) -> None:
+    p = Parameters(N=200, Omega=20, n_diameters=1)
+    found = cycle_of(p)
+    assert found is cycle_of(p.replace())
+    case = CaseView("X", xr.DataTree(xr.Dataset(attrs={"parameters": p.canonical_json})))
+    assert growth.growth(case) == f"growth {found.growth_rate:+.4f}/s"
+    still = CaseView("Y", xr.DataTree(xr.Dataset(attrs={"parameters": p.replace(Omega=0).canonical_json})))
+    assert growth.growth(still) == "no stick-slip cycle"
+    with pytest.raises(Missing, match="no stick-slip cycle: "):
+        growth.growth_rate(still)
+
+
+def orthonormal(tree: xr.DataTree) -> xr.DataTree:
+    """The same motions, said to be of modes normalised as Eq. (17) says; and a case that the paper has not."""
+    cases = {}
+    for name, node in tree.children.items():
+        p = Parameters.model_validate_json(node.attrs["parameters"]).replace(normalization="orthonormal")
+        root = node.to_dataset().assign_attrs(node.attrs | {"parameters": p.canonical_json})
+        groups = {f"/{key}": child.to_dataset(inherit=False) for key, child in node.children.items()}
+        cases[f"/{name}"] = xr.DataTree.from_dict({"/": root, **groups})
+    return xr.DataTree.from_dict(cases | {"/X30": cases["/F02"]})
+
+
+def test_the_two_normalisations_side_by_side(
+    told: xr.DataTree, contrary: xr.DataTree, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def cycle(p: Parameters) -> made_up.Cycle:
+        if p.contact == "bonded":
+            raise Missing("no stick-slip cycle")
+        return made_up.cycle_as_told(p)
+
+    monkeypatch.setattr(growth, "cycle_of", cycle)
+    monkeypatch.setattr(section43, "cycle_of", cycle)
+    found = normalisation.compare(told, orthonormal(contrary))
+    modes, cases, instead, changed = (table for _, _, table in found.sections)
+    ratios = modes["ratio"].astype(float)
+    assert ratios[1] == pytest.approx(14, abs=1)  # how much too strong the mode with one nodal diameter is
+    assert ratios.drop(1).between(0.2, 0.8).all()
+    rows = cases.set_index("Case")
+    assert rows.loc["F17", "First separation, as published"] == "810.00 s"
+    assert rows.loc["F17", "First separation, Eq. (17)"] == "none in 900 s"
+    assert rows.loc["F04", "First separation, Eq. (17)"] == "ignored"
+    assert rows.loc["F04", "Growth, Eq. (17) (1/s)"] == "–"
+    assert rows.loc["T2kp18", "P in the end, Eq. (17) (N)"] == "–"
+    assert list(instead["Case"]) == ["X30"]
+    assert set(changed["As published"]) <= {HOLDS, REMARK, FAILS}
+    assert any(text.startswith("F13:") for text in changed["Statement"])
+    assert "No longer: F17, F18" in found.sections[1][1]
+    text, page = found.markdown(), found.html()
+    for heading, _, table in found.sections:
+        assert f"## {heading}" in text
+        assert f"<h2>{heading}</h2>" in page
+        assert text.count("\n| ") >= len(table)
+    without = normalisation.compare(told, orthonormal(told).drop_nodes("X30"))
+    assert [heading for heading, _, _ in without.sections] == [found.sections[i][0] for i in (0, 1, 3)]
+    # the same motions, but other natural frequencies with the slider attached
+    assert [text.partition(":")[0] for text in without.sections[2][2]["Statement"]] == ["F27b"]

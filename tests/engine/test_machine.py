@@ -1,0 +1,97 @@
+"""Where the machine and the flights of the return map cannot go on, and that they say so."""
+
+from __future__ import annotations
+
+import math
+
+import numba
+import numpy as np
+import pytest
+
+from disc_model import Parameters, plate_modes, simulate
+from disc_model.engine import machine, variational
+from disc_model.stability.return_map import ReturnMap
+
+STEEP = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7, n_diameters=1)
+
+
+def about_to_slip(denominator: float):
+    """Stick a moment before its release, on a slope that gives the denominator of P in slip this value."""
+    psi = plate_modes(STEEP)["psi"].to_numpy()
+    slope = (denominator - 1 - STEEP.m * psi @ psi) * STEEP.r_0 / STEEP.mu_k
+    start = simulate(STEEP, 1e-9).final_state
+    angle = STEEP.mu_s * STEEP.N / (STEEP.r_0 * STEEP.k_p)
+    return start.replace(b=np.array([0.0, slope / psi[1]]), psi=angle * (1 - 1e-6))
+
+
+def test_release_without_a_solution_is_a_paradox() -> None:
+    result = simulate(STEEP, 1e-4, initial_state=about_to_slip(-0.5))
+    assert result.status == "paradox"
+    assert result.final_state.time < 1e-6
+    assert "in stick" in result.message
+
+
+def test_release_on_a_gentler_slope_is_slip() -> None:
+    result = simulate(STEEP, 1e-6, initial_state=about_to_slip(30.0))
+    assert result.status == "ok"
+    assert result.events["kind"].iloc[0] == "stick_to_slip"
+
+
+def test_a_slider_at_rest_on_a_still_drive_lands_in_stick() -> None:
+    p = Parameters(N=100, Omega=0, n_diameters=1)
+    start = simulate(p, 1e-6).final_state
+    above = start.replace(phase="separation", direction=0, u=start.u + 1e-6, time=0.0, a=0 * start.a, psi=0.0)
+    result = simulate(p, 5e-3, initial_state=above)
+    assert result.events["kind"].iloc[0] == "reattachment"
+    assert result.events["phase"].iloc[0] in ("stick", "separation")
+
+
+@pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="the limit is a constant of compiled code")
+def test_switches_without_the_clock_moving_end_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(machine, "MAX_EVENTS_IN_A_ROW", 0)
+    # stick cannot hold from the start
+    result = simulate(Parameters(N=200, Omega=10, k_p=0, c_p=100, n_diameters=1), 0.1)
+    assert result.status == "stalled"
+    assert result.status.advice.startswith("Switches follow each other")
+
+
+# ------------------------------------------------------------------------------------- flights of the return map
+P = Parameters(N=200, Omega=20, n_diameters=2, c=0.05, c_p=0.02)
+
+
+def wild(seed: int = 1) -> tuple[ReturnMap, np.ndarray]:
+    """A point of the section whose flight loses contact."""
+    map_ = ReturnMap(P)
+    noise = np.random.default_rng(seed).normal(size=map_.size)
+    return map_, map_.static + 3 * np.max(np.abs(map_.static)) * noise
+
+
+def outcome(map_: ReturnMap, x: np.ndarray, **how) -> int:
+    with np.errstate(all="ignore"):
+        return map_.evaluate(x, tangent=False, **how)[0].outcome
+
+
+def test_flights_say_how_they_end() -> None:
+    map_, x = wild()
+    assert outcome(map_, x) == variational.LOST_CONTACT
+    assert outcome(map_, x, may_separate=True) == variational.RETURNED
+    assert outcome(map_, -5 * map_.static) == variational.OFF_SECTION  # P would be negative
+    assert outcome(map_, np.full(map_.size, math.nan)) != variational.RETURNED
+
+
+def test_a_flight_into_a_paradox_has_no_solution() -> None:
+    map_ = ReturnMap(STEEP)
+    start = about_to_slip(-0.5)
+    x = map_.static.copy()
+    # coordinates: a, b of the pair, then their velocities, then the axisymmetric mode
+    x[1] = start.b[1] * map_.scale[1]
+    assert outcome(map_, x) == variational.NO_SOLUTION
+    slipping = start.replace(phase="slip", direction=1, f=10.0)
+    assert map_.next_release(slipping)[0] == variational.NO_SOLUTION
+
+
+def test_a_flight_that_overflows_is_not_finite() -> None:
+    map_ = ReturnMap(P)
+    start = simulate(P, 1e-6).final_state
+    with np.errstate(all="ignore"):
+        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == variational.NON_FINITE

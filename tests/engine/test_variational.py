@@ -1,0 +1,165 @@
+"""Small changes of state and parameters, along a motion and through every kind of switch: against differences."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, plate_modes
+from disc_model.engine import layout, saltation, tangent, variational
+from disc_model.result import State
+from disc_model.simulate import build_model
+from disc_model.stability.return_map import PARAMETERS, ReturnMap
+from disc_model.states import write_state
+from disc_model.tolerance import series_order
+from tests.references.printed import MOTIONS, SPAN, Printed, lively
+
+LIVELY = Parameters(
+    N=600.0, Omega=15.1, m=0.3, k=8e4, c=5.0, k_p=3e4, c_p=0.5, mu_s=0.5, mu_k=0.1, D_star=1e-3, n_diameters=2
+)  # fmt: skip
+#: Case, size and seed of the disturbance of the static equilibrium from which the flight starts, and what it is then:
+#: (separations, slip reversals, backward releases).
+DAMPED = {"n_diameters": 2, "c": 0.05, "c_p": 0.02}
+FLIGHTS = {
+    "stick and slip": (Parameters(N=200, Omega=20, **DAMPED), 0.1, 1, (0, 0, 0)),
+    "separation, slip to and fro": (Parameters(N=100, Omega=2, k_p=1e5, m=0.3, **DAMPED), 1.5, 19, (1, 1, 0)),
+    "two separations, release backwards": (Parameters(N=200, Omega=5, **DAMPED), 1.5, 9, (2, 0, 1)),
+}
+
+
+def departure(flight: str) -> tuple[ReturnMap, np.ndarray]:
+    """A point of the section from which the flight is as told."""
+    p, size, seed, _ = FLIGHTS[flight]
+    map_ = ReturnMap(p)
+    noise = np.random.default_rng(seed).normal(size=map_.size)
+    return map_, map_.static + size * np.max(np.abs(map_.static)) * noise
+
+
+def differences(function, h: float):
+    """Derivative at 0, to fourth order."""
+    return (function(-2 * h) - 8 * function(-h) + 8 * function(h) - function(2 * h)) / (12 * h)
+
+
+@pytest.mark.parametrize("flight", FLIGHTS)
+def test_jacobian_of_a_flight(flight: str) -> None:
+    map_, x = departure(flight)
+    how, h = {"may_separate": True}, 1e-6 * np.linalg.norm(x)
+    log, _, jacobian, _ = map_.evaluate(x, **how)
+    assert log.outcome == variational.RETURNED
+    assert (log.separations, log.reversals, log.backward_releases) == FLIGHTS[flight][3]
+    # three directions that mix all coordinates: a wrong entry of the matrix shows in each
+    for direction in np.random.default_rng(0).normal(size=(3, map_.size)) / np.sqrt(map_.size):
+        expected = differences(lambda s, d=direction: map_.evaluate(x + s * d, tangent=False, **how)[1], h)
+        assert np.linalg.norm(jacobian @ direction - expected) < 1e-6 * np.linalg.norm(expected)
+
+
+@pytest.mark.parametrize("flight", FLIGHTS)
+def test_derivatives_of_a_flight_by_parameters(flight: str) -> None:
+    map_, x = departure(flight)
+    p, how = map_.parameters, {"may_separate": True}
+    _, _, _, by = ReturnMap(p, parameters=PARAMETERS).evaluate(x, **how)
+    for i, name in enumerate(PARAMETERS):
+        value = getattr(p, name)
+
+        def end(change: float, name: str = name, value: float = value) -> np.ndarray:
+            other = ReturnMap(p.replace(**{name: value + change}))
+            # the same displacements and velocities, whatever the frequencies
+            reached = other.evaluate(x / map_.scale * other.scale, tangent=False, **how)[1]
+            return reached / other.scale * map_.scale
+
+        expected = differences(end, (1e-2 if name in ("c", "c_p") else 1e-4) * value)
+        assert np.linalg.norm(by[:, i] - expected) < 1e-5 * np.linalg.norm(expected), name
+
+
+class Full:
+    """The engine with a column for every coordinate: those of the modes, psi, f; u and u' too in separation."""
+
+    def __init__(self, p: Parameters, start: State) -> None:
+        self.model, self.order = build_model(p), series_order(1e-14)
+        self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
+        write_state(p, self.model, start, self.state)
+        width, n0 = len(self.model.force), len(self.model.force0)
+        used, single, tail = np.flatnonzero(self.model.shift), np.arange(n0), 2 * width + 2 * n0
+        scalars = 4 if start.phase == "separation" else 1 if start.phase == "stick" else 2
+        rows = [used, width + used, 2 * width + single, 2 * width + n0 + single, tail + np.arange(scalars)]
+        self.rows = np.concatenate(rows)
+        self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
+
+    @property
+    def coordinates(self) -> np.ndarray:
+        s = self.state
+        return np.concatenate([s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.U_VELOCITY + 1]])[self.rows]
+
+    def moved(self, change: np.ndarray) -> None:
+        s, all_ = self.state, np.zeros(tangent.n_rows(self.model))
+        all_[self.rows] = change
+        width, n0 = len(s.z), len(s.y)
+        parts = np.split(all_, np.cumsum([width, width, n0, n0]))
+        for array, part in zip((s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.U_VELOCITY + 1]), parts, strict=True):
+            array += part
+
+    def fly(self, tangent: bool) -> None:
+        outcome = variational.fly(
+            self.model, self.series, self.state, self.tangent, self.order, 1e-14, 2.0, SPAN, 0, True, tangent
+        )
+        assert outcome == variational.TIME_OVER
+
+    def columns(self) -> np.ndarray:
+        """Derivatives of the coordinates at the end by those at the start."""
+        n_rows, C = tangent.n_rows(self.model), self.tangent.columns
+        now = np.zeros((n_rows, C))
+        now[self.rows, np.arange(len(self.rows))] = 1.0
+        self.tangent.now[:] = now.reshape(n_rows, -1, 8).transpose(1, 0, 2).ravel()
+        self.fly(tangent=True)
+        end = self.tangent.now.reshape(-1, n_rows, 8).transpose(1, 0, 2).reshape(n_rows, C)
+        return end[self.rows, : len(self.rows)]
+
+
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_columns_along_one_phase(phase: str, direction: int) -> None:
+    start = lively(phase, direction, LIVELY)
+    run = Full(LIVELY, start)
+    got = run.columns()
+
+    def end(change: np.ndarray) -> np.ndarray:
+        other = Full(LIVELY, start)
+        other.moved(change)
+        other.fly(tangent=False)
+        return other.coordinates
+
+    steps = 1e-3 * np.maximum(np.abs(Full(LIVELY, start).coordinates), 1e-4)
+    expected = np.array([differences(lambda s, i=i: end(s * np.eye(len(steps))[i]), h) for i, h in enumerate(steps)]).T
+    size = np.abs(got) + np.abs(expected) + 1e-4 * np.max(np.abs(expected), axis=1, keepdims=True)
+    assert np.max(np.abs(got - expected) / size) < 1e-5
+
+
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_rates_are_those_of_the_paper(phase: str, direction: int) -> None:
+    start = lively(phase, direction, LIVELY)
+    run, wanted = Full(LIVELY, start), Printed(LIVELY, start).rates()
+    out = np.zeros(tangent.n_rows(run.model) * 8)
+    saltation.rates(run.model, run.state, out)
+    pair = plate_modes(LIVELY)["diameters"].to_numpy() > 0
+    modal = [wanted["a"][pair], wanted["b"][pair], wanted["alpha"][pair], wanted["beta"][pair]]
+    expected = [*modal, wanted["a"][~pair], wanted["alpha"][~pair], [wanted["psi"], wanted["f"]]]
+    names = ["u", "u_velocity"] if phase == "separation" else []
+    expected = np.concatenate([*expected, [wanted[name] for name in names]])
+    got = out[::8][run.rows]
+    np.testing.assert_allclose(got, expected[: len(got)], rtol=1e-10, atol=1e-10)
+
+
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_divergence_is_the_trace(phase: str, direction: int) -> None:
+    start = lively(phase, direction, LIVELY)
+    run = Full(LIVELY, start)
+    n = len(run.rows) - (2 if phase == "separation" else 0)
+
+    def rate(i: int, h: float) -> float:
+        other, out = Full(LIVELY, start), np.zeros(tangent.n_rows(run.model) * 8)
+        other.moved(h * np.eye(len(run.rows))[i])
+        saltation.rates(other.model, other.state, out)
+        return float(out[::8][run.rows][i])
+
+    steps = 1e-3 * np.maximum(np.abs(run.coordinates), 1e-4)
+    trace = sum(differences(lambda h, i=i: rate(i, h), steps[i]) for i in range(n))
+    assert variational.divergence(run.model, run.state) == pytest.approx(trace, rel=1e-7)

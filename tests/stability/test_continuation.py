@@ -1,0 +1,150 @@
+"""Continuation on a map that is solved by hand: every point, every fold and every border is known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import ParameterError, Parameters
+from disc_model.stability import cycle_problem
+from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.curves import stability_curves
+from disc_model.stability.neutral import continue_fold, continue_neutral
+from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
+
+__all__ = ["toy"]
+pytestmark = pytest.mark.usefixtures("toy")
+P = Parameters(N=300, Omega=15)
+BOX = {"Omega": (3.0, 18.0), "N": (150.0, 450.0)}
+
+
+def test_a_branch_goes_round_its_fold():
+    branch = continue_cycle(P, "Omega", (12.0, 17.0))
+    assert branch.ended == "Omega has left 12 .. 17"
+    assert branch.folds == pytest.approx(np.array([[fold_at(300)]]), abs=1e-9)
+    assert branch.values[-1, 0] < 12
+    upper = branch.points[:, 0] > 1
+    assert upper[0]
+    assert not upper[-1]
+    for values, x, growth, above in zip(branch.values, branch.points, branch.growth_rate, upper, strict=True):
+        assert x == pytest.approx(cycle_at(values[0], 300, above), abs=1e-9)
+        assert growth == pytest.approx(growth_at(values[0], 300, above), abs=1e-6)
+    assert np.all(branch.period == PERIOD)
+    assert branch.stick_fraction == pytest.approx(np.full(len(branch), 0.3))
+    # inside the ellipse the rotating pair is the slower one to die out; on the lower branch x_0 grows
+    assert {branch.kinds()[-1], branch.kinds()[0]} == {"fold", "neimark_sacker"}
+    assert (branch.diameters[0], branch.diameters[-1]) == (1, 0)
+
+
+def test_a_branch_may_begin_the_other_way_and_stop_short():
+    branch = continue_cycle(P, "Omega", (12.0, 17.0), direction=-1, max_points=3)
+    assert branch.ended == "the number of points allowed is reached"
+    assert branch.values[:, 0] == pytest.approx(sorted(branch.values[:, 0], reverse=True))
+    by_load = continue_cycle(P, "N", (250.0, 320.0), direction=-1)
+    assert by_load.folds == pytest.approx(np.array([[250.0]]), abs=1e-6)  # fold(250) = 15
+    assert by_load.values[-1, 0] > 320
+    assert by_load.points[-1, 0] < 1
+
+
+@pytest.mark.parametrize(
+    ("start", "bounds", "why"),
+    [
+        (3.0, (-1.0, 4.0), "the variational equations are singular"),
+        (15.0, (14.0, 15.2), "Omega has left"),
+    ],
+)
+def test_where_a_branch_ends_is_said(start, bounds, why):
+    branch = continue_cycle(P.replace(Omega=start), "Omega", bounds, direction=-1, shortest=1e-3)
+    assert why in branch.ended
+
+
+def test_where_the_motion_does_not_return_there_is_no_branch(monkeypatch):
+    problem = cycle_problem.CycleProblem(P, ("Omega",), None, 1e-12)
+    with pytest.raises(cycle_problem.Lost, match="does not return: lost_contact"):
+        problem.evaluate(np.array([1.0, 0, 0, 31 / problem.scales[0]]))
+    with pytest.raises(cycle_problem.Lost, match="vanishes"):
+        problem.evaluate(np.array([1.0, 0, 0, 0.0]))
+    with pytest.raises(cycle_problem.Lost, match="Omega=-1"):
+        problem.evaluate(np.array([1.0, 0, 0, -1 / problem.scales[0]]))
+    with pytest.raises(cycle_problem.Lost, match="does not converge"):
+        # beyond the fold there is nothing to converge to
+        problem.correct(
+            np.array([1.0, 0, 0, 17 / problem.scales[0]]), np.eye(4)[3:], np.array([17 / problem.scales[0]])
+        )
+
+
+def test_the_neutral_curve_is_the_ellipse():
+    curve = continue_neutral(P.replace(Omega=13.5), ("Omega", "N"), BOX)
+    assert curve.ended == "the curve is closed"
+    assert [outside(*values) for values in curve.values] == pytest.approx(np.zeros(len(curve)), abs=1e-8)
+    assert curve.growth_rate == pytest.approx(np.zeros(len(curve)), abs=1e-7)
+    span = np.ptp(curve.values, axis=0)
+    assert span == pytest.approx([8, 200], rel=0.02)
+    one_way = continue_neutral(P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=1, max_points=4)
+    other = continue_neutral(P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=-1, max_points=4)
+    assert len(one_way) == len(other) == 4
+    first = one_way.values[0]
+    assert (one_way.values[1] - first) @ (other.values[1] - first) < 0
+
+
+def test_the_curve_of_folds_is_the_line():
+    at = P.replace(Omega=15.9)
+    curve = continue_fold(at, ("Omega", "N"), BOX, start=cycle_at(15.9, 300))
+    assert curve.ended == "Omega or N has left the bounds"
+    assert curve.values[:, 0] == pytest.approx(fold_at(curve.values[:, 1]), abs=1e-7)
+    assert np.min(np.abs(curve.multipliers - 1), axis=1) == pytest.approx(np.zeros(len(curve)), abs=1e-8)
+
+
+def test_without_a_curve_nearby_the_input_is_refused():
+    with pytest.raises(ParameterError, match="must have a cycle to start from"):
+        continue_neutral(P.replace(Omega=17), ("Omega", "N"), BOX)
+    # at this load the cycle is unstable at every speed, and the damper changes nothing
+    with pytest.raises(ParameterError, match="must be near a curve of this kind"):
+        continue_neutral(P.replace(N=450, Omega=12), ("Omega", "c"), {"Omega": (1, 20), "c": (0, 1)})
+
+
+def test_a_curve_without_direction_is_refused_and_no_inner_error_escapes():
+    """On the ellipse, but in parameters that change nothing: this used to end in an error of the package's inside."""
+    with pytest.raises(ParameterError, match="does not depend on the parameters"):
+        continue_neutral(P.replace(Omega=14, c=1), ("c", "k"), {"c": (0, 9), "k": (0, 1e6)})
+
+
+@pytest.mark.parametrize("names", [("Omega",), ("Omega", "Omega"), ("Omega", "rho")])
+def test_parameters_that_cannot_be_free_are_refused(names):
+    with pytest.raises(ParameterError, match="must be 2 of Omega, N"):
+        continue_neutral(P, names, BOX)
+    with pytest.raises(ParameterError, match="p=3: must be Parameters"):
+        continue_cycle(3, "Omega", (1, 2))
+
+
+def test_all_curves_of_a_plane_are_found_once():
+    curves, notes = stability_curves(P, ("Omega", "N"), BOX, [250.0, 300.0], points=9, max_points=60)
+    assert notes == []
+    assert sorted(curve.kind for curve in curves) == ["fold", "neutral"]
+    for curve in curves:
+        Omega, N = curve.values.T
+        if curve.kind == "fold":
+            assert Omega == pytest.approx(fold_at(N), abs=1e-6)
+            # a stable cycle is on one side within the ellipse only, which the line does not meet
+            assert not curve.border.any()
+        else:
+            assert outside(Omega, N) == pytest.approx(np.zeros(len(N)), abs=1e-6)
+            assert curve.border.all()
+            assert curve.tongue.diameters == 1
+        assert np.all(curve.period == PERIOD)
+
+
+def test_what_cannot_be_followed_is_noted(monkeypatch):
+    from disc_model.stability import curves
+
+    def refuse(*_, **__):
+        raise ParameterError("p: must be elsewhere")
+
+    monkeypatch.setattr(curves, "continue_neutral", refuse)
+    found, notes = stability_curves(P, ("Omega", "N"), BOX, [300.0], points=9, max_points=5)
+    assert [curve.kind for curve in found] == ["fold"]
+    assert len(notes) == 2  # the ellipse is met twice
+    assert notes[0].startswith("neutral near Omega=")
+    assert notes[0].endswith("p: must be elsewhere")
+    monkeypatch.setattr(curves, "continue_cycle", refuse)
+    assert stability_curves(P, ("Omega", "N"), BOX, [300.0], points=9)[0] == []

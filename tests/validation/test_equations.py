@@ -1,0 +1,295 @@
+"""Each equation of motion, wherever the package implements it, against the paper's as printed.
+
+tests/references/printed.py has Eqs. (18)-(37), and the states from which single phases are compared with them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from disc_model import Record, Window, plate_modes, simulate, steady_sliding
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import kernels
+from disc_model.benchmarks.methods.physics import Physics
+from disc_model.engine import audit, layout, stick_modes, switches
+from disc_model.result import PHASES, State
+from disc_model.simulate import build_model
+from disc_model.stability.moving_load import rotating_oscillator_eigenvalues
+from disc_model.states import read_state, write_state
+from tests.references.literal import literal_of
+from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
+
+ACCURACY = 1e-10
+"""Of the literal integration; a missing term would show in the third digit or before."""
+
+
+def close(got, expected, accuracy=ACCURACY, names=None):
+    """Each quantity to the accuracy of its own size."""
+    for name in names or expected:
+        size = np.max(np.abs(expected[name]))
+        np.testing.assert_allclose(got[name], expected[name], rtol=0, atol=accuracy * size, err_msg=name)
+
+
+def engine_state(p, state):
+    """The engine's model and state."""
+    model = build_model(p)
+    inside = layout.build_state(model)
+    write_state(p, model, state, inside)
+    return model, inside
+
+
+# ------------------------------------------------------------------------------------------------ the engine
+@pytest.mark.parametrize("tol", [1e-13, 1e-6])
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_motion_of_each_phase(phase, direction, tol):
+    """At a loose tolerance steps are long: a wrong coefficient of any order shows."""
+    start = lively(phase, direction)
+    record = Record(windows=(Window(start=0, stop=SPAN, rate=3 / SPAN, theta=THETA),), energy=True)
+    result = simulate(P, SPAN, tol=tol, initial_state=start, record=record)
+    assert len(result.events) == 0
+    printed, accuracy = Printed(P, start), max(ACCURACY, 10 * tol)
+    end = printed.at(SPAN)
+    close({name: getattr(result.final_state, name) for name in vars(start)}, end, accuracy, vars(start).keys() & end)
+    samples = result.samples[0]
+    wanted = [printed.at(t) if t else printed.described(0.0, printed.y) for t in samples["time"]]
+    names = ("P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi")
+    assert len(wanted) == 4
+    close(samples, {name: np.array([row[name] for row in wanted]) for name in names}, accuracy)
+    np.testing.assert_allclose(samples["psi_velocity"], [P.Omega - row["f"] for row in wanted], rtol=accuracy)
+    for name in ("energy_transverse", "energy_inplane"):
+        assert result.statistics[name] < accuracy
+
+
+def test_motion_of_stick_step_by_step(monkeypatch):
+    """By its series; otherwise stick is followed in closed form."""
+    monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+    test_motion_of_each_phase("stick", 0, 1e-13)
+    test_motion_of_each_phase("stick", 0, 1e-6)
+    test_release_conditions_of_stick()
+
+
+@pytest.mark.parametrize(("phase", "direction"), [("stick", 0), ("slip", 1), ("slip", -1)])
+def test_contact_force_at_a_switch(phase, direction):
+    start = lively(phase, direction)
+    printed = Printed(P, start).force()
+    model, state = engine_state(P, start)
+    if phase == "stick":
+        assert switches.stick_force(model, state) == pytest.approx(printed, rel=1e-12)
+        return
+    force, denominator = switches.slip_force(model, state, float(direction))
+    assert force == pytest.approx(printed, rel=1e-12)
+    modes = plate_modes(P)
+    slope = float(modes["psi"] @ (modes["diameters"] * start.b))
+    assert denominator == pytest.approx(1 + P.m * modes["psi"] @ modes["psi"] + direction * P.mu_k * slope / P.r_0)
+
+
+def test_spring_force():
+    model, state = engine_state(P, lively("slip", -1))
+    assert switches.spring_force(model, state) == pytest.approx(3e4 * 0.004 + 0.5 * (15.1 + 40.0), rel=1e-14)
+
+
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_states_pass_the_engine_unchanged(phase, direction):
+    start = lively(phase, direction)
+    model, state = engine_state(P, start)
+    back = read_state(P, model, state)
+    close(vars(back), Printed(P, start).described(0.0, Printed(P, start).y), 1e-12, ("a", "b", "alpha", "beta"))
+    assert (back.phase, back.direction) == (phase, direction)
+    assert back.u == pytest.approx(start.u, rel=1e-12)
+    assert back.u_velocity == pytest.approx(start.u_velocity, rel=1e-12)
+
+
+def test_impact():
+    start = lively("separation")
+    printed = Printed(P, start)
+    expected = printed.described(0.0, printed.literal.impact(printed.y))
+    model, state = engine_state(P, start)
+    before = audit.transverse_energy(model, state, layout.SEPARATION)
+    impulse = switches.impact(model, state)
+    close(vars(read_state(P, model, state)), expected, 1e-12, ("a", "b", "alpha", "beta", "psi", "f"))
+    w, velocity, slope = switches.disc_point(model, state)
+    assert state.x[layout.U_VELOCITY] == pytest.approx(expected["u_velocity"], rel=1e-12)
+    assert (state.x[layout.U], state.x[layout.U_VELOCITY]) == (w, velocity)
+    assert impulse == pytest.approx(P.m * (velocity - start.u_velocity), rel=1e-12)
+    # what the impact costs; u is moved to the disc here, so that only the velocities' part can be compared
+    state.x[layout.U] = start.u
+    after = audit.transverse_energy(model, state, layout.SEPARATION)
+    lost = -0.5 * impulse**2 * (model.compliance + 1 / P.m) + impulse * start.f * slope
+    assert after - before == pytest.approx(lost, rel=1e-9)
+
+
+def test_reattachment_in_a_run():
+    """A slider that falls onto the disc: when, with what outcome, and at what price."""
+    start = lively("separation")
+    start = start.replace(u=start.u - 1e-3 + 1e-5, u_velocity=start.u_velocity - 0.5)
+    result = simulate(P, SPAN, tol=1e-13, initial_state=start, record=Record(energy=True))
+    printed = Printed(P, start)
+    literal, gap = printed.literal, printed.literal.gap(0)
+
+    def falling(t):
+        return literal.fresh("separation", 0.0, printed.y, t)
+
+    touch = brentq(lambda t: gap(t, falling(t)), 1e-6, SPAN, xtol=1e-16)
+    printed.phase = "slip+"
+    expected = printed.described(SPAN, literal.fresh("slip+", touch, literal.impact(falling(touch)), SPAN))
+    assert list(result.events["kind"]) == ["reattachment"]
+    assert result.events["time"][0] == pytest.approx(touch, abs=1e-13)
+    assert result.events["phase"][0] == result.final_state.phase == "slip"
+    close(vars(result.final_state), expected, ACCURACY, ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity"))
+    assert result.statistics["energy_transverse"] < 1e-10
+
+
+def test_energies():
+    """Of all modes, of the slider, and of both springs, from complex modes."""
+    start = lively("separation")
+    literal, s = literal_of(P), Printed(P, start).start
+    disc = 0.5 * np.sum(np.abs(s.q_rate) ** 2 + (literal.omega * np.abs(s.q)) ** 2)
+    height = start.u - literal.w_0
+    slider = 0.5 * P.m * start.u_velocity**2 + 0.5 * P.k * height**2 + P.N * height
+    model, state = engine_state(P, start)
+    assert audit.transverse_energy(model, state, layout.SEPARATION) == pytest.approx(disc + slider, rel=1e-12)
+    plane = 0.5 * P.m * (P.r_0 * start.f) ** 2 + 0.5 * P.k_p * (P.r_0 * start.psi) ** 2
+    assert audit.inplane_energy(model, state) == pytest.approx(plane, rel=1e-12)
+
+
+def test_static_equilibrium():
+    """The published start: nothing moves, and the contact force is the preload."""
+    model = build_model(P)
+    start = read_state(P, model, layout.build_state(model))
+    assert (start.phase, start.f, start.psi) == ("stick", 0, 0)
+    printed = Printed(P, start)
+    assert printed.force() == pytest.approx(P.N, rel=1e-12)
+    assert np.max(np.abs(printed.rates()["alpha"])) < 1e-9 * P.N
+    assert model.u_0 == pytest.approx(printed.literal.w_0, rel=1e-13)
+    assert start.u == pytest.approx(model.u_0, rel=1e-13)
+    assert switches.stick_force(model, layout.build_state(model)) == pytest.approx(P.N, rel=1e-12)
+    close(vars(scenes.static_start(P)), vars(start), 1e-12, ("a", "u"))
+
+
+def test_release_conditions_of_stick():
+    """Stick breaks forwards where mu_s P = r_0 F and backwards where mu_s P = -r_0 F."""
+    p = P.replace(Omega=0.5)  # so slow that the release is due to P, which swings by some per cent
+    start = lively("stick", p=p)
+    held = p.mu_s * Printed(p, start).force() / (p.r_0 * p.k_p)
+    for side in (1, -1):
+        tense = start.replace(psi=side * 0.98 * held)
+        first = simulate(p, 5e-3, tol=1e-13, initial_state=tense).events.iloc[0]
+        assert first["kind"] == "stick_to_slip"
+        assert first["time"] > 1e-5
+        printed, time = Printed(p, tense), first["time"]
+        y = printed.literal.fresh("stick", 0.0, printed.y, time)
+        friction, pull = p.mu_s * printed.literal.contact(time, y, "stick"), p.r_0 * printed.literal.pull(time, y)
+        assert friction == pytest.approx(side * pull, rel=1e-9)
+        slipping = "slip+" if side > 0 else "slip-"
+        assert first["P"] == pytest.approx(printed.literal.contact(time, y, slipping), rel=1e-9)
+
+
+# ------------------------------------------------------------------------------------------------ rival methods
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_right_hand_sides_of_the_rival_methods(phase, direction):
+    start = lively(phase, direction)
+    physics, wanted = Physics(P), Printed(P, start).rates()
+    y = physics.pack(start)
+    compiled = np.empty_like(y)
+    kernels.rate(*kernels.tables(physics), PHASES.index(phase), direction, y, compiled)
+    # u and u' are integrated in separation only
+    names = wanted.keys() - ({"u", "u_velocity"} if phase != "separation" else set())
+    places = {name: getattr(physics, name) for name in ("a", "b", "alpha", "beta", "psi", "f", "u")}
+    for rate in (physics.rate(phase, direction, y), compiled):
+        got = {name: rate[place] for name, place in places.items()} | {"u_velocity": rate[physics.v]}
+        close(got, wanted, 1e-12, names)
+
+
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_points_and_forces_of_the_rival_methods(phase, direction):
+    start = lively(phase, direction)
+    physics, printed = Physics(P), Printed(P, start)
+    y, now = physics.pack(start), printed.described(0.0, printed.y)
+    tables = kernels.tables(physics)
+    pull = printed.literal.pull(0.0, printed.y)
+    force, F, w, velocity = kernels.contact(*tables, direction, y)
+    assert physics.pull(y) == pytest.approx(pull, rel=1e-12)
+    assert (F, w) == pytest.approx((pull, now["w"]), rel=1e-12)
+    assert physics.disc_point(y) == pytest.approx((w, velocity), rel=1e-12)
+    assert physics.u_0 == pytest.approx(printed.literal.w_0, rel=1e-12)
+    if phase == "separation":
+        assert velocity == pytest.approx(start.u_velocity - 0.2, rel=1e-12)
+        assert physics.gap(y) == pytest.approx(printed.literal.gap(0)(0.0, printed.y), rel=1e-12)
+        return
+    assert velocity == pytest.approx(now["u_velocity"], rel=1e-12)
+    assert force == pytest.approx(printed.force(), rel=1e-12)
+    assert physics.force(y, direction) == pytest.approx(printed.force(), rel=1e-12)
+
+
+def test_impact_of_the_rival_methods():
+    start = lively("separation")
+    physics, printed = Physics(P), Printed(P, start)
+    expected = printed.described(0.0, printed.literal.impact(printed.y))
+    y = physics.pack(start)
+    after, other = physics.impact(y), y.copy()
+    kernels.switch(*kernels.tables(physics), PHASES.index("separation"), 1, other, np.zeros(2, np.int64))
+    for vector in (after, other):
+        got = {name: vector[getattr(physics, name)] for name in ("a", "b", "alpha", "beta", "psi", "f")}
+        close(got, expected, 1e-12, got)
+    assert after[physics.v] == pytest.approx(expected["u_velocity"], rel=1e-12)
+
+
+# ------------------------------------------------------------------------------------------------ steady sliding
+def moving_coordinates(p):
+    """What a `State` in slip consists of: (name, row of `plate_modes` or None for psi and f)."""
+    l = plate_modes(p)["diameters"].to_numpy()
+    return [
+        *((name, i) for name in ("a", "alpha") for i in range(len(l))),
+        *((name, i) for name in ("b", "beta") for i in np.flatnonzero(l)),
+        ("psi", None),
+        ("f", None),
+    ]
+
+
+def jacobian(p, state):
+    """Of the printed equations of slip, by central differences; rows and columns as in `moving_coordinates`."""
+    places = moving_coordinates(p)
+
+    def rates(name, row, change):
+        moved = getattr(state, name) + (change if row is None else change * np.eye(len(state.a))[row])
+        found = Printed(p, state.replace(**{name: moved})).rates()
+        return np.array([found[n] if i is None else found[n][i] for n, i in places])
+
+    def column(name, row):
+        # steps of the size on which the product of slope and spring force is no longer linear, times 1e-3
+        h = {"a": 1e-6, "b": 1e-6, "alpha": 1e-3, "beta": 1e-3, "psi": 1e-5, "f": 1e-2}[name]
+        near, far = (rates(name, row, k * h) - rates(name, row, -k * h) for k in (1, 2))
+        return (8 * near - far) / (12 * h)
+
+    return np.array([column(*place) for place in places]).T
+
+
+def nearest(got, expected):
+    """Largest distance of an eigenvalue from the nearest expected one, relative to the largest."""
+    return np.max(np.min(np.abs(got[:, None] - expected[None, :]), axis=1)) / np.max(np.abs(expected))
+
+
+def test_steady_sliding_solves_the_printed_equations():
+    p = P.replace(Omega=120.0)
+    sliding = steady_sliding(p)
+    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
+    start = State(0.0, "slip", 1, sliding.psi, p.Omega, 0.0, 0.0, **modal)
+    printed = Printed(p, start)
+    assert printed.force() == pytest.approx(sliding.contact_force, rel=1e-10)
+    rates = printed.rates()
+    for name, scale in {"a": "alpha", "b": "beta", "alpha": "a", "beta": "b"}.items():
+        size = np.max(np.abs(modal[scale])) * (1 if scale in ("alpha", "beta") else 1500.0**2)
+        assert np.max(np.abs(rates[name])) < 1e-9 * size, name
+    assert rates["psi"] == 0
+    assert abs(rates["f"]) < 1e-9 * p.k_p / p.m * sliding.psi
+    assert nearest(sliding.eigenvalues, np.linalg.eigvals(jacobian(p, start))) < 1e-7
+
+
+def test_rotating_oscillator_solves_the_printed_equations():
+    p, speed = P.replace(mu_s=0.0, mu_k=0.0), 200.0
+    n = len(plate_modes(p))
+    flat = State(0.0, "slip", 1, 0.0, speed, 0.0, 0.0, *(np.zeros(n) for _ in range(4)))
+    expected = np.linalg.eigvals(jacobian(p.replace(Omega=speed), flat)[:-2, :-2])
+    assert nearest(rotating_oscillator_eigenvalues(P, speed), expected) < 1e-7
