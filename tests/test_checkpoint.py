@@ -158,10 +158,19 @@ class TestGoingOn:
         interrupt(len(pauses) - 1, P, 55, initial_state=separating, record=ALL, checkpoint=tmp_path / "x")
         same(simulate(P, 55, initial_state=separating, record=ALL, checkpoint=tmp_path / "x"), undisturbed)
 
-    def test_a_run_that_ended_leaves_the_file_of_another_alone(self, separating: State, tmp_path: Path) -> None:
+    @pytest.mark.parametrize("every", [0, 3600])
+    def test_what_is_no_checkpoint_is_never_lost(self, separating: State, tmp_path: Path, every: float) -> None:
         (tmp_path / "x").write_text("kept")
-        simulate(P, 55, initial_state=separating, checkpoint=tmp_path / "x", checkpoint_every=3600)
-        assert (tmp_path / "x").read_text() == "kept"
+        simulate(P, 55, initial_state=separating, checkpoint=tmp_path / "x", checkpoint_every=every)
+        assert os.listdir(tmp_path) == ["x.other"]
+        assert (tmp_path / "x.other").read_text() == "kept"
+
+    @pytest.mark.parametrize("every", [0, 3600])
+    def test_the_checkpoint_of_another_run_is_never_lost(self, separating: State, tmp_path: Path, every: float) -> None:
+        interrupt(3, P, 55, initial_state=separating, checkpoint=tmp_path / "x")
+        kept = (tmp_path / "x").read_bytes()
+        simulate(P, 54.5, initial_state=separating, checkpoint=tmp_path / "x", checkpoint_every=every)
+        assert (tmp_path / "x.other").read_bytes() == kept
 
 
 OTHERS: dict[str, tuple[Parameters, float, dict[str, Any]]] = {
@@ -252,7 +261,7 @@ class TestNotTrusted:
         options = {"initial_state": separating}
         interrupt(2, P, 55, **options, checkpoint=tmp_path / "x")
         same(simulate(P, 55, **options, checkpoint=tmp_path / "x"), simulate(P, 55, **options))
-        assert os.listdir(tmp_path) == []
+        assert not (tmp_path / "x").exists()
 
 
 class TestArguments:

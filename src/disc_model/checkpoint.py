@@ -3,8 +3,8 @@
 The file of a run is a sequence of records, each with the state of the engine and the rows kept since the record before,
 so that a long run that keeps much writes all of it once and not again at every checkpoint. A record ends in a checksum:
 one that was cut off when the machine went down, or changed since, is not used, nor is any after it. The records before
-it are, but only by the very same run: same arguments, same sources, same versions. Whatever else is found in the
-file's place is ignored, with a warning that says why.
+it are, but only by the very same run: same arguments, same sources, same versions. A checkpoint of another run, or a
+file that is none, is set aside under another name, with a warning that says why.
 """
 
 from __future__ import annotations
@@ -28,6 +28,9 @@ from disc_model.provenance import source_hash, versions
 from disc_model.record import Record
 
 log = logging.getLogger(__name__)
+
+SET_ASIDE = ".other"
+"""Ending that gets what stands in the checkpoint's place but is none of this run."""
 
 Array = NDArray[Any]
 
@@ -81,6 +84,15 @@ def _may_be_file(path: object) -> bool:
         return False
 
 
+def _is_something_else(path: Path) -> bool:
+    """Whether a file does not begin like a checkpoint, nor like one whose first bytes could not be written."""
+    try:
+        with path.open("rb") as file:
+            return not _MAGIC.startswith(file.read(len(_MAGIC)))
+    except OSError:
+        return False
+
+
 class Checkpoint:
     """The file of one run.
 
@@ -101,10 +113,13 @@ class Checkpoint:
         """What the file's records hold that are whole and of this very run; None if there are none."""
         state: Mapping[str, Array] = {}
         rows: dict[str, list[Array]] = {}
+        if _is_something_else(self.path):
+            self._set_aside("not a checkpoint")
+            return None
         try:
             for end, belongs_to, contents in _records(self.path):
                 if differing := [name for name, value in self.belongs_to.items() if belongs_to.get(name) != value]:
-                    log.warning("checkpoint %s ignored: of another run (other %s)", self.path, ", ".join(differing))
+                    self._set_aside(f"of another run (other {', '.join(differing)})")
                     return None
                 state, self._size = contents.state, end
                 for name, arrays in contents.rows.items():
@@ -115,6 +130,11 @@ class Checkpoint:
             log.warning("checkpoint %s ignored from byte %d on: %s", self.path, self._size, error)
         self._written = {name: len(arrays) for name, arrays in rows.items()}
         return Contents(state, rows) if self._size else None
+
+    def _set_aside(self, why: str) -> None:
+        aside = self.path.with_name(self.path.name + SET_ASIDE)
+        os.replace(self.path, aside)
+        log.warning("checkpoint %s ignored: %s; it is now called %s", self.path, why, aside.name)
 
     @property
     def due(self) -> bool:

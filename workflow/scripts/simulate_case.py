@@ -10,6 +10,7 @@ import argparse
 import logging
 from pathlib import Path
 
+from disc_model.checkpoint import SET_ASIDE
 from disc_model.dataset import save
 from disc_model.studies.batch import run_case
 from disc_model.studies.case import CaseSpec
@@ -24,7 +25,8 @@ def main() -> None:
     args.output.parent.mkdir(parents=True, exist_ok=True)
     checkpoint = args.output.with_name(f".{args.output.stem}.checkpoint")
     save(run_case(CaseSpec.from_canonical(args.case), checkpoint), args.output)
-    checkpoint.unlink(missing_ok=True)  # one of a former content of the case may have been left
+    checkpoint.with_name(checkpoint.name + SET_ASIDE).unlink(missing_ok=True)  # of a former content of the case
+    checkpoint.unlink(missing_ok=True)
 
 
 if __name__ == "__main__":
