@@ -99,7 +99,7 @@ def _draw(ax: Axes, curve: Curve) -> None:
     if curve.label and len(there):
         i = int(there[len(there) // 2])
         ax.annotate(
-            curve.label,
+            curve.label.replace("f_s", "$f_s$"),
             (curve.Omega[i], curve.N[i]),
             xytext=(4, -4),
             textcoords="offset points",

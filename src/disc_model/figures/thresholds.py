@@ -63,7 +63,7 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
             continue
         x, y = (np.where(border, one[name].values, np.nan) for name in ("x", "y"))
         near = kinds[i] == "fold" and abs(float(one["tongue_detuning"])) < NEAR
-        found.append(Curve(x, y, str(kinds[i]), _tongue(one).label.replace("f_s", "$f_s$") if near else ""))
+        found.append(Curve(x, y, str(kinds[i]), _tongue(one).label if near else ""))
     return found
 
 
