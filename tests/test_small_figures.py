@@ -28,7 +28,7 @@ def test_a_growth_map_names_curves_and_gaps():
     gaps[2, 3] = np.nan
     figure = growth_map({"as_published": grid(gaps)}, {"as_published": [NEUTRAL, FOLD]}, limit=0.05)
     assert labels(figure) == {"a multiplier crosses the unit circle", "fold", "no cycle"}
-    assert [text.get_text() for text in figure.axes[0].texts] == ["2 f_s = 135.42 Hz"]
+    assert [text.get_text() for text in figure.axes[0].texts] == ["2 $f_s$ = 135.42 Hz"]
     bar = figure.axes[-1]
     assert [text.get_text() for text in bar.get_yticklabels()] == ["−0.01", "0", "0.01"]
     assert not growth_map({"as_published": grid()}).legends

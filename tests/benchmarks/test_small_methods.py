@@ -161,6 +161,17 @@ def test_stick_breaks_on_both_sides(name, side):
 
 
 @pytest.mark.parametrize("name", SHORT)
+def test_a_falling_slider_lands_when_it_must(name):
+    start = lively("separation")
+    start = start.replace(u=start.u - 1e-3 + 5e-5, u_velocity=start.u_velocity - 0.5)
+    expected = simulate(P, 4e-4, tol=1e-13, initial_state=start)
+    result = METHODS[name].solve(Problem(P, start, 4e-4), 1e-10)
+    assert result.kinds == tuple(expected.events["kind"]) == ("reattachment",)
+    assert result.times[0] == pytest.approx(expected.events["time"][0], abs=1e-9)
+    assert result.final.f == pytest.approx(expected.final_state.f, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", SHORT)
 def test_a_budget_of_nothing_is_used_up(name):
     assert METHODS[name].solve(task(span=0.05), 1e-12, budget=0.0).outcome is Outcome.TOO_SLOW
 

@@ -24,7 +24,24 @@ FLIGHTS = {
     "stick and slip": (Parameters(N=200, Omega=20, **DAMPED), 0.1, 1, (0, 0, 0)),
     "separation, slip to and fro": (Parameters(N=100, Omega=2, k_p=1e5, m=0.3, **DAMPED), 1.5, 19, (1, 1, 0)),
     "two separations, release backwards": (Parameters(N=200, Omega=5, **DAMPED), 1.5, 9, (2, 0, 1)),
+    # contact is lost in slip at 98 rad/s
+    "separation at speed": (Parameters(N=200, Omega=50, **DAMPED), 3.0, 14, (1, 0, 0)),
+    # an impact leaves a tension, so that contact is lost again in the same instant
+    "separation at an impact": (Parameters(N=200, Omega=20, **DAMPED), 8.0, 36, (3, 0, 1)),
 }
+
+
+TRIED = [
+    pytest.param(
+        name,
+        marks=[
+            pytest.mark.xfail(strict=True, reason="the slider's rows are not the disc's when contact is lost at once")
+        ]
+        if name == "separation at an impact"
+        else [],
+    )
+    for name in FLIGHTS
+]
 
 
 def departure(flight: str) -> tuple[ReturnMap, np.ndarray]:
@@ -40,7 +57,7 @@ def differences(function, h: float):
     return (function(-2 * h) - 8 * function(-h) + 8 * function(h) - function(2 * h)) / (12 * h)
 
 
-@pytest.mark.parametrize("flight", FLIGHTS)
+@pytest.mark.parametrize("flight", TRIED)
 def test_jacobian_of_a_flight(flight: str) -> None:
     map_, x = departure(flight)
     how, h = {"may_separate": True}, 1e-6 * np.linalg.norm(x)
@@ -53,7 +70,7 @@ def test_jacobian_of_a_flight(flight: str) -> None:
         assert np.linalg.norm(jacobian @ direction - expected) < 1e-6 * np.linalg.norm(expected)
 
 
-@pytest.mark.parametrize("flight", FLIGHTS)
+@pytest.mark.parametrize("flight", TRIED)
 def test_derivatives_of_a_flight_by_parameters(flight: str) -> None:
     map_, x = departure(flight)
     p, how = map_.parameters, {"may_separate": True}

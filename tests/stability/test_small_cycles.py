@@ -12,6 +12,7 @@ from disc_model.stability import return_map as return_map_module
 from disc_model.stability.floquet import CycleError, CycleStatus, find_cycle, find_cycle_near, growth_rate, kind_of
 from disc_model.stability.floquet_batch import STATUS_NAMES, solve
 from disc_model.stability.return_map import RETURNED, Flight, ReturnMap, newton
+from tests.references.printed import Printed
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
 
@@ -163,6 +164,7 @@ def test_the_section_is_where_stick_is_released():
     state = map_.state(x)
     assert state.phase == "stick"
     force = map_.contact_force(x)
+    assert force == pytest.approx(Printed(p, state).force(), rel=1e-10)
     assert p.r_0 * (p.k_p * state.psi + p.c_p * p.Omega) == pytest.approx(p.mu_s * force, rel=1e-12)
     events = simulate(p, 1e-6, initial_state=state.replace(psi=state.psi * (1 - 1e-9))).events
     assert events["kind"][0] == "stick_to_slip"

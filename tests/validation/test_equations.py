@@ -14,9 +14,11 @@ from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.engine import audit, layout, stick_modes, switches
+from disc_model.plate import mode_arrays
 from disc_model.result import PHASES, State
 from disc_model.simulate import build_model
 from disc_model.stability.moving_load import rotating_oscillator_eigenvalues
+from disc_model.stability.steady_sliding import _jacobian
 from disc_model.states import read_state, write_state
 from tests.references.literal import literal_of
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
@@ -249,7 +251,10 @@ def moving_coordinates(p):
 
 
 def jacobian(p, state):
-    """Of the printed equations of slip, by central differences; rows and columns as in `moving_coordinates`."""
+    """Of the printed equations of slip, by central differences, and what rounding makes of each entry.
+
+    Rows and columns as in `moving_coordinates`.
+    """
     places = moving_coordinates(p)
 
     def rates(name, row, change):
@@ -257,13 +262,16 @@ def jacobian(p, state):
         found = Printed(p, state.replace(**{name: moved})).rates()
         return np.array([found[n] if i is None else found[n][i] for n, i in places])
 
-    def column(name, row):
-        # steps of the size on which the product of slope and spring force is no longer linear, times 1e-3
-        h = {"a": 1e-6, "b": 1e-6, "alpha": 1e-3, "beta": 1e-3, "psi": 1e-5, "f": 1e-2}[name]
+    # steps small beside those for which the product of slope and spring force is no longer linear
+    steps = np.array([{"psi": 1e-5, "f": 1e-2, "alpha": 1e-3, "beta": 1e-3}.get(name, 1e-6) for name, _ in places])
+
+    def column(name, row, h):
         near, far = (rates(name, row, k * h) - rates(name, row, -k * h) for k in (1, 2))
         return (8 * near - far) / (12 * h)
 
-    return np.array([column(*place) for place in places]).T
+    matrix = np.array([column(*place, h) for place, h in zip(places, steps, strict=True)]).T
+    terms = np.abs(matrix) @ steps + np.array([abs(rates(*place, 0.0)).max() for place in places])
+    return matrix, 1e-13 * terms[:, None] / steps[None, :]
 
 
 def nearest(got, expected):
@@ -284,12 +292,19 @@ def test_steady_sliding_solves_the_printed_equations():
         assert np.max(np.abs(rates[name])) < 1e-9 * size, name
     assert rates["psi"] == 0
     assert abs(rates["f"]) < 1e-9 * p.k_p / p.m * sliding.psi
-    assert nearest(sliding.eigenvalues, np.linalg.eigvals(jacobian(p, start))) < 1e-7
+    expected, noise = jacobian(p, start)
+    assert nearest(sliding.eigenvalues, np.linalg.eigvals(expected)) < 1e-7
+    modes = mode_arrays(p)
+    slope = float(np.sum(modes.diameters * modes.psi * start.b))
+    denominator = 1 + p.m * float(np.sum(modes.psi**2)) + p.mu_k * slope / p.r_0
+    damping = p.D_star / p.D * modes.omega**2
+    got = _jacobian(p, modes, damping, start.a, start.b, start.beta, slope, denominator)
+    np.testing.assert_array_less(np.abs(got - expected), 1e-6 * np.abs(expected) + noise)
 
 
 def test_rotating_oscillator_solves_the_printed_equations():
     p, speed = P.replace(mu_s=0.0, mu_k=0.0), 200.0
     n = len(plate_modes(p))
     flat = State(0.0, "slip", 1, 0.0, speed, 0.0, 0.0, *(np.zeros(n) for _ in range(4)))
-    expected = np.linalg.eigvals(jacobian(p.replace(Omega=speed), flat)[:-2, :-2])
+    expected = np.linalg.eigvals(jacobian(p.replace(Omega=speed), flat)[0][:-2, :-2])
     assert nearest(rotating_oscillator_eigenvalues(P, speed), expected) < 1e-7
