@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes
-from disc_model.engine import layout, saltation, tangent, variational
+from disc_model.engine import layout, machine, saltation, tangent, variational
 from disc_model.result import State
 from disc_model.simulate import build_model
 from disc_model.stability.return_map import PARAMETERS, ReturnMap
@@ -31,19 +31,6 @@ FLIGHTS = {
 }
 
 
-TRIED = [
-    pytest.param(
-        name,
-        marks=[
-            pytest.mark.xfail(strict=True, reason="the slider's rows are not the disc's when contact is lost at once")
-        ]
-        if name == "separation at an impact"
-        else [],
-    )
-    for name in FLIGHTS
-]
-
-
 def departure(flight: str) -> tuple[ReturnMap, np.ndarray]:
     """A point of the section from which the flight is as told."""
     p, size, seed, _ = FLIGHTS[flight]
@@ -57,7 +44,7 @@ def differences(function, h: float):
     return (function(-2 * h) - 8 * function(-h) + 8 * function(h) - function(2 * h)) / (12 * h)
 
 
-@pytest.mark.parametrize("flight", TRIED)
+@pytest.mark.parametrize("flight", list(FLIGHTS))
 def test_jacobian_of_a_flight(flight: str) -> None:
     map_, x = departure(flight)
     how, h = {"may_separate": True}, 1e-6 * np.linalg.norm(x)
@@ -70,7 +57,7 @@ def test_jacobian_of_a_flight(flight: str) -> None:
         assert np.linalg.norm(jacobian @ direction - expected) < 1e-6 * np.linalg.norm(expected)
 
 
-@pytest.mark.parametrize("flight", TRIED)
+@pytest.mark.parametrize("flight", list(FLIGHTS))
 def test_derivatives_of_a_flight_by_parameters(flight: str) -> None:
     map_, x = departure(flight)
     p, how = map_.parameters, {"may_separate": True}
@@ -180,3 +167,91 @@ def test_divergence_is_the_trace(phase: str, direction: int) -> None:
     steps = 1e-3 * np.maximum(np.abs(run.coordinates), 1e-4)
     trace = sum(differences(lambda h, i=i: rate(i, h), steps[i]) for i in range(n))
     assert variational.divergence(run.model, run.state) == pytest.approx(trace, rel=1e-7)
+
+
+# ------------------------------------------------------------------------------------ when a switch happens
+def switch_function(cause: int, p: Parameters, state: State) -> float:
+    """What falls to zero at a switch, from the paper's equations; contact is lost where P's numerator is zero."""
+    printed = Printed(p, state)
+    if cause == machine.AT_REST:
+        return state.f
+    if cause == machine.GAP_CLOSED:
+        return float(printed.literal.gap(0)(0.0, printed.y))
+    if cause == machine.CONTACT_LOST:
+        modes = plate_modes(p)
+        slope = float(modes["psi"] @ (modes["diameters"] * state.b))
+        friction = state.direction * p.mu_k * slope / p.r_0
+        return float(printed.force() * (1 + p.m * modes["psi"] @ modes["psi"] + friction))
+    side = 1 if cause == machine.RELEASE_FORWARD else -1
+    return float(p.mu_s * printed.force() - side * p.r_0 * printed.literal.pull(0.0, printed.y))
+
+
+SWITCHES = {
+    "at rest": (machine.AT_REST, "slip", 1),
+    "contact lost": (machine.CONTACT_LOST, "slip", 1),
+    "contact lost, slip backwards": (machine.CONTACT_LOST, "slip", -1),
+    "contact lost in stick": (machine.CONTACT_LOST, "stick", 0),
+    "release forwards": (machine.RELEASE_FORWARD, "stick", 0),
+    "release backwards": (machine.RELEASE_BACKWARD, "stick", 0),
+    "gap closed": (machine.GAP_CLOSED, "separation", 0),
+}
+
+
+def changes(model: layout.Model, state: layout.State, t: tangent.Tangent, cause: int) -> np.ndarray:
+    """Changes of a switch function for all columns: minus the change of its time by its rate."""
+    t.before[:] = t.now[: len(t.before)]  # any motion gives a rate; that of the first column, which has one
+    t.before.reshape(-1, 8)[:, 1:] = 0.0
+    rate = saltation.switch_times(model, state, t, cause)
+    return -t.tau * rate
+
+
+@pytest.mark.parametrize("switch", SWITCHES)
+def test_changes_of_the_switch_functions(switch: str) -> None:
+    """By every coordinate.  Where P falls to zero they cancel in the columns, since no rate jumps there."""
+    cause, phase, direction = SWITCHES[switch]
+    start = lively(phase, direction, LIVELY)
+    run = Full(LIVELY, start)
+    n, C, rows = len(run.rows), run.tangent.columns, tangent.n_rows(run.model)
+    now = np.zeros((rows, C))
+    now[run.rows, np.arange(n)] = 1.0
+    now[:, 0] += now[:, 1:n].sum(axis=1)
+    run.tangent.now[:] = now.reshape(rows, -1, 8).transpose(1, 0, 2).ravel()
+    got = changes(run.model, run.state, run.tangent, cause)[:n]
+    got[0] -= got[1:].sum()
+    modes = plate_modes(LIVELY)
+    pair = np.flatnonzero(modes["diameters"])
+    single = np.flatnonzero(modes["diameters"] == 0)
+    modal = [("a", pair), ("b", pair), ("alpha", pair), ("beta", pair), ("a", single), ("alpha", single)]
+    names = [(name, int(i)) for name, where in modal for i in where]
+    names += [(name, None) for name in ("psi", "f", "u", "u_velocity")][: n - len(names)]
+
+    def value(name: str, row: int | None, change: float) -> float:
+        moved = getattr(start, name) + (change if row is None else change * np.eye(len(modes))[row])
+        return switch_function(cause, LIVELY, start.replace(**{name: moved}))
+
+    sizes = {"a": 1e-6, "b": 1e-6, "alpha": 1e-3, "beta": 1e-3, "psi": 1e-5, "f": 1e-2, "u": 1e-6, "u_velocity": 1e-3}
+    expected = np.array([differences(lambda h, at=at: value(*at, h), sizes[at[0]]) for at in names])
+    noise = np.array([1e-12 * LIVELY.N / sizes[name] for name, _ in names])
+    assert np.any(expected)
+    np.testing.assert_array_less(np.abs(got - expected), 1e-7 * np.abs(expected) + noise + 1e-300)
+
+
+@pytest.mark.parametrize("switch", SWITCHES)
+def test_changes_of_the_switch_functions_by_parameters(switch: str) -> None:
+    cause, phase, direction = SWITCHES[switch]
+    start = lively(phase, direction, LIVELY)
+    map_ = ReturnMap(LIVELY, parameters=PARAMETERS)
+    model, state, t = map_.model, layout.build_state(map_.model), map_._tangent
+    write_state(LIVELY, model, start, state)
+    t.now[:] = 0.0
+    # a change of every coordinate in the first column: it has a rate, whatever the switch function
+    t.now.reshape(-1, tangent.n_rows(model), 8)[0, :, 0] = 1.0
+    got = changes(model, state, t, cause)[map_._first :][: len(PARAMETERS)]
+    for change, name in zip(got, PARAMETERS, strict=True):
+        value = getattr(LIVELY, name)
+
+        def function(h: float, name: str = name, value: float = value) -> float:
+            return switch_function(cause, LIVELY.replace(**{name: value + h}), start)
+
+        expected = differences(function, 1e-4 * value)
+        assert change == pytest.approx(expected, rel=1e-6, abs=1e-9 * LIVELY.N / value), name

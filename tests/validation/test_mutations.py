@@ -28,6 +28,7 @@ EQUATIONS = ("tests/validation/test_equations.py",)
 TWINS = ("tests/engine/test_series.py", *EQUATIONS)
 CLOSED_FORM = (
     *EQUATIONS,
+    "tests/engine/test_stick_modes.py",
     "tests/engine/test_linear.py::test_closed_form_is_the_series",
     "tests/engine/test_linear.py::test_stick_holds_as_long_as_promised_and_not_much_longer[0-dampers]",
     "tests/engine/test_linear.py::test_events_are_those_of_the_series",

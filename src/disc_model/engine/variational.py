@@ -154,7 +154,7 @@ def fly(model, s, state, t, order, tolerance, longest, t_max, releases, may_sepa
         if change_phase(model, state, cause, log) == PARADOX:
             return NO_SOLUTION
         if tangent:
-            if x[PHASE] == SEPARATION and cause != GAP_CLOSED:
+            if x[PHASE] == SEPARATION:
                 slider_rows(model, state, t)
             rates(model, state, t.after)
             shift(model, t, t.after, -1.0)
