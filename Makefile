@@ -75,7 +75,9 @@ $(VENV)/.bench: requirements-bench.lock $(STAMP)
 bench: $(VENV)/.bench
 	$(BIN)/snakemake -j1 bench
 
-LOCK := $(BIN)/pip-compile --upgrade --generate-hashes --no-emit-index-url --no-emit-find-links --no-header --strip-extras --allow-unsafe
+# One version of each package for every system and every Python that the project supports.
+LOCK := $(BIN)/uv pip compile --quiet --upgrade --universal --fork-strategy fewest --python-version 3.11 \
+  --generate-hashes --no-emit-index-url --no-emit-find-links --no-header
 lock: env
 	$(LOCK) --output-file requirements.lock requirements.in
 	$(LOCK) --output-file requirements-bench.lock requirements-bench.in

@@ -271,7 +271,7 @@ def unmet(packages: dict[str, Any], wanted: list[str], version: str) -> Iterator
 
 
 @pytest.mark.skipif(shutil.which("make") is None, reason="make is not installed")
-@pytest.mark.skipif(not Path(sys.prefix, "bin", "pip-compile").exists(), reason="pip-tools is not installed")
+@pytest.mark.skipif(not Path(sys.prefix, "bin", "uv").exists(), reason="uv is not installed")
 def test_make_lock(tree: Path, index: None, tmp_path: Path) -> None:
     """The target works and writes files of the same form."""
     project = tmp_path / "project"
