@@ -41,7 +41,8 @@ gallery: env
 test: env
 	$(BIN)/pytest -m "not slow and not workflow"
 
-test-long: env
+# With the rival integrators, so that their tests are not passed over.
+test-long: $(VENV)/.bench
 	$(BIN)/pytest
 
 # Lines and branches of everything, the engine included: without compilation its kernels are Python, a thousand times
