@@ -35,6 +35,9 @@ from tests.workflow.conftest import Project, copy_repository
 ROOT = Path(__file__).parents[1]
 SIMULATE = importlib.import_module("disc_model.simulate")
 P = Parameters(N=385, Omega=15.1)
+# the last window of ALL is beyond the end of every run
+pytestmark = pytest.mark.filterwarnings("ignore:windows:UserWarning")
+
 ALL = Record(
     windows=(
         Window(start=54.5, stop=55.2, rate=3e3),

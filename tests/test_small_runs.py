@@ -57,6 +57,19 @@ def test_nothing_is_kept_if_nothing_is_asked_for():
     assert len(still.poincare["time"]) == 0
 
 
+def test_windows_that_the_run_does_not_enter_are_warned_of():
+    windows = tuple(Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03, 0.5))
+    with pytest.warns(
+        UserWarning, match=r"windows\[2\] = \[0.5, 0.51\] s: stays empty, the run is from 0 to 0.04 s"
+    ) as seen:
+        result = simulate(P, 0.04, tol=1e-9, record=Record(windows=windows))
+    assert len(seen) == 1
+    assert seen[0].filename == __file__
+    assert [len(samples["time"]) for samples in result.samples] == [11, 11, 0]
+    with pytest.warns(UserWarning, match=r"windows\[0\] .* from 0.04 to 0.05 s"):
+        simulate(P, 0.05, tol=1e-9, initial_state=result.final_state, record=Record(windows=windows[:1]))
+
+
 # ------------------------------------------------------------------------------------- how runs end
 def test_steps_run_out():
     result = simulate(P, 1.0, max_steps=3)

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from disc_model.files import check_whole, write_whole
@@ -125,8 +126,7 @@ def _column(events: Any, name: str) -> np.ndarray:
     flags = SERIES[name].flags
     if not flags:
         return np.asarray(column, dtype=float)
-    code = {word: i for i, word in enumerate(flags)}
-    return np.array([code[word] for word in column], dtype=np.int8)
+    return pd.Categorical(column, categories=flags).codes.astype(np.int8)
 
 
 def _narrow(name: str, values: Any) -> np.ndarray:

@@ -6,6 +6,7 @@ import logging
 import math
 import os
 import time as clock
+import warnings
 from collections.abc import Callable
 
 import numpy as np
@@ -81,6 +82,7 @@ def simulate(
     start = 0.0 if initial_state is None else initial_state.time
     _check_arguments(p, t_end, tol, start, record, stop_at, max_steps, (checkpoint, checkpoint_every))
     run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps)
+    _warn_of_empty(record, start, t_end)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
     if kept is not None and (contents := kept.load()) is not None:
         run.restore(contents)
@@ -249,6 +251,14 @@ def _check_arguments(
     found += faults(*checkpoint)
     if found:
         raise ParameterError(*found)
+
+
+def _warn_of_empty(record: Record, start: float, t_end: float) -> None:
+    """Warn of windows that the run does not enter: no error, since runs made in pieces may share a record."""
+    for i, window in enumerate(record.windows):
+        if window.start > t_end or window.stop < start:
+            asked, given = f"[{window.start:g}, {window.stop:g}] s", f"from {start:g} to {t_end:g} s"
+            warnings.warn(f"windows[{i}] = {asked}: stays empty, the run is {given}", stacklevel=3)
 
 
 def _is_number(value: object) -> bool:

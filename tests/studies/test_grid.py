@@ -184,6 +184,13 @@ def test_rules_between_parts(changes: dict[str, Any], fault: str) -> None:
     assert fault in "\n".join(faults(study(**changes)))
 
 
+def test_a_bad_axis_is_the_only_fault_of_a_figure_over_it() -> None:
+    figure = {"f": {"kind": "stability_map", "x": "N", "y": "Omega"}}
+    assert faults(study(axes={"N": [-1], "Omega": [1]}, figures=figure)) == ["axes.N = -1.0: must be >= 0"]
+    uneven = study(axes={"Omega": [1]}, zip={"N": [1, 2], "c": [0]}, batch={}, figures=figure)
+    assert faults(uneven) == ["zip: must have columns of equal length, not N: 2, c: 1"]
+
+
 @pytest.mark.parametrize("raw", [None, [], "text", {"study": "x"}, {"axes": 3, "quantity": []}])
 def test_nonsense_is_refused_without_another_error(raw: Any) -> None:
     assert faults(raw)

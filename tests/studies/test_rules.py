@@ -141,7 +141,8 @@ def test_a_key_given_twice_is_found_behind_a_valid_study(tmp_path: Path) -> None
         ("&a [*a]", "a value contains itself"),
         ("a: &a [" + "1, " * 500 + "]\nb: &b [" + "*a, " * 500 + "]", "more than 100000 values"),
         ("a: !!timestamp x", "a value does not fit its tag"),
-        ("a: [", "while parsing"),
+        ("a: [", "line 1, column 5: while parsing a flow node"),
+        ("a: 1\nb: 2\n c: 3", "line 3, column 3: mapping values are not allowed here"),
     ],
 )
 def test_yaml_that_is_refused(text: str, fault: str) -> None:

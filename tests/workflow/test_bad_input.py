@@ -45,6 +45,16 @@ def test_keys_given_twice_are_refused(project: Project) -> None:
     assert "F13: given twice" in done.stdout + done.stderr
 
 
+def test_what_is_no_yaml_is_named_with_its_line(project: Project) -> None:
+    project.edit("config/paper.yaml", "\ntitle: ", "\ntitle: [")
+    done = project.snakemake("-n", config=None)
+    shown = done.stdout + done.stderr
+    assert done.returncode != 0
+    assert "config/paper.yaml: 1 fault" in shown
+    assert "line " in shown
+    assert "Traceback" not in shown
+
+
 def test_lint_passes(project: Project) -> None:
     done = project.snakemake("--lint", config=None)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -8,15 +8,21 @@ from snakemake.exceptions import WorkflowError
 from snakemake.shell import shell
 
 from disc_model.figures.catalogue import CATALOGUE, STYLE, module_of
-from disc_model.studies.grid import load_grids
 from disc_model.provenance import SIMULATION, source_hash
+from disc_model.studies.faults import read_file
+from disc_model.studies.grid import load_grids
 from disc_model.studies.records import unrecorded
 from disc_model.studies.study import StudyError, study_from_config
 
+PAPER = Path("config/paper.yaml")
 # A study named with --configfile replaces the paper's instead of being mixed with it.
 if not workflow.configfiles:
+    try:
+        read_file(PAPER)  # says where it is no YAML, which Snakemake does not
+    except StudyError as error:
+        raise WorkflowError(str(error)) from None
 
-    configfile: "config/paper.yaml"
+    configfile: PAPER
 
 
 try:

@@ -202,6 +202,13 @@ def _count(node: yaml.Node, known: dict[int, int]) -> int:
     return known[id(node)]
 
 
+def _marked(error: yaml.MarkedYAMLError) -> str:
+    """Where a text is no YAML, and why."""
+    mark = error.problem_mark or error.context_mark
+    place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
+    return place + ", ".join(part for part in (error.context, error.problem) if part)
+
+
 def read_yaml(text: str) -> tuple[Any, list[str]]:
     """A YAML document and the keys that it gives twice.
 
@@ -220,6 +227,8 @@ def read_yaml(text: str) -> tuple[Any, list[str]]:
             return loader.construct_document(node), loader.faults
         finally:
             loader.dispose()
+    except yaml.MarkedYAMLError as error:
+        raise StudyError(_marked(error)) from None
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # ValueError: numbers and dates that look like one but are none
         raise StudyError(" ".join(str(error).split())) from None

@@ -206,7 +206,9 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     dims = _dimensions(raw, fineness, base, faults)
     varied = [name for dim in dims for name in dim.names]
     _check_names(raw, dims, varied, () if quantity is None else quantity.scanned(options), quantity, faults)
-    plots = _plots(mapping(raw.get("figures")), raw.get("quantity"), {dim.name for dim in dims}, faults)
+    # after a fault, what is only meant to be a dimension counts as one
+    known = {dim.name for dim in dims} | (_asked(raw) if faults else set())
+    plots = _plots(mapping(raw.get("figures")), raw.get("quantity"), known, faults)
     if faults or header is None or quantity is None or options is None:
         raise StudyError(*faults)
     first = {name: value for dim in dims for name, value in zip(dim.names, dim.values[0], strict=True)}
@@ -262,13 +264,23 @@ def _dimensions(
         checked = None if blocks is None else _checked(str(name), blocks, base, path, faults)
         if checked is not None:
             dims.append(Dimension((str(name),), without_repeats([[(v,) for v in block] for block in checked])))
-    zips = raw.get("zip") or []
-    for i, group in enumerate([zips] if isinstance(zips, Mapping) else zips if isinstance(zips, list) else []):
-        where = ("zip",) if isinstance(zips, Mapping) else ("zip", str(i))
+    for i, group in enumerate(_zips(raw)):
+        where = ("zip",) if isinstance(raw["zip"], Mapping) else ("zip", str(i))
         dim = _zipped(mapping(group), where, base, faults)
         if dim is not None:
             dims.append(dim)
     return tuple(sorted(dims, key=lambda dim: VARIED.index(dim.names[0])))
+
+
+def _zips(raw: Mapping[str, Any]) -> list[Any]:
+    """What a file gives under ``zip``: one group, or a list of them."""
+    zips = raw.get("zip")
+    return [zips] if isinstance(zips, Mapping) else zips if isinstance(zips, list) else []
+
+
+def _asked(raw: Mapping[str, Any]) -> set[str]:
+    """Parameters that a file wants to vary, whether or not it says rightly how."""
+    return {str(name) for group in (raw.get("axes"), *_zips(raw)) for name in mapping(group)}
 
 
 def _zipped(
@@ -325,7 +337,7 @@ def _check_names(
     if not dims and not faults:
         faults.add(("axes",), "", "is required: at least one axis or zip")
     base = mapping(raw.get("base"))
-    asked = {*map(str, mapping(raw.get("axes"))), *varied}
+    asked = _asked(raw)
     for name in scanned:
         if name in asked or name in base:
             faults.add(("axes" if name in asked else "base", name), "", f"is varied by the quantity {raw['quantity']}")
