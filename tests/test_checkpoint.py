@@ -175,6 +175,20 @@ class TestGoingOn:
         simulate(P, 54.5, initial_state=separating, checkpoint=tmp_path / "x", checkpoint_every=every)
         assert (tmp_path / "x.other").read_bytes() == kept
 
+    def test_another_runs_checkpoint_that_cannot_be_moved_ends_this_run(
+        self, separating: State, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        interrupt(3, P, 55, initial_state=separating, checkpoint=tmp_path / "x")
+        kept = (tmp_path / "x").read_bytes()
+
+        def refused(*_: object) -> None:
+            raise PermissionError(13, "Permission denied")
+
+        monkeypatch.setattr(os, "replace", refused)
+        with pytest.raises(ParameterError, match=r"checkpoint='.*x': is of another run .* cannot be renamed"):
+            simulate(P, 54.5, initial_state=separating, checkpoint=tmp_path / "x", checkpoint_every=0)
+        assert (tmp_path / "x").read_bytes() == kept
+
 
 OTHERS: dict[str, tuple[Parameters, float, dict[str, Any]]] = {
     "parameters": (P.replace(mu_k=0.23), 55, {}),

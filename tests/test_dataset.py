@@ -29,9 +29,9 @@ T_END = 0.5
 def spec_of(p: Parameters = P, events: tuple[float, float] | None = (0.1, T_END)) -> CaseSpec:
     windows = (
         ("history", Window(start=0, stop=0.4995, rate=1000, envelope=50)),
-        ("zoom", Window(start=0.1, stop=0.2, rate=2000)),
+        ("zoom", Window(start=0.1, stop=0.2, rate=2000, theta=0.5)),
     )
-    return CaseSpec(p, T_END, 1e-10, None, windows, Poincare(), events, False)
+    return CaseSpec(p, T_END, 1e-10, None, windows, Poincare(theta=2.0), events, False)
 
 
 @pytest.fixture(scope="module")
@@ -56,6 +56,18 @@ def test_flat_dataset_holds_everything(result: Result) -> None:
     assert float(flat["N"]) == 385
     assert int(flat["n_events"]) == len(result.events)
     assert flat.attrs["parameters"] == P.canonical_json
+
+
+def test_the_angle_of_the_disc_is_kept_with_what_was_taken_there(
+    result: Result, tree: xr.DataTree, tmp_path: Path
+) -> None:
+    save(merge_cases({"A": tree}, {}), tmp_path / "cases.nc")
+    merged = load(tmp_path / "cases.nc")["A"]
+    for name, theta in (("history", 1.0), ("zoom", 0.5), ("poincare", 2.0)):
+        assert tree[name].attrs["theta"] == theta
+        assert merged[name].attrs["theta"] == theta
+    flat = result_to_dataset(result)
+    assert [flat.attrs[f"{name}_theta"] for name in ("sample_0", "sample_1", "poincare")] == [1.0, 0.5, 2.0]
 
 
 def test_default_record_gives_events_and_scalars_alone() -> None:

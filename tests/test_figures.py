@@ -12,7 +12,7 @@ import xarray as xr
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
-from disc_model import Parameters
+from disc_model import Parameters, Poincare, Window
 from disc_model.figures import parts
 from disc_model.figures.catalogue import CATALOGUE, SECTIONS, caption, label, module_of, number_of
 from disc_model.figures.style import COLUMN, PAGE, save
@@ -51,7 +51,7 @@ def made_up_case(*, separates: bool = True) -> xr.DataTree:
     return xr.DataTree.from_dict(
         {
             "/": root,
-            "/history": xr.Dataset(history, coords={"time": t}),
+            "/history": xr.Dataset(history, {"time": t}, {"theta": 0.5}),
             "/zoom": xr.Dataset(zoom, coords={"time": 50 + s}),
         }
         | {f"/{name}": window for name, window in stretches.items()}
@@ -73,7 +73,7 @@ def made_up_samples(start: float, rate: float, length: float) -> xr.Dataset:
         "w_point_velocity": 0.1 * np.cos(2 * np.pi * 140 * t),
         "phase": np.where(cycle > 0.9, 2, np.where(cycle > 0, 0, 1)).astype(np.int8),
     }
-    return xr.Dataset({name: ("time", value) for name, value in values.items()}, coords={"time": t})
+    return xr.Dataset({name: ("time", value) for name, value in values.items()}, {"time": t}, {"theta": 0.5})
 
 
 OPTIONS = {
@@ -158,6 +158,44 @@ def test_captions_name_the_parameters_and_the_modes(name: str) -> None:
         text = caption(name, cases)
         assert "N = 385 N, Ω = 15.1 rad/s, c_p = 0.5 N s/m" in text
         assert words in text
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_the_disc_is_named_at_the_angle_that_was_recorded(name: str) -> None:
+    figure = draw(name)
+    labels = [text for ax in figure.axes for text in (ax.get_xlabel(), ax.get_ylabel()) if text.startswith("Disc at")]
+    assert set(labels) <= {r"Disc at $r_0$, $\theta$ = 0.5 (mm)"}
+    assert labels or "{theta}" not in CATALOGUE[name].caption or name == "fig25"
+    # no number is said of what may be configured
+    assert not any(character.isdigit() for character in CATALOGUE[name].title)
+
+
+def test_two_angles_are_both_named() -> None:
+    cases = {name: made_up_case() for name in ("F02", "F04")}
+    cases["F04"]["history"].attrs["theta"] = 2.0
+    figure = importlib.import_module(module_of("fig10")).draw(cases)
+    assert figure.axes[0].get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 and 2 (mm)"
+
+
+def test_captions_say_times_and_angles_of_the_windows() -> None:
+    p = Parameters(N=200, Omega=20)
+    windows = {
+        "history": Window(start=0, stop=9, rate=10, theta=0.5, envelope=2),
+        "zoom": Window(start=3, stop=3.05, rate=1e3),
+        "orbit": Window(start=7.5, stop=9, rate=1e3),
+        "poincare": Poincare(theta=-0.25),
+    }
+
+    def said(name: str) -> str:
+        return caption(name, {"F02": p, "F04": p}, {"F02": windows, "F04": windows | {"history": windows["zoom"]}})
+
+    assert "(b) 50 ms of it" in said("fig02")
+    assert "r_0 and θ = -0.25." in said("fig05")
+    assert "r_0 and θ = 0.5 and 1, with" in said("fig10")
+    assert "drive point, 7.5 to 9 s, by phase" in said("figA2")
+    # without a section, as if nothing had been said of it
+    assert "r_0 and a fixed θ." in caption("fig05", {"F02": p}, {"F02": {"poincare": None}})
+    assert "{" not in "".join(caption(name, dict.fromkeys(CATALOGUE[name].cases, p)) for name in CATALOGUE)
 
 
 def test_every_figure_has_its_place() -> None:

@@ -57,6 +57,23 @@ def test_nothing_is_kept_if_nothing_is_asked_for():
     assert len(still.poincare["time"]) == 0
 
 
+@pytest.mark.parametrize(("t_end", "rate"), [(0.3, 10), (0.07, 300), (0.05, 700)])
+def test_the_sample_at_the_very_end_is_taken(t_end, rate):
+    """3 * 0.1 > 0.3: its time is rounded to behind the end."""
+    window = Window(start=0, stop=t_end, rate=rate)
+    time = simulate(P, t_end, tol=1e-9, record=Record(windows=(window,))).samples[0]["time"]
+    assert len(time) == window.count
+    assert time[-1] == pytest.approx(t_end, abs=1e-15)
+    assert time[-1] <= t_end
+
+
+def test_samples_by_the_drive_end_with_the_run():
+    turn = 2 * math.pi / P.Omega
+    for turns in range(1, 8):
+        taken = simulate(P, turns * turn, tol=1e-9, record=Record(poincare=Poincare())).poincare
+        assert len(taken["time"]) == turns + 1
+
+
 def test_windows_that_the_run_does_not_enter_are_warned_of():
     windows = tuple(Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03, 0.5))
     with pytest.warns(
@@ -118,6 +135,9 @@ def test_all_faults_of_the_arguments_come_at_once():
         ({"phase": "flight"}, "must be one of stick, slip, separation"),
         ({"phase": "stick", "f": 1.0}, "must be 0 in stick"),
         ({"phase": "slip", "direction": 0}, "must be -1 or 1 in slip"),
+        ({"known": 4}, "known=4: must be 0, 1, 2 or 3"),
+        ({"time_low": math.nan}, "time_low=nan: must be less than the last digit of the time"),
+        ({"time_low": 1e-3}, "time_low=0.001: must be less than the last digit of the time"),
     ):
         with pytest.raises(ParameterError, match=fault):
             simulate(P, 1.0, initial_state=state.replace(**changes))

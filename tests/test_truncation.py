@@ -10,6 +10,8 @@ import pytest
 from disc_model import ParameterError, Parameters, plate_modes, simulate, slider_at_rest_frequencies
 from disc_model.errors import DiscModelError
 from disc_model.figures.benchmark import truncation as draw
+from disc_model.studies.batch import run_case
+from disc_model.studies.case import CaseSpec
 from disc_model.truncation import (
     RICH,
     choose_truncation,
@@ -141,5 +143,20 @@ def test_auto_reports_faults_like_any_other_value() -> None:
         Parameters(N=-1, Omega=15.1, n_diameters="auto")
     with pytest.raises(ParameterError, match="tolerance=1e-09"):
         Parameters(N=1, Omega=15.1, n_diameters="auto", truncation_tolerance=1e-9)
-    with pytest.raises(ParameterError, match="truncation_tolerance"):
+    with pytest.raises(ParameterError, match=r"truncation_tolerance=0\.001: is used with n_diameters='auto' only"):
         Parameters(N=1, Omega=15.1, n_diameters=4, truncation_tolerance=1e-3)
+    with pytest.raises(ParameterError, match="truncation_tolerance='fine': must be a number"):
+        Parameters(N=1, Omega=15.1, n_diameters="auto", truncation_tolerance="fine")
+    # YAML reads 1e-3 as text
+    spelt = Parameters(N=385, Omega=15.1, n_diameters="auto", truncation_tolerance="1e-3")
+    assert spelt == Parameters(N=385, Omega=15.1, n_diameters="auto")
+
+
+def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
+    p = Parameters(N=385, Omega=15.1, n_diameters="auto")
+    spec = CaseSpec(p, 0.01, 1e-10, None, (), None, None, False)
+    read = CaseSpec.from_canonical(spec.canonical)
+    assert read == spec
+    assert read.parameters.truncation == p.truncation
+    assert run_case(read).attrs["truncation"] == p.truncation
+    assert "truncation" not in CaseSpec(p.replace(), 0.01, 1e-10, None, (), None, None, False).canonical

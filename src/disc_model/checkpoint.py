@@ -23,6 +23,7 @@ from typing import Any, BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.provenance import source_hash, versions
 from disc_model.record import Record
@@ -113,14 +114,14 @@ class Checkpoint:
         """What the file's records hold that are whole and of this very run; None if there are none."""
         state: Mapping[str, Array] = {}
         rows: dict[str, list[Array]] = {}
+        differing: list[str] = []
         if _is_something_else(self.path):
             self._set_aside("not a checkpoint")
             return None
         try:
             for end, belongs_to, contents in _records(self.path):
                 if differing := [name for name, value in self.belongs_to.items() if belongs_to.get(name) != value]:
-                    self._set_aside(f"of another run (other {', '.join(differing)})")
-                    return None
+                    break
                 state, self._size = contents.state, end
                 for name, arrays in contents.rows.items():
                     rows.setdefault(name, []).extend(arrays)
@@ -128,12 +129,21 @@ class Checkpoint:
             return None
         except (OSError, _Damaged) as error:
             log.warning("checkpoint %s ignored from byte %d on: %s", self.path, self._size, error)
+        if differing:
+            # outside of the try: a run whose file cannot be got out of the way must not write over it
+            self._set_aside(f"of another run (other {', '.join(differing)})")
+            return None
         self._written = {name: len(arrays) for name, arrays in rows.items()}
         return Contents(state, rows) if self._size else None
 
     def _set_aside(self, why: str) -> None:
         aside = self.path.with_name(self.path.name + SET_ASIDE)
-        os.replace(self.path, aside)
+        try:
+            os.replace(self.path, aside)
+        except OSError as error:
+            raise ParameterError(
+                f"checkpoint={str(self.path)!r}: is {why} and cannot be renamed ({error.strerror})"
+            ) from None
         log.warning("checkpoint %s ignored: %s; it is now called %s", self.path, why, aside.name)
 
     @property

@@ -28,7 +28,7 @@ class Collector:
         grids = [_uniform(window, start, t_end) for window in record.windows]
         if record.poincare is not None:
             grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
-        self.samplers: Array = np.array(grids, dtype=float).reshape(-1, 4)
+        self.samplers: Array = np.array([(*grid, t_end) for grid in grids], dtype=float).reshape(-1, 5)
         self.sampled = np.zeros(len(grids), np.int64)
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         per_step = sum(1 + math.ceil(min(longest_step / grid[1], grid[2])) for grid in grids)

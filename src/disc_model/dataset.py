@@ -4,7 +4,8 @@ A case is a tree of groups, which is also how its file is laid out:
 
 - the root holds its scalars (parameters, status, first separation, statistics), all without dimension;
 - ``events`` holds one entry per switch along `event`;
-- every recorded window is a group under its name, along `time`; so is ``poincare``.
+- every recorded window is a group under its name, along `time`; so is ``poincare``. Their attribute ``theta`` is the
+  angle in rad at which ``w_point`` was taken.
 
 `disc_model.studies.merge` puts many cases into one file. Nothing here holds a time stamp or a duration that differs
 from run to run, so that equal runs give equal bytes.
@@ -41,7 +42,7 @@ def result_to_dataset(result: Result) -> xr.Dataset:
 
     Scalars have no dimension; switches run along `event` as ``event_time``, ``event_kind``, ...; samples of
     the i-th window along ``sample_i`` as ``sample_i_time``, ``sample_i_P``, ...; the Poincare samples along
-    `poincare`.
+    `poincare`. Attributes of a group bear such names as well, ``sample_i_theta``.
     """
     groups = result_groups(result)
     flat = groups.pop("")
@@ -49,6 +50,7 @@ def result_to_dataset(result: Result) -> xr.Dataset:
         prefix = "event" if group == "events" else group
         names = {name: f"{prefix}_{name}" for name in dataset.variables}
         flat = flat.merge(dataset.drop_indexes("time", errors="ignore").swap_dims(_to(dataset, prefix)).rename(names))
+        flat.attrs |= {f"{prefix}_{name}": value for name, value in dataset.attrs.items()}
     return flat
 
 
@@ -61,9 +63,11 @@ def result_groups(result: Result, names: Sequence[str] | None = None) -> dict[st
     """
     names = [f"sample_{i}" for i in range(len(result.samples))] if names is None else names
     groups = {"": _scalars(result), "events": events_dataset(result.events)}
-    groups |= {name: samples_dataset(data) for name, data in zip(names, result.samples, strict=True)}
-    if result.poincare is not None:
-        groups["poincare"] = samples_dataset(result.poincare)
+    record = result.record
+    for name, window, data in zip(names, record.windows, result.samples, strict=True):
+        groups[name] = samples_dataset(data, window.theta)
+    if result.poincare is not None and record.poincare is not None:
+        groups["poincare"] = samples_dataset(result.poincare, record.poincare.theta)
     return groups
 
 
@@ -73,10 +77,13 @@ def events_dataset(events: Any) -> xr.Dataset:
     return xr.Dataset(data).set_coords("time")
 
 
-def samples_dataset(samples: Mapping[str, Any]) -> xr.Dataset:
-    """Samples of one window along the coordinate `time`; envelopes keep their ``_min`` and ``_max``."""
+def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
+    """Samples of one window along the coordinate `time`; envelopes keep their ``_min`` and ``_max``.
+
+    theta : rad, where ``w_point`` was taken
+    """
     data = {name: ("time", _narrow(name, values), attributes(name)) for name, values in samples.items()}
-    return xr.Dataset(data)
+    return xr.Dataset(data, attrs={"theta": theta})
 
 
 def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict[str, xr.Dataset]:

@@ -42,6 +42,10 @@ def _whole(value: Any) -> Any:
     return int(number)
 
 
+AUTO = "auto"
+"""As ``n_diameters``: the fewest modes that meet the tolerance."""
+TRUNCATION_TOLERANCE = 1e-3
+
 Real = Annotated[float, BeforeValidator(_number)]
 Count = Annotated[int, BeforeValidator(_whole)]
 
@@ -99,15 +103,18 @@ class Parameters(BaseModel):
 
     _truncation: str = PrivateAttr("")
 
-    def __init__(self, **data: Any) -> None:
+    def __init__(self, /, **data: Any) -> None:
         faults: list[str] = []
         truncation = ""
-        if data.get("n_diameters") == "auto":
+        if data.get("n_diameters") == AUTO:
             data, truncation = _automatic(type(self), data)
+        elif "truncation_tolerance" in data:
+            tolerance = data.pop("truncation_tolerance")
+            faults.append(f"truncation_tolerance={_shown(tolerance)}: is used with n_diameters={AUTO!r} only")
         try:
             super().__init__(**data)
         except ValidationError as error:
-            faults = [_fault(type(self), item) for item in error.errors(include_url=False)]
+            faults += [_fault(type(self), item) for item in error.errors(include_url=False)]
         faults += _cross_faults(type(self), data)
         if faults:
             raise ParameterError(*faults) from None
@@ -134,8 +141,14 @@ class Parameters(BaseModel):
         return self.replace(**(update or {}))
 
     def replace(self, **changes: Any) -> Self:
-        """A validated copy with some values changed."""
+        """A validated copy with some values changed.  The number of modes is kept, the record of its choice is not."""
         return type(self)(**{**self.model_dump(), **changes})
+
+    def with_truncation(self, record: str) -> Self:
+        """A copy that says how its number of modes was chosen; see `truncation`."""
+        copy = self.replace()
+        copy._truncation = record
+        return copy
 
     @property
     def D(self) -> float:
@@ -167,13 +180,27 @@ class Parameters(BaseModel):
 def _automatic(model: type[Parameters], data: dict[str, Any]) -> tuple[dict[str, Any], str]:
     """Values with the number of modes chosen, and the record of the choice."""
     values = {name: value for name, value in data.items() if name not in ("n_diameters", "truncation_tolerance")}
+    tolerance = truncation_tolerance(data.get("truncation_tolerance", TRUNCATION_TOLERANCE))
     case = model(**{**values, "n_diameters": 0, "n_circles": 0})
-    # by name: what a simulation depends on is the choice, which is in the values, and not how it was made
-    chosen = importlib.import_module("disc_model.truncation").truncation_choice(
-        case, data.get("truncation_tolerance", 1e-3)
-    )
+    chosen = _truncation().truncation_choice(case, tolerance)
     counts = {"n_diameters": chosen.parameters.n_diameters, "n_circles": chosen.parameters.n_circles}
     return {**values, **counts}, chosen.to_json()
+
+
+def truncation_tolerance(value: Any) -> float:
+    """A tolerance for the choice of modes; raises `ParameterError` if it is none."""
+    try:
+        number, least = _number(value), float(_truncation().TRUSTED)
+    except ValueError:
+        raise ParameterError(f"truncation_tolerance={_shown(value)}: must be a number") from None
+    if not least <= number < math.inf:
+        raise ParameterError(f"truncation_tolerance={number!r}: must be finite and >= {least:g}")
+    return number
+
+
+def _truncation() -> Any:
+    """The module that chooses.  By name: what a simulation depends on is the choice, and not how it was made."""
+    return importlib.import_module("disc_model.truncation")
 
 
 def _rigidity(E: float, h: float, nu: float) -> float:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from disc_model import errors
 from disc_model.parameters import Parameters
+from disc_model.record import Record
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -110,7 +111,7 @@ class Result:
 
     Attributes
     ----------
-    parameters, t_end (s), tol : what was asked
+    parameters, t_end (s), tol, record : what was asked
     status, message : how it ended; the message says at what time, in what phase and why
     event_rows : shape (n_events, len(EVENT_ROW)), what `events` is made of
     events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
@@ -127,6 +128,7 @@ class Result:
     parameters: Parameters
     t_end: float
     tol: float
+    record: Record
     status: Status
     message: str
     event_rows: Array = field(repr=False)

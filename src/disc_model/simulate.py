@@ -180,6 +180,7 @@ class _Run:
             parameters=self.p,
             t_end=self.t_end,
             tol=self.tol,
+            record=self.record,
             status=status,
             message=_message(status, self.state, self.model),
             event_rows=self.collector.events(),

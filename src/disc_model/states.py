@@ -81,6 +81,11 @@ def _faults(given: State, n_modes: int) -> list[str]:
     for name in ("time", "psi", "f", "u", "u_velocity"):
         if not np.isfinite(getattr(given, name)):
             faults.append(f"initial_state.{name}={getattr(given, name)!r}: must be finite")
+    # the clock's compensation is at most a unit in the last place of the time
+    if not abs(given.time_low) <= np.spacing(abs(float(given.time))):
+        faults.append(f"initial_state.time_low={given.time_low!r}: must be less than the last digit of the time")
+    if given.known not in range(4):
+        faults.append(f"initial_state.known={given.known!r}: must be 0, 1, 2 or 3")
     if given.phase not in PHASES:
         faults.append(f"initial_state.phase={given.phase!r}: must be one of {', '.join(PHASES)}")
     elif given.phase == "stick" and given.f != 0:

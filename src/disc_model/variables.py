@@ -32,8 +32,8 @@ SERIES = {
     "w": Variable("m", "displacement of the disc under the slider"),
     "w_point": Variable("m", "displacement of the disc at r_0 and a fixed angle"),
     "w_point_velocity": Variable("m s-1", "velocity of the disc at r_0 and a fixed angle"),
-    "psi": Variable("rad", "angle of the slider relative to the drive point"),
-    "psi_velocity": Variable("rad s-1", "angular velocity of the slider relative to the drive point"),
+    "psi": Variable("rad", "angle of the drive point ahead of the slider"),
+    "psi_velocity": Variable("rad s-1", "angular velocity of the drive point relative to the slider, Omega - f"),
     "f": Variable("rad s-1", "absolute angular velocity of the slider"),
 }
 SCALARS = {

@@ -19,6 +19,7 @@ import xarray as xr
 from disc_model.dataset import events_dataset, failed_groups, samples_dataset
 from disc_model.parameters import Parameters
 from disc_model.plate import slider_at_rest_frequencies
+from disc_model.record import Window
 from disc_model.result import PHASES
 from disc_model.studies.case import CaseSpec
 from disc_model.studies.study import load_study
@@ -169,13 +170,14 @@ def tell(spec: CaseSpec, story: Story) -> xr.DataTree:
     for name, window in spec.windows:
         stop = min(window.stop, reached)
         if window.envelope:
-            groups[f"/{name}"] = _history(spec, story, window.start, stop, window.envelope / window.rate)
+            groups[f"/{name}"] = _history(spec, story, window, stop)
         else:
             t = window.start + np.arange(int((stop - window.start) * window.rate * (1 + 1e-12)) + 1) / window.rate
-            groups[f"/{name}"] = samples_dataset(_samples(spec, story, t))
+            groups[f"/{name}"] = samples_dataset(_samples(spec, story, t), window.theta)
     if spec.poincare is not None:
         turn = 2 * np.pi / spec.parameters.Omega
-        groups["/poincare"] = samples_dataset(_samples(spec, story, np.arange(int(reached / turn)) * turn))
+        t = np.arange(int(reached / turn)) * turn
+        groups["/poincare"] = samples_dataset(_samples(spec, story, t), spec.poincare.theta)
     if spec.events is not None:
         groups["/events"] = _events(spec, story, *spec.events)
     return xr.DataTree.from_dict(groups)
@@ -197,15 +199,16 @@ def _scalars(spec: CaseSpec, story: Story, reached: float) -> xr.Dataset:
     return empty.assign({name: ((), value, empty[name].attrs) for name, value in values.items()})
 
 
-def _history(spec: CaseSpec, story: Story, start: float, stop: float, width: float) -> xr.Dataset:
-    t = start + width * (np.arange(int((stop - start) / width + 1e-3)) + 0.5)
+def _history(spec: CaseSpec, story: Story, window: Window, stop: float) -> xr.Dataset:
+    width = window.envelope / window.rate
+    t = window.start + width * (np.arange(int((stop - window.start) / width + 1e-3)) + 0.5)
     force, disc = story.force_range(t, spec.t_end) * spec.parameters.N / 2, story.disc_range(t, spec.t_end) / 2
     middle = {"P": spec.parameters.N, "w_point": 0.0}
     half = {"P": force, "w_point": disc}
     bounds = {
         f"{name}_{end}": middle[name] + side * half[name] for name in half for end, side in (("min", -1), ("max", 1))
     }
-    return samples_dataset({"time": t} | bounds)
+    return samples_dataset({"time": t} | bounds, window.theta)
 
 
 def _samples(spec: CaseSpec, story: Story, t: np.ndarray) -> dict[str, np.ndarray]:

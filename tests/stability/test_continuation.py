@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters
-from disc_model.stability import cycle_problem
+from disc_model.stability import continuation, cycle_problem
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.curves import stability_curves
 from disc_model.stability.neutral import continue_fold, continue_neutral
@@ -56,6 +56,18 @@ def test_a_branch_may_begin_the_other_way_and_stop_short():
 def test_where_a_branch_ends_is_said(start, bounds, why):
     branch = continue_cycle(P.replace(Omega=start), "Omega", bounds, direction=-1, shortest=1e-3)
     assert why in branch.ended
+
+
+def test_a_fold_that_cannot_be_located_ends_the_branch(monkeypatch):
+    def lost(*_):
+        raise cycle_problem.Lost("Newton's method does not converge")
+
+    monkeypatch.setattr(continuation, "_locate_fold", lost)
+    branch = continue_cycle(P, "Omega", (12.0, 17.0))
+    assert branch.ended.startswith("the fold near Omega=1")
+    assert branch.ended.endswith("cannot be located: Newton's method does not converge")
+    assert len(branch) > 1
+    assert branch.folds.shape == (0, 1)
 
 
 def test_where_the_motion_does_not_return_there_is_no_branch(monkeypatch):

@@ -48,6 +48,9 @@ def test_steady_sliding_says_why_there_is_none():
     assert steep.message == steep.status.advice
     assert not steep.stable
     assert math.isnan(steep.contact_force)
+    # the damper alone cannot balance friction at f = Omega, where it does nothing; without friction it need not
+    assert steady_sliding(P.replace(k_p=0, c_p=0.5)).status is SlidingStatus.NO_SPRING
+    assert steady_sliding(P.replace(k_p=0, c_p=0.5, mu_s=0, mu_k=0)).status is SlidingStatus.OK
     fine = steady_sliding(P)
     assert fine.status is SlidingStatus.OK
     assert fine.stable == (fine.growth_rate < 0)

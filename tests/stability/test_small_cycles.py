@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -55,7 +56,7 @@ def test_no_cycle_near_a_state_is_said():
     slipping = simulate(slippery, 0.01, tol=1e-8).final_state
     found = find_cycle_near(slippery, slipping, 1)
     assert found.status is CycleStatus.NO_STICK_SLIP
-    assert found.message == "the slider does not stick after the given state"
+    assert re.fullmatch(r"the slider does not stick within 0\.0\d+ s of the given state", found.message)
 
 
 @pytest.mark.parametrize(
@@ -127,6 +128,14 @@ class Affine:
         flight = Flight(code, 1.0, 0.3, 0.7, 0.0, 1, 0, 0, 0, 1)
         bent = self.A @ x + self.d + 0.01 * np.sin(x)
         return flight, bent, self.wrong + 0.01 * np.diag(np.cos(x)), np.zeros((self.size, 0))
+
+
+def test_from_a_given_point_no_other_cycle_is_taken():
+    far = 3 * ReturnMap(P).static
+    assert find_cycle(P).status is CycleStatus.OK
+    found = find_cycle(P, start=far)
+    assert found.status is CycleStatus.NO_CYCLE
+    assert found.message == "no cycle near the given point of the section"
 
 
 def test_newton_finds_the_fixed_point():

@@ -52,6 +52,14 @@ def test_a_motion_that_cannot_go_on_has_no_exponents():
     assert not found.chaotic
 
 
+def test_a_transient_that_cannot_be_finished_leaves_no_exponents():
+    p, start = paradox()
+    found = lyapunov_exponents(p, 0.1, transient=0.1, initial_state=start)
+    assert found.status is LyapunovStatus.PARADOX
+    assert np.isnan(found.exponents).all()
+    assert found.final_state.time < start.time + 0.1
+
+
 BASE = Parameters(N=200, Omega=50, n_diameters=1)
 
 

@@ -10,11 +10,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model import Parameters, floquet, truncation
+from disc_model.errors import DiscModelError
 from disc_model.figures.maps import draw as draw_map
 from disc_model.studies.faults import StudyError
 from disc_model.studies.grid import GridStudy, load_grid, load_grids, parse_grid
 from disc_model.studies.grid_batch import run_batch
 from disc_model.studies.grid_merge import MergeError, failures, merge_batches
+from disc_model.variables import flag_names
 
 STUDIES = sorted((Path(__file__).parents[2] / "config" / "studies").glob("*.yaml"))
 
@@ -172,7 +175,7 @@ def test_every_fault_is_reported_with_its_path() -> None:
         ({"quantity": "critical_speed"}, "axes.Omega: is varied by the quantity critical_speed"),
         (
             {"figures": {"f": {"kind": "stability_map", "x": "N", "y": "E"}}},
-            "figures.f = 'E': is no dimension of this study",
+            "figures.f.y = 'E': is no dimension of this study (known: N, Omega)",
         ),
         (
             {"axes": {"N": [1], "Omega": {"start": 0, "stop": 1, "step": 0.3}}},
@@ -182,6 +185,144 @@ def test_every_fault_is_reported_with_its_path() -> None:
 )
 def test_rules_between_parts(changes: dict[str, Any], fault: str) -> None:
     assert fault in "\n".join(faults(study(**changes)))
+
+
+HUGE = {"start": 1, "stop": 2, "count": 10**9}
+
+
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        ({"axes": {"N": [1], "Omega": HUGE}}, "axes.Omega: must be at most 100000 values"),
+        (
+            {"axes": {"N": [1], "Omega": {"start": 1, "stop": 1e300, "step": 1e-300}}},
+            "axes.Omega: must be at most 100000",
+        ),
+        ({"axes": {"N": [1], "Omega": {"start": -1e308, "stop": 1e308, "count": 2}}}, "stop - start must be finite"),
+        ({"axes": {"N": [1], "Omega": {"blocks": [[1], HUGE]}}}, "axes.Omega.blocks.1: must be at most 100000 values"),
+        (
+            {"quantity": "hysteresis", "options": {"scan": HUGE, "dwell": 9}},
+            "options.scan: must be at most 100000 values",
+        ),
+        (
+            {"axes": {name: {"start": 1, "stop": 2, "count": 1001} for name in ("N", "Omega")}, "batch": {}},
+            "axes: must make at most 1000000 points, and not 1002001",
+        ),
+    ],
+)
+def test_what_is_too_large_is_refused_before_it_is_made(changes: dict[str, Any], fault: str) -> None:
+    assert fault in "\n".join(faults(study(**changes)))
+
+
+def test_a_resolution_that_makes_too_many_values_is_refused() -> None:
+    raw = study(axes={"N": [1], "Omega": {"start": 1, "stop": 2, "count": 11}})
+    with pytest.raises(StudyError, match=r"axes\.Omega: must be at most 100000 values, and not 1000001"):
+        parse_grid(raw, 100_000)
+
+
+def test_resolution_divides_the_ranges_in_blocks_too() -> None:
+    axes = {"N": [100], "Omega": {"blocks": [[1.0, 9.0], {"start": 2, "stop": 4, "count": 3}]}}
+    coarse, fine = (parse_grid(study(axes=axes), resolution) for resolution in (1, 2))
+    assert [value for (value,) in coarse.dims[-1].values] == [1, 2, 3, 4, 9]
+    assert [value for (value,) in fine.dims[-1].values] == [1, 2, 2.5, 3, 3.5, 4, 9]
+    assert coarse.batches.keys() < fine.batches.keys()
+
+
+# ---- the number of modes, left to each point
+
+
+AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "2e-3"}
+
+
+def test_the_modes_are_chosen_for_each_point() -> None:
+    axes = {"normalization": ["as_published", "orthonormal"]}
+    grid = parse_grid(
+        study(quantity="floquet", options={}, base={"N": 300, "Omega": 20, **AUTOMATIC}, axes=axes, batch={})
+    )
+    [text] = grid.batches.values()
+    done = run_batch(text)
+    for i, normalization in enumerate(axes["normalization"]):
+        own = Parameters(N=300, Omega=20, normalization=normalization, **AUTOMATIC)
+        assert (done["n_diameters"][i], done["n_circles"][i]) == (own.n_diameters, own.n_circles)
+        assert done["growth_rate"][i] == pytest.approx(floquet(own).growth_rate, abs=1e-9)
+    assert done["n_diameters"][0] < done["n_diameters"][1]
+    merged = merge_batches([done], grid.grid, {})
+    assert merged["n_diameters"].dims == ("normalization",)
+    assert json.loads(merged.attrs["base"])["n_diameters"] == "auto"
+
+
+def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    choose = truncation.truncation_choice
+
+    def not_on_a_wall(p: Parameters, tolerance: float) -> truncation.TruncationChoice:
+        if p.k > 1e6:
+            raise DiscModelError("no model up to (20, 6) (diameters, circles) meets it")
+        return choose(p, tolerance)
+
+    monkeypatch.setattr(truncation, "truncation_choice", not_on_a_wall)
+    base = {"N": 300, "Omega": 20, **AUTOMATIC}
+    grid = parse_grid(study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={}))
+    [text] = grid.batches.values()
+    done = run_batch(text)
+    assert flag_names(done["status"]).tolist() == ["ok", "failed"]
+    assert done["n_diameters"].values.tolist() == [3, -1]
+    assert "no model up to" in str(done["message"].values[1])
+    assert np.isnan(done["growth_rate"].values[1])
+
+
+@pytest.mark.parametrize(
+    ("base", "axes", "fault"),
+    [
+        ({}, {"n_diameters": [4, "auto"]}, "axes.n_diameters = 'auto': cannot be varied: give it in base"),
+        (AUTOMATIC, {"n_circles": [0, 1]}, "axes.n_circles: is chosen for each point"),
+        ({**AUTOMATIC, "n_circles": 1}, {}, "base.n_circles: is chosen for each point"),
+        ({**AUTOMATIC, "truncation_tolerance": "fine"}, {}, "base.truncation_tolerance = 'fine': must be a number"),
+        (
+            {**AUTOMATIC, "truncation_tolerance": 1e-9},
+            {},
+            "base.truncation_tolerance = 1e-09: must be finite and >= 0.0001",
+        ),
+        ({"truncation_tolerance": 1e-3}, {}, "base.truncation_tolerance = 0.001: is used with n_diameters='auto' only"),
+    ],
+)
+def test_contradictions_about_the_modes_are_faults(base: dict[str, Any], axes: dict[str, Any], fault: str) -> None:
+    raw = study(base={"m": 0.2, **base}, axes={"N": [1], "Omega": [1], **axes}, batch={})
+    assert fault in "\n".join(faults(raw))
+
+
+def test_the_only_fault_of_a_figure_is_the_one_that_matters() -> None:
+    figure = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growht": "g"}}
+    axes = {"N": [1], "Omega": [1], "k": [1, 2]}
+    assert faults(study(axes=axes, figures={"f": figure})) == [
+        "figures.f.kind = 'stability_map': can show N, Omega, normalization, but not k as well",
+        "figures.f.others.growht = 'g': unknown role (known: growth)",
+    ]
+    wrong = {"f": {"kind": "critical_speed", "others": {"growht": "g"}}}
+    assert faults(study(figures=wrong)) == ["figures.f.kind = 'critical_speed': needs the quantity critical_speed"]
+
+
+def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
+    others = {"growth": "other"}
+    shown = study(figures={"f": {"kind": "stability_map", "x": "N", "y": "Omega", "others": others}})
+    other = {"study": "other", "quantity": "floquet", "axes": {"N": [1], "Omega": [1]}}
+    files = tmp_path / "small.yaml", tmp_path / "other.yaml"
+    for changes, fault in (
+        ({}, ""),
+        (
+            {"quantity": "outcome", "options": {"horizon": 2}},
+            "must be a study of the quantity floquet, and not outcome",
+        ),
+        ({"axes": {"N": [1], "Omega": [1], "k": [2]}}, "must vary N, Omega beside normalization, and not N, Omega, k"),
+        ({"base": {"normalization": "orthonormal"}}, "must be computed for the same normalization: as_published"),
+    ):
+        for file, raw in zip(files, (shown, other | changes), strict=True):
+            file.write_text(json.dumps(raw))
+        if not fault:
+            assert load_grids(files)["small"].values["N"] == ((100.0,), (200.0,), (300.0,))
+            continue
+        with pytest.raises(StudyError) as error:
+            load_grids(files)
+        assert error.value.faults == (f"small: figures.f.others.growth = 'other': {fault}",)
 
 
 def test_a_bad_axis_is_the_only_fault_of_a_figure_over_it() -> None:

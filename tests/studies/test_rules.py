@@ -98,7 +98,7 @@ def test_names_of_files_and_of_studies_agree(tmp_path: Path) -> None:
     found = str(error.value)
     assert "study = 'two': must be the name of the file" in found
     assert "study = 'three': is the name of another folder of results" in found
-    assert "three: figures.f = 'elsewhere': no such study" in found
+    assert "three: figures.f.others.growth = 'elsewhere': no such study" in found
 
 
 CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from types import SimpleNamespace
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.errors import DiscModelError
 from disc_model.figures import attractors, curves, maps, thresholds
 from disc_model.figures.plots import Bifurcation, CriticalSpeed, GrowthMap, Mark, StabilityMap, Thresholds
 from disc_model.figures.style import save
@@ -20,6 +22,7 @@ from disc_model.studies.grid import parse_grid
 from disc_model.studies.grid_batch import run_batch
 from disc_model.studies.grid_merge import merge_batches
 from disc_model.studies.quantities import critical_speed, hysteresis, outcome
+from disc_model.studies.quantities.table import STATUSES
 from disc_model.variables import flag_names
 from tests.stability.toy_map import fold_at, outside, toy
 
@@ -164,10 +167,79 @@ def test_a_sweep_that_cannot_go_on_says_where(monkeypatch: pytest.MonkeyPatch) -
     options = hysteresis.OPTIONS.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
     table = hysteresis.compute([Parameters(N=200, Omega=0)], options)
     assert list(table.messages) == ["Omega=13.5: why"]
-    statuses = [hysteresis.STATUSES[i] for i in table.arrays["sweep_status"][0, 0]]
-    assert statuses == ["ok", "ok", "ok", "paradox", "failed", "failed", "failed"]
+    statuses = [[hysteresis.STATUSES[i] for i in row] for row in table.arrays["sweep_status"][0]]
+    assert statuses == [["ok", "ok", "ok", "paradox", "failed", "failed", "failed"], ["failed"] * 7]
     assert np.isnan(table.arrays["P_min"][0, 0, 3:]).all()
     assert np.isnan(table.arrays["onset"][0])
+
+
+@pytest.mark.parametrize(("breaks_at", "persists_to"), [(13.5, math.nan), (12.5, math.nan), (12.0, 13.0)])
+def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
+    breaks_at: float, persists_to: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Separation begins at 14 rad/s and persists to 13."""
+
+    def late_stretch(p, state, *_):
+        down = bool(state) and (state == "down" or p.Omega == 15)
+        failed = down and p.Omega == breaks_at
+        rate = float(p.Omega >= (13 if down else 14))
+        end = "down" if down or p.Omega == 15 else "up"
+        result = SimpleNamespace(status=Status.STALLED if failed else Status.OK, message="why", final_state=end)
+        return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, rate)
+
+    monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
+    options = hysteresis.OPTIONS.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
+    found = hysteresis.compute([Parameters(N=200, Omega=0)], options).arrays
+    assert found["onset"][0] == 14.0
+    assert found["persists_to"][0] == pytest.approx(persists_to, nan_ok=True)
+    assert hysteresis.STATUSES[found["status"][0]] == "stalled"
+
+
+@pytest.mark.parametrize(("fails_at", "lowest", "crossings"), [(None, 12.4, 1), (13.0, 12.4, 1), (12.0, math.nan, 0)])
+def test_a_run_that_breaks_off_is_no_quiet_run(
+    fails_at: float | None, lowest: float, crossings: int, fake_motions: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = critical_speed.follow
+
+    def follow(p, horizon, **more):
+        if p.Omega != fails_at:
+            return whole(p, horizon, **more)
+        result = SimpleNamespace(status=Status.PARADOX, message="why")
+        return SimpleNamespace(result=result, simulated=1.0, first_separation=math.nan)
+
+    monkeypatch.setattr(critical_speed, "follow", follow)
+    options = critical_speed.OPTIONS.model_validate({"horizons": [1000], "scan": SCAN | {"stop": 14}})
+    found = critical_speed.compute([Parameters(N=400, Omega=0)], options).arrays
+    assert found["critical_speed"][0, 0] == pytest.approx(lowest, nan_ok=True)
+    assert found["n_crossings"][0, 0] == crossings == np.isfinite(found["crossing"]).sum()
+    status = STATUSES[found["status"][0]]
+    assert status == ("ok" if fails_at is None else "paradox")
+    assert {STATUSES[i] for i in found["scan_status"][0]} == {"ok", status}
+
+
+class Unmade(DiscModelError):
+    """A point that could not be made."""
+
+
+@pytest.mark.parametrize(
+    ("quantity", "options", "statuses"),
+    [
+        (critical_speed, {"horizons": [900], "scan": SCAN}, {"status", "scan_status"}),
+        (hysteresis, {"scan": SCAN, "dwell": 60}, {"status", "sweep_status"}),
+        (outcome, {"horizon": 9}, {"status"}),
+    ],
+    ids=["critical_speed", "hysteresis", "outcome"],
+)
+def test_of_a_failed_point_nothing_is_known(quantity, options, statuses, fake_motions: None) -> None:
+    """Nor is anything computed for what stands in the place of parameters that could not be made."""
+    table = quantity.compute([Unmade("no modes")], quantity.OPTIONS.model_validate(options))
+    assert table.messages == ["Unmade: no modes"]
+    for name, array in table.arrays.items():
+        flags = quantity.TABLE[name].variable.flags
+        if flags:
+            assert {flags[i] for i in array.ravel()} == {"failed" if name in statuses else flags[0]}
+        elif array.dtype.kind == "f":
+            assert np.isnan(array).all()
 
 
 # ---- curves, maps and their figures
@@ -237,6 +309,85 @@ def test_the_critical_speed_is_drawn_with_and_without_hysteresis(
     save(alone, tmp_path / "alone.png")
 
 
+def with_failed(study: xr.Dataset, **place) -> xr.Dataset:
+    """The study with one point that failed; numbers that it has are not to be believed."""
+    study = study.copy(deep=True)
+    study["status"].loc[place] = STATUSES.index("failed")
+    return study
+
+
+def crosses(ax) -> list[list[float]]:
+    """Where points are marked as failed, along the axis."""
+    lines = [line for line in ax.lines if line.get_label() == "failed"]
+    return [
+        list(line.get_xdata() if line.get_transform() == ax.get_xaxis_transform() else line.get_ydata())
+        for line in lines
+    ]
+
+
+def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:
+    lost = with_failed(speeds, N=200)
+    both = curves.draw(lost, {"hysteresis": with_failed(sweep, N=400)}, CriticalSpeed())
+    assert [crosses(ax) for ax in both.axes] == [[[200]], [[400]]]
+    drawn = {line.get_label(): np.asarray(line.get_ydata()) for ax in both.axes for line in ax.lines}
+    for label in ("within 1000 s", "from rest, within 1000 s"):
+        assert np.isfinite(drawn[label]).tolist() == [False, True]
+    for label in ("sweep up: separation begins", "sweep down: persists to"):
+        assert np.isfinite(drawn[label]).tolist() == [True, False]
+    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    (ax,) = thresholds.draw(lost, {"curves": plane, "cycle": growth}, Thresholds()).axes
+    assert crosses(ax) == [[200]]
+    separation = next(line for line in ax.lines if line.get_label() == "separation within 1000 s")
+    assert separation.get_ydata().tolist() == [400]
+    # nothing is known of any
+    (ax,) = thresholds.draw(with_failed(lost, N=400), {"curves": plane, "cycle": growth}, Thresholds()).axes
+    assert crosses(ax) == [[200, 400]]
+
+
+def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.Dataset]:
+    """Samples and exponents over three loads, for base values with this normalization."""
+    status = ("N", np.zeros(3, np.int8), {"flag_meanings": " ".join(STATUSES)})
+    axes, attrs = {"N": ("N", [1.0, 2, 3], {"units": "N"})}, {"base": json.dumps({"normalization": normalization})}
+    samples = {"phase": (("N", "sample"), np.ones((3, 2), np.int8)), "psi": (("N", "sample"), np.ones((3, 2)))}
+    exponents = {name: (("N", "exponent_number"), np.ones((3, 1))) for name in ("exponent", "exponent_error")}
+    return xr.Dataset(samples | {"status": status}, axes, attrs), xr.Dataset(
+        exponents | {"status": status}, axes, attrs
+    )
+
+
+def test_diagrams_mark_points_that_failed() -> None:
+    samples, exponents = made_up_samples()
+    others = {"lyapunov": with_failed(exponents, N=3)}
+    above, below = attractors.draw(with_failed(samples, N=2), others, Bifurcation(x="N")).axes
+    assert [crosses(ax) for ax in (above, below)] == [[[2]], [[3]]]
+    assert above.lines[0].get_xdata().tolist() == [1, 1, 3, 3]
+    assert not crosses(attractors.draw(samples, {}, Bifurcation(x="N")).axes[0])
+
+
+def in_base(study: xr.Dataset) -> xr.Dataset:
+    """The study as if its one normalization were given in base."""
+    attrs = {"base": json.dumps({"normalization": str(study["normalization"].item())})}
+    return study.squeeze("normalization", drop=True).assign_attrs(attrs)
+
+
+def test_the_normalization_may_be_given_in_base(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:
+    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    both = xr.concat([growth, growth.assign_coords(normalization=["orthonormal"])], "normalization")
+    alone = in_base(speeds)
+    assert len(curves.draw(alone, {"hysteresis": in_base(sweep), "cycle": both}, CriticalSpeed()).axes) == 2
+    assert len(thresholds.draw(alone, {"curves": plane, "cycle": both}, Thresholds()).axes) == 1
+    assert len(thresholds.draw(in_base(growth), {"curves": plane}, GrowthMap()).axes) == 2  # and the colour bar
+    samples, exponents = made_up_samples("as_published")
+    exponents = exponents.expand_dims(normalization=["as_published"])
+    assert len(attractors.draw(samples, {"lyapunov": exponents}, Bifurcation(x="N")).axes) == 2
+
+
+def test_grids_too_narrow_for_contours_are_drawn_without(plane: xr.Dataset, speeds: xr.Dataset) -> None:
+    for growth in (growth_over([200.0], np.linspace(5, 18, 9)), growth_over([200.0, 400.0], [5.0, 9.0])):
+        assert curves.draw(speeds, {"cycle": growth}, CriticalSpeed()).axes
+        assert thresholds.draw(speeds, {"curves": plane, "cycle": growth}, Thresholds()).axes
+
+
 OUTCOMES = {"flag_meanings": " ".join(outcome.OUTCOMES)}
 
 
@@ -265,6 +416,24 @@ def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str, t
     save(figure, tmp_path / "map.png")
     bare = maps.draw(study.sel(normalization="orthonormal"), {}, StabilityMap(x=x, y="N"))
     assert len(bare.axes) == 1
+
+
+@pytest.mark.parametrize(("x", "values"), [("n_diameters", [2, 4, 8]), ("n_circles", [0, 1]), ("c", [0.0])])
+def test_maps_of_one_normalization_over_any_number(x: str, values: list[float], tmp_path) -> None:
+    axes, shape = {"N": [100.0, 200.0], x: values}, (2, len(values))
+    attrs = {"base": json.dumps({"normalization": "orthonormal"})}
+    study = xr.Dataset({"outcome": (("N", x), np.ones(shape, int), OUTCOMES)}, axes, attrs)
+    rate = xr.DataArray(np.linspace(-1, 1, 2 * len(values)).reshape(shape), dims=("N", x))
+    norms = {"normalization": ["as_published", "orthonormal"]}
+    growth = xr.Dataset({"growth_rate": rate.expand_dims(norms)}, axes | norms)
+    plot = StabilityMap(x=x, y="N", marks={"a": Mark(x=values[0], y=100, paper="stable")})
+    figure = maps.draw(study, {"growth": growth}, plot)
+    panel, _ = figure.axes
+    assert panel.get_title(loc="left") == "modes orthonormal"
+    assert panel.get_xlabel() == {"c": "Damper c (N s/m)"}.get(x, f"Nodal {x[2:]}")
+    # the paper's cases are of the other modes
+    assert "what the paper says" not in [text.get_text() for text in figure.legends[0].get_texts()]
+    save(figure, tmp_path / "map.png")
 
 
 def test_diagrams_show_samples_and_exponents(tmp_path) -> None:

@@ -17,6 +17,7 @@ from disc_model.studies.faults import StudyError
 from disc_model.studies.grid import GridStudy, parse_grid
 from disc_model.studies.grid_batch import run_batch
 from disc_model.studies.grid_merge import merge_batches
+from disc_model.studies.quantities.bifurcation_options import BifurcationOptions
 from disc_model.variables import flag_names
 
 CURVES = {
@@ -97,6 +98,36 @@ def test_exponents_are_stored_with_their_errors() -> None:
     assert json.loads(found.attrs["options"])["prepare"]["time"] == 56
 
 
+@pytest.mark.parametrize(
+    ("parameters", "fault"),
+    [
+        ({"Omgea": 15}, "Omgea=15: unknown parameter, did you mean Omega?"),
+        ({"m": -1, "contact": "open"}, "m=-1.0: must be > 0; contact='open': must be 'separable' or 'bonded'"),
+        ({"mu_s": 0.2, "mu_k": 0.3}, "mu_k=0.3: must be <= mu_s=0.2"),
+        ({"n_diameters": "auto"}, "n_diameters='auto': must be a whole number, that of the points"),
+    ],
+)
+@pytest.mark.parametrize(("quantity", "more"), [("bifurcation", {}), ("lyapunov", {"duration": 1})])
+def test_a_preparation_is_checked_before_anything_runs(quantity: str, more: dict, parameters: dict, fault: str) -> None:
+    given = {"prepare": {"parameters": parameters, "time": 1}, "transient": 1} | more
+    raw = {"study": "b", "quantity": quantity, "axes": {"N": [1], "Omega": [15]}}
+    with pytest.raises(StudyError) as error:
+        parse_grid(raw | {"options": given})
+    assert error.value.faults == (f"options.prepare.parameters: {fault}",)
+
+
+def test_any_parameter_may_be_prepared_however_it_is_spelled() -> None:
+    def read(**parameters: object) -> dict:
+        raw = {"prepare": {"parameters": parameters, "time": 1}, "transient": 1}
+        return BifurcationOptions.model_validate(raw).model_dump()["prepare"]["parameters"]
+
+    assert read() == {}
+    found = read(normalization="orthonormal", N="3e2", n_diameters=4.0, mu_k=0.5, contact="bonded")
+    # mu_k may be right: the point has its own mu_s
+    assert found == {"normalization": "orthonormal", "N": 300.0, "n_diameters": 4, "mu_k": 0.5, "contact": "bonded"}
+    assert isinstance(found["n_diameters"], int)
+
+
 def test_a_preparation_that_fails_is_reported() -> None:
     options = {"prepare": {"parameters": {"mu_k": 0.9}, "time": 1}, "transient": 1}
     raw = {"study": "b", "quantity": "bifurcation", "base": {"N": 385}, "axes": {"Omega": [15]}, "options": options}
@@ -110,8 +141,10 @@ def test_figures_show_them(curves: xr.Dataset, tmp_path) -> None:
     axes = {"N": [380.0, 390.0, 400.0], "Omega": np.linspace(12, 18, 7)}
     growth = xr.Dataset({"growth_rate": (("N", "Omega", "normalization"), np.ones((3, 7, 1)))}, axes | norm)
     speeds = xr.DataArray(np.full((3, 1, 1), 15.2), dims=("N", "normalization", "horizon"))
+    status = xr.DataArray(np.zeros((3, 1), np.int8), dims=("N", "normalization"), attrs={"flag_meanings": "ok failed"})
     study = xr.Dataset(
-        {"critical_speed": speeds}, {"N": axes["N"], "horizon": [500.0], "scan_Omega": [12.0, 16.0], **norm}
+        {"critical_speed": speeds, "status": status},
+        {"N": axes["N"], "horizon": [500.0], "scan_Omega": [12.0, 16.0], **norm},
     )
     save(thresholds.draw(growth, {"curves": curves}, GrowthMap()), tmp_path / "growth.png")
     chart = thresholds.draw(study, {"curves": curves, "cycle": growth}, Thresholds(claim={"a": (385, 15.1)}))

@@ -80,7 +80,7 @@ def test_contact_force_at_a_switch(phase, direction):
     if phase == "stick":
         assert switches.stick_force(model, state) == pytest.approx(printed, rel=1e-12)
         return
-    force, denominator = switches.slip_force(model, state, float(direction))
+    force, denominator, _ = switches.slip_force(model, state, float(direction))
     assert force == pytest.approx(printed, rel=1e-12)
     modes = plate_modes(P)
     slope = float(modes["psi"] @ (modes["diameters"] * start.b))

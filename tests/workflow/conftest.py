@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -58,6 +59,50 @@ class Project:
         """The environment of such a run."""
         own = {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
         return os.environ | own | self.variables
+
+    def start(
+        self,
+        *options: str,
+        config: str,
+        log: str = "run.log",
+        wrapper: Sequence[str] = (),
+        prepare: Callable[[], object] | None = None,
+    ) -> subprocess.Popen[bytes]:
+        """Run Snakemake in the background, in a session of its own; what it says is added to a file.
+
+        Background processes of a shell ignore SIGINT and would hand that on; this one does not, and does what
+        ``prepare`` says besides.
+        """
+
+        def child() -> None:
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
+            if prepare is not None:
+                prepare()
+
+        with (self.folder / log).open("ab") as file:
+            return subprocess.Popen(
+                [*wrapper, *self.command(*options, config=config)],
+                cwd=self.folder,
+                env=self.environment,
+                stdout=file,
+                stderr=file,
+                start_new_session=True,
+                preexec_fn=child,
+            )
+
+    def processes(self) -> dict[int, list[str]]:
+        """Commands of the processes that work in the project's folder."""
+        found = {}
+        for entry in Path("/proc").iterdir():
+            if not entry.name.isdigit():
+                continue
+            try:
+                words = (entry / "cmdline").read_bytes().split(b"\0")
+                if (entry / "cwd").resolve() == self.folder.resolve():
+                    found[int(entry.name)] = [os.fsdecode(word) for word in words]
+            except OSError:  # gone, or another user's
+                continue
+        return dict(sorted(found.items()))
 
     def planned(self, *options: str, config: str | None = "config/tiny.yaml") -> set[str]:
         """Jobs that a run would do, as rule or rule:wildcard, without the target `all`."""

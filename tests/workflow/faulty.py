@@ -8,7 +8,6 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable
-from pathlib import Path
 
 from tests.workflow.conftest import Project
 
@@ -87,32 +86,13 @@ def start(
     project: Project, *options: str, log: str = "run.log", wrapper: tuple[str, ...] = ()
 ) -> subprocess.Popen[bytes]:
     """Run in the background, in a process group of its own."""
-    with (project.folder / log).open("ab") as file:
-        return subprocess.Popen(
-            [*wrapper, *project.command("-j2", *options, config=CONFIG)],
-            cwd=project.folder,
-            env=project.environment,
-            stdout=file,
-            stderr=file,
-            start_new_session=True,
-        )
+    return project.start("-j2", *options, config=CONFIG, log=log, wrapper=wrapper)
 
 
 def jobs(project: Project) -> list[int]:
     """Processes of the project's jobs."""
-    found = []
-    for entry in Path("/proc").iterdir():
-        if not entry.name.isdigit():
-            continue
-        try:
-            words = (entry / "cmdline").read_bytes().split(b"\0")
-            here = (entry / "cwd").resolve() == project.folder.resolve()
-        except OSError:
-            continue
-        is_job = len(words) > 1 and any(word.decode().startswith(PARTS) for word in words[1:3])
-        if here and is_job:
-            found.append(int(entry.name))
-    return sorted(found)
+    commands = project.processes().items()
+    return [process for process, words in commands if any(word.startswith(PARTS) for word in words[1:3])]
 
 
 def kill(process: int) -> bool:

@@ -92,9 +92,13 @@ def planned(project: Project, *options: str) -> Jobs:
 def batches(project: Project, name: str) -> Jobs:
     """The jobs of all batches that a study now has, its sources hashed as in the project."""
     code = f"from disc_model.studies.grid import load_grid; print(*load_grid('config/{name}.yaml').batches)"
-    environment = os.environ | {"PYTHONPATH": str(project.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
     found = subprocess.run(
-        [sys.executable, "-c", code], cwd=project.folder, env=environment, capture_output=True, text=True, check=True
+        [sys.executable, "-c", code],
+        cwd=project.folder,
+        env=project.environment,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     return {("compute_batch", batch) for batch in found.stdout.split()}
 
@@ -252,35 +256,14 @@ def start(project: Project) -> subprocess.Popen[bytes]:
 
 
 def resume(project: Project) -> subprocess.Popen[bytes]:
-    environment = os.environ | {"PYTHONPATH": str(project.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
-    command = [sys.executable, "-m", "snakemake", *RUN, "--configfile", CONFIG]
-    with (project.folder / "run.log").open("ab") as log:
-        return subprocess.Popen(
-            command,
-            cwd=project.folder,
-            env=environment,
-            stdout=log,
-            stderr=log,
-            start_new_session=True,
-            # background processes of a shell ignore it, and would hand that on
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-        )
+    return project.start(*RUN, config=CONFIG)
 
 
 def running_batches(project: Project) -> dict[str, int]:
     """Batches that are being computed in the project, and the process of each."""
-    found = {}
-    for entry in Path("/proc").iterdir():
-        if not entry.name.isdigit():
-            continue
-        try:
-            words = (entry / "cmdline").read_bytes().split(b"\0")
-            here = (entry / "cwd").resolve() == project.folder.resolve()
-        except OSError:
-            continue
-        if here and b"workflow/scripts/compute_batch.py" in words:
-            found[Path(os.fsdecode(words[-2])).stem] = int(entry.name)
-    return found
+    commands = project.processes().items()
+    script = "workflow/scripts/compute_batch.py"
+    return {Path(words[-2]).stem: process for process, words in commands if script in words}
 
 
 def wait_for_batches(project: Project, process: subprocess.Popen[bytes]) -> dict[str, int]:

@@ -7,7 +7,6 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from collections import Counter
 from collections.abc import Iterator
@@ -184,23 +183,7 @@ def times(project: Project) -> dict[str, int]:
 
 def start(project: Project, *options: str) -> subprocess.Popen[bytes]:
     """Snakemake in the background, on the grid study alone."""
-    environment = os.environ | {"PYTHONPATH": str(project.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
-    command = [sys.executable, "-m", "snakemake", *PROFILE, PUBLISHED, *options, "--configfile", CONFIG]
-    with (project.folder / "run.log").open("wb") as log:
-        return subprocess.Popen(
-            command,
-            cwd=project.folder,
-            env=environment,
-            stdout=log,
-            stderr=log,
-            start_new_session=True,
-            preexec_fn=prepare_child,
-        )
-
-
-def prepare_child() -> None:
-    slurm.die_with_parent()
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # background processes of a shell ignore it, and would hand that on
+    return project.start(*PROFILE, PUBLISHED, *options, config=CONFIG, prepare=slurm.die_with_parent)
 
 
 def wait_for_attempt(project: Project, batch: str) -> str:

@@ -46,11 +46,13 @@ def main() -> None:
     parser.add_argument("--results", type=Path, default=Path("results/paper/figures"))
     parser.add_argument("--docs", type=Path, default=Path("docs"))
     args = parser.parse_args()
-    parameters = {name: spec.parameters for name, spec in load_study(args.study).specs.items()}
+    specs = load_study(args.study).specs
+    parameters = {name: spec.parameters for name, spec in specs.items()}
+    windows = {name: {**dict(spec.windows), "poincare": spec.poincare} for name, spec in specs.items()}
     lines = ["# Gallery", "", "Made by `make gallery` from the figures of `make reproduce`.", ""]
     for name in SHOWN:
         small = shrink(args.results / f"{name}.png", args.docs / "gallery" / f"{name}.png")
-        text = f"**{number_of(name)}. {CATALOGUE[name].title}.** {caption(name, parameters)}"
+        text = f"**{number_of(name)}. {CATALOGUE[name].title}.** {caption(name, parameters, windows)}"
         lines += [f"![{number_of(name)}](gallery/{small.name})", "", text, ""]
     for name, (title, text) in OTHERS.items():
         source = args.results.parents[1] / name

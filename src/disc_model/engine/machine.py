@@ -41,10 +41,11 @@ from .switches import (
     SLIP_REVERSAL,
     SLIP_TO_STICK,
     STICK_TO_SLIP,
+    break_loose,
     come_to_rest,
     disc_point,
-    enter_slip,
     lose_contact,
+    never_pulled,
     touch_down,
 )
 
@@ -143,6 +144,10 @@ def first_switch(model, s, state, order, x_end):
     set_powers(s.powers, x_end)
     cause = NOTHING
     if phase == STICK:
+        if not model.bonded and never_pulled(model, state):
+            # P = 0 and the friction limit coincide, and it is contact that ends
+            x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+            return (x, CONTACT_LOST) if x != NO_ROOT else (x_end, NOTHING)
         x = first_root(s.switch, 0, order - 1, x_end, s.powers, s.roots)
         if x != NO_ROOT:
             x_end, cause = x, RELEASE_FORWARD
@@ -217,7 +222,7 @@ def _switch(model, state, cause, counters, rows, audit):
         outcome = lose_contact(model, state)
         kind = LOSS_OF_CONTACT
     else:
-        outcome = enter_slip(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
+        outcome = break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
         kind = STICK_TO_SLIP
     if outcome == PARADOX:
         return outcome

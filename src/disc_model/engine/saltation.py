@@ -24,7 +24,7 @@ def _contact_force(model, state):
         return 0.0
     if phase == STICK:
         return stick_force(model, state)
-    P, _ = slip_force(model, state, state.x[DIRECTION])
+    P, _, _ = slip_force(model, state, state.x[DIRECTION])
     return P
 
 

@@ -49,13 +49,14 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
 def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
     """Append a row for every sample time within the step that starts at ``state`` and lasts ``x_end`` units.
 
-    samplers: shape (n, 4), columns first time, interval, number of samples, theta; progress: shape (n,), samples
-    taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
+    samplers: shape (n, 5), columns first time, interval, number of samples, theta, end of run; progress: shape (n,),
+    samples taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
     """
     start, low = state.x[TIME], state.x[TIME_LOW]
     for i in range(len(samplers)):
         while progress[i] < samplers[i, 2]:
-            time = samplers[i, 0] + progress[i] * samplers[i, 1]
+            # the last sample may lie a rounding error behind the end of the run
+            time = min(samplers[i, 0] + progress[i] * samplers[i, 1], samplers[i, 4])
             x = ((time - start) - low) / model.unit
             if x > x_end:
                 break

@@ -25,7 +25,7 @@ CONSISTENT, PARADOX = 0, 1
 
 # Below this share of its value without friction the denominator of P counts as zero: Painleve's paradox.
 PAINLEVE_MARGIN = 1e-6
-# A slip acceleration below this share of the forces that make it is rounding: slip starts with f' = 0 (mu_s = mu_k).
+# A force below this share of the terms that make it is rounding.
 ROUNDING = 1e-13
 
 
@@ -51,33 +51,47 @@ def spring_force(model, state):
 
 
 @inlined
+def never_pulled(model, state):
+    """Whether the drive neither pulls at the slider in stick nor ever will."""
+    return model.k_p * model.Omega == 0.0 and spring_force(model, state) == 0.0
+
+
+@inlined
 def _free_force(model, state):
-    """N + k (u - u_0) + c u' + m A: the contact force but for its denominator and the term with B."""
+    """N + k (u - u_0) + c u' + m A, which is P but for its denominator and the term with B; size of its terms."""
     f = state.x[SPEED]
     u, v, _ = disc_point(model, state)
-    acceleration = 0.0
+    acceleration, size = 0.0, 0.0
     for j in range(len(model.shift)):
         a = -model.damping[j] * state.e[j] - (model.stiffness[j] + (model.shift[j] * f) ** 2) * state.z[j]
-        acceleration += model.force[j] * a
         # 2 l f beta_l: slope is l psi_l in the lanes of b
-        acceleration += 2.0 * f * model.slope[j] * state.e[j]
+        part = model.force[j] * a + 2.0 * f * model.slope[j] * state.e[j]
+        acceleration += part
+        size += abs(part)
     for j in range(len(model.force0)):
-        acceleration -= model.force0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
-    return model.N + model.k * (u - model.u_0) + model.c * v + model.m * acceleration
+        part = -model.force0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
+        acceleration += part
+        size += abs(part)
+    spring, damper = model.k * (u - model.u_0), model.c * v
+    value = model.N + spring + damper + model.m * acceleration
+    return value, model.N + abs(spring) + abs(damper) + model.m * size
 
 
 @inlined
 def stick_force(model, state):
     """Contact force P in stick (f = 0)."""
-    return _free_force(model, state) / (1.0 + model.m * model.compliance)
+    force, _ = _free_force(model, state)
+    return force / (1.0 + model.m * model.compliance)
 
 
 @inlined
 def slip_force(model, state, direction):
-    """Contact force P in slip and its denominator."""
+    """Contact force P in slip, its denominator, and how much of P may be rounding."""
     _, _, slope = disc_point(model, state)
     denominator = 1.0 + model.m * model.compliance + direction * model.mu_k * slope / model.r_0
-    return (_free_force(model, state) + slope * spring_force(model, state)) / denominator, denominator
+    force, size = _free_force(model, state)
+    pull = slope * spring_force(model, state)
+    return (force + pull) / denominator, denominator, ROUNDING * (size + abs(pull)) / abs(denominator)
 
 
 @inlined
@@ -115,25 +129,33 @@ def _enter_stick(state, P):
 @kernel
 def enter_slip(model, state, direction):
     """Slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or PARADOX."""
-    P, denominator = slip_force(model, state, direction)
+    P, denominator, noise = slip_force(model, state, direction)
     if denominator <= PAINLEVE_MARGIN * (1.0 + model.m * model.compliance):
         return PARADOX
     if P < 0.0 and not model.bonded:
-        _enter_separation(model, state, 2)
+        _enter_separation(model, state, 2 if -noise > P else 3)
         return CONSISTENT
     state.x[PHASE] = SLIP
     state.x[DIRECTION] = direction
     state.x[FORCE] = P
     state.x[KNOWN] = 0
     if state.x[SPEED] == 0.0:
-        # f starts at zero: the root at the start is known, and f' has to point into the direction of slip
+        # f starts at zero: the root at the start is known.  It is double where f', which points into the direction of
+        # slip or vanishes, as (1 + m S2 + s mu_k B / r_0) f' m = (1 + m S2) (|F| - mu_k P_stick / r_0), is rounding.
         F, friction = spring_force(model, state), model.mu_k * P / model.r_0
-        push = direction * F - friction
-        size = abs(F) + abs(friction)
-        state.x[KNOWN] = 2 if abs(push) <= ROUNDING * size else 1
-        if push < -ROUNDING * size:
-            return PARADOX
+        rounding = ROUNDING * abs(F) + model.mu_k * noise / model.r_0
+        state.x[KNOWN] = 2 if direction * F - friction <= rounding else 1
     return CONSISTENT
+
+
+@kernel
+def break_loose(model, state, direction):
+    """Friction holds the slider no longer: slip in ``direction``.  Returns CONSISTENT or PARADOX."""
+    outcome = enter_slip(model, state, direction)
+    if state.x[PHASE] == SLIP and model.mu_s == model.mu_k:
+        # no jump of friction: f' = 0, whatever the error of the switch's time makes of it
+        state.x[KNOWN] = 2
+    return outcome
 
 
 @kernel
@@ -152,9 +174,7 @@ def come_to_rest(model, state):
     if model.r_0 * abs(F) < model.mu_s * P:
         _enter_stick(state, P)
         return CONSISTENT
-    if P < 0.0 and not model.bonded:
-        _enter_separation(model, state, 2)
-        return CONSISTENT
+    # contact may hold although P in stick is negative: in slip the spring presses the slider on with B F
     return enter_slip(model, state, -1.0 if F < 0.0 else 1.0)
 
 

@@ -24,9 +24,9 @@ from .saltation import impact_change, rates, rest, shift, slider_rows, switch_ch
 from .switches import (
     PAINLEVE_MARGIN,
     PARADOX,
+    break_loose,
     come_to_rest,
     disc_point,
-    enter_slip,
     lose_contact,
     stick_force,
     touch_down,
@@ -66,7 +66,7 @@ def change_phase(model, state, cause, log):
     elif cause == CONTACT_LOST:
         outcome = lose_contact(model, state)
     else:
-        outcome = enter_slip(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
+        outcome = break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
         log[RELEASES if cause == RELEASE_FORWARD else BACK_RELEASES] += 1.0
     if state.x[PHASE] == SEPARATION:
         log[SEPARATIONS] += 1.0
@@ -164,6 +164,8 @@ def fly(model, s, state, t, order, tolerance, longest, t_max, releases, may_sepa
                 rest(model, t)
         if x[PHASE] == SEPARATION and not may_separate:
             return LOST_CONTACT
+        if x_end >= left:
+            return TIME_OVER
 
 
 @kernel

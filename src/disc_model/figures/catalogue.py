@@ -7,8 +7,11 @@ from typing import Any, NamedTuple
 
 from disc_model.figures import STYLE
 from disc_model.parameters import Parameters
+from disc_model.record import Poincare, Window
 
 __all__ = ["CATALOGUE", "STYLE", "Entry", "caption", "module_of"]
+
+Windows = Mapping[str, Mapping[str, Window | Poincare | None]]
 
 
 class Entry(NamedTuple):
@@ -18,7 +21,7 @@ class Entry(NamedTuple):
     ----------
     section : of the paper
     title : a few words for lists
-    caption : what it shows; `caption` adds the parameters
+    caption : what it shows; `caption` fills in numbers and adds the parameters
     needs : the windows it needs, by case; the Poincare section goes by the name ``poincare``
     module : in `disc_model.figures`; by default the figure's own name
     options : keyword arguments of its function ``draw``
@@ -47,8 +50,8 @@ SECTIONS = {
 
 def _section(section: str, case: str, title: str, what: str) -> Entry:
     text = (
-        f"Poincare sections, one point each drive period 2π/Ω: (a) in-plane motion of the slider relative to the drive "
-        f"point, (b) disc at r_0 and θ = 1. {what}"
+        "Poincare sections, one point each drive period 2π/Ω: (a) in-plane motion of the slider relative to the drive "
+        f"point, (b) disc at r_0 and {{theta}}. {what}"
     )
     return Entry(section, f"Poincare sections, {title}", text, {case: ()}, "sections")
 
@@ -63,7 +66,7 @@ CATALOGUE: Mapping[str, Entry] = {
     "fig02": Entry(
         "4.1",
         "Contact force",
-        "Contact force: (a) its range over the whole run, (b) 35 ms of it, separations shaded.",
+        "Contact force: (a) its range over the whole run, (b) {zoom} of it, separations shaded.",
         {"F02": ("history", "zoom")},
     ),
     "fig03": Entry(
@@ -75,27 +78,27 @@ CATALOGUE: Mapping[str, Entry] = {
     ),
     "fig04": _section("4.1", "F04", "separation ignored", IGNORED),
     "fig05": _section("4.1", "F02", "with separation", STAGES),
-    "fig06": _section("4.1", "F06", "separation ignored, N = 300 N", IGNORED),
-    "fig07": _section("4.1", "F07", "with separation, N = 300 N", STAGES),
-    "fig08": _section("4.1", "F08", "separation ignored, Ω = 50 rad/s", IGNORED),
-    "fig09": _section("4.1", "F09", "with separation, Ω = 50 rad/s", STAGES),
+    "fig06": _section("4.1", "F06", "separation ignored, larger preload", IGNORED),
+    "fig07": _section("4.1", "F07", "with separation, larger preload", STAGES),
+    "fig08": _section("4.1", "F08", "separation ignored, higher speed", IGNORED),
+    "fig09": _section("4.1", "F09", "with separation, higher speed", STAGES),
     "fig10": Entry(
         "4.1",
         "Disc, with separation and without",
-        "Range of the disc's displacement at r_0 and θ = 1, with separation ignored and with separation.",
+        "Range of the disc's displacement at r_0 and {theta}, with separation ignored and with separation.",
         {"F02": ("history",), "F04": ("history",)},
     ),
     "fig11": Entry(
         "4.2",
         "Histories below the critical speed",
-        "(a) Contact force, (b) disc at r_0 and θ = 1, as ranges.",
+        "(a) Contact force, (b) disc at r_0 and {theta}, as ranges.",
         {"F11": ("history",)},
     ),
     "fig12": _section("4.2", "F11", "below the critical speed", QUIET),
     "fig13": Entry(
         "4.2",
         "Histories above the critical speed",
-        "(a) Contact force, (b) disc at r_0 and θ = 1, as ranges.",
+        "(a) Contact force, (b) disc at r_0 and {theta}, as ranges.",
         {"F13": ("history",)},
     ),
     "fig14": _section("4.2", "F13", "above the critical speed", STAGES),
@@ -115,21 +118,21 @@ CATALOGUE: Mapping[str, Entry] = {
     ),
     "fig24": Entry(
         "4.4",
-        "Disc's vibration, N = 385 N",
-        "Range of the disc's displacement at r_0 and θ = 1; the stretches of Fig. 25 are marked.",
+        "Disc's vibration above the critical speed",
+        "Range of the disc's displacement at r_0 and {theta}; the stretches of Fig. 25 are marked.",
         {"F13": ("history", "spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
     ),
     "fig25": Entry(
         "4.4",
-        "Disc's spectrum in time, N = 385 N",
-        "Time-frequency spectrum of the disc's displacement at r_0 and θ = 1 in four stretches of the run, relative to "
-        "the strongest line of all four. Ticks on the right of (a): the frequencies of Table 2; its first "
+        "Disc's spectrum in time above the critical speed",
+        "Time-frequency spectrum of the disc's displacement at r_0 and {theta} in four stretches of the run, relative "
+        "to the strongest line of all four. Ticks on the right of (a): the frequencies of Table 2; its first "
         "half second, half a window, is left out. Dashed: first separation.",
         {"F13": ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
     ),
     "fig26": Entry(
         "4.4",
-        "Slider's motion, N = 385 N",
+        "Slider's motion above the critical speed",
         "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
         "the first separation, (b) its time-frequency spectrum. Dashed: first separation.",
         {"F13": ("history", "spectrum_c", "spectrum_d")},
@@ -143,8 +146,8 @@ CATALOGUE: Mapping[str, Entry] = {
     ),
     "fig27": Entry(
         "4.4",
-        "Disc's vibration, N = 300 N",
-        "Disc at r_0 and θ = 1: (a) range of its displacement, (b) its time-frequency spectrum. Dashed: first "
+        "Disc's vibration, smaller preload",
+        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum. Dashed: first "
         "separation.",
         {"F07": ("history", "spectrum_d")},
         "response",
@@ -152,7 +155,7 @@ CATALOGUE: Mapping[str, Entry] = {
     ),
     "fig28": Entry(
         "4.4",
-        "Slider's motion, N = 300 N",
+        "Slider's motion, smaller preload",
         "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
         "the first separation, (b) its time-frequency spectrum. Dashed: first separation.",
         {"F07": ("history", "spectrum_d")},
@@ -166,8 +169,8 @@ CATALOGUE: Mapping[str, Entry] = {
     ),
     "fig29": Entry(
         "4.4",
-        "Disc's vibration, E = 100 GPa",
-        "Disc at r_0 and θ = 1: (a) range of its displacement, (b) its time-frequency spectrum. Dotted: the disc's "
+        "Disc's vibration, soft disc",
+        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum. Dotted: the disc's "
         "highest natural frequency.",
         {"F21": ("history", "spectrum_d")},
         "response",
@@ -176,14 +179,14 @@ CATALOGUE: Mapping[str, Entry] = {
     "figA1": Entry(
         "A",
         "Phase portrait, separation ignored",
-        "Phase portrait of the slider relative to the drive point, the last second of the run, separation ignored.",
+        "Phase portrait of the slider relative to the drive point, {orbit}, separation ignored.",
         {"F04": ("orbit",)},
         "portrait",
     ),
     "figA2": Entry(
         "A",
         "Phase portrait, with separation",
-        "Phase portrait of the slider relative to the drive point, the last second of the run, by phase.",
+        "Phase portrait of the slider relative to the drive point, {orbit}, by phase.",
         {"F02": ("orbit",)},
         "portrait",
     ),
@@ -207,22 +210,38 @@ def label(name: str) -> str:
     return f"{spaced}: {CATALOGUE[name].title}"
 
 
-def caption(name: str, parameters: Mapping[str, Parameters]) -> str:
+def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | None = None) -> str:
     """A figure's caption with the parameters of its cases.
 
     Parameters
     ----------
     parameters : by case, at least those that the figure shows
+    windows : by case and name, the Poincare section as ``poincare``; if not given, times and angles are not named
     """
     entry = CATALOGUE[name]
+    text = entry.caption.format(**_numbers(entry, windows or {}))
     said: list[str] = []
     for case in entry.cases:
-        text = said_parameters(parameters[case])
-        if text not in said:
-            said.append(text)
+        values = said_parameters(parameters[case])
+        if values not in said:
+            said.append(values)
     modes = {parameters[case].normalization for case in entry.cases}
     named = " and ".join(_MODES[mode] for mode in sorted(modes))
-    return f"{entry.caption} {'; '.join(said)}; everything else as in Table 1; {named}."
+    return f"{text} {'; '.join(said)}; everything else as in Table 1; {named}."
+
+
+def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
+    """What captions say of times and angles, from the windows that the figure shows."""
+    needed = [(case, name) for case, names in entry.needs.items() for name in names or ("poincare",)]
+    shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]
+    angles = " and ".join(f"{theta:g}" for theta in sorted({window.theta for _, window in shown}))
+    said = {"theta": f"θ = {angles}" if angles else "a fixed θ", "zoom": "a stretch", "orbit": "a stretch of the run"}
+    for name, window in shown:
+        if name == "zoom":
+            said[name] = f"{1e3 * (window.stop - window.start):.3g} ms"
+        if name == "orbit":
+            said[name] = f"{window.start:g} to {window.stop:g} s"
+    return said
 
 
 _MODES = {

@@ -29,13 +29,13 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
     study : of the quantity `critical_speed`, over N
     others : ``hysteresis`` of that quantity, over N; ``cycle`` of the quantity `floquet` over N and Omega; if given
     """
-    norm = str(np.atleast_1d(study["normalization"].values)[0]) if "normalization" in study.coords else ""
-    study = _of(study, norm)
+    norm = parts.normalizations(study)[0]
+    study = parts.without_failed(parts.of(study, norm), "critical_speed", "crossing")
     sweep = others.get("hysteresis")
     figure = new_figure(PAGE if sweep is not None else COLUMN, 2.9)
     axes = figure.subplots(1, 2 if sweep is not None else 1, sharey=True, squeeze=False)[0]
     if "cycle" in others:
-        _stable_cycle(axes[0], _of(others["cycle"], norm), study)
+        _stable_cycle(axes[0], parts.of(others["cycle"], norm), study)
     _horizons(axes[0], study)
     if plot.claim:
         points = np.array(list(plot.claim.values()))
@@ -43,7 +43,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
             *points.T, "*", color=VERMILION, markersize=8, label="what the paper says", zorder=5, clip_on=False
         )
     if sweep is not None:
-        _sweep(axes[1], _of(sweep, norm), study)
+        _sweep(axes[1], parts.without_failed(parts.of(sweep, norm), "onset", "persists_to"), study)
     scan = study["scan_Omega"].values
     for ax, letter in zip(axes, "ab", strict=False):
         ax.set(xlabel="Preload N (N)", xlim=(0, 1.03 * float(study["N"].max())), ylim=(scan[0] - 0.5, 1.02 * scan[-1]))
@@ -53,15 +53,13 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
     return figure
 
 
-def _of(data: xr.Dataset, norm: str) -> xr.Dataset:
-    return data.sel(normalization=norm) if "normalization" in data.dims else data
-
-
 def _stable_cycle(ax: Axes, cycle: xr.Dataset, study: xr.Dataset) -> None:
     """Shade where the stick-slip cycle exists and is stable, within the speeds that were scanned."""
     scan = study["scan_Omega"].values
     rate = cycle["growth_rate"].transpose("Omega", "N").sel(Omega=slice(scan[0], scan[-1]))
     stable = (rate < 0).values.astype(float)
+    if min(stable.shape) < 2:
+        return
     ax.contourf(rate["N"].values, rate["Omega"].values, stable, levels=[0.5, 1.5], colors=[QUIET])
     ax.fill_between([], [], [], color=QUIET, label="stick-slip cycle stable")
 
@@ -86,6 +84,7 @@ def _horizons(ax: Axes, study: xr.Dataset) -> None:
             ax.plot(where, speeds[there], linestyle="", markerfacecolor=face, markeredgewidth=0.7, zorder=4, **style)
     if (study["n_crossings"] > 1).any():
         ax.plot([], [], "o", color=BLACK, markerfacecolor="white", markersize=3.5, label="open: separation ends again")
+    parts.mark_failed(ax, N[parts.failed(study).values])
 
 
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset) -> None:
@@ -108,4 +107,5 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset) -> None:
         linestyle=(0, (2, 1.5)),
         label=f"from rest, within {longest:g} s",
     )
+    parts.mark_failed(ax, N[parts.failed(sweep).values])
     parts.letter(ax, "b")

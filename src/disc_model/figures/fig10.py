@@ -13,13 +13,13 @@ from disc_model.figures.style import BONDED, COLUMN, SEPARABLE, new_figure, styl
 
 @styled
 def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Range of the disc's displacement at r_0, theta = 1 over the run: contact enforced, and separable."""
+    """Range of the disc's displacement at r_0 and a fixed angle over the run: contact enforced, and separable."""
     figure = new_figure(COLUMN, 2.4)
     ax = figure.subplots()
+    histories = {name: cases[name]["history"].to_dataset() for name in ("F04", "F02")}
     for name, color, label in (("F04", BONDED, "separation ignored"), ("F02", SEPARABLE, "with separation")):
-        history = cases[name]["history"].to_dataset()
-        parts.envelope(ax, history, "w_point", scale=1e3, color=color, label=label)
-    ax.set(xlabel="Time (s)", ylabel=r"Disc at $r_0$, $\theta$ = 1 (mm)")
+        parts.envelope(ax, histories[name], "w_point", scale=1e3, color=color, label=label)
+    ax.set(xlabel="Time (s)", ylabel=parts.disc_label(*histories.values()))
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + 0.25 * (high - low))
     ax.legend(loc="upper left")

@@ -13,5 +13,5 @@ from disc_model.figures.style import styled
 
 @styled
 def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """(a) contact force, (b) disc at r_0, theta = 1."""
+    """(a) contact force, (b) disc at r_0 and a fixed angle."""
     return force_and_disc(cases["F13"])

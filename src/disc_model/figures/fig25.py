@@ -22,7 +22,7 @@ TABLE_2 = (2.4, 65.5, 70, 133, 138, 200, 206, 269, 273)
 
 @styled
 def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Power of the disc's displacement at r_0, theta = 1 over time and frequency, four stretches."""
+    """Power of the disc's displacement at r_0 and a fixed angle over time and frequency, four stretches."""
     case = cases["F13"]
     figure = new_figure(PAGE, 4.6)
     axes = figure.subplots(2, 2, sharey=True)

@@ -10,7 +10,7 @@ from disc_model.figures.style import COLUMN, GREEN, SEPARABLE, new_figure
 
 
 def force_and_disc(case: xr.DataTree) -> Figure:
-    """(a) contact force, (b) disc at r_0, theta = 1, as ranges, with the first separation marked."""
+    """(a) contact force, (b) disc at r_0 and a fixed angle, as ranges, with the first separation marked."""
     figure = new_figure(COLUMN, 3.4)
     force, disc = figure.subplots(2, 1, sharex=True)
     history = case["history"].to_dataset()
@@ -20,7 +20,7 @@ def force_and_disc(case: xr.DataTree) -> Figure:
     parts.mark_first_separation(force, first)
     parts.mark_first_separation(disc, first)
     force.set(ylabel="Contact force (N)")
-    disc.set(xlabel="Time (s)", ylabel=r"Disc at $r_0$, $\theta$ = 1 (mm)")
+    disc.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
     parts.letter(force, "a")
     parts.letter(disc, "b")
     figure.align_ylabels()

@@ -18,6 +18,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter
 
+from disc_model.figures import parts
 from disc_model.figures.plots import StabilityMap
 from disc_model.figures.style import BLACK, PAGE, new_figure, styled
 from disc_model.variables import flag_names
@@ -58,8 +59,10 @@ SYMBOLS = {
     "k_p": ("In-plane spring $k_p$", "kN/m", 1e-3),
     "E": ("Young's modulus E", "GPa", 1e-9),
     "m": ("Mass m", "g", 1e3),
+    "n_diameters": ("Nodal diameters", "", 1.0),
+    "n_circles": ("Nodal circles", "", 1.0),
 }
-"""Name, unit and factor to it from SI of each parameter."""
+"""Name, unit and factor to it from SI of each parameter that is a number."""
 
 
 @styled
@@ -71,27 +74,24 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
     study : of the quantity `outcome`
     others : ``growth`` of the quantity `floquet`, over the same parameters, if it is to be shown
     """
-    norms = [str(name) for name in np.atleast_1d(study["normalization"].values)]
+    norms = parts.normalizations(study)
     figure = new_figure(PAGE, 3.3)
     axes = figure.subplots(1, len(norms), sharex=True, sharey=True, squeeze=False)[0]
     mesh = None
     for ax, norm, letter in zip(axes, norms, "abcd", strict=False):
         if "growth" in others:
-            mesh = _background(ax, _of(others["growth"], norm), plot) or mesh
-        _points(ax, _of(study, norm), plot)
-        ax.set_title(f"({letter}) modes {'as published' if norm == 'as_published' else 'orthonormal'}", loc="left")
+            mesh = _background(ax, parts.of(others["growth"], norm), plot) or mesh
+        _points(ax, parts.of(study, norm), plot)
+        panel = f"({letter}) " if len(norms) > 1 else ""
+        ax.set_title(f"{panel}modes {'as published' if norm == 'as_published' else 'orthonormal'}", loc="left")
         if norm == "as_published":
             _marks(ax, study, plot)
     _scales(axes, study, plot)
     if mesh is not None:
         bar = figure.colorbar(mesh, ax=list(axes), extend="both", pad=0.01, aspect=30)
         bar.set_label("Growth rate of the stick-slip cycle (1/s)")
-    _legend(figure, study, bool(plot.marks), mesh is not None)
+    _legend(figure, study, bool(plot.marks) and "as_published" in norms, mesh is not None)
     return figure
-
-
-def _of(data: xr.Dataset, norm: str) -> xr.Dataset:
-    return data.sel(normalization=norm) if "normalization" in data.dims else data
 
 
 def _background(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> QuadMesh:
@@ -101,7 +101,7 @@ def _background(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> QuadMesh:
     norm = SymLogNorm(LINEAR, vmin=-GREATEST, vmax=GREATEST)
     mesh = ax.pcolormesh(x, y, np.ma.masked_invalid(rate), cmap=cm.vik, norm=norm, shading="nearest", rasterized=True)
     ax.patch.set(facecolor="white", hatch=HATCH, edgecolor=GREY, linewidth=0)
-    if np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
+    if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
         ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=0.8)
     return mesh
 
@@ -165,7 +165,7 @@ def _scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
         label, unit, factor = SYMBOLS[name]
         values = study[name].values * factor
         positive = values[values > 0]
-        decades = name not in ("N", "Omega") and positive[-1] / positive[0] > 15
+        decades = name not in ("N", "Omega") and positive.size > 1 and positive[-1] / positive[0] > 15
         for ax in axes:
             axis = ax.xaxis if which == "x" else ax.yaxis
             if decades and values[0] > 0:
@@ -177,10 +177,10 @@ def _scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
                 axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
             to_axis = axis.get_transform()
             low, high = to_axis.transform(values[[0, -1]])
-            margin = 0.02 * (high - low)
+            margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
             ax.set(**{f"{which}lim": tuple(to_axis.inverted().transform([low - margin, high + margin]))})
         for ax in axes if which == "x" else axes[:1]:
-            ax.set(**{f"{which}label": f"{label} ({unit})"})
+            ax.set(**{f"{which}label": f"{label} ({unit})" if unit else label})
 
 
 def _legend(figure: Figure, study: xr.Dataset, marked: bool, mapped: bool) -> None:

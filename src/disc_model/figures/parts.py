@@ -1,13 +1,17 @@
-"""What several figures share: envelopes of long histories, shading of separations, panel letters."""
+"""What several figures share: envelopes of long histories, shading of separations, panel letters, points of grids."""
 
 from __future__ import annotations
+
+import json
+from typing import Literal
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from disc_model.figures.style import SEPARATED, VERMILION
+from disc_model.figures.style import BLACK, SEPARATED, VERMILION
 from disc_model.result import PHASES
+from disc_model.variables import flag_names
 
 SEPARATION = PHASES.index("separation")
 
@@ -28,6 +32,12 @@ def envelope(
     high = (history[f"{name}_max"].values - offset) * scale
     ax.fill_between(time, low, high, facecolor=color, edgecolor=color, linewidth=0.5, label=label)
     ax.set_xlim(0, round(time[-1] + (time[-1] - time[-2]) / 2, 2))
+
+
+def disc_label(*windows: xr.Dataset) -> str:
+    """The axis of ``w_point`` in mm: at which angle of the disc it was recorded in these windows."""
+    angles = sorted({float(window.attrs["theta"]) for window in windows})
+    return rf"Disc at $r_0$, $\theta$ = {' and '.join(f'{angle:g}' for angle in angles)} (mm)"
 
 
 def mark_first_separation(ax: Axes, time: float) -> None:
@@ -76,3 +86,36 @@ def legend_above(ax: Axes) -> None:
 def letter(ax: Axes, text: str) -> None:
     """A panel's letter above its upper left corner."""
     ax.set_title(f"({text})", loc="left")
+
+
+def normalizations(study: xr.Dataset) -> list[str]:
+    """Those that a grid study has values for."""
+    if "normalization" in study.coords:
+        return [str(name) for name in np.atleast_1d(study["normalization"].values)]
+    return [json.loads(study.attrs["base"])["normalization"]]
+
+
+def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
+    """A grid study's values for one normalization."""
+    return study.sel(normalization=normalization) if "normalization" in study.dims else study
+
+
+def failed(study: xr.Dataset) -> xr.DataArray:
+    """Which points of a grid study did not go well."""
+    return study["status"].copy(data=flag_names(study["status"]) != "ok")
+
+
+def without_failed(study: xr.Dataset, *names: str) -> xr.Dataset:
+    """A grid study with nan in the named variables where a point did not go well."""
+    return study.assign({name: study[name].where(~failed(study)) for name in names})
+
+
+def mark_failed(ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x") -> None:
+    """Crosses beside an axis at points that did not go well, as stability maps have them; nothing if there are none."""
+    if not values.size:
+        return
+    low = np.full(values.shape, 0.02)
+    place, transform = (
+        ((values, low), ax.get_xaxis_transform()) if on == "x" else ((low, values), ax.get_yaxis_transform())
+    )
+    ax.plot(*place, "x", color=BLACK, markersize=3.5, transform=transform, clip_on=False, label="failed")

@@ -17,7 +17,8 @@ from disc_model.figures import parts
 from disc_model.figures.spectrograms import colour_bar, mark_time, spectrogram, stretch
 from disc_model.figures.style import BLUE, GREEN, PAGE, SKY, new_figure, styled
 
-LABELS = {"psi": ("ψ (rad)", 1.0), "w_point": (r"Disc at $r_0$, $\theta$ = 1 (mm)", 1e3)}
+SCALES = {"psi": 1.0, "w_point": 1e3}
+"""From SI to what the axes show."""
 COLOURS = {"psi": BLUE, "w_point": GREEN}
 HIGHEST = 1000.0
 """Highest frequency shown, Hz."""
@@ -48,7 +49,7 @@ def draw(
     left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
     panels = left.subplot_mosaic(layout)
     window = tree[spectrum].to_dataset()
-    found = time_frequency(window["time"].values, window[variable].values * LABELS[variable][1])
+    found = time_frequency(window["time"].values, window[variable].values * SCALES[variable])
     _whole(panels["whole"], tree, variable, stretch(found))
     for i, (name, start) in enumerate(zooms):
         _closer(panels[f"zoom{i}"], tree[name].to_dataset(), variable, start, first=i == 0)
@@ -57,22 +58,30 @@ def draw(
 
 
 def _whole(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, float]) -> None:
-    label, scale = LABELS[variable]
+    history = tree["history"].to_dataset()
     ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
-    parts.envelope(ax, tree["history"].to_dataset(), variable, scale=scale, color=COLOURS[variable])
+    parts.envelope(ax, history, variable, scale=SCALES[variable], color=COLOURS[variable])
     parts.mark_first_separation(ax, float(tree["first_separation"]))
-    ax.set(xlabel="Time (s)", ylabel=label)
+    ax.set(xlabel="Time (s)", ylabel=_label(variable, history))
     parts.letter(ax, "a")
 
 
+def _label(variable: str, window: xr.Dataset) -> str:
+    return parts.disc_label(window) if variable == "w_point" else "ψ (rad)"
+
+
 def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first: bool) -> None:
-    label, scale = LABELS[variable]
     part = window.sel(time=slice(start, start + ZOOM))
-    ax.plot((part["time"].values - start) * 1e3, part[variable].values * scale, color=COLOURS[variable], linewidth=0.6)
+    ax.plot(
+        (part["time"].values - start) * 1e3,
+        part[variable].values * SCALES[variable],
+        color=COLOURS[variable],
+        linewidth=0.6,
+    )
     ax.set_xlabel(f"Time after {start:g} s (ms)")
     ax.set_xlim(0, ZOOM * 1e3)
     if first:
-        ax.set_ylabel(label)
+        ax.set_ylabel(_label(variable, window))
     else:
         ax.set_label("shares the axis to its left")
 

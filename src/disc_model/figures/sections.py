@@ -29,7 +29,7 @@ BY_HALVES = {"early": "first half", "later": "second half", "separated": "separa
 
 @styled
 def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0, theta = 1."""
+    """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle."""
     (case,) = cases.values()
     samples = case["poincare"].to_dataset()
     found = stages(
@@ -43,7 +43,7 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     _scatter(slider, samples["psi"].values, samples["psi_velocity"].values, found)
     _scatter(disc, samples["w_point"].values * 1e3, samples["w_point_velocity"].values, found)
     slider.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
-    disc.set(xlabel=r"Disc at $r_0$, $\theta$ = 1 (mm)", ylabel="Its velocity (m/s)")
+    disc.set(xlabel=parts.disc_label(samples), ylabel="Its velocity (m/s)")
     parts.letter(slider, "a")
     parts.letter(disc, "b")
     _legend(figure, disc, found, float(case["first_separation"]))

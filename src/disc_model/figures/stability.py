@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from disc_model.figures.parts import letter
+from disc_model.figures.parts import letter, mark_failed
 from disc_model.figures.style import BLACK, BLUE, COLUMN, ORANGE, PAGE, VERMILION, new_figure, styled
 
 Array = NDArray[np.float64]
@@ -131,6 +131,7 @@ def threshold_chart(
     folds: Sequence[Curve] = (),
     printed: Mapping[float, float] | None = None,
     cycle: xr.Dataset | None = None,
+    failed: NDArray[np.bool_] | None = None,
 ) -> Figure:
     """Where the cycle becomes unstable, and where separation follows within a stated time, on one chart.
 
@@ -140,11 +141,15 @@ def threshold_chart(
     folds : where the cycle ceases to exist
     printed : critical speeds of the paper by load
     cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega: what is shaded is where no cycle is stable
+    failed : shape (n,), loads at which separation is not known; they are marked
     """
     figure = new_figure(COLUMN, 3.4)
     ax = figure.subplots()
-    order = np.argsort(N)
-    N, separation = N[order], separation[order]
+    ax.set_ylim(0.95 * N.min(), 1.02 * N.max())
+    lost = np.zeros(len(N), bool) if failed is None else failed
+    mark_failed(ax, N[lost], on="y")
+    order = np.argsort(N[~lost])
+    N, separation = N[~lost][order], separation[~lost][order]
     ax.plot(separation, N, "o-", color=VERMILION, markersize=3, label=f"separation within {horizon:g} s")
     ax.plot(neutral.Omega, neutral.N, color=BLUE, label="cycle loses stability")
     band = f"no stable cycle, no separation within {horizon:g} s"
@@ -152,7 +157,7 @@ def threshold_chart(
         lowest = _lowest_speed(neutral, N)
         both = np.isfinite(lowest) & np.isfinite(separation) & (lowest < separation)
         ax.fill_betweenx(N, lowest, separation, where=both, color=BLUE, alpha=0.15, linewidth=0, label=band)
-    else:
+    elif N.size:
         _unstable_before(ax, cycle, N, separation, band)
     for i, fold in enumerate(folds):
         label = "fold: the cycle ends" if i == 0 else "_nolegend_"
@@ -161,7 +166,7 @@ def threshold_chart(
             _draw(ax, fold)
     if printed:
         ax.plot(list(printed.values()), list(printed), "s", color=ORANGE, markersize=4, label="paper")
-    ax.set(xlabel=SPEED, ylabel=LOAD, ylim=(0.95 * N.min(), 1.02 * N.max()))
+    ax.set(xlabel=SPEED, ylabel=LOAD)
     if cycle is not None:
         ax.set_xlim(*_span(cycle["Omega"].values))
     figure.legend(loc="outside upper center", ncols=1)
@@ -199,6 +204,8 @@ def bifurcation_diagram(
 ) -> Figure:
     """Samples once a turn against a parameter; those in stick apart from those in slip or separation.
 
+    Where all samples or the largest exponent are missing, a cross says so.
+
     samples : as `disc_model.stability.bifurcation.bifurcation_samples` returns; name : its parameter's dimension
     scale : factor for the axis, 1e3 shows mrad or mm
     lyapunov : `exponent` and `exponent_error` (1/s) over the parameter and `exponent_number`, for a panel below
@@ -213,6 +220,7 @@ def bifurcation_diagram(
         here = phase == code
         if np.any(here):
             ax.plot(position[here], values.values[here] * scale, ".", color=color, markersize=1.5, label=label)
+    mark_failed(ax, values[name].values[(phase == -1).all(axis=1)])
     unit = values.attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(scale, f"{1 / scale:g} ")
     parameter_unit = samples[name].attrs.get("units", "")
@@ -234,6 +242,7 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
         low, high = (exponent[i].values + s * 4 * error[i].values for s in (-1, 1))
         ax.plot(exponent[name], exponent[i], ".-", color=color, markersize=3, linewidth=0.8, label=label)
         ax.fill_between(exponent[name].values, low, high, color=color, alpha=0.15, linewidth=0)
+    mark_failed(ax, exponent[name].values[np.isnan(exponent[0].values)])
     ax.set_ylabel("Lyapunov exponents (1/s)")
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, borderaxespad=0.2)
 

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from disc_model.figures import parts
 from disc_model.figures.plots import GrowthMap, Thresholds
 from disc_model.figures.stability import Curve, growth_map, threshold_chart
 from disc_model.stability.tongue import Tongue
@@ -26,17 +27,19 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap | 
         quantity `floquet` over the same
     """
     if isinstance(plot, GrowthMap):
-        norms = [str(norm) for norm in np.atleast_1d(study["normalization"].values)]
-        grids = {norm: _of(study, norm) for norm in norms}
-        curves = {norm: curves_of(_of(others["curves"], norm)) for norm in norms} if "curves" in others else None
+        norms = parts.normalizations(study)
+        grids = {norm: parts.of(study, norm) for norm in norms}
+        curves = {norm: curves_of(parts.of(others["curves"], norm)) for norm in norms} if "curves" in others else None
         return growth_map(grids, curves)
-    norm = str(np.atleast_1d(study["normalization"].values)[0])
-    study = _of(study, norm)
+    norm = parts.normalizations(study)[0]
+    study = parts.of(study, norm)
     horizon = float(study["horizon"].max())
-    found = curves_of(_of(others["curves"], norm))
+    found = curves_of(parts.of(others["curves"], norm))
     # beyond the scan nothing is known of separation
     scan = study["scan_Omega"].values
-    cycle = _of(others["cycle"], norm).sel(Omega=slice(scan[0], scan[-1])) if "cycle" in others else None
+    cycle = parts.of(others["cycle"], norm).sel(Omega=slice(scan[0], scan[-1])) if "cycle" in others else None
+    if cycle is not None and min(cycle["growth_rate"].shape) < 2:
+        cycle = None
     return threshold_chart(
         study["N"].values,
         study["critical_speed"].sel(horizon=horizon).values,
@@ -45,11 +48,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap | 
         [curve for curve in found if curve.kind == "fold"],
         dict(plot.claim.values()),
         cycle,
+        parts.failed(study).values,
     )
-
-
-def _of(data: xr.Dataset, norm: str) -> xr.Dataset:
-    return data.sel(normalization=norm) if "normalization" in data.dims else data
 
 
 def curves_of(data: xr.Dataset) -> list[Curve]:

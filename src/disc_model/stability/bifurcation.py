@@ -90,7 +90,8 @@ def bifurcation_samples(
         if count:
             phase[i, :count] = taken["phase"][:count]
         first[i], separations[i] = run.first_separation, int(run.statistics["separations"])
-        stick[i] = run.statistics["time_stick"] / end
+        reached = run.final_state.time
+        stick[i] = run.statistics["time_stick"] / reached if reached else math.nan
         status[i] = STATUS_NAMES.index(run.status.value)
         if follow and run.status.complete:
             start = _at_time_zero(run.final_state)

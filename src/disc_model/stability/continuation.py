@@ -55,8 +55,7 @@ def continue_cycle(
     """
     check(p, (name,), 1)
     problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol)
-    z = starting_point(problem, p, start)
-    point = problem.evaluate(z)
+    point = starting_point(problem, p, start)
     tangent = problem.tangents(point)[0]
     tangent *= direction * (1.0 if tangent[-1] >= 0 else -1.0)
     points, folds, ended = [point], [], "the number of points allowed is reached"
@@ -69,7 +68,11 @@ def continue_cycle(
             ended = str(lost)
             break
         if turned[-1] * tangent[-1] < 0:
-            folds.append(_locate_fold(problem, point, new, tangent) * problem.scales[0])
+            try:
+                folds.append(_locate_fold(problem, point, new, tangent) * problem.scales[0])
+            except Lost as lost:
+                ended = f"the fold near {name}={point.z[-1] * problem.scales[0]:.6g} cannot be located: {lost}"
+                break
         easy = turned @ tangent > 0.99
         point, tangent = new, turned
         points.append(point)

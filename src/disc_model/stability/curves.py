@@ -21,6 +21,7 @@ from disc_model.stability.cycle_problem import Branch, default_scale
 from disc_model.stability.floquet_batch import solve
 from disc_model.stability.neutral import continue_fold, continue_neutral
 from disc_model.stability.resonances import nearest_tongue
+from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.tongue import Tongue
 
 Array = NDArray[np.float64]
@@ -151,7 +152,11 @@ def _first_event(case: Parameters, name: str, end: float, direction: int, tol: f
         kind, j = "fold", fold
     else:
         return None
-    return _Seed(kind, case.replace(**{name: float(values[j])}), branch.points[j], float(branch.period[j]))
+    there = case.replace(**{name: float(values[j])})
+    point = branch.points[j]
+    if name == "E":  # which scales the coordinates; the branch is in those of the case it starts from
+        point = point / ReturnMap(case, tol).scale * ReturnMap(there, tol).scale
+    return _Seed(kind, there, point, float(branch.period[j]))
 
 
 def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: float, span: Array) -> bool:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.stability.floquet import CycleStatus, find_cycle, kind_of, multipliers
-from disc_model.stability.return_map import OUTCOMES, PARAMETERS, RETURNED, Flight, ReturnMap
+from disc_model.stability.return_map import OUTCOMES, PARAMETERS, RETURNED, Flight, ReturnMap, rounding
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -130,7 +130,7 @@ class CycleProblem:
             if error <= 30 * self.tol:
                 return point
             if error > 0.8 * last:
-                if error <= 1e4 * self.tol:
+                if error <= rounding(self.tol, 1e4):
                     return point
                 break
             last = error
@@ -175,13 +175,17 @@ def check(p: object, names: tuple[str, ...], count: int) -> None:
         raise ParameterError(*faults)
 
 
-def starting_point(problem: CycleProblem, p: Parameters, start: Array | None) -> Array:
+def starting_point(problem: CycleProblem, p: Parameters, start: Array | None) -> CyclePoint:
+    """The cycle that Newton's method finds from ``start``; raises `ParameterError` if there is none to follow."""
     cycle = find_cycle(p, problem.tol, start)
     if cycle.status is not CycleStatus.OK or cycle.map is None or cycle.solution is None:
         raise ParameterError(f"p: must have a cycle to start from, but {cycle.message}")
     if cycle.solution.flight.releases != 1:
         raise ParameterError("p: must have a cycle with a single release to start from")
-    return problem.unknowns(cycle.solution.x, p, cycle.map.scale)
+    try:
+        return problem.evaluate(problem.unknowns(cycle.solution.x, p, cycle.map.scale))
+    except Lost as lost:
+        raise ParameterError(f"p: must have a cycle to start from, but {lost}") from None
 
 
 def branch_of(problem: CycleProblem, points: list[CyclePoint], folds: Array, ended: str) -> Branch:

@@ -173,8 +173,8 @@ class Cycle:
 def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) -> Cycle:
     """The cycle Newton's method finds from `start` (a point of the section), the static equilibrium by default.
 
-    Where it finds none from there, the motion from the published start is simulated for some returns, and cycles of
-    up to three releases are looked for from where it has come to.  Beyond a fold there may be cycles far from the quiet
+    Where it finds none from the equilibrium, the motion from there is simulated for some returns, and cycles of up to
+    three releases are looked for from where it has come to.  Beyond a fold there may be cycles far from the quiet
     motion, in resonance and violently unstable; `disc_model.stability.continuation` finds them from the fold's other
     side, and this function leaves them alone.
     """
@@ -184,6 +184,8 @@ def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) ->
     solution = newton(map_, map_.static if start is None else start, tol=tol)
     if solution.converged:
         return _found(map_, solution)
+    if start is not None:
+        return Cycle(CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
     return _second_try(map_, tol)
 
 
@@ -199,7 +201,8 @@ def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-1
             return _found(map_, solution)
         return Cycle(CycleStatus.NO_CYCLE, f"no cycle of {releases} releases near the given state")
     if OUTCOMES[outcome] == "time_over":
-        return Cycle(CycleStatus.NO_STICK_SLIP, "the slider does not stick after the given state")
+        waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
+        return Cycle(CycleStatus.NO_STICK_SLIP, waited)
     return Cycle(CycleStatus.NO_CYCLE, f"the motion from the given state does not return: {OUTCOMES[outcome]}")
 
 

@@ -32,6 +32,7 @@ class LyapunovStatus(enum.StrEnum):
     PARADOX = "paradox"
     STALLED = "stalled"
     NON_FINITE = "non_finite"
+    STEP_LIMIT = "step_limit"
 
     @property
     def advice(self) -> str:
@@ -44,6 +45,7 @@ _ADVICE = {
     LyapunovStatus.PARADOX: "Painleve's paradox ended the motion: lower mu_k or N.",
     LyapunovStatus.STALLED: "Switches followed each other without the clock moving: perturb the start.",
     LyapunovStatus.NON_FINITE: "The motion overflowed: check the parameters' magnitudes.",
+    LyapunovStatus.STEP_LIMIT: "The transient took more steps than any motion should: check the magnitudes.",
 }
 _OUTCOMES = {
     variational.TIME_OVER: LyapunovStatus.OK,
@@ -115,7 +117,10 @@ def lyapunov_exponents(
     start = initial_state
     if transient > 0:
         begin = 0.0 if initial_state is None else initial_state.time
-        start = simulate(p, begin + transient, tol=tol, initial_state=initial_state).final_state
+        run = simulate(p, begin + transient, tol=tol, initial_state=initial_state)
+        start = run.final_state
+        if not run.status.complete:
+            return _nothing(LyapunovStatus(run.status.value), count, 0.0, start)
     model, order, tolerance = build_model(p), series_order(tol), series_tolerance(tol)
     series, state = layout.build_series(model, order), layout.build_state(model)
     if start is not None:
@@ -159,9 +164,7 @@ def _summary(
     count = logs.shape[1]
     covered = len(logs) * interval
     if len(logs) < _BLOCKS:
-        nothing = np.full(count, math.nan)
-        history = np.full((_BLOCKS, count), math.nan)
-        return Lyapunov(status, nothing, nothing, covered, 0, history, read_state(p, model, state))
+        return _nothing(status, count, covered, read_state(p, model, state))
     history = np.array([np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)])
     exponents = np.sum(logs, axis=0) / covered
     order = np.argsort(-exponents, kind="stable")
@@ -170,6 +173,12 @@ def _summary(
     return Lyapunov(
         status, exponents[order], errors[order], covered, separations, history[:, order], read_state(p, model, state)
     )
+
+
+def _nothing(status: LyapunovStatus, count: int, covered: float, state: State) -> Lyapunov:
+    """No exponents: too little time was covered."""
+    nan = np.full(count, math.nan)
+    return Lyapunov(status, nan, nan, covered, 0, np.full((_BLOCKS, count), math.nan), state)
 
 
 def _check(p: object, duration: float, transient: float, count: int, interval: float) -> None:

@@ -101,7 +101,7 @@ def _continue_on_surface(
     names = tuple(names)  # type: ignore[assignment]
     check(p, names, 2)
     problem = CycleProblem(p, names, scales, tol)
-    point = problem.evaluate(starting_point(problem, p, start))
+    point = starting_point(problem, p, start)
     mu = former if former is not None else complex(multipliers(point.jacobian)[0])
     try:
         point, mu = _reach(problem, point, test, mu)

@@ -226,6 +226,11 @@ GOOD_STEP = 0.05
 """A step that leaves less than this share of the residual spares the next one its own Jacobian."""
 
 
+def rounding(tol: float, factor: float) -> float:
+    """Relative residual that may be left where it falls no further; a rough `tol` is no excuse for more than 1e-8."""
+    return max(tol, min(factor * tol, 1e-8))
+
+
 def newton(
     map_: ReturnMap,
     x: Array,
@@ -237,8 +242,8 @@ def newton(
 ) -> Solution:
     """Fixed point of the map, by Newton's method with a line search and reused Jacobians.
 
-    Converged means that the residual is below `tol` times the point's norm, or has stopped falling below a hundred
-    times that: rounding.  The Jacobian returned is that of the point returned.
+    Converged means that the residual is below `tol` times the norm of the static deflection, or that rounding, of up to
+    ten thousand times that, keeps it from falling further.  The Jacobian returned is that of the point returned.
     """
     size = max(float(np.linalg.norm(map_.static)), 1e-300)
     identity = np.eye(map_.size)
@@ -263,7 +268,7 @@ def newton(
                 break
         if not accepted:
             if fresh:
-                if residual <= 1e3 * tol * size:
+                if residual <= rounding(tol, 1e3) * size:
                     break
                 return Solution(False, x, flight, jacobian, residual, by)
             ratio = 1.0
@@ -280,7 +285,9 @@ def newton(
             used, fresh = used + 1, True
     flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=may_separate)
     residual = float(np.linalg.norm(end - x))
-    converged = flight.outcome == RETURNED and residual <= 1e4 * tol * size and bool(np.all(np.isfinite(jacobian)))
+    converged = (
+        flight.outcome == RETURNED and residual <= rounding(tol, 1e4) * size and bool(np.all(np.isfinite(jacobian)))
+    )
     return Solution(converged, x, flight, jacobian, residual, by)
 
 

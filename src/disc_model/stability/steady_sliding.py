@@ -31,6 +31,7 @@ class SlidingStatus(enum.StrEnum):
     OK = "ok"
     NO_CONTACT = "no_contact"
     AT_REST = "at_rest"
+    NO_SPRING = "no_spring"
     PARADOX = "paradox"
 
     @property
@@ -43,6 +44,7 @@ _ADVICE = {
     SlidingStatus.OK: "Steady sliding exists; its growth rate says whether it is stable.",
     SlidingStatus.NO_CONTACT: "The equilibrium would need a contact force that is not positive: lower Omega.",
     SlidingStatus.AT_REST: "The disc is not driven (Omega = 0): nothing slides.",
+    SlidingStatus.NO_SPRING: "Without the spring in the plane (k_p = 0) nothing balances friction.",
     SlidingStatus.PARADOX: "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N.",
 }
 
@@ -90,6 +92,8 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         raise ParameterError(f"p={p!r}: must be Parameters")
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
+    if p.k_p == 0 and p.mu_k > 0:
+        return _absent(SlidingStatus.NO_SPRING)
     modes = mode_arrays(p)
     damping = p.D_star / p.D * modes.omega**2
     a, b, force = _equilibrium(p, modes, damping)

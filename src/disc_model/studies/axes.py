@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import Annotated, Any, Literal, Self
 
@@ -14,6 +15,8 @@ Value = float | int | str
 Blocks = tuple[tuple[Value, ...], ...]
 
 Finite = Annotated[Real, Field(allow_inf_nan=False)]
+MOST = 100_000
+"""Values along one axis, at most; a slip of the pen can ask for more than fit into memory."""
 
 
 class Range(Strict):
@@ -32,14 +35,17 @@ class Range(Strict):
     def _consistent(self) -> Self:
         if not self.start < self.stop:
             raise ValueError(f"start={self.start:g} must be < stop={self.stop:g}")
+        if not math.isfinite(self.stop - self.start):
+            raise ValueError("stop - start must be finite")
         if (self.count is None) == (self.step is None):
             raise ValueError("must give either count or step")
         if self.scale == "log" and (self.step is not None or self.start <= 0):
             raise ValueError("a logarithmic range must give count, and start > 0")
-        if self.step is not None:
-            intervals = (self.stop - self.start) / self.step
-            if abs(intervals - round(intervals)) > 1e-9 * intervals:
-                raise ValueError(f"stop - start must be a multiple of step={self.step:g}")
+        intervals = self.count - 1 if self.count is not None else (self.stop - self.start) / self.step  # type: ignore[operator]
+        if intervals >= MOST:
+            raise ValueError(f"must be at most {MOST} values")
+        if self.step is not None and abs(intervals - round(intervals)) > 1e-9 * intervals:
+            raise ValueError(f"stop - start must be a multiple of step={self.step:g}")
         return self
 
     @property
@@ -56,7 +62,7 @@ class Range(Strict):
         found: dict[int, list[Value]] = {}
         for i in range(n + 1):
             # the lowest resolution at which this value is there
-            level = next(r for r in range(1, resolution + 1) if resolution % r == 0 and i * r % resolution == 0)
+            level = resolution // math.gcd(i, resolution)
             found.setdefault(level, []).append(self._at(i / n))
         return tuple(tuple(found[level]) for level in sorted(found))
 
@@ -80,10 +86,15 @@ def parse_blocks(raw: Any, path: tuple[str, ...], faults: Faults, resolution: in
         if not isinstance(raw["blocks"], list) or not raw["blocks"]:
             faults.add((*path, "blocks"), raw["blocks"], "must be a list of lists or ranges")
             return None
-        each = [parse_blocks(part, (*path, "blocks", str(i)), faults) for i, part in enumerate(raw["blocks"])]
+        each = [
+            parse_blocks(part, (*path, "blocks", str(i)), faults, resolution) for i, part in enumerate(raw["blocks"])
+        ]
         return None if None in each else tuple(block for part in each if part for block in part)
     if isinstance(raw, Mapping):
         given = validated(Range, raw, path, faults)
+        if given is not None and given.intervals * resolution >= MOST:
+            faults.add(path, "", f"must be at most {MOST} values, and not {given.intervals * resolution + 1}")
+            return None
         return None if given is None else given.blocks(resolution)
     if isinstance(raw, list) and raw:
         return (tuple(raw),)

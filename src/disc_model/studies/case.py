@@ -39,6 +39,7 @@ class CaseSpec:
     @property
     def canonical(self) -> str:
         """JSON text, equal for equal cases however they were written; `from_canonical` reads it."""
+        truncation = self.parameters.truncation
         return canonical_json(
             {
                 "parameters": self.parameters.model_dump(),
@@ -50,6 +51,7 @@ class CaseSpec:
                 "events": self.events,
                 "energy": self.energy,
             }
+            | ({"truncation": truncation} if truncation else {})
         )
 
     @property
@@ -61,7 +63,7 @@ class CaseSpec:
     def from_canonical(cls, text: str) -> CaseSpec:
         data = json.loads(text)
         return cls(
-            parameters=Parameters(**data["parameters"]),
+            parameters=Parameters(**data["parameters"]).with_truncation(data.get("truncation", "")),
             t_end=data["t_end"],
             tol=data["tol"],
             stop_at=data["stop_at"],

@@ -9,6 +9,7 @@ so that a batch whose content is the same is not computed again, wherever and ho
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -18,8 +19,8 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from disc_model.errors import ParameterError
-from disc_model.figures.plots import PLOTS, Plot
-from disc_model.parameters import Count, Parameters
+from disc_model.figures.plots import PLOTS, Plot, Values
+from disc_model.parameters import AUTO, TRUNCATION_TOLERANCE, Count, Parameters, truncation_tolerance
 from disc_model.provenance import source_hash
 from disc_model.studies.axes import Blocks, Value, parse_blocks, without_repeats
 from disc_model.studies.case import canonical_json
@@ -43,6 +44,8 @@ VARIED = (
 )  # fmt: skip
 """Parameters that a grid may vary, in the order of its dimensions."""
 RUNNER = "disc_model.studies.grid_batch"
+MOST_POINTS = 1_000_000
+"""Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
 ANY = {"N": 1.0, "Omega": 1.0}
 """Values for the check of one parameter where a study does not give the others."""
 
@@ -120,12 +123,14 @@ class GridStudy:
         return [{"names": dim.names, "values": dim.values} for dim in self.dims]
 
     @property
+    def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
+        """Values along each dimension, by its name."""
+        return {dim.name: dim.values for dim in self.dims}
+
+    @property
     def n_points(self) -> int:
         """Number of points of the grid."""
-        n = 1
-        for dim in self.dims:
-            n *= len(dim.values)
-        return n
+        return math.prod(len(dim.values) for dim in self.dims)
 
 
 def load_grid(path: str | Path, overrides: Mapping[str, Any] | None = None, resolution: Any = 1) -> GridStudy:
@@ -184,9 +189,12 @@ def load_grids(
     ]
     for study in studies.values():
         for plot_name, plot in study.plots.items():
-            for other in plot.others.values():
+            for role, other in plot.others.items():
+                where = f"{study.name}: figures.{plot_name}.others.{role} = {other!r}"
                 if other not in known:
-                    faults.append(f"{study.name}: figures.{plot_name} = {other!r}: no such study")
+                    faults.append(f"{where}: no such study")
+                elif other in studies:
+                    faults += [f"{where}: {rule}" for rule in plot.misfits_of(role, study, studies[other])]
     if faults:
         raise StudyError(*faults, source="grid studies")
     return studies
@@ -202,18 +210,23 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     options = (
         None if quantity is None else validated(quantity.options, mapping(raw.get("options")), ("options",), faults)
     )
-    base = _base(mapping(raw.get("base")), faults)
+    base, automatic = _base(mapping(raw.get("base")), faults)
     dims = _dimensions(raw, fineness, base, faults)
     varied = [name for dim in dims for name in dim.names]
     _check_names(raw, dims, varied, () if quantity is None else quantity.scanned(options), quantity, faults)
-    # after a fault, what is only meant to be a dimension counts as one
-    known = {dim.name for dim in dims} | (_asked(raw) if faults else set())
-    plots = _plots(mapping(raw.get("figures")), raw.get("quantity"), known, faults)
+    _check_truncation(raw, automatic, faults)
+    _check_size(dims, faults)
+    # what is only meant to be a dimension, and has faults, counts as one without values
+    values: Values = dict.fromkeys(sorted(_asked(raw) - set(varied)), ()) | {dim.name: dim.values for dim in dims}
+    plots = _plots(mapping(raw.get("figures")), raw.get("quantity"), values, faults)
     if faults or header is None or quantity is None or options is None:
         raise StudyError(*faults)
     first = {name: value for dim in dims for name, value in zip(dim.names, dim.values[0], strict=True)}
     complete = Parameters(**{**ANY, **base, **first}).model_dump()
     complete |= {name: 0.0 for name in quantity.scanned(options) if name in ANY}  # not used
+    if automatic:
+        complete |= automatic
+        del complete["n_circles"]
     for name in varied:
         del complete[name]
     batches = _batches(header, dims, quantity, options, complete)
@@ -242,13 +255,36 @@ def _quantity(raw: Mapping[str, Any], faults: Faults) -> Quantity | None:
     return QUANTITIES.get(name) if isinstance(name, str) else None
 
 
-def _base(values: Mapping[str, Any], faults: Faults) -> dict[str, Any]:
-    """The base values that are right; N and Omega need not be among them."""
+def _base(values: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The base values that are right, N and Omega need not be among them; and what leaves the modes to each point."""
+    automatic: dict[str, Any] = {}
+    fixed = dict(values)
     try:
-        return {name: Parameters(**{**ANY, **values}).model_dump()[name] for name in values}
+        if values.get("n_diameters") == AUTO:
+            del fixed["n_diameters"]
+            tolerance = truncation_tolerance(fixed.pop("truncation_tolerance", TRUNCATION_TOLERANCE))
+            automatic = {"n_diameters": AUTO, "truncation_tolerance": tolerance}
+        return {name: Parameters(**{**ANY, **fixed}).model_dump()[name] for name in fixed}, automatic
     except ParameterError as error:
         add_parameter_faults(error, lambda name: ("base", name), faults)
-        return {}
+        return {}, automatic
+
+
+def _check_truncation(raw: Mapping[str, Any], automatic: Mapping[str, Any], faults: Faults) -> None:
+    """What is chosen for each point cannot be given, and the choice is made for all points or none."""
+    if not automatic:
+        return
+    given = [("axes", name) for name in ("n_diameters", "n_circles") if name in _asked(raw)]
+    if "n_circles" in mapping(raw.get("base")):
+        given.append(("base", "n_circles"))
+    for path in given:
+        faults.add(path, "", f"is chosen for each point, since base.n_diameters is {AUTO!r}")
+
+
+def _check_size(dims: Sequence[Dimension], faults: Faults) -> None:
+    points = math.prod(len(dim.values) for dim in dims)
+    if points > MOST_POINTS:
+        faults.add(("axes",), "", f"must make at most {MOST_POINTS} points, and not {points}")
 
 
 def _dimensions(
@@ -316,6 +352,10 @@ def _checked(
     for block in blocks:
         result.append([])
         for value in block:
+            if value == AUTO:
+                good = False
+                faults.add(path, value, "cannot be varied: give it in base, for all points")
+                continue
             try:
                 result[-1].append(getattr(Parameters(**{**ANY, **base, name: value}), name))
             except ParameterError as error:
@@ -351,7 +391,7 @@ def _check_names(
             faults.add(("batch", "over"), name, f"must name dimensions (known: {', '.join(known)})")
 
 
-def _plots(raw: Mapping[Any, Any], quantity: Any, dims: set[str], faults: Faults) -> dict[str, Plot]:
+def _plots(raw: Mapping[Any, Any], quantity: Any, values: Values, faults: Faults) -> dict[str, Plot]:
     plots = {}
     for name, given in raw.items():
         path = ("figures", str(name))
@@ -364,9 +404,9 @@ def _plots(raw: Mapping[Any, Any], quantity: Any, dims: set[str], faults: Faults
             continue
         if plot.quantity != quantity:
             faults.add((*path, "kind"), kind, f"needs the quantity {plot.quantity}")
-        for dim in plot.dims:
-            if dim not in dims:
-                faults.add(path, dim, "is no dimension of this study")
+            continue
+        for place, value, rule in plot.faults(values):
+            faults.add((*path, *place), value, rule)
         plots[str(name)] = plot
     return plots
 

@@ -13,7 +13,8 @@ import numpy as np
 import xarray as xr
 
 from disc_model.dataset import CONVENTIONS, json_attribute
-from disc_model.parameters import Parameters
+from disc_model.errors import DiscModelError
+from disc_model.parameters import AUTO, Parameters
 from disc_model.provenance import git_commit, versions
 from disc_model.studies.quantities.table import Column
 from disc_model.variables import CHOICES, Variable, attributes
@@ -31,7 +32,7 @@ def run_batch(text: str) -> xr.Dataset:
     names, points = data["names"], data["points"]
     module = importlib.import_module(data["quantity"])
     options = module.OPTIONS.model_validate(data["options"])
-    parameters = [Parameters(**data["base"], **dict(zip(names, point, strict=True))) for point in points]
+    parameters = [_made(data["base"] | dict(zip(names, point, strict=True))) for point in points]
     began = time.process_time()
     table = module.compute(parameters, options)
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
@@ -39,6 +40,8 @@ def run_batch(text: str) -> xr.Dataset:
         if message:
             log.warning("%s: %s", dict(zip(names, point, strict=True)), message)
     variables = {name: _variable(column, table.arrays[name]) for name, column in module.TABLE.items()}
+    if data["base"].get("n_diameters") == AUTO:
+        variables |= {name: _chosen(name, parameters) for name in ("n_diameters", "n_circles")}
     variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
     coords = {name: _coordinate(name, [point[i] for point in points]) for i, name in enumerate(names)}
     own = {name: (name, *_described(values)) for name, values in module.coordinates(options).items()}
@@ -49,6 +52,19 @@ def run_batch(text: str) -> xr.Dataset:
         "versions": json_attribute(versions()),
     }
     return xr.Dataset(variables, coords | own, attrs)
+
+
+def _made(values: Mapping[str, Any]) -> Parameters | DiscModelError:
+    """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
+    try:
+        return Parameters(**values)
+    except DiscModelError as error:
+        return error
+
+
+def _chosen(name: str, parameters: Sequence[Parameters | DiscModelError]) -> xr.Variable:
+    """What was chosen for each point, -1 where nothing could be."""
+    return xr.Variable(POINT, np.array([getattr(p, name, -1) for p in parameters]), attributes(name))
 
 
 def describe(name: str) -> dict[str, Any]:

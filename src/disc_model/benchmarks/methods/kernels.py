@@ -160,16 +160,14 @@ def switch(modes, c, phase, cause, y, kinds):
             kinds[0] = SLIP_TO_STICK
             return STICK, 0, 1
         direction = 1 if F > 0.0 else -1
-        if P < 0.0 and c[_BONDED] == 0.0:
-            _leave(modes, c, y)
-            kinds[0] = LOSS_OF_CONTACT
-            return SEPARATION, 0, 1
         kinds[0] = SLIP_REVERSAL
     P, _, _, _ = contact(modes, c, direction, y)
     if P < 0.0 and c[_BONDED] == 0.0:
         _leave(modes, c, y)
-        kinds[1] = LOSS_OF_CONTACT
-        return SEPARATION, 0, 2
+        # a slider that neither sticks nor slips back has not turned round
+        count = 0 if kinds[0] == SLIP_REVERSAL else 1
+        kinds[count] = LOSS_OF_CONTACT
+        return SEPARATION, 0, count + 1
     return SLIP, direction, 1
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from disc_model.parameters import Count
-from disc_model.studies.axes import Finite
+from disc_model.studies.axes import MOST, Finite
 from disc_model.studies.quantities.lead_options import Lead
 from disc_model.studies.quantities.options import Positive
 
@@ -21,5 +21,5 @@ class BifurcationOptions(Lead):
     """
 
     transient: Positive
-    samples: Annotated[Count, Field(ge=1)] = 50
+    samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
     theta: Finite = 1.0

@@ -19,7 +19,10 @@ KINDS = ("none", "begins", "ends")
 TABLE = {
     "status": Column(STATUS),
     "critical_speed": Column(
-        Variable("rad s-1", "lowest speed computed with separation within the horizon, nan if there is none"),
+        Variable(
+            "rad s-1",
+            "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
+        ),
         ("horizon",),
     ),
     "n_crossings": Column(
@@ -46,7 +49,7 @@ OPTIONS = CriticalSpeedOptions
 def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]]:
     """Horizons, numbers of crossings, and speeds of the scan."""
     return {
-        "horizon": (np.array(sorted(options.horizons)), Variable("s", "time within which separation must occur")),
+        "horizon": (np.array(options.horizons), Variable("s", "time within which separation must occur")),
         "crossing_number": (
             np.arange(options.max_crossings),
             Variable("1", "number of the crossing, as the speed rises"),
@@ -65,7 +68,7 @@ def compute(points: Sequence[Parameters], options: CriticalSpeedOptions) -> Tabl
 
 
 def _one(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
-    horizons = sorted(options.horizons)
+    horizons = options.horizons
     step, scale = _lattice(options)
     known: dict[int, float] = {}
     statuses: dict[int, str] = {}
@@ -73,7 +76,7 @@ def _one(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], 
     total = 0.0
 
     def first_separation(i: int) -> float:
-        """At the i-th speed of the lattice, s; infinite if there is none within the longest horizon."""
+        """At the i-th speed of the lattice, s; infinite if there is none within the longest horizon, nan if unknown."""
         nonlocal total
         if i not in known:
             case = p.replace(Omega=scale(i))
@@ -83,7 +86,8 @@ def _one(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], 
             statuses[i] = "ok" if status.complete else status.value
             if not status.complete:
                 messages.append(f"Omega={case.Omega:g}: {followed.result.message}")
-            known[i] = math.inf if math.isnan(followed.first_separation) else followed.first_separation
+            none = math.isnan(followed.first_separation) and status.complete
+            known[i] = math.inf if none else followed.first_separation
         return known[i]
 
     scan = [i * step for i in range(options.scan.intervals + 1)]
@@ -114,26 +118,28 @@ def _lattice(options: CriticalSpeedOptions) -> tuple[int, Callable[[int], float]
 def _bisect(known: dict[int, float], first_separation: Callable[[int], float], horizon: float) -> None:
     """Halve every interval over which separation within the horizon begins or ends, down to the lattice."""
     while True:
-        speeds = sorted(known)
-        wide = [
-            (a + b) // 2 for a, b in pairwise(speeds) if b - a > 1 and (known[a] <= horizon) != (known[b] <= horizon)
-        ]
+        wide = [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]
         if not wide:
             return
         for i in wide:
             first_separation(i)
 
 
+def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
+    """Neighbours of which one separates within the horizon; what is unknown does neither this nor that."""
+    return [
+        (a, b)
+        for a, b in pairwise(sorted(known))
+        if not math.isnan(known[a] + known[b]) and (known[a] <= horizon) != (known[b] <= horizon)
+    ]
+
+
 def _crossings(known: dict[int, float], horizon: float, scale: Callable[[int], float], room: int) -> dict[str, Any]:
     """What one horizon finds among the known speeds."""
-    speeds = sorted(known)
-    separates = [known[i] <= horizon for i in speeds]
-    found = [
-        (scale(b), "begins" if after else "ends")
-        for b, before, after in zip(speeds[1:], separates, separates[1:], strict=False)
-        if before != after
-    ]
-    lowest = next((scale(i) for i, yes in zip(speeds, separates, strict=True) if yes), math.nan)
+    found = [(scale(b), "begins" if known[b] <= horizon else "ends") for _, b in _changes(known, horizon)]
+    # the first that separates; one of which it is not known hides those above it
+    first = next((i for i in sorted(known) if not known[i] > horizon), None)
+    lowest = math.nan if first is None or math.isnan(known[first]) else scale(first)
     kept = found[:room] + [(math.nan, "none")] * (room - len(found))
     return {
         "critical_speed": lowest,

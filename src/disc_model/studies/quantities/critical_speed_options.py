@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
+from disc_model.parameters import Count
 from disc_model.studies.axes import Range
 from disc_model.studies.quantities.options import Positive, SettlingOptions
 
@@ -19,16 +21,16 @@ class CriticalSpeedOptions(SettlingOptions):
     max_crossings : room for that many crossings at each horizon
     """
 
-    horizons: Annotated[tuple[Positive, ...], Field(min_length=1)]
+    horizons: Annotated[tuple[Positive, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
     scan: Range
     precision: Positive = 0.1
-    max_crossings: Annotated[int, Field(ge=1)] = 12
+    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
 
     @model_validator(mode="after")
     def _lattice(self) -> Self:
         if self.scan.scale != "linear":
             raise ValueError("scan must be linear")
         step = (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
-        if abs(step - round(step)) > 1e-6 or round(step) < 1:
+        if not math.isfinite(step) or abs(step - round(step)) > 1e-6 or round(step) < 1:
             raise ValueError("the scan's step must be a multiple of precision")
         return self

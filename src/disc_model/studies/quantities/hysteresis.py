@@ -55,7 +55,6 @@ def _one(p: Parameters, options: HysteresisOptions) -> tuple[dict[str, Any], str
     values: dict[str, Any] = {
         name: np.full((2, len(speeds)), column.missing, column.dtype) for name, column in columns.items()
     }
-    values["sweep_status"][:] = STATUSES.index("failed")  # until a speed was reached
     state: State | None = None
     status, message = "ok", ""
     ways = [(0, i) for i in range(len(speeds))] + [(1, i) for i in reversed(range(len(speeds)))]
@@ -71,16 +70,18 @@ def _one(p: Parameters, options: HysteresisOptions) -> tuple[dict[str, Any], str
         for name, number in numbers(late).items():
             if name in values:
                 values[name][place] = number
-    values |= _ends(np.array(speeds), values["separation_rate"] > 0) | {"status": status}
+    done = values["sweep_status"] == STATUSES.index("ok")
+    values |= _ends(np.array(speeds), values["separation_rate"] > 0, done) | {"status": status}
     return values, message
 
 
-def _ends(speeds: np.ndarray, separates: np.ndarray) -> dict[str, float]:
-    """Where separation appears on the way up, and where it is lost on the way down."""
+def _ends(speeds: np.ndarray, separates: np.ndarray, done: np.ndarray) -> dict[str, float]:
+    """Where separation appears on the way up, and where it is lost on the way down, if the sweep got there."""
     found: dict[str, float] = {}
     if separates[0].any():
         found["onset"] = float(speeds[separates[0].argmax()])
     if separates[1, -1]:
         quiet = np.flatnonzero(~separates[1])
-        found["persists_to"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
+        if not quiet.size or done[1, quiet[-1]]:
+            found["persists_to"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
     return found

@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
-from disc_model.studies.axes import Finite
+from typing import Annotated, Any
+
+from pydantic import create_model, field_validator
+
+from disc_model.parameters import Parameters
 from disc_model.studies.faults import Strict
 from disc_model.studies.quantities.options import Positive, Tolerance
+
+_OPTIONAL: dict[str, Any] = {
+    name: (Annotated[field.annotation, field], None) for name, field in Parameters.model_fields.items()
+}
+_Some = create_model("_Some", __base__=Parameters, **_OPTIONAL)
+"""Parameters of which any may be left out; rules between several are checked if all of them are there."""
 
 
 class Preparation(Strict):
@@ -14,8 +24,17 @@ class Preparation(Strict):
     time : s
     """
 
-    parameters: dict[str, Finite]
+    parameters: dict[str, Any]
     time: Positive
+
+    @field_validator("parameters")
+    @classmethod
+    def _checked(cls, given: dict[str, Any]) -> dict[str, Any]:
+        """As `Parameters` understands them: floats, whole numbers, words."""
+        if given.get("n_diameters") == "auto":
+            raise ValueError("n_diameters='auto': must be a whole number, that of the points")
+        checked = _Some(**given)
+        return {name: getattr(checked, name) for name in given}
 
 
 class Lead(Strict):

@@ -31,10 +31,10 @@ class StabilityCurvesOptions(Strict):
     x_range: tuple[Finite, Finite]
     y_lines: Range
     margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
-    points: Annotated[Count, Field(ge=2)] = 31
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
     longest: Positive = 0.1
-    max_points: Annotated[Count, Field(ge=2)] = 100
-    max_curves: Annotated[Count, Field(ge=1)] = 24
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
+    max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
     tol: Annotated[Real, Field(ge=1e-14, le=1e-6)] = 1e-12
 
     @model_validator(mode="after")

@@ -18,7 +18,7 @@ STATUSES = (
     *(status.value for status in Status if not status.complete),
     "failed",
 )
-"""What became of a point. `failed`: it raised an error."""
+"""What became of a point. `failed`: it raised an error, or was not reached."""
 STATUS = Variable("1", "what became of the computation", STATUSES)
 
 
@@ -37,7 +37,9 @@ class Column(NamedTuple):
 
     @property
     def missing(self) -> float:
-        """What stands where nothing is known."""
+        """What stands where nothing is known: of a status `failed`, of other flags their first."""
+        if "failed" in self.variable.flags:
+            return self.variable.flags.index("failed")
         return 0 if self.variable.flags or self.whole else math.nan
 
 
@@ -61,12 +63,15 @@ def tabulate(
 
     Parameters
     ----------
+    points : what `compute_one` is given; an error stands for a point that could not be made, and is its message
     compute_one : of parameters, its values by column (flags as words) and a message; columns left out are missing
     sizes : of the dimensions beyond the grid's
     """
     rows, messages = [], []
     for point in points:
         try:
+            if isinstance(point, DiscModelError):
+                raise point
             row, message = compute_one(point)
         except DiscModelError as error:
             row, message = {"status": "failed"}, f"{type(error).__name__}: {error}"
