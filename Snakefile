@@ -31,6 +31,8 @@ PRODUCTS = [
         for name, study in GRIDS.items()
     ),
 ]
+if "critical_speed" in GRIDS:
+    PRODUCTS += rules.show_figure_15.output
 refuse_unrecorded([*map(case_file, STUDY.specs), *PRODUCTS])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -76,3 +77,18 @@ def test_further_files_count(tmp_path: Path) -> None:
 def test_versions_and_commit_are_text() -> None:
     assert set(provenance.VERSIONS_OF) | {"python"} == set(versions())
     assert all(isinstance(text, str) and text for text in (*versions().values(), git_commit()))
+
+
+def test_the_commit_of_another_repository_is_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The package may be installed in an environment that lies in somebody's own repository."""
+    site = tmp_path / "venv" / "disc_model"
+    site.mkdir(parents=True)
+    (site / "provenance.py").write_text("")
+    identity = ("-c", "user.name=somebody", "-c", "user.email=somebody@example.org")
+    for command in (("init", "-q"), (*identity, "commit", "-q", "--allow-empty", "-m", "own work")):
+        subprocess.run(["git", *command], cwd=tmp_path, check=True)
+    monkeypatch.setattr(provenance, "PACKAGE", site)
+    assert git_commit.__wrapped__() == "unknown"
+    subprocess.run(["git", "add", "."], cwd=tmp_path, check=True)
+    subprocess.run(["git", *identity, "commit", "-q", "-m", "all of it"], cwd=tmp_path, check=True)
+    assert len(git_commit.__wrapped__()) == 40

@@ -218,6 +218,24 @@ def test_a_run_is_summarised_and_drawn(capsys, tmp_path):
     assert path.read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_run_that_ends_early_is_drawn_to_its_end(capsys, monkeypatch, tmp_path):
+    drawn = []
+    monkeypatch.setattr("disc_model.figures.quicklook.quicklook", lambda result: drawn.append(result) or plt.figure())
+    command = ("run", *BASE, "--t-end", "3", "--stop-at", "first_separation", "--tol", "1e-8")
+    kicked = simulate(P, 1e-6).final_state
+    start = kicked.replace(alpha=kicked.alpha + np.array([0.0, 20.0]), time=0.0)
+    real = sys.modules["disc_model.simulate"].simulate
+    kick = {"initial_state": start}
+    monkeypatch.setattr(sys.modules["disc_model.simulate"], "simulate", lambda *args, **how: real(*args, **kick, **how))
+    code, out, _ = call(capsys, *command, "--plot", str(tmp_path / "run.png"))
+    assert code == 0
+    assert "stopped" in out
+    [shown] = drawn
+    reached = shown.t_end
+    assert reached < 0.1
+    assert shown.samples[-1]["time"][-1] == pytest.approx(reached, abs=1e-3)
+
+
 def test_a_run_that_cannot_go_on_has_exit_code_1(capsys, monkeypatch):
     monkeypatch.setattr(sys.modules["disc_model.simulate"], "_step_limit", lambda model, duration: 3)
     code, out, err = call(capsys, "run", *BASE, "--t-end", "0.05")
@@ -226,7 +244,8 @@ def test_a_run_that_cannot_go_on_has_exit_code_1(capsys, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("error", "exit_code", "said"), [(DiscModelError("told"), 2, "error: told\n"), (KeyboardInterrupt(), 130, "")]
+    ("error", "exit_code", "said"),
+    [(DiscModelError("told"), 2, "error: told\n"), (KeyboardInterrupt(), 130, "error: interrupted\n")],
 )
 def test_errors_end_in_one_line(capsys, monkeypatch, error, exit_code, said):
     def fail(*_, **__):

@@ -130,9 +130,13 @@ def run(
             parameters, end, tol=tolerance, record=record, stop_at=stop_at, progress=progress, checkpoint=checkpoint
         )
     _print_summary(result)
+    complete = result.status.complete
     if plot is not None:
+        reached = float(result.final_state.time)
+        if 0 < reached < end:  # the end to be shown is elsewhere than was thought
+            result = simulate(parameters, reached, tol=tolerance, record=_plot_record(reached))
         _save_plot(result, plot)
-    if result.status.value not in ("ok", "stopped"):
+    if not complete:
         raise typer.Exit(1)
 
 
@@ -297,6 +301,10 @@ def _print_summary(result: Result) -> None:
         typer.echo(f"{name:<20}{text}")
 
 
+INTERRUPTED = 130
+"""What typer makes of Ctrl-C: 128 and the number of the signal, as shells do."""
+
+
 def _fail(message: str) -> NoReturn:
     """One line on stderr, exit code 2."""
     if message:  # empty where the help text was shown instead
@@ -310,10 +318,10 @@ def main(arguments: list[str] | None = None) -> NoReturn:
         code = app(args=arguments, standalone_mode=False, prog_name="python -m disc_model")
     except DiscModelError as error:
         _fail(str(error))
-    except KeyboardInterrupt:
-        _fail("interrupted")
     except Exception as error:
         if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
             raise
         _fail(error.format_message())
+    if code == INTERRUPTED:
+        typer.echo("error: interrupted", err=True)
     sys.exit(code if isinstance(code, int) else 0)

@@ -1,9 +1,11 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
+from importlib.util import find_spec
 
 BENCH = "results/bench"
 # Named here because importing the methods would cost every start of Snakemake a second; a test compares.
 BENCH_SCENES = ["stick_slip", "separating", "many_modes", "rigid"]
+MODULES = {"heyoka": "heyoka", "heyoka-unguarded": "heyoka", "CVODE": "sksundae"}
 FAILURE_MAPS = ["RK4_stick_slip"] + [
     f"{method}_separating"
     for method in (
@@ -18,6 +20,7 @@ FAILURE_MAPS = ["RK4_stick_slip"] + [
         "heyoka-unguarded",
         "CVODE",
     )
+    if method not in MODULES or find_spec(MODULES[method])
 ]
 BENCH_FIGURES = [
     "overview",
@@ -49,7 +52,7 @@ rule bench:
         ),
 
 
-# Takes the whole machine (Snakemake lowers the threads to the cores there are), so that nothing else disturbs the clock.
+# What looks at the clock takes the whole machine (Snakemake lowers the threads to the cores there are).
 rule measure_work_precision:
     output:
         nc=f"{BENCH}/work_precision.nc",
@@ -83,6 +86,7 @@ rule map_failures:
         scene="stick_slip|separating",
     conda:
         "../envs/disc_model.yaml"
+    threads: 1024
     params:
         sources=sources_of(
             "map_failures.py", "disc_model.benchmarks.failure_maps", files=BENCH_DATA
@@ -99,6 +103,7 @@ rule study_truncation:
         f"{BENCH}/logs/study_truncation.log",
     conda:
         "../envs/disc_model.yaml"
+    threads: 1024
     params:
         sources=sources_of("study_truncation.py", "disc_model.truncation"),
     shell:

@@ -2,9 +2,11 @@
 import hashlib
 import json
 import sys
+from glob import glob
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.settings.types import DeploymentMethod
 from snakemake.shell import shell
 
 from disc_model.figures.catalogue import CATALOGUE, STYLE, module_of
@@ -31,11 +33,11 @@ try:
         [
             path
             for pattern in STUDY.studies
-            for path in sorted(Path().glob(pattern)) or [pattern]
+            for path in sorted(glob(pattern)) or [pattern]
         ],
         config.get("overrides"),
         config.get("resolution", 1),
-        taken={STUDY.name, "compiled"},
+        taken={STUDY.name, "compiled", "bench"},
     )
 except StudyError as error:
     raise WorkflowError(str(error)) from None
@@ -43,8 +45,10 @@ except StudyError as error:
 RESULTS = f"results/{STUDY.name}"
 SCRIPTS = Path(workflow.basedir, "workflow", "scripts")
 
-# Jobs run with the interpreter that runs Snakemake, whether or not its environment is active.
-shell.prefix(f'set -euo pipefail; export PATH="{Path(sys.executable).parent}:$PATH"; ')
+# Jobs run with the interpreter that runs Snakemake, whether or not its environment is active; or with that of conda.
+OWN = f'export PATH="{Path(sys.executable).parent}:$PATH"; '
+CONDA = DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method
+shell.prefix("set -euo pipefail; " + ("" if CONDA else OWN))
 
 
 wildcard_constraints:

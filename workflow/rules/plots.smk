@@ -5,7 +5,15 @@ rule draw_plot:
         others=lambda wildcards: list(shown_by(wildcards).values()),
     output:
         pdf="results/{study}/figures/{plot}.pdf",
-        png="results/{study}/figures/{plot}.png",
+        png=report(
+            "results/{study}/figures/{plot}.png",
+            caption="../report/plot.rst",
+            category="Maps and curves",
+            # One label only, as in figures.smk.
+            labels=lambda wildcards: {
+                "figure": f"{GRIDS[wildcards.study].title or wildcards.study}: {wildcards.plot}"
+            },
+        ),
     log:
         "results/{study}/logs/draw_plot/{plot}.log",
     conda:

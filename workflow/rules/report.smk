@@ -22,7 +22,11 @@ rule describe_study:
     params:
         title=STUDY.title or STUDY.name,
         made_of=merged_cases_made_of(),
-        sources=sources_of("describe_study.py", "disc_model.claims.page"),
+        sources=sources_of(
+            "describe_study.py",
+            "disc_model.claims.page",
+            "disc_model.figures.catalogue",
+        ),
     shell:
         "python workflow/scripts/describe_study.py {input} {output} --title {params.title:q} > {log} 2>&1"
 

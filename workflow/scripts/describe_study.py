@@ -30,8 +30,8 @@ def main() -> None:
 
 
 SAID = (
-    "Every case is named by the hash of its full specification; results carry the hash of the sources that made them, "
-    "so that a result and the code it comes from can be told to belong together."
+    "The full specification of every case has a hash, and so have the sources that made the results: a result and the "
+    "code it comes from can be told to belong together."
 )
 
 

@@ -15,12 +15,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--results", type=Path, default=Path("results"))
     args = parser.parse_args()
-    for study, names in json.load(sys.stdin).items():
+    kept = json.load(sys.stdin)
+    for study, names in kept.items():
         stale = [path for path in _files(args.results / study) if path.name.split(".")[0] not in names]
         size = sum(path.stat().st_size for path in stale)
         for path in stale:
             path.unlink()
         print(f"{study}: {len(stale)} files, {size / 1e6:.1f} MB")
+    for study in sorted(path.parent.name for path in args.results.glob("*/batches") if path.parent.name not in kept):
+        print(f"{study}: no study of this configuration, left alone")
 
 
 def _files(study: Path) -> list[Path]:

@@ -22,9 +22,6 @@ from disc_model.stability.steady_sliding import _jacobian
 
 Array = NDArray[np.float64]
 
-PRINTED_CRITICAL_SPEED = 608.0
-"""rad/s, as the paper prints it (Section 4.3)."""
-
 ROUNDING = 1e-10
 """Growth below this share of the highest frequency counts as none."""
 

@@ -180,6 +180,8 @@ def load_grids(
             continue
         if study.name != name:
             faults.append(f"{path}: study = {study.name!r}: must be the name of the file")
+        if name in studies:
+            faults.append(f"{path}: study = {study.name!r}: is another file's study")
         if study.name in taken:
             faults.append(f"{path}: study = {study.name!r}: is the name of another folder of results")
         studies[name] = study

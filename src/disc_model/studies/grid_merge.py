@@ -68,9 +68,11 @@ def merge_batches(
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:
-    """A line for each point that did not go well: where it lies, its status, what happened."""
+    """A line for each point without the result asked for: where it lies, its status, what happened; errors first."""
     status = flag_names(study["status"])
-    for index in np.argwhere((status != "ok") | (study["message"].values != "")):
+    failed = status == "failed"
+    others = ~failed & ((status != "ok") | (study["message"].values != ""))
+    for index in (*np.argwhere(failed), *np.argwhere(others)):
         place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
         point = study.isel(place)
         where = ", ".join(f"{name} = {point[name].item()}" for name in _varied(study))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -50,5 +51,6 @@ def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
 def set_aside(path: Path) -> Path:
     """Give a file another name, under which nothing looks for it."""
     aside = path.with_name(path.name + SET_ASIDE)
-    os.replace(path, aside)
+    with contextlib.suppress(FileNotFoundError):  # another job may just have done so
+        os.replace(path, aside)
     return aside
