@@ -120,6 +120,7 @@ def recording(**record: Any) -> dict[str, Any]:
         ({"cases": {"F13": CASE}, "figures": ["fig13", "fig11", "fig99"]}, "figures.2 = 'fig99': unknown figure"),
         ({"cases": {"F13": CASE}, "figures": ["fig13", "fig11"]}, "figures.1 = 'fig11': needs a case F11"),
         ({"cases": {"F13": CASE}, "figures": ["fig13"]}, "figures.0 = 'fig13': needs a window"),
+        ({"cases": {"F04": CASE}, "figures": ["fig04"]}, "figures.0 = 'fig04': needs cases.F04.record.poincare"),
         ({"cases": {"1A": CASE}}, "a case's name must be letters"),
         ({"cases": {"status": CASE}}, "the name is taken by a variable"),
     ],

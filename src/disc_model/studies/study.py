@@ -269,6 +269,8 @@ def _check_figures(raw: Mapping[str, Any], specs: Mapping[str, CaseSpec], faults
                 missing = [window for window in windows if window not in dict(specs[case].windows)]
                 for window in missing:
                     faults.add(path, name, f"needs a window {window} in cases.{case}.record.windows")
+                if not windows and specs[case].poincare is None:
+                    faults.add(path, name, f"needs cases.{case}.record.poincare")
 
 
 # ----------------------------------------------------------------------------------------------------
