@@ -48,7 +48,8 @@ quantity: floquet
 axes:
   N: [100, 200, 300]
   Omega: {start: 10, stop: 25, count: 3}
-batch: {over: [Omega], size: 3}
+  normalization: [as_published, orthonormal]
+batch: {over: [Omega, normalization], size: 6}
 """
 MAP_TAIL = {("merge_batches", "inc_map"), ("publish_study", "inc_map"), ("draw_plot", "inc_map")}
 GROWTH_TAIL = {("merge_batches", "inc_growth"), ("publish_study", "inc_growth"), ("draw_plot", "inc_map")}
