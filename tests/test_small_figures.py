@@ -62,5 +62,5 @@ def test_a_diagram_without_exponents_has_one_panel():
     )
     figure = bifurcation_diagram(samples, "N", "P", scale=1.0)
     (ax,) = figure.axes
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("N (N)", "P (N)")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Preload N (N)", "Contact force (N)")
     assert len(ax.lines) == 1  # all of it stick

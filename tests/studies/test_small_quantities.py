@@ -446,7 +446,7 @@ def test_diagrams_show_samples_and_exponents(tmp_path) -> None:
     assert exponents["exponent"].shape == (2, 2)
     assert exponents["covered"].values == pytest.approx([0.04, 0.04])
     figure = attractors.draw(samples, {"lyapunov": exponents}, Bifurcation(x="Omega"))
-    assert figure.axes[0].get_ylabel() == "psi (mrad)"
+    assert figure.axes[0].get_ylabel() == "Angle ψ (mrad)"
     save(figure, tmp_path / "diagram.png")
 
 

@@ -49,20 +49,6 @@ LINEAR = 0.01
 """Growth rate up to which the colours are linear, 1/s."""
 HATCH, GREY = "//////", "#8a8a8a"
 """How it looks where there is no cycle."""
-SYMBOLS = {
-    "N": ("Preload N", "N", 1.0),
-    "Omega": ("Speed Ω", "rad/s", 1.0),
-    "D_star": ("Damping of the disc D*", "10⁻⁵ N m s", 1e5),
-    "c": ("Damper c", "N s/m", 1.0),
-    "c_p": ("In-plane damper $c_p$", "N s/m", 1.0),
-    "k": ("Spring k", "kN/m", 1e-3),
-    "k_p": ("In-plane spring $k_p$", "kN/m", 1e-3),
-    "E": ("Young's modulus E", "GPa", 1e-9),
-    "m": ("Mass m", "g", 1e3),
-    "n_diameters": ("Nodal diameters", "", 1.0),
-    "n_circles": ("Nodal circles", "", 1.0),
-}
-"""Name, unit and factor to it from SI of each parameter that is a number."""
 
 
 @styled
@@ -96,7 +82,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
 
 def _background(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> QuadMesh:
     """Growth rate in colour, its sign's change as a line; hatched where there is no cycle."""
-    x, y = (growth[name].values * SYMBOLS[name][2] for name in (plot.x, plot.y))
+    x, y = (growth[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
     rate = growth["growth_rate"].transpose(plot.y, plot.x).values
     norm = SymLogNorm(LINEAR, vmin=-GREATEST, vmax=GREATEST)
     mesh = ax.pcolormesh(x, y, np.ma.masked_invalid(rate), cmap=cm.vik, norm=norm, shading="nearest", rasterized=True)
@@ -107,7 +93,7 @@ def _background(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> QuadMesh:
 
 
 def _points(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
-    x, y = np.meshgrid(*(study[name].values * SYMBOLS[name][2] for name in (plot.x, plot.y)))
+    x, y = np.meshgrid(*(study[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y)))
     outcome = flag_names(study["outcome"].transpose(plot.y, plot.x))
     for name, look in OUTCOMES.items():
         there = outcome == name
@@ -127,7 +113,7 @@ def _points(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
 def _marks(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
     """The paper's cases: their names, and large marks in the shape of what the paper says of them."""
     for name, mark in plot.marks.items():
-        at = (mark.x * SYMBOLS[plot.x][2], mark.y * SYMBOLS[plot.y][2])
+        at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
         for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
             ax.scatter(
                 *at,
@@ -162,7 +148,7 @@ def _far(values: np.ndarray, value: float) -> bool:
 def _scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
     """Logarithmic where values span decades, with a linear stretch up to the second value if the first is 0."""
     for name, which in ((plot.x, "x"), (plot.y, "y")):
-        label, unit, factor = SYMBOLS[name]
+        label, factor = parts.axis_of(name)
         values = study[name].values * factor
         positive = values[values > 0]
         decades = name not in ("N", "Omega") and positive.size > 1 and positive[-1] / positive[0] > 15
@@ -180,7 +166,7 @@ def _scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
             margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
             ax.set(**{f"{which}lim": tuple(to_axis.inverted().transform([low - margin, high + margin]))})
         for ax in axes if which == "x" else axes[:1]:
-            ax.set(**{f"{which}label": f"{label} ({unit})" if unit else label})
+            ax.set(**{f"{which}label": label})
 
 
 def _legend(figure: Figure, study: xr.Dataset, marked: bool, mapped: bool) -> None:

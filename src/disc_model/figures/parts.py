@@ -14,6 +14,36 @@ from disc_model.result import PHASES
 from disc_model.variables import flag_names
 
 SEPARATION = PHASES.index("separation")
+SYMBOLS = {
+    "N": ("Preload N", "N", 1.0),
+    "Omega": ("Speed Ω", "rad/s", 1.0),
+    "D_star": ("Damping of the disc D*", "10⁻⁵ N m s", 1e5),
+    "c": ("Damper c", "N s/m", 1.0),
+    "c_p": ("In-plane damper $c_p$", "N s/m", 1.0),
+    "k": ("Spring k", "kN/m", 1e-3),
+    "k_p": ("In-plane spring $k_p$", "kN/m", 1e-3),
+    "E": ("Young's modulus E", "GPa", 1e-9),
+    "m": ("Mass m", "g", 1e3),
+    "n_diameters": ("Nodal diameters", "", 1.0),
+    "n_circles": ("Nodal circles", "", 1.0),
+}
+"""Name, unit and factor to it from SI of each parameter that is a number."""
+
+
+MOTION = {
+    "psi": "Angle ψ",
+    "psi_velocity": "dψ/dt",
+    "P": "Contact force",
+    "u": "Slider",
+    "w_point": "Disc",
+}
+"""What is sampled of a motion."""
+
+
+def axis_of(name: str) -> tuple[str, float]:
+    """Label of a parameter's axis, and the factor from SI to its unit."""
+    label, unit, factor = SYMBOLS[name]
+    return (f"{label} ({unit})" if unit else label), factor
 
 
 def envelope(

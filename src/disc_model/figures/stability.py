@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from disc_model.figures.parts import letter, mark_failed
+from disc_model.figures.parts import MOTION, axis_of, letter, mark_failed
 from disc_model.figures.style import BLACK, BLUE, COLUMN, ORANGE, PAGE, VERMILION, new_figure, styled
 
 Array = NDArray[np.float64]
@@ -215,17 +215,18 @@ def bifurcation_diagram(
     ax = axes[0]
     values = samples[variable].transpose(name, "sample")
     phase = samples["phase"].transpose(name, "sample").values
-    position = np.broadcast_to(values[name].values[:, None], values.shape)
-    for code, color, label in ((0, BLUE, "stick"), (1, ORANGE, "slip"), (2, VERMILION, "separation")):
+    label, factor = axis_of(name)
+    along = values[name].values * factor
+    position = np.broadcast_to(along[:, None], values.shape)
+    for code, color, name_of_phase in ((0, BLUE, "stick"), (1, ORANGE, "slip"), (2, VERMILION, "separation")):
         here = phase == code
         if np.any(here):
-            ax.plot(position[here], values.values[here] * scale, ".", color=color, markersize=1.5, label=label)
-    mark_failed(ax, values[name].values[(phase == -1).all(axis=1)])
+            ax.plot(position[here], values.values[here] * scale, ".", color=color, markersize=1.5, label=name_of_phase)
+    mark_failed(ax, along[(phase == -1).all(axis=1)])
     unit = values.attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(scale, f"{1 / scale:g} ")
-    parameter_unit = samples[name].attrs.get("units", "")
-    axes[-1].set_xlabel(f"{name} ({parameter_unit})")
-    ax.set_ylabel(f"{variable} ({prefix}{unit})")
+    axes[-1].set_xlabel(label)
+    ax.set_ylabel(f"{MOTION[variable]} ({prefix}{unit.replace(' s-1', '/s')})")
     if lyapunov is not None:
         _exponents(axes[1], lyapunov, name)
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, markerscale=5, borderaxespad=0.2)
@@ -236,13 +237,14 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     """The largest exponents with four standard errors."""
     exponent = lyapunov["exponent"].transpose("exponent_number", name)
     error = lyapunov["exponent_error"].transpose("exponent_number", name)
+    along = exponent[name].values * axis_of(name)[1]
     ax.axhline(0, color=GREY, linewidth=0.8)
     for i, color in zip(range(len(exponent)), (VERMILION, BLUE, ORANGE, BLACK), strict=False):
         label = "largest exponent" if i == 0 else f"exponent {i + 1}"
         low, high = (exponent[i].values + s * 4 * error[i].values for s in (-1, 1))
-        ax.plot(exponent[name], exponent[i], ".-", color=color, markersize=3, linewidth=0.8, label=label)
-        ax.fill_between(exponent[name].values, low, high, color=color, alpha=0.15, linewidth=0)
-    mark_failed(ax, exponent[name].values[np.isnan(exponent[0].values)])
+        ax.plot(along, exponent[i], ".-", color=color, markersize=3, linewidth=0.8, label=label)
+        ax.fill_between(along, low, high, color=color, alpha=0.15, linewidth=0)
+    mark_failed(ax, along[np.isnan(exponent[0].values)])
     ax.set_ylabel("Lyapunov exponents (1/s)")
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, borderaxespad=0.2)
 
