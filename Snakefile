@@ -31,7 +31,7 @@ PRODUCTS = [
         for name, study in GRIDS.items()
     ),
 ]
-if "critical_speed" in GRIDS:
+if HAS_FIGURE_15:
     PRODUCTS += rules.show_figure_15.output
 refuse_unrecorded([*map(case_file, STUDY.specs), *PRODUCTS])
 

@@ -55,7 +55,7 @@ _ADVICE = {
     Status.PARADOX: (
         "Painleve's paradox: rigid Coulomb friction on this slope has no solution, or two; lower mu_k or N."
     ),
-    Status.STALLED: "Switches follow each other without the clock moving: perturb the initial state or a parameter.",
+    Status.STALLED: "Switches follow each other without the clock moving: tighten tol, or perturb the initial state.",
     Status.NON_FINITE: "The state overflowed: check the parameters' magnitudes; tighten tol if they are as meant.",
 }
 

@@ -64,10 +64,13 @@ def test_a_fold_that_cannot_be_located_ends_the_branch(monkeypatch):
 
     monkeypatch.setattr(continuation, "_locate_fold", lost)
     branch = continue_cycle(P, "Omega", (12.0, 17.0))
-    assert branch.ended.startswith("the fold near Omega=1")
-    assert branch.ended.endswith("cannot be located: Newton's method does not converge")
+    assert branch.ended.startswith("a fold that cannot be located near Omega=1")
+    assert branch.ended.endswith(": Newton's method does not converge")
     assert len(branch) > 1
     assert branch.folds.shape == (0, 1)
+    found, notes = stability_curves(P, ("Omega", "N"), BOX, [300.0], points=9, max_points=5)
+    assert "fold" not in [curve.kind for curve in found]
+    assert any(note.startswith("a fold that cannot be located") for note in notes)
 
 
 def test_where_the_motion_does_not_return_there_is_no_branch(monkeypatch):

@@ -81,7 +81,7 @@ class Full:
 
     def release(self):
         log = np.zeros(tangent.LOG_SIZE)
-        variational.change_phase(self.model, self.state, machine.RELEASE_FORWARD, log)
+        variational.change_phase(self.model, self.state, machine.RELEASE_FORWARD, False, log)
 
     def fly(self, duration, tangent=True):
         return variational.fly(

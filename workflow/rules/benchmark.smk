@@ -20,7 +20,7 @@ FAILURE_MAPS = ["RK4_stick_slip"] + [
         "heyoka-unguarded",
         "CVODE",
     )
-    if method not in MODULES or find_spec(MODULES[method])
+    if method not in MODULES or (find_spec(MODULES[method]) and not CONDA)
 ]
 BENCH_FIGURES = [
     "overview",

@@ -47,7 +47,9 @@ rule draw_figure:
         " --title {params.caption:q} --out {output.pdf} --out {output.png} {input} > {log} 2>&1"
 
 
-if "critical_speed" in GRIDS:
+HAS_FIGURE_15 = "fig15" in getattr(GRIDS.get("critical_speed"), "plots", ())
+
+if HAS_FIGURE_15:
 
     localrules:
         show_figure_15,

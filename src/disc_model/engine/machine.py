@@ -206,8 +206,8 @@ def _record(model, state, kind, counters, rows):
 
 
 @inlined
-def _switch(model, state, cause, counters, rows, audit):
-    """Carry out the switch and record its events.  Returns CONSISTENT or PARADOX."""
+def _switch(model, state, cause, at_once, counters, rows, audit):
+    """Carry out the switch and record its events; ``at_once``: after no time.  Returns CONSISTENT or PARADOX."""
     came_from = state.x[DIRECTION]
     if cause == GAP_CLOSED:
         before, velocity = transverse_energy(model, state, SEPARATION), state.x[U_VELOCITY]
@@ -222,7 +222,7 @@ def _switch(model, state, cause, counters, rows, audit):
         outcome = lose_contact(model, state)
         kind = LOSS_OF_CONTACT
     else:
-        outcome = break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
+        outcome = break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0, at_once)
         kind = STICK_TO_SLIP
     if outcome == PARADOX:
         return outcome
@@ -301,7 +301,7 @@ def run(
             counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[TIME] == before else 0
             if counters[IN_A_ROW] > MAX_EVENTS_IN_A_ROW:
                 return STALLED
-            if _switch(model, state, cause, counters, event_rows, audit) == PARADOX:
+            if _switch(model, state, cause, x_end == 0.0, counters, event_rows, audit) == PARADOX:
                 return NO_SOLUTION
             if stop_at_first and counters[SEPARATIONS] > 0:
                 return STOPPED

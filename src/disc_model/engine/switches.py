@@ -133,7 +133,7 @@ def enter_slip(model, state, direction):
     if denominator <= PAINLEVE_MARGIN * (1.0 + model.m * model.compliance):
         return PARADOX
     if P < 0.0 and not model.bonded:
-        _enter_separation(model, state, 2 if -noise > P else 3)
+        _enter_separation(model, state, 2 if noise < -P else 3)
         return CONSISTENT
     state.x[PHASE] = SLIP
     state.x[DIRECTION] = direction
@@ -149,10 +149,13 @@ def enter_slip(model, state, direction):
 
 
 @kernel
-def break_loose(model, state, direction):
-    """Friction holds the slider no longer: slip in ``direction``.  Returns CONSISTENT or PARADOX."""
+def break_loose(model, state, direction, at_once):
+    """Friction holds the slider no longer: slip in ``direction``.  Returns CONSISTENT or PARADOX.
+
+    at_once: stick has not lasted at all, so that the spring may pull harder than friction can hold.
+    """
     outcome = enter_slip(model, state, direction)
-    if state.x[PHASE] == SLIP and model.mu_s == model.mu_k:
+    if state.x[PHASE] == SLIP and model.mu_s == model.mu_k and not at_once:
         # no jump of friction: f' = 0, whatever the error of the switch's time makes of it
         state.x[KNOWN] = 2
     return outcome
@@ -160,8 +163,13 @@ def break_loose(model, state, direction):
 
 @kernel
 def lose_contact(model, state):
-    """P has reached zero."""
-    _enter_separation(model, state, 3)
+    """P has reached zero, or was negative from the start."""
+    if state.x[PHASE] == SLIP:
+        P, _, noise = slip_force(model, state, state.x[DIRECTION])
+    else:
+        P, size = _free_force(model, state)
+        noise = ROUNDING * size
+    _enter_separation(model, state, 2 if noise < -P else 3)
     return CONSISTENT
 
 

@@ -54,8 +54,8 @@ def _step(model, s, state, order, tolerance, left):
 
 
 @kernel
-def change_phase(model, state, cause, log):
-    """Carry out a switch.  Returns its outcome."""
+def change_phase(model, state, cause, at_once, log):
+    """Carry out a switch, of a phase that may have ended ``at_once``.  Returns its outcome."""
     if cause == GAP_CLOSED:
         outcome = touch_down(model, state)
     elif cause == AT_REST:
@@ -65,7 +65,7 @@ def change_phase(model, state, cause, log):
     elif cause == CONTACT_LOST:
         outcome = lose_contact(model, state)
     else:
-        outcome = break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
+        outcome = break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0, at_once)
         log[RELEASES if cause == RELEASE_FORWARD else BACK_RELEASES] += 1.0
     if state.x[PHASE] == SEPARATION:
         log[SEPARATIONS] += 1.0
@@ -150,7 +150,7 @@ def fly(model, s, state, t, order, tolerance, longest, t_max, releases, may_sepa
             log[RELEASES] += 1.0
             return RETURNED
         x[KNOWN] = 0.0
-        if change_phase(model, state, cause, log) == PARADOX:
+        if change_phase(model, state, cause, x_end == 0.0, log) == PARADOX:
             return NO_SOLUTION
         if tangent:
             if x[PHASE] == SEPARATION:
@@ -220,7 +220,7 @@ def section_map(
             at, q = c * n_rows_of(model), c * n_inputs(model)
             change = switch_change(model, state, RELEASE_FORWARD, t.now, at, t.parameters, q, c >= t.plain)
             store(t.now, at + row * WIDTH, mul(splat(1.0 / (model.r_0 * model.k_p)), change))
-    if change_phase(model, state, RELEASE_FORWARD, t.log) == PARADOX:
+    if change_phase(model, state, RELEASE_FORWARD, False, t.log) == PARADOX:
         return NO_SOLUTION
     t.log[RELEASES] = 0.0
     if state.x[PHASE] == SEPARATION and not may_separate:

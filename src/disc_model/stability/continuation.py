@@ -19,6 +19,9 @@ from disc_model.stability.cycle_problem import (
     starting_point,
 )
 
+UNLOCATED = "a fold that cannot be located"
+"""How the reason for which a branch ends may begin."""
+
 
 def continue_cycle(
     p: Parameters,
@@ -71,7 +74,7 @@ def continue_cycle(
             try:
                 folds.append(_locate_fold(problem, point, new, tangent) * problem.scales[0])
             except Lost as lost:
-                ended = f"the fold near {name}={point.z[-1] * problem.scales[0]:.6g} cannot be located: {lost}"
+                ended = f"{UNLOCATED} near {name}={point.z[-1] * problem.scales[0]:.6g}: {lost}"
                 break
         easy = turned @ tangent > 0.99
         point, tangent = new, turned

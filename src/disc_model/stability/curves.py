@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.continuation import UNLOCATED, continue_cycle
 from disc_model.stability.cycle_problem import Branch, default_scale
 from disc_model.stability.floquet_batch import solve
 from disc_model.stability.neutral import continue_fold, continue_neutral
@@ -151,6 +151,8 @@ def _first_event(case: Parameters, name: str, end: float, direction: int, tol: f
     elif len(turns):
         kind, j = "fold", fold
     else:
+        if branch.ended.startswith(UNLOCATED):
+            notes.append(branch.ended)
         return None
     there = case.replace(**{name: float(values[j])})
     point = branch.points[j]

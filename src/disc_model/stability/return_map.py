@@ -243,7 +243,8 @@ def newton(
     """Fixed point of the map, by Newton's method with a line search and reused Jacobians.
 
     Converged means that the residual is below `tol` times the norm of the static deflection, or that rounding, of up to
-    ten thousand times that, keeps it from falling further.  The Jacobian returned is that of the point returned.
+    ten thousand times that but not above 1e-8, keeps it from falling further.  The Jacobian is that of the point
+    returned.
     """
     size = max(float(np.linalg.norm(map_.static)), 1e-300)
     identity = np.eye(map_.size)

@@ -354,7 +354,7 @@ def _checked(
     for block in blocks:
         result.append([])
         for value in block:
-            if value == AUTO:
+            if name == "n_diameters" and value == AUTO:
                 good = False
                 faults.add(path, value, "cannot be varied: give it in base, for all points")
                 continue
@@ -420,12 +420,14 @@ def _plots(raw: Mapping[Any, Any], quantity: Any, values: Values, faults: Faults
 def _batches(
     header: _Header, dims: Sequence[Dimension], quantity: Quantity, options: Strict, base: Mapping[str, Any]
 ) -> dict[str, str]:
+    # a job that chooses modes depends on how, which `Parameters` imports by name only
+    choice = ("disc_model.truncation",) if base.get("n_diameters") == AUTO else ()
     shared = {
         "quantity": quantity.module,
         "options": options.model_dump(),
         "base": base,
         "names": [name for dim in dims for name in dim.names],
-        "sources": source_hash(quantity.module, RUNNER),
+        "sources": source_hash(quantity.module, RUNNER, *choice),
     }
     texts = (canonical_json({**shared, "points": points}) for points in _chunks(dims, header.batch))
     return {_short_hash(text): text for text in texts}

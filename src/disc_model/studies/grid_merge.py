@@ -19,6 +19,7 @@ import xarray as xr
 from disc_model.dataset import CONVENTIONS, json_attribute
 from disc_model.errors import DiscModelError
 from disc_model.studies.grid_batch import POINT, describe
+from disc_model.studies.quantities.table import STATUSES
 from disc_model.variables import flag_names
 
 
@@ -70,7 +71,7 @@ def merge_batches(
 def failures(study: xr.Dataset) -> Iterator[str]:
     """A line for each point without the result asked for: where it lies, its status, what happened; errors first."""
     status = flag_names(study["status"])
-    failed = status == "failed"
+    failed = np.isin(status, STATUSES[1:])
     others = ~failed & ((status != "ok") | (study["message"].values != ""))
     for index in (*np.argwhere(failed), *np.argwhere(others)):
         place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
