@@ -19,6 +19,7 @@ from disc_model.stability.return_map import PARAMETERS, RETURNED, ReturnMap
 from disc_model.stability.steady_sliding import SlidingStatus
 from disc_model.states import write_state
 from disc_model.tolerance import series_order
+from tests.stability.test_small_cycles import assert_closed
 
 BASE = Parameters(N=200, Omega=20)
 DAMPED = Parameters(N=200, Omega=20, c=0.05, c_p=0.02)
@@ -150,11 +151,7 @@ def test_derivatives_by_parameters_agree_with_central_differences(name, where):
 
 def test_the_cycle_closes_in_a_simulation():
     result = floquet(BASE)
-    run = simulate(BASE, result.period, initial_state=result.state, tol=1e-13)
-    for name in ("a", "b", "alpha", "beta"):
-        scale = np.max(np.abs(getattr(result.state, name)))
-        assert np.allclose(getattr(run.final_state, name), getattr(result.state, name), atol=1e-9 * scale, rtol=0)
-    assert run.final_state.psi == pytest.approx(result.state.psi, rel=1e-10)
+    run = assert_closed(result)
     assert result.stick_fraction == pytest.approx(run.statistics["time_stick"] / result.period, abs=1e-9)
 
 

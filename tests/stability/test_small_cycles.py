@@ -8,9 +8,17 @@ import re
 import numpy as np
 import pytest
 
-from disc_model import Parameters, floquet, simulate
+from disc_model import Parameters, Result, floquet, simulate
 from disc_model.stability import return_map as return_map_module
-from disc_model.stability.floquet import CycleError, CycleStatus, find_cycle, find_cycle_near, growth_rate, kind_of
+from disc_model.stability.floquet import (
+    CycleError,
+    CycleStatus,
+    FloquetResult,
+    find_cycle,
+    find_cycle_near,
+    growth_rate,
+    kind_of,
+)
 from disc_model.stability.floquet_batch import STATUS_NAMES, solve
 from disc_model.stability.return_map import RETURNED, Flight, ReturnMap, newton
 from tests.references.printed import Printed
@@ -31,13 +39,19 @@ def test_multipliers_agree_with_differences_of_the_return_map():
     assert result.growth_rate == pytest.approx(math.log(np.max(np.abs(expected))) / result.period, abs=1e-4)
 
 
-def test_the_cycle_closes_in_a_simulation_and_is_found_again_from_there():
-    result = floquet(P)
-    run = simulate(P, result.period, initial_state=result.state, tol=1e-13)
+def assert_closed(result: FloquetResult) -> Result:
+    """A simulation over the period ends where it began; returns it."""
+    run = simulate(result.parameters, result.period, initial_state=result.state, tol=1e-13)
     for name in ("a", "b", "alpha", "beta"):
         scale = np.max(np.abs(getattr(result.state, name)))
         assert np.allclose(getattr(run.final_state, name), getattr(result.state, name), atol=1e-9 * scale, rtol=0)
     assert run.final_state.psi == pytest.approx(result.state.psi, rel=1e-10)
+    return run
+
+
+def test_the_cycle_closes_in_a_simulation_and_is_found_again_from_there():
+    result = floquet(P)
+    assert_closed(result)
     later = simulate(P, 0.5 * result.period, initial_state=result.state, tol=1e-12).final_state
     again = find_cycle_near(P, later, releases=1)
     assert again.status is CycleStatus.OK

@@ -38,8 +38,10 @@ class Project:
     variables: Mapping[str, str] = field(default_factory=dict)
     """Of the environment, beyond those of the tests."""
 
-    def snakemake(self, *options: str, config: str | None = "config/tiny.yaml") -> subprocess.CompletedProcess[str]:
-        """Run Snakemake as a user would, with the copy's own sources."""
+    def snakemake(
+        self, *options: str, config: str | None = "config/tiny.yaml", prepare: Callable[[], object] | None = None
+    ) -> subprocess.CompletedProcess[str]:
+        """Run Snakemake as a user would, with the copy's own sources; its process does what ``prepare`` says first."""
         return subprocess.run(
             self.command(*options, config=config),
             cwd=self.folder,
@@ -48,6 +50,7 @@ class Project:
             text=True,
             check=False,
             timeout=900,
+            preexec_fn=prepare,
         )
 
     def command(self, *options: str, config: str | None = "config/tiny.yaml") -> list[str]:

@@ -168,15 +168,8 @@ def test_disk_full(fresh: Project, done: Project, undisturbed: dict[str, bytes],
 def test_files_may_not_grow(fresh: Project, undisturbed: dict[str, bytes]) -> None:
     """A limit to the size of files, as quotas impose: the library that writes them only says "HDF error"."""
     limit = 80_000
-    ran = subprocess.run(
-        fresh.command("-j2", config=CONFIG),
-        cwd=fresh.folder,
-        env=fresh.environment,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=900,
-        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+    ran = fresh.snakemake(
+        "-j2", config=CONFIG, prepare=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
     )
     assert ran.returncode != 0
     assert "results/faulty/cases/F13.nc: cannot be written: File too large" in said(ran)

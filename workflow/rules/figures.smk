@@ -29,10 +29,7 @@ rule draw_figure:
         caption=lambda wildcards: caption(
             wildcards.figure,
             {name: spec.parameters for name, spec in STUDY.specs.items()},
-            {
-                name: {**dict(spec.windows), "poincare": spec.poincare}
-                for name, spec in STUDY.specs.items()
-            },
+            {name: spec.sections for name, spec in STUDY.specs.items()},
         ),
         options=lambda wildcards: json.dumps(
             CATALOGUE[wildcards.figure].options, sort_keys=True

@@ -8,7 +8,7 @@ import json
 from pathlib import Path
 
 from disc_model.figures.style import save
-from disc_model.studies.inputs import load_inputs
+from disc_model.studies.inputs import load_cases
 
 
 def main() -> None:
@@ -20,8 +20,7 @@ def main() -> None:
     parser.add_argument("--out", action="append", required=True, help="file to write, .pdf or .png; may be repeated")
     args = parser.parse_args()
     module = importlib.import_module(args.module)
-    names = [path.stem for path in args.cases]
-    figure = module.draw(dict(zip(names, load_inputs(args.cases), strict=True)), **args.options)
+    figure = module.draw(load_cases(args.cases), **args.options)
     for path in args.out:
         save(figure, path, title=args.title)
 

@@ -48,7 +48,7 @@ def main() -> None:
     args = parser.parse_args()
     specs = load_study(args.study).specs
     parameters = {name: spec.parameters for name, spec in specs.items()}
-    windows = {name: {**dict(spec.windows), "poincare": spec.poincare} for name, spec in specs.items()}
+    windows = {name: spec.sections for name, spec in specs.items()}
     lines = ["# Gallery", "", "Made by `make gallery` from the figures of `make reproduce`.", ""]
     for name in SHOWN:
         small = shrink(args.results / f"{name}.png", args.docs / "gallery" / f"{name}.png")

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 from disc_model.dataset import save
-from disc_model.studies.inputs import load_inputs
+from disc_model.studies.inputs import load_cases
 from disc_model.studies.merge import merge_cases
 
 
@@ -17,8 +17,7 @@ def main() -> None:
     parser.add_argument("cases", nargs="+", type=Path, help="netCDF files of the cases")
     parser.add_argument("--labels", type=json.loads, required=True, help="JSON: by case, its title and reference")
     args = parser.parse_args()
-    names = [path.stem for path in args.cases]
-    save(merge_cases(dict(zip(names, load_inputs(args.cases), strict=True)), args.labels), args.output)
+    save(merge_cases(load_cases(args.cases), args.labels), args.output)
 
 
 if __name__ == "__main__":

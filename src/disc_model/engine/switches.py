@@ -108,12 +108,12 @@ def impact(model, state):
 
 
 @inlined
-def _enter_separation(model, state, multiplicity):
-    """Contact is lost with a gap that starts as t**multiplicity: 3 from P = 0, 2 from P < 0."""
+def _enter_separation(model, state, P, noise):
+    """Contact is lost where P, up to ``noise``, would be: the gap starts as t**3 from P = 0, as t**2 from P < 0."""
     state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
     state.x[PHASE] = SEPARATION
     state.x[DIRECTION] = 0.0
-    state.x[KNOWN] = multiplicity
+    state.x[KNOWN] = 2 if noise < -P else 3
     state.x[FORCE] = 0.0
 
 
@@ -133,7 +133,7 @@ def enter_slip(model, state, direction):
     if denominator <= PAINLEVE_MARGIN * (1.0 + model.m * model.compliance):
         return PARADOX
     if P < 0.0 and not model.bonded:
-        _enter_separation(model, state, 2 if noise < -P else 3)
+        _enter_separation(model, state, P, noise)
         return CONSISTENT
     state.x[PHASE] = SLIP
     state.x[DIRECTION] = direction
@@ -169,7 +169,7 @@ def lose_contact(model, state):
     else:
         P, size = _free_force(model, state)
         noise = ROUNDING * size
-    _enter_separation(model, state, 2 if noise < -P else 3)
+    _enter_separation(model, state, P, noise)
     return CONSISTENT
 
 

@@ -41,7 +41,7 @@ class Range(Strict):
             raise ValueError("must give either count or step")
         if self.scale == "log" and (self.step is not None or self.start <= 0):
             raise ValueError("a logarithmic range must give count, and start > 0")
-        intervals = self.count - 1 if self.count is not None else (self.stop - self.start) / self.step  # type: ignore[operator]
+        intervals = self._intervals
         if intervals >= MOST:
             raise ValueError(f"must be at most {MOST} values")
         if self.step is not None and abs(intervals - round(intervals)) > 1e-9 * intervals:
@@ -49,9 +49,13 @@ class Range(Strict):
         return self
 
     @property
+    def _intervals(self) -> float:
+        return self.count - 1 if self.count is not None else (self.stop - self.start) / self.step  # type: ignore[operator]
+
+    @property
     def intervals(self) -> int:
         """One less than the number of values."""
-        return self.count - 1 if self.count is not None else round((self.stop - self.start) / self.step)  # type: ignore[operator]
+        return round(self._intervals)
 
     def blocks(self, resolution: int = 1) -> Blocks:
         """The range's own values, then those that divide each interval further.
@@ -92,10 +96,12 @@ def parse_blocks(raw: Any, path: tuple[str, ...], faults: Faults, resolution: in
         return None if None in each else tuple(block for part in each if part for block in part)
     if isinstance(raw, Mapping):
         given = validated(Range, raw, path, faults)
-        if given is not None and given.intervals * resolution >= MOST:
+        if given is None:
+            return None
+        if given.intervals * resolution >= MOST:
             faults.add(path, "", f"must be at most {MOST} values, and not {given.intervals * resolution + 1}")
             return None
-        return None if given is None else given.blocks(resolution)
+        return given.blocks(resolution)
     if isinstance(raw, list) and raw:
         return (tuple(raw),)
     faults.add(path, raw, "must be a list of values, or a range {start, stop, count or step}")

@@ -37,6 +37,11 @@ class CaseSpec:
         )
 
     @property
+    def sections(self) -> dict[str, Window | Poincare | None]:
+        """Windows by name, and the Poincare section as ``poincare``."""
+        return {**dict(self.windows), "poincare": self.poincare}
+
+    @property
     def canonical(self) -> str:
         """JSON text, equal for equal cases however they were written; `from_canonical` reads it."""
         truncation = self.parameters.truncation

@@ -130,7 +130,11 @@ class GridStudy:
     @property
     def n_points(self) -> int:
         """Number of points of the grid."""
-        return math.prod(len(dim.values) for dim in self.dims)
+        return _n_points(self.dims)
+
+
+def _n_points(dims: Sequence[Dimension]) -> int:
+    return math.prod(len(dim.values) for dim in dims)
 
 
 def load_grid(path: str | Path, overrides: Mapping[str, Any] | None = None, resolution: Any = 1) -> GridStudy:
@@ -266,7 +270,8 @@ def _base(values: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Any], di
             del fixed["n_diameters"]
             tolerance = truncation_tolerance(fixed.pop("truncation_tolerance", TRUNCATION_TOLERANCE))
             automatic = {"n_diameters": AUTO, "truncation_tolerance": tolerance}
-        return {name: Parameters(**{**ANY, **fixed}).model_dump()[name] for name in fixed}, automatic
+        checked = Parameters(**{**ANY, **fixed}).model_dump()
+        return {name: checked[name] for name in fixed}, automatic
     except ParameterError as error:
         add_parameter_faults(error, lambda name: ("base", name), faults)
         return {}, automatic
@@ -284,7 +289,7 @@ def _check_truncation(raw: Mapping[str, Any], automatic: Mapping[str, Any], faul
 
 
 def _check_size(dims: Sequence[Dimension], faults: Faults) -> None:
-    points = math.prod(len(dim.values) for dim in dims)
+    points = _n_points(dims)
     if points > MOST_POINTS:
         faults.add(("axes",), "", f"must make at most {MOST_POINTS} points, and not {points}")
 

@@ -24,6 +24,11 @@ def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
     return each_intact(load, paths)
 
 
+def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
+    """`load_inputs` by the names of the files, which are those of the cases."""
+    return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
+
+
 def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
     """Apply a function to files.
 
