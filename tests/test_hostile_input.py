@@ -18,12 +18,12 @@ import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-import disc_model.simulate  # noqa: F401 - replaced by name below
+import disc_model.simulation.api  # noqa: F401 - replaced by name below
 from disc_model import ParameterError, Parameters
 from disc_model.cli import main
+from disc_model.studies.cases.schema import parse_study
 from disc_model.studies.faults import StudyError, read_yaml
-from disc_model.studies.grid import parse_grid
-from disc_model.studies.study import parse_study
+from disc_model.studies.grids.schema import parse_grid
 from tests.tally import tried
 
 ROOT = Path(__file__).parents[1]
@@ -281,7 +281,7 @@ def try_command_line(arguments: list[str]) -> None:
     """It ends with a result, with help, or with code 2 and what is wrong on stderr."""
     count("command lines")
     said = io.StringIO()
-    module = sys.modules["disc_model.simulate"]
+    module = sys.modules["disc_model.simulation.api"]
     with (
         mock.patch.object(module, "simulate", side_effect=Simulated),
         contextlib.redirect_stdout(io.StringIO()),

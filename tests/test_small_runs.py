@@ -37,8 +37,8 @@ def test_envelopes_are_the_extremes_of_the_samples():
 def test_small_buffers_and_many_pauses_change_nothing(monkeypatch):
     record = Record(windows=(Window(start=0, stop=0.05, rate=20_000),))
     whole = simulate(P, 0.05, tol=1e-9, record=record)
-    monkeypatch.setattr("disc_model.collect.BUFFER", 16)
-    monkeypatch.setattr(sys.modules["disc_model.simulate"], "STEPS_PER_PAUSE", 3)
+    monkeypatch.setattr("disc_model.simulation.collector.BUFFER", 16)
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 3)
     seen = []
     again = simulate(P, 0.05, tol=1e-9, record=record, progress=seen.append)
     for name, values in whole.samples[0].items():
@@ -155,7 +155,7 @@ class Interrupted(Exception):
 
 
 def test_an_interrupted_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch, caplog):
-    monkeypatch.setattr(sys.modules["disc_model.simulate"], "STEPS_PER_PAUSE", 5)
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 5)
     record = Record(windows=(Window(start=0, stop=0.1, rate=2000),), poincare=Poincare())
     whole = simulate(P, 0.1, tol=1e-9, record=record)
     file, pauses = tmp_path / "run", []
@@ -190,7 +190,7 @@ def test_what_is_no_checkpoint_is_left_out(tmp_path, content, caplog):
 
 
 def test_the_checkpoint_of_another_run_is_left_out(tmp_path, monkeypatch, caplog):
-    monkeypatch.setattr(sys.modules["disc_model.simulate"], "STEPS_PER_PAUSE", 5)
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 5)
 
     def stop(time):
         raise Interrupted
@@ -224,9 +224,11 @@ def test_a_run_that_ends_early_is_drawn_to_its_end(capsys, monkeypatch, tmp_path
     command = ("run", *BASE, "--t-end", "3", "--stop-at", "first_separation", "--tol", "1e-8")
     kicked = simulate(P, 1e-6).final_state
     start = kicked.replace(alpha=kicked.alpha + np.array([0.0, 20.0]), time=0.0)
-    real = sys.modules["disc_model.simulate"].simulate
+    real = sys.modules["disc_model.simulation.api"].simulate
     kick = {"initial_state": start}
-    monkeypatch.setattr(sys.modules["disc_model.simulate"], "simulate", lambda *args, **how: real(*args, **kick, **how))
+    monkeypatch.setattr(
+        sys.modules["disc_model.simulation.api"], "simulate", lambda *args, **how: real(*args, **kick, **how)
+    )
     code, out, _ = call(capsys, *command, "--plot", str(tmp_path / "run.png"))
     assert code == 0
     assert "stopped" in out
@@ -237,7 +239,7 @@ def test_a_run_that_ends_early_is_drawn_to_its_end(capsys, monkeypatch, tmp_path
 
 
 def test_a_run_that_cannot_go_on_has_exit_code_1(capsys, monkeypatch):
-    monkeypatch.setattr(sys.modules["disc_model.simulate"], "_step_limit", lambda model, duration: 3)
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "_step_limit", lambda model, duration: 3)
     code, out, err = call(capsys, "run", *BASE, "--t-end", "0.05")
     assert code == 1
     assert "step_limit" in out + err
@@ -251,7 +253,7 @@ def test_errors_end_in_one_line(capsys, monkeypatch, error, exit_code, said):
     def fail(*_, **__):
         raise error
 
-    monkeypatch.setattr(sys.modules["disc_model.simulate"], "simulate", fail)
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "simulate", fail)
     code, _, err = call(capsys, "run", *BASE, "--t-end", "0.05")
     assert code == exit_code
     assert err == said
@@ -261,7 +263,7 @@ def test_what_is_nobodys_fault_is_not_hidden(monkeypatch):
     def fail(*_, **__):
         raise RuntimeError("unforeseen")
 
-    monkeypatch.setattr(sys.modules["disc_model.simulate"], "simulate", fail)
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "simulate", fail)
     with pytest.raises(RuntimeError, match="unforeseen"):
         cli.main(["run", *BASE, "--t-end", "0.05"])
 

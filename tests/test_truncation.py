@@ -10,8 +10,8 @@ import pytest
 from disc_model import ParameterError, Parameters, plate_modes, simulate, slider_at_rest_frequencies
 from disc_model.errors import DiscModelError
 from disc_model.figures.benchmark import truncation as draw
-from disc_model.studies.batch import run_case
-from disc_model.studies.case import CaseSpec
+from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases.spec import CaseSpec
 from disc_model.truncation import (
     RICH,
     choose_truncation,

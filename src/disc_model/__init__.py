@@ -11,8 +11,6 @@ simulate.
 from __future__ import annotations
 
 import importlib
-import sys
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
@@ -21,15 +19,15 @@ _HOMES = {
     "Parameters": "parameters",
     "plate_modes": "plate",
     "slider_at_rest_frequencies": "plate",
-    "simulate": "simulate",
-    "floquet": "stability.floquet",
-    "steady_sliding": "stability.steady_sliding",
-    "Record": "record",
-    "Window": "record",
-    "Poincare": "record",
-    "Result": "result",
-    "State": "result",
-    "Status": "result",
+    "simulate": "simulation.api",
+    "floquet": "stability.cycle",
+    "steady_sliding": "stability.sliding",
+    "Record": "simulation.record",
+    "Window": "simulation.record",
+    "Poincare": "simulation.record",
+    "Result": "simulation.result",
+    "State": "simulation.result",
+    "Status": "simulation.result",
     "DiscModelError": "errors",
     "ParameterError": "errors",
     "ModeError": "errors",
@@ -55,11 +53,11 @@ if TYPE_CHECKING:
     )
     from disc_model.parameters import Parameters
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
-    from disc_model.record import Poincare, Record, Window
-    from disc_model.result import Result, State, Status
-    from disc_model.simulate import simulate
-    from disc_model.stability.floquet import floquet
-    from disc_model.stability.steady_sliding import steady_sliding
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.record import Poincare, Record, Window
+    from disc_model.simulation.result import Result, State, Status
+    from disc_model.stability.cycle import floquet
+    from disc_model.stability.sliding import steady_sliding
 
 
 def __getattr__(name: str) -> Any:
@@ -72,14 +70,3 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted(__all__)
-
-
-class _Package(ModuleType):
-    """Keeps `disc_model.simulate` the function when the module of that name is imported."""
-
-    def __setattr__(self, name: str, value: object) -> None:
-        if not (name in _HOMES and isinstance(value, ModuleType)):
-            super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Package

@@ -25,8 +25,8 @@ from disc_model.errors import DiscModelError, ParameterError
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
-    from disc_model.record import Record
-    from disc_model.result import Result
+    from disc_model.simulation.record import Record
+    from disc_model.simulation.result import Result
 
 PLOT_POINTS = 4000
 """Points across a plot: more samples than this are reduced to the least and greatest of each bin."""
@@ -119,7 +119,7 @@ def run(
 ) -> None:
     """Simulate one case from static equilibrium and print what happened."""
     parameters, end, tolerance = _checked(case, t_end, tol, stop_at, plot, checkpoint)
-    from disc_model.simulate import simulate
+    from disc_model.simulation.api import simulate
 
     record = _plot_record(end) if plot is not None else None
     if checkpoint is not None:  # where a run goes on, or why it does not
@@ -167,7 +167,7 @@ def modes(*, case: dict[str, str]) -> None:
 @app.command()
 def warm() -> None:
     """Compile the kernels into the cache, so that jobs started in parallel find them there."""
-    from disc_model.simulate import simulate
+    from disc_model.simulation.api import simulate
 
     for contact in ("separable", "bonded"):
         simulate(Parameters(N=385, Omega=15.1, contact=contact), 0.02)
@@ -228,14 +228,14 @@ def _plot_faults(path: Path) -> Iterator[str]:
 
 
 def _checkpoint_faults(path: Path) -> Iterator[str]:
-    from disc_model.checkpoint import faults
+    from disc_model.simulation.checkpoint import faults
 
     return faults(path, 0)
 
 
 def _plot_record(t_end: float) -> Record:
     """The whole run, as an envelope if long, and its end in detail; the size does not grow with `t_end`."""
-    from disc_model.record import Record, Window
+    from disc_model.simulation.record import Record, Window
 
     bins = math.ceil(PLOT_RATE * t_end / PLOT_POINTS)
     whole = Window(start=0.0, stop=t_end, rate=PLOT_RATE, envelope=bins if bins > 1 else None)

@@ -267,15 +267,15 @@ def _measure(normalization: str, diameters: int, circles: int, horizon: float, g
 
 def _growth_rate(p: Parameters) -> float:
     """Growth rate of the stick-slip cycle, 1/s; nan if there is no cycle."""
-    from disc_model.stability.floquet import floquet
+    from disc_model.stability.cycle import floquet
 
     return float(floquet(p).growth_rate)
 
 
 def _contact_range(p: Parameters) -> dict[str, float]:
     """Range of the contact force in the window, and the cost of a simulated second."""
-    from disc_model.record import Record, Window
-    from disc_model.simulate import simulate
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.record import Record, Window
 
     record = Record(windows=(Window(start=WINDOW[0], stop=WINDOW[1], rate=20_000.0, envelope=100),))
     window = simulate(p, WINDOW[1], record=record).samples[0]
@@ -285,8 +285,8 @@ def _contact_range(p: Parameters) -> dict[str, float]:
 
 def _separating(p: Parameters, horizon: float) -> dict[str, float]:
     """First separation, and what the second after it is like."""
-    from disc_model.record import Record, Window
-    from disc_model.simulate import simulate
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.record import Record, Window
 
     first = simulate(p, horizon, stop_at="first_separation")
     if not math.isfinite(first.first_separation):

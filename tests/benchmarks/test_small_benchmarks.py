@@ -13,9 +13,9 @@ from disc_model.benchmarks import failure_maps, scenes, table, work_precision
 from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.methods.base import Method, MethodResult
 from disc_model.benchmarks.scenes import Verdict, answer
+from disc_model.data.variables import flag_names
 from disc_model.figures import benchmark as figures
 from disc_model.figures.style import save
-from disc_model.variables import flag_names
 
 
 class Known(Method):

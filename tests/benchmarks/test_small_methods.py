@@ -314,9 +314,9 @@ def test_a_result_without_events_has_no_event_time_error():
 @pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="operations of compiled code cannot be counted")
 def test_arithmetic_is_counted(monkeypatch):
     """A vector operation of each kind by hand; then a run of a few steps, each of which has some hundred of them."""
-    from disc_model.engine import evaluate, linear, polynomial, series
+    from disc_model.engine import coasting, dense_output, polynomial, series
 
-    for module in (evaluate, linear, polynomial, series):
+    for module in (dense_output, coasting, polynomial, series):
         for name in flops._OPERATIONS:
             if hasattr(module, name):
                 monkeypatch.setattr(module, name, getattr(module, name))  # put back what counting replaces

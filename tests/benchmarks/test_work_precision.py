@@ -16,7 +16,7 @@ from disc_model.benchmarks.flops import vector_flops
 from disc_model.benchmarks.methods import METHODS, MethodResult, Outcome
 from disc_model.benchmarks.scenes import Verdict, answer, errors, event_time_error, problem
 from disc_model.benchmarks.table import headline, table, to_markdown
-from disc_model.dataset import load, save
+from disc_model.data.dataset import load, save
 from disc_model.figures import benchmark as figures
 
 QUICK = {"stick_slip": {"series": (1e-6, 1e-8, 1e-10), "RK4": (7e-4, 2e-4, 1e-4, 5e-5)}, "separating": {"RK4": (1e-4,)}}

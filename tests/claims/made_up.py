@@ -16,14 +16,14 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.dataset import events_dataset, failed_groups, samples_dataset
+from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
+from disc_model.data.variables import STATUSES
 from disc_model.parameters import Parameters
 from disc_model.plate import slider_at_rest_frequencies
-from disc_model.record import Window
-from disc_model.result import PHASES
-from disc_model.studies.case import CaseSpec
-from disc_model.studies.study import load_study
-from disc_model.variables import STATUSES
+from disc_model.simulation.record import Window
+from disc_model.simulation.result import PHASES
+from disc_model.studies.cases.schema import load_study
+from disc_model.studies.cases.spec import CaseSpec
 
 PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
 STICK, SLIP, SEPARATION = range(len(PHASES))
@@ -76,7 +76,7 @@ def erratic(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Cycle:
-    """What `disc_model.stability.floquet` would find."""
+    """What `disc_model.stability.cycle` would find."""
 
     growth_rate: float
     stick_fraction: float

@@ -7,11 +7,11 @@ import pytest
 
 from disc_model import Parameters, plate_modes
 from disc_model.engine import layout, machine, saltation, tangent, variational
-from disc_model.result import State
-from disc_model.simulate import build_model
+from disc_model.simulation.api import build_model
+from disc_model.simulation.bridge import write_state
+from disc_model.simulation.result import State
+from disc_model.simulation.tolerance import series_order
 from disc_model.stability.return_map import PARAMETERS, ReturnMap
-from disc_model.states import write_state
-from disc_model.tolerance import series_order
 from tests.references.printed import MOTIONS, SPAN, Printed, lively
 
 LIVELY = Parameters(

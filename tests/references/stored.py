@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from disc_model import Parameters, plate_modes
-from disc_model.result import State as EngineState
+from disc_model.simulation.result import State as EngineState
 
 DATA = Path(__file__).parent / "data"
 

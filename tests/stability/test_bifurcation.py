@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Record, simulate
-from disc_model.figures.stability import Curve, bifurcation_diagram, growth_map, threshold_chart
+from disc_model.figures.grids.stability import Curve, bifurcation_diagram, growth_map, threshold_chart
 from disc_model.figures.style import save
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
 

@@ -7,9 +7,9 @@ import pytest
 
 from disc_model import ParameterError, Parameters
 from disc_model.stability import continuation, cycle_problem
+from disc_model.stability.borders import continue_fold, continue_neutral
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.curves import stability_curves
-from disc_model.stability.neutral import continue_fold, continue_neutral
 from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
 
 __all__ = ["toy"]

@@ -11,7 +11,7 @@ from disc_model import ParameterError, Parameters, floquet, steady_sliding
 from disc_model.stability.bifurcation import bifurcation_samples
 from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.stability.return_map import ReturnMap, _solve
-from disc_model.stability.steady_sliding import SlidingStatus
+from disc_model.stability.sliding import SlidingStatus
 from tests.stability.test_small_cycles import Affine
 
 P = Parameters(N=200, Omega=20, n_diameters=1)

@@ -10,7 +10,7 @@ import pytest
 
 from disc_model import Parameters, Result, floquet, simulate
 from disc_model.stability import return_map as return_map_module
-from disc_model.stability.floquet import (
+from disc_model.stability.cycle import (
     CycleError,
     CycleStatus,
     FloquetResult,

@@ -18,7 +18,8 @@ import numpy as np
 import pytest
 
 from disc_model.parameters import Parameters
-from disc_model.stability import cycle_problem, floquet
+from disc_model.stability import cycle as floquet
+from disc_model.stability import cycle_problem
 from disc_model.stability.return_map import Flight
 
 PERIOD, ANGLE = 0.015, 1.2

@@ -10,21 +10,21 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.figures.plots import PLOTS
 from disc_model.parameters import Parameters
-from disc_model.simulate import simulate
-from disc_model.studies.batch import run_case
-from disc_model.studies.case import CaseSpec
+from disc_model.simulation.api import simulate
+from disc_model.studies.cases.merge import merge_cases
+from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases.schema import parse_study, study_from_config
+from disc_model.studies.cases.spec import CaseSpec
 from disc_model.studies.faults import StudyError, read_yaml
-from disc_model.studies.grid import load_grids, parse_grid
-from disc_model.studies.grid_batch import run_batch
-from disc_model.studies.grid_merge import MergeError, failures, merge_batches
+from disc_model.studies.grids.figures import PLOTS
+from disc_model.studies.grids.merge import MergeError, failures, merge_batches
+from disc_model.studies.grids.quantities.options import SettlingOptions
+from disc_model.studies.grids.quantities.preparation import prepared
+from disc_model.studies.grids.quantities.registry import QUANTITIES
+from disc_model.studies.grids.run import run_batch
+from disc_model.studies.grids.schema import load_grids, parse_grid
 from disc_model.studies.inputs import each_intact
-from disc_model.studies.merge import merge_cases
-from disc_model.studies.quantities.options import SettlingOptions
-from disc_model.studies.quantities.preparation import prepared
-from disc_model.studies.quantities.registry import QUANTITIES
-from disc_model.studies.study import parse_study, study_from_config
 
 #: The slider stays where it is on the disc: nothing has to be computed.
 STILL = {"study": "still", "quantity": "floquet", "base": {"k_p": 0}, "axes": {"N": [100, 200], "Omega": [10, 20]}}
@@ -161,7 +161,7 @@ def test_every_plot_knows_its_quantity_its_dimensions_and_who_draws_it() -> None
         assert made.quantity in QUANTITIES
         assert made.module.startswith("disc_model.figures.")
         assert set(made.dims) <= {*Parameters.model_fields}
-    from disc_model.figures.plots import Plot
+    from disc_model.studies.grids.figures import Plot
 
     bare = Plot(kind="none")
     assert bare.dims == ()
@@ -229,7 +229,7 @@ def test_inputs_are_read_in_their_order(tmp_path: Path) -> None:
 
 
 def test_a_preparation_is_another_motions_end() -> None:
-    from disc_model.studies.quantities.bifurcation_options import BifurcationOptions
+    from disc_model.studies.grids.quantities.bifurcation_options import BifurcationOptions
 
     p = Parameters(N=200, Omega=50, n_diameters=1)
     asked = {"transient": 0.1, "samples": 1, "tol": 1e-8}

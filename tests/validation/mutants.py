@@ -292,12 +292,12 @@ MUTANTS: dict[str, tuple[tuple[str, str, str], ...]] = {
         ("separation", "+ model.c * s.slider", "- model.c * s.slider"),
     ),
     # ------------------------------------------------------------------------------------ stick in closed form
-    "engine/linear.py:coast_length": (
+    "engine/coasting.py:coast_length": (
         ("release", "model.N - swing", "model.N + swing"),
         ("F", "+ model.c_p * model.Omega", "- model.c_p * model.Omega"),
     ),
-    "engine/linear.py:coast_to": (("psi'", "+ model.Omega", "- model.Omega"),),
-    "engine/linear.py:_times": (
+    "engine/coasting.py:coast_to": (("psi'", "+ model.Omega", "- model.Omega"),),
+    "engine/coasting.py:_times": (
         ("alpha' beta'", "sub(mul(ar, br), mul(ai, bi))", "add(mul(ar, br), mul(ai, bi))"),
         ("alpha' beta'", "fma(ar, bi, mul(ai, br))", "sub(mul(ar, bi), mul(ai, br))"),
     ),
@@ -500,21 +500,21 @@ MUTANTS: dict[str, tuple[tuple[str, str, str], ...]] = {
         ("P stick", "1.0 + model.m", "1.0 - model.m"),
     ),
     # ------------------------------------------------------------------------------------ steady sliding
-    "stability/steady_sliding.py:steady_sliding": (
+    "stability/sliding.py:steady_sliding": (
         ("a'", "-l * p.Omega * b", "l * p.Omega * b"),
         ("b'", ", l * p.Omega * a", ", -l * p.Omega * a"),
         ("P slip", "+ p.mu_k * slope", "- p.mu_k * slope"),
         ("P slip", "1 + p.m", "1 - p.m"),
         ("f'", "p.mu_k * force / (p.r_0", "-p.mu_k * force / (p.r_0"),
     ),
-    "stability/steady_sliding.py:_equilibrium": (
+    "stability/sliding.py:_equilibrium": (
         ("alpha' beta'", "turned**2 - modes.omega**2", "turned**2 + modes.omega**2"),
         ("alpha' beta'", "modes.psi * gap / (gap**2 +", "modes.psi * gap / (gap**2 -"),
         ("P slip", "1 + p.k * static", "1 - p.k * static"),
         ("P slip", "1 - p.k * float", "1 + p.k * float"),
         ("beta'", "across = modes.psi", "across = -modes.psi"),
     ),
-    "stability/steady_sliding.py:_jacobian": (
+    "stability/sliding.py:_jacobian": (
         ("linear alpha'", "= -w2, -damping\n", "= w2, -damping\n"),
         ("linear alpha'", "= -w2, -damping\n", "= -w2, damping\n"),
         ("linear a'", "= turned[pairs], l[pairs] * b[pairs]", "= -turned[pairs], l[pairs] * b[pairs]"),

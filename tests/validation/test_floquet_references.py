@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, floquet, simulate
+from disc_model.stability.borders import continue_fold, continue_neutral
 from disc_model.stability.continuation import continue_cycle
-from disc_model.stability.floquet import CycleStatus, find_cycle
+from disc_model.stability.cycle import CycleStatus, find_cycle
 from disc_model.stability.floquet_batch import STATUS_NAMES, solve
 from disc_model.stability.moving_load import critical_speed, unstable_speeds
-from disc_model.stability.neutral import continue_fold, continue_neutral
 from disc_model.stability.resonances import nearest_tongue, tongue_lines
 from disc_model.stability.return_map import ReturnMap
 

@@ -12,7 +12,7 @@ import pytest
 from scipy.linalg import expm
 
 from disc_model import Parameters, Record, Window, plate_modes, simulate
-from disc_model.result import State
+from disc_model.simulation.result import State
 from tests.references import stored
 
 P_A = Parameters(N=385.0, Omega=15.1)

@@ -29,9 +29,9 @@ TWINS = ("tests/engine/test_series.py", *EQUATIONS)
 CLOSED_FORM = (
     *EQUATIONS,
     "tests/engine/test_stick_modes.py",
-    "tests/engine/test_linear.py::test_closed_form_is_the_series",
-    "tests/engine/test_linear.py::test_stick_holds_as_long_as_promised_and_not_much_longer[0-dampers]",
-    "tests/engine/test_linear.py::test_events_are_those_of_the_series",
+    "tests/engine/test_coasting.py::test_closed_form_is_the_series",
+    "tests/engine/test_coasting.py::test_stick_holds_as_long_as_promised_and_not_much_longer[0-dampers]",
+    "tests/engine/test_coasting.py::test_events_are_those_of_the_series",
 )
 DERIVATIVES = ("tests/engine/test_variational.py",)
 METHODS = ("tests/benchmarks/test_small_methods.py", *EQUATIONS)
@@ -39,7 +39,7 @@ METHODS = ("tests/benchmarks/test_small_methods.py", *EQUATIONS)
 NOTICED_BY = {
     "engine/plain.py": TWINS[:1],
     "engine/series.py": TWINS,
-    "engine/linear.py": CLOSED_FORM,
+    "engine/coasting.py": CLOSED_FORM,
     "engine/stick_modes.py": CLOSED_FORM,
     "engine/saltation.py": DERIVATIVES,
     "engine/tangent.py": DERIVATIVES,

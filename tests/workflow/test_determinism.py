@@ -48,9 +48,9 @@ def test_one_and_two_cores(tmp_path: Path) -> None:
 CASE = """
 import sys
 from disc_model import Parameters, Poincare, Window
-from disc_model.dataset import save
-from disc_model.studies.batch import run_case
-from disc_model.studies.case import CaseSpec
+from disc_model.data.dataset import save
+from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases.spec import CaseSpec
 
 windows = (("history", Window(start=0, stop=1, rate=1000)),)
 spec = CaseSpec(Parameters(N=385, Omega=15.1), 1.0, 1e-10, None, windows, Poincare(), (0.0, 1.0), True)

@@ -15,11 +15,12 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from disc_model.studies.grid import load_grid
+from disc_model.studies.grids.schema import load_grid
 from tests.workflow.conftest import Project, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
+GRIDS = "src/disc_model/studies/grids"
 CONFIG = "config/inc.yaml"
 GRID = "config/inc_map.yaml"
 MAIN = """\
@@ -92,7 +93,7 @@ def planned(project: Project, *options: str) -> Jobs:
 
 def batches(project: Project, name: str) -> Jobs:
     """The jobs of all batches that a study now has, its sources hashed as in the project."""
-    code = f"from disc_model.studies.grid import load_grid; print(*load_grid('config/{name}.yaml').batches)"
+    code = f"from disc_model.studies.grids.schema import load_grid; print(*load_grid('config/{name}.yaml').batches)"
     found = subprocess.run(
         [sys.executable, "-c", code],
         cwd=project.folder,
@@ -197,14 +198,14 @@ ALL: Callable[[Project], Jobs] = lambda project: batches(project, "inc_map") | b
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
-        ("src/disc_model/figures/maps.py", lambda _: {("draw_plot", "inc_map")}),
+        ("src/disc_model/figures/grids/stability_map.py", lambda _: {("draw_plot", "inc_map")}),
         ("src/disc_model/figures/disc_model.mplstyle", lambda _: {("draw_plot", "inc_map")}),
         ("workflow/scripts/draw_plot.py", lambda _: {("draw_plot", "inc_map")}),
-        ("src/disc_model/studies/grid_merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
-        ("src/disc_model/studies/grid.py", lambda _: set()),
-        ("src/disc_model/studies/quantities/registry.py", lambda _: set()),
-        ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
-        ("src/disc_model/studies/quantities/floquet.py", lambda project: batches(project, "inc_growth") | GROWTH_TAIL),
+        (f"{GRIDS}/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
+        (f"{GRIDS}/schema.py", lambda _: set()),
+        (f"{GRIDS}/quantities/registry.py", lambda _: set()),
+        (f"{GRIDS}/quantities/hysteresis.py", lambda _: set()),
+        (f"{GRIDS}/quantities/floquet.py", lambda project: batches(project, "inc_growth") | GROWTH_TAIL),
         ("src/disc_model/stability/settling.py", lambda project: batches(project, "inc_map") | MAP_TAIL),
         (
             "src/disc_model/engine/machine.py",

@@ -100,16 +100,16 @@ def test_touching_sources_without_changing_them_runs_nothing(project: Project) -
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
-        ("src/disc_model/figures/fig13.py", {"draw_figure:fig13"}),
+        ("src/disc_model/figures/paper/fig13.py", {"draw_figure:fig13"}),
         ("src/disc_model/figures/disc_model.mplstyle", FIGURES),
         ("src/disc_model/figures/parts.py", FIGURES),
         ("workflow/scripts/draw_figure.py", FIGURES),
         # the provenance page is written by the same package as the ledger
         ("src/disc_model/claims/section42.py", {"check_claims", "describe_study"}),
-        ("src/disc_model/studies/merge.py", TABLES),
+        ("src/disc_model/studies/cases/merge.py", TABLES),
         ("workflow/scripts/simulate_case.py", SIMULATIONS | FIGURES | TABLES),
         ("src/disc_model/cli.py", set()),
-        ("src/disc_model/studies/study.py", set()),
+        ("src/disc_model/studies/cases/schema.py", set()),
     ],
 )
 def test_other_sources_run_only_what_uses_them(project: Project, source: str, jobs: set[str]) -> None:
@@ -136,7 +136,7 @@ def test_an_interrupted_run_goes_on(project: Project, tmp_path: Path) -> None:
     """A job that dies in the middle of writing leaves nothing that is taken for a result."""
     project.edit(TINY, "t_end: 2}\nfigures", "t_end: 3}\nfigures")
     project.edit(
-        "src/disc_model/files.py",
+        "src/disc_model/data/files.py",
         "        os.replace(temporary, path)\n",
         "        os.kill(os.getpid(), 9)\n",
     )
@@ -144,7 +144,7 @@ def test_an_interrupted_run_goes_on(project: Project, tmp_path: Path) -> None:
     assert done.returncode != 0
     assert not (project.folder / "results" / "tiny" / "cases" / "X.nc").exists()
     project.edit(
-        "src/disc_model/files.py",
+        "src/disc_model/data/files.py",
         "        os.kill(os.getpid(), 9)\n",
         "        os.replace(temporary, path)\n",
     )

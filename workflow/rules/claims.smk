@@ -60,7 +60,7 @@ rule make_table:
     params:
         made_of=lambda wildcards: cases_made_of(["F13"]),
         sources=sources_of(
-            "make_table.py", "disc_model.claims.tables", "disc_model.claims.page"
+            "make_table.py", "disc_model.claims.paper_tables", "disc_model.claims.page"
         ),
     shell:
         "python workflow/scripts/make_table.py {wildcards.table} {input}"

@@ -9,12 +9,12 @@ from snakemake.exceptions import WorkflowError
 from snakemake.settings.types import DeploymentMethod
 from snakemake.shell import shell
 
-from disc_model.figures.catalogue import CATALOGUE, STYLE, module_of
-from disc_model.provenance import SIMULATION, source_hash
+from disc_model.figures.paper.catalogue import CATALOGUE, STYLE, module_of
+from disc_model.data.provenance import SIMULATION, source_hash
 from disc_model.studies.faults import read_file
-from disc_model.studies.grid import load_grids
+from disc_model.studies.grids.schema import load_grids
 from disc_model.studies.records import unrecorded
-from disc_model.studies.study import StudyError, study_from_config
+from disc_model.studies.cases.schema import StudyError, study_from_config
 
 PAPER = Path("config/paper.yaml")
 # A study named with --configfile replaces the paper's instead of being mixed with it.
@@ -103,7 +103,7 @@ def merge_plan(study):
 # What files are made of, as hashes. Jobs that read the files are told, so that a file that was made anew is not
 # overlooked if the clock has been set back since they last ran: by its time it would be the older one.
 CASE_SOURCES = sources_of("simulate_case.py", *SIMULATION)
-BATCH_SOURCES = sources_of("compute_batch.py", "disc_model.dataset")
+BATCH_SOURCES = sources_of("compute_batch.py", "disc_model.data.dataset")
 LABELS = json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False)
 
 
@@ -116,12 +116,12 @@ def cases_made_of(cases):
 
 
 def merged_cases_made_of():
-    sources = sources_of("merge_cases.py", "disc_model.studies.merge")
+    sources = sources_of("merge_cases.py", "disc_model.studies.cases.merge")
     return digest(cases_made_of(sorted(STUDY.specs)), LABELS, sources)
 
 
 def grid_made_of(study):
-    sources = sources_of("merge_batches.py", "disc_model.studies.grid_merge")
+    sources = sources_of("merge_batches.py", "disc_model.studies.grids.merge")
     return digest(BATCH_SOURCES, merge_plan(GRIDS[study]), sources)
 
 

@@ -1,7 +1,7 @@
 # One job per figure, from the files of the cases it shows: another case's change does not draw it again.
 import json
 
-from disc_model.figures.catalogue import SECTIONS, caption, label
+from disc_model.figures.paper.catalogue import SECTIONS, caption, label
 
 
 rule draw_figure:

@@ -13,6 +13,6 @@ rule merge_cases:
     params:
         labels=LABELS,
         made_of=cases_made_of(sorted(STUDY.specs)),
-        sources=sources_of("merge_cases.py", "disc_model.studies.merge"),
+        sources=sources_of("merge_cases.py", "disc_model.studies.cases.merge"),
     shell:
         "python workflow/scripts/merge_cases.py --labels {params.labels:q} {output} {input} > {log} 2>&1"

@@ -25,7 +25,7 @@ rule describe_study:
         sources=sources_of(
             "describe_study.py",
             "disc_model.claims.page",
-            "disc_model.figures.catalogue",
+            "disc_model.figures.paper.catalogue",
         ),
     shell:
         "python workflow/scripts/describe_study.py {input} {output} --title {params.title:q} > {log} 2>&1"

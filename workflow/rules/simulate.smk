@@ -1,6 +1,6 @@
 # One job per named case.
 
-SOLVER = source_hash("disc_model.simulate")
+SOLVER = source_hash("disc_model.simulation.api")
 
 
 rule warm_cache:

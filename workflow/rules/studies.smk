@@ -1,9 +1,9 @@
-# Grid studies: batches of points, merged into one dataset for each study. What a batch is, is said in disc_model.studies.grid.
+# Grid studies: batches of points, merged into one dataset for each study. What a batch is, is said in disc_model.studies.grids.schema.
 # The name of a batch's file is the hash of all that decides its content, and the name of the merged file is the hash of
 # its batches, so that the files that are there tell what is left to do.
 import json
 
-COMPILED = source_hash("disc_model.stability.floquet", "disc_model.simulate")
+COMPILED = source_hash("disc_model.stability.cycle", "disc_model.simulation.api")
 
 
 rule warm_studies:
@@ -54,7 +54,7 @@ rule merge_batches:
         plan=lambda wildcards: merge_plan(GRIDS[wildcards.study]),
         made_of=BATCH_SOURCES,
         folder=lambda wildcards, input: Path(input[0]).parent,
-        sources=sources_of("merge_batches.py", "disc_model.studies.grid_merge"),
+        sources=sources_of("merge_batches.py", "disc_model.studies.grids.merge"),
     shell:
         "python workflow/scripts/merge_batches.py {output.nc} {output.failed} {params.folder}"
         " <<< {params.plan:q} > {log} 2>&1"

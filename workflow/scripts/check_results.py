@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from disc_model.files import DamagedFile, check_whole
+from disc_model.data.files import DamagedFile, check_whole
 from disc_model.studies.inputs import set_aside
 
 

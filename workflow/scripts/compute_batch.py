@@ -1,7 +1,7 @@
 """Compute one batch of a grid study and save it.
 
-The batch, a text of `disc_model.studies.grid.GridStudy.batches`, is read from standard input: it may be too long
-otherwise.
+The batch, a text of `disc_model.studies.grids.schema.GridStudy.batches`, is read from standard input: it may be too
+long otherwise.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import sys
 
 import xarray as xr
 
-from disc_model.dataset import save
-from disc_model.studies.grid_batch import run_batch
+from disc_model.data.dataset import save
+from disc_model.studies.grids.run import run_batch
 
 
 def main() -> None:

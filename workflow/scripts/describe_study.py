@@ -11,10 +11,10 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.claims.page import page, table_html
-from disc_model.figures.catalogue import said_parameters
+from disc_model.data.variables import STATUSES
+from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
 from disc_model.studies.inputs import load_inputs
-from disc_model.variables import STATUSES
 
 
 def main() -> None:

@@ -13,7 +13,7 @@ from disc_model.studies.inputs import load_cases
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("module", help="module that draws it, such as disc_model.figures.fig02")
+    parser.add_argument("module", help="module that draws it, such as disc_model.figures.paper.fig02")
     parser.add_argument("cases", nargs="+", type=Path, help="netCDF files of the cases")
     parser.add_argument("--options", type=json.loads, default={}, help="JSON: keyword arguments of its function draw")
     parser.add_argument("--title", default="", help="written into the files")

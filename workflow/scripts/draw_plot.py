@@ -7,8 +7,8 @@ import importlib
 import json
 from pathlib import Path
 
-from disc_model.figures.plots import PLOTS
 from disc_model.figures.style import save
+from disc_model.studies.grids.figures import PLOTS
 from disc_model.studies.inputs import load_inputs
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 
 from disc_model.claims.model import CaseView
 from disc_model.claims.page import table_page
-from disc_model.claims.tables import table_1, table_2
+from disc_model.claims.paper_tables import table_1, table_2
 from disc_model.studies.inputs import load_inputs
 
 TITLES = {"table1": "Table 1: base values", "table2": "Table 2: frequencies of the disc in the first 10 s"}

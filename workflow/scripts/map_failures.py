@@ -7,7 +7,7 @@ import argparse
 import xarray as xr
 
 from disc_model.benchmarks.failure_maps import VALUES, failure_map
-from disc_model.dataset import save
+from disc_model.data.dataset import save
 
 
 def main() -> None:

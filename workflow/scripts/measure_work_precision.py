@@ -12,7 +12,7 @@ import xarray as xr
 from disc_model.benchmarks.flops import vector_flops
 from disc_model.benchmarks.table import DEFAULT, JUDGED, table, to_markdown
 from disc_model.benchmarks.work_precision import Point, work_precision
-from disc_model.dataset import save
+from disc_model.data.dataset import save
 
 
 def report(point: Point, seconds: float) -> None:

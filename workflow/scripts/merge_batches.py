@@ -12,8 +12,8 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.dataset import save
-from disc_model.studies.grid_merge import failures, merge_batches
+from disc_model.data.dataset import save
+from disc_model.studies.grids.merge import failures, merge_batches
 from disc_model.studies.inputs import load_inputs
 
 

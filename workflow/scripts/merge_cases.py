@@ -6,9 +6,9 @@ import argparse
 import json
 from pathlib import Path
 
-from disc_model.dataset import save
+from disc_model.data.dataset import save
+from disc_model.studies.cases.merge import merge_cases
 from disc_model.studies.inputs import load_cases
-from disc_model.studies.merge import merge_cases
 
 
 def main() -> None:

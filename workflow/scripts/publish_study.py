@@ -6,7 +6,7 @@ import argparse
 import shutil
 from pathlib import Path
 
-from disc_model.files import check_whole
+from disc_model.data.files import check_whole
 from disc_model.studies.inputs import each_intact
 
 

@@ -6,7 +6,7 @@ import argparse
 
 import xarray as xr
 
-from disc_model.dataset import save
+from disc_model.data.dataset import save
 from disc_model.truncation import truncation_study
 
 

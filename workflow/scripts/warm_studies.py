@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from disc_model.parameters import Parameters
-from disc_model.stability.floquet import floquet
+from disc_model.stability.cycle import floquet
 
 
 def main() -> None:

@@ -25,8 +25,8 @@ def vector_flops(scene: str, tol: float) -> float:
 
 def _count(scene: str, tol: float) -> float:
     from disc_model.benchmarks.scenes import problem
-    from disc_model.engine import evaluate, linear, polynomial, series
-    from disc_model.simulate import simulate
+    from disc_model.engine import coasting, dense_output, polynomial, series
+    from disc_model.simulation.api import simulate
 
     done = 0
 
@@ -39,7 +39,7 @@ def _count(scene: str, tol: float) -> float:
         return counted
 
     for name, flops in _OPERATIONS.items():
-        for module in (evaluate, linear, polynomial, series):
+        for module in (dense_output, coasting, polynomial, series):
             if hasattr(module, name):
                 setattr(module, name, counting(getattr(module, name), flops))
     case = problem(scene)

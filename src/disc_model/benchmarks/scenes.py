@@ -30,7 +30,7 @@ from disc_model.benchmarks.methods.base import MethodResult, Outcome, Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
-from disc_model.result import State
+from disc_model.simulation.result import State
 
 DATA = Path(__file__).parent / "data"
 REFERENCED = ("stick_slip", "separating", "many_modes")

@@ -19,8 +19,8 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.scenes import VERDICT_WORDS, Verdict
-from disc_model.dataset import json_attribute
-from disc_model.provenance import VERSIONS_OF, versions
+from disc_model.data.dataset import json_attribute
+from disc_model.data.provenance import VERSIONS_OF, versions
 
 BUDGET = 12.0
 """s that a method may take for a point before it is stopped."""

@@ -9,13 +9,13 @@ from disc_model.claims.model import CaseView, Missing
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
-    from disc_model.stability.floquet import FloquetResult
+    from disc_model.stability.cycle import FloquetResult
 
 
 @lru_cache(maxsize=256)
 def cycle_of(p: Parameters) -> FloquetResult:
     """The stick-slip cycle near the published start, stable or not; raises `Missing` if there is none."""
-    from disc_model.stability.floquet import CycleStatus, floquet
+    from disc_model.stability.cycle import CycleStatus, floquet
 
     found = floquet(p)
     if found.status is not CycleStatus.OK:

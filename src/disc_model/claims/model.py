@@ -8,8 +8,8 @@ from typing import Any
 
 import xarray as xr
 
+from disc_model.data.variables import STATUSES
 from disc_model.parameters import Parameters
-from disc_model.variables import STATUSES
 
 HOLDS = "holds"
 REMARK = "holds with a remark"
@@ -54,7 +54,7 @@ class CaseView:
     node: xr.DataTree
 
     def __getitem__(self, name: str) -> float:
-        """A scalar: a parameter, or one of `disc_model.variables.SCALARS`."""
+        """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
         return float(self.node.dataset[name].item())
 
     @property

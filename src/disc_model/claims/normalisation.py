@@ -14,7 +14,7 @@ from disc_model.claims import check_claims, measures
 from disc_model.claims.growth import growth_rate
 from disc_model.claims.model import FAILS, CaseView, Missing
 from disc_model.claims.page import page, table_html
-from disc_model.figures.catalogue import said_parameters
+from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
@@ -41,7 +41,7 @@ class Comparison:
 
 
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
-    """Compare merged cases (see `disc_model.studies.merge`) of the two normalisations."""
+    """Compare merged cases (see `disc_model.studies.cases.merge`) of the two normalisations."""
     old, new = (
         {name: CaseView(name, node) for name, node in tree.children.items()} for tree in (published, orthonormal)
     )

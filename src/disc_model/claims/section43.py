@@ -166,7 +166,7 @@ def _critical_speed(cases: Cases, claim: Claim) -> Finding:
 
 
 def _no_preload(cases: Cases, claim: Claim) -> Finding:
-    from disc_model.stability.steady_sliding import steady_sliding
+    from disc_model.stability.sliding import steady_sliding
 
     case = cases["S43N0"]
     p = case.parameters

@@ -7,8 +7,8 @@ import numpy as np
 from disc_model.analysis import spectra
 from disc_model.claims import measures
 from disc_model.claims.model import Cases, CaseView, Check, Claim, Finding, Needed
+from disc_model.claims.paper_tables import LISTED, TABLE_2, mixing, stick_slip_rate, table_2
 from disc_model.claims.section41 import not_periodic
-from disc_model.claims.tables import LISTED, TABLE_2, mixing, stick_slip_rate, table_2
 from disc_model.claims.wording import finding, first_separation, many
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 

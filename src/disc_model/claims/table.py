@@ -13,7 +13,7 @@ CLAIMS: tuple[Claim, ...] = (*disc.CLAIMS, *section41.CLAIMS, *section42.CLAIMS,
 
 
 def check_claims(tree: xr.DataTree) -> pd.DataFrame:
-    """Check every claim against merged cases (see `disc_model.studies.merge`); a row per claim, columns `COLUMNS`."""
+    """Check every claim against merged cases: a row per claim, columns `COLUMNS` (see `studies.cases.merge`)."""
     cases = {name: CaseView(name, node) for name, node in tree.children.items()}
     rows = []
     for claim in CLAIMS:

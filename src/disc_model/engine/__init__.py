@@ -32,9 +32,9 @@ def _cache_folder() -> str:
 with kept_in(_cache_folder()):
     from . import (
         audit,
-        evaluate,
+        coasting,
+        dense_output,
         layout,
-        linear,
         machine,
         polynomial,
         saltation,
@@ -48,9 +48,9 @@ with kept_in(_cache_folder()):
 
 __all__ = [
     "audit",
-    "evaluate",
+    "coasting",
+    "dense_output",
     "layout",
-    "linear",
     "machine",
     "polynomial",
     "saltation",

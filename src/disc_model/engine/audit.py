@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from .compile import kernel
-from .evaluate import force_at, move_to
+from .dense_output import force_at, move_to
 from .layout import PSI, SEPARATION, SLIP, SPEED, U_VELOCITY, U
 from .switches import disc_point, spring_force
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 
 from .audit import audit_impact, audit_step, transverse_energy
+from .coasting import LONGEST_COAST, coast_length
 from .compile import inlined, kernel
-from .evaluate import COAST, load_state, move_to
+from .dense_output import COAST, load_state, move_to
 from .lanes import WIDTH, absolute, largest, load, maximum, splat
 from .layout import (
     COASTED,
@@ -29,7 +30,6 @@ from .layout import (
     E,
     U,
 )
-from .linear import LONGEST_COAST, coast_length
 from .polynomial import NO_ROOT, first_root, set_powers
 from .sampling import sample_step
 from .series import lane_count, separation_series, slip_series, stick_series

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from .compile import kernel
-from .evaluate import force_at, move_to
+from .dense_output import force_at, move_to
 from .layout import HALF, PHASE, PSI, SEPARATION, SPEED, TIME, TIME_LOW, U_VELOCITY, WIDTH, U
 from .switches import disc_point
 

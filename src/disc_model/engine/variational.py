@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .compile import kernel
-from .evaluate import state_at
+from .dense_output import state_at
 from .lanes import WIDTH, mul, splat, store
 from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME
 from .machine import (

@@ -10,9 +10,9 @@ import numpy as np
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.record import Poincare, Record
-from disc_model.result import State, Status
-from disc_model.simulate import simulate
+from disc_model.simulation.api import simulate
+from disc_model.simulation.record import Poincare, Record
+from disc_model.simulation.result import State, Status
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
+from disc_model.stability.borders import continue_fold, continue_neutral
 from disc_model.stability.continuation import UNLOCATED, continue_cycle
 from disc_model.stability.cycle_problem import Branch, default_scale
 from disc_model.stability.floquet_batch import solve
-from disc_model.stability.neutral import continue_fold, continue_neutral
 from disc_model.stability.resonances import nearest_tongue
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.tongue import Tongue

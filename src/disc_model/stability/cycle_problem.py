@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.stability.floquet import CycleStatus, find_cycle, kind_of, multipliers
+from disc_model.stability.cycle import CycleStatus, find_cycle, kind_of, multipliers
 from disc_model.stability.return_map import OUTCOMES, PARAMETERS, RETURNED, Flight, ReturnMap, rounding
 
 Array = NDArray[np.float64]

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.parameters import Parameters
-from disc_model.stability.floquet import CycleStatus, find_cycle, growth_rate, multipliers
-from disc_model.stability.steady_sliding import steady_sliding
+from disc_model.stability.cycle import CycleStatus, find_cycle, growth_rate, multipliers
+from disc_model.stability.sliding import steady_sliding
 
 STATUS_NAMES = tuple(status.value for status in CycleStatus)
 """Names of the status codes: code i is STATUS_NAMES[i]."""

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.stability.steady_sliding import _jacobian
+from disc_model.stability.sliding import _jacobian
 
 Array = NDArray[np.float64]
 

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from disc_model.engine import layout, variational
 from disc_model.engine import tangent as columns
 from disc_model.parameters import Parameters
-from disc_model.result import State
-from disc_model.simulate import build_model
-from disc_model.states import read_state, write_state
-from disc_model.tolerance import series_order, series_tolerance
+from disc_model.simulation.api import build_model
+from disc_model.simulation.bridge import read_state, write_state
+from disc_model.simulation.result import State
+from disc_model.simulation.tolerance import series_order, series_tolerance
 
 Array = NDArray[np.float64]
 

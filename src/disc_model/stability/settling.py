@@ -6,7 +6,7 @@ exponentially, each excited by the start at much the same size (1e-5 to 1e-4 rel
 difference that is looked at and not the motion's range, so that a slow growth is not taken for rest. A motion has
 settled if
 
-- it is near the stick-slip cycle that `disc_model.stability.floquet` finds, this is stable, and the difference
+- it is near the stick-slip cycle that `disc_model.stability.cycle` finds, this is stable, and the difference
   keeps falling at the rate that the cycle's multipliers demand; or
 - near no such cycle, the difference has kept falling until it is below 1e-9: a mode that grows would be a thousand
   times larger by then, however slow, since it never falls. If the cycle at hand is known to be unstable, never.
@@ -24,10 +24,10 @@ from numpy.typing import NDArray
 
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.record import Record, Window
-from disc_model.result import Result, State, Status
-from disc_model.simulate import simulate
-from disc_model.stability.floquet import CycleStatus, FloquetResult, floquet
+from disc_model.simulation.api import simulate
+from disc_model.simulation.record import Record, Window
+from disc_model.simulation.result import Result, State, Status
+from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ from typing import TypeVar
 
 import xarray as xr
 
-from disc_model.dataset import load
-from disc_model.files import DamagedFile
+from disc_model.data.dataset import load
+from disc_model.data.files import DamagedFile
 
 T = TypeVar("T")
 
@@ -20,7 +20,7 @@ SET_ASIDE = ".damaged"
 
 
 def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
-    """Read files written by `disc_model.dataset.save`; `each_intact` says what becomes of damaged ones."""
+    """Read files written by `disc_model.data.dataset.save`; `each_intact` says what becomes of damaged ones."""
     return each_intact(load, paths)
 
 

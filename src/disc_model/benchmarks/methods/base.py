@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
-from disc_model.result import State
+from disc_model.simulation.result import State
 
 Array = NDArray[np.float64]
 
@@ -80,7 +80,7 @@ class MethodResult:
     Attributes
     ----------
     times : s, shape (n_events,)
-    kinds : n_events words of `disc_model.result.EVENT_KINDS`
+    kinds : n_events words of `disc_model.simulation.result.EVENT_KINDS`
     final : state at t_end, or where the method stopped
     seconds : wall time of the integration
     work : right-hand sides evaluated, or steps for methods that work with series

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.result import State
+from disc_model.simulation.result import State
 
 Array = NDArray[np.float64]
 

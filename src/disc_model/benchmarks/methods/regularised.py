@@ -22,7 +22,7 @@ from scipy.integrate import solve_ivp
 from disc_model.benchmarks.methods.base import BudgetExceeded, Meter, Method, MethodResult, Outcome, Problem
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
-from disc_model.result import State
+from disc_model.simulation.result import State
 
 PENALTY = 1e7
 """N/m times rad/s: K eps."""

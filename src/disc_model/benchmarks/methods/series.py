@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
-from disc_model.result import Status
-from disc_model.simulate import simulate
+from disc_model.simulation.api import simulate
+from disc_model.simulation.result import Status
 
 STEPS_PER_SECOND = 300_000
 """What the budget of seconds is turned into: the engine stops by steps, not by the clock."""
 
 
 class Series(Method):
-    """`disc_model.simulate`: Taylor series of high order, switches as roots of polynomials."""
+    """`disc_model.simulation.api`: Taylor series of high order, switches as roots of polynomials."""
 
     name = "series"
     label = "series (this package)"

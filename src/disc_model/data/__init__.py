@@ -1,0 +1,1 @@
+"""Results on disc: names and units, datasets, whole files, where they come from."""

@@ -1,0 +1,198 @@
+"""How results become files: the table of variables, CF attributes, encoding, and saving in one piece.
+
+A case is a tree of groups, which is also how its file is laid out:
+
+- the root holds its scalars (parameters, status, first separation, statistics), all without dimension;
+- ``events`` holds one entry per switch along `event`;
+- every recorded window is a group under its name, along `time`; so is ``poincare``. Their attribute ``theta`` is the
+  angle in rad at which ``w_point`` was taken.
+
+`disc_model.studies.cases.merge` puts many cases into one file. Nothing here holds a time stamp or a duration that
+differs from run to run, so that equal runs give equal bytes.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from disc_model.data.files import check_whole, write_whole
+from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
+from disc_model.parameters import Parameters
+from disc_model.simulation.result import Result
+
+CONVENTIONS = "CF-1.11"
+OVERHEAD = 1 << 18
+"""About what attributes and the file format take, in bytes."""
+
+
+# ----------------------------------------------------------------------------------------------------
+# From a result to datasets
+
+
+def result_to_dataset(result: Result) -> xr.Dataset:
+    """A whole result as one dataset; what `Result.to_dataset` returns.
+
+    Scalars have no dimension; switches run along `event` as ``event_time``, ``event_kind``, ...; samples of
+    the i-th window along ``sample_i`` as ``sample_i_time``, ``sample_i_P``, ...; the Poincare samples along
+    `poincare`. Attributes of a group bear such names as well, ``sample_i_theta``.
+    """
+    groups = result_groups(result)
+    flat = groups.pop("")
+    for group, dataset in groups.items():
+        prefix = "event" if group == "events" else group
+        names = {name: f"{prefix}_{name}" for name in dataset.variables}
+        flat = flat.merge(dataset.drop_indexes("time", errors="ignore").swap_dims(_to(dataset, prefix)).rename(names))
+        flat.attrs |= {f"{prefix}_{name}": value for name, value in dataset.attrs.items()}
+    return flat
+
+
+def result_groups(result: Result, names: Sequence[str] | None = None) -> dict[str, xr.Dataset]:
+    """A result as datasets by group: "" for the scalars, "events", one per window, "poincare".
+
+    Parameters
+    ----------
+    names : of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
+    """
+    names = [f"sample_{i}" for i in range(len(result.samples))] if names is None else names
+    groups = {"": _scalars(result), "events": events_dataset(result.events)}
+    record = result.record
+    for name, window, data in zip(names, record.windows, result.samples, strict=True):
+        groups[name] = samples_dataset(data, window.theta)
+    if result.poincare is not None and record.poincare is not None:
+        groups["poincare"] = samples_dataset(result.poincare, record.poincare.theta)
+    return groups
+
+
+def events_dataset(events: Any) -> xr.Dataset:
+    """Switches, from the frame `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
+    data = {name: ("event", _column(events, name), attributes(name)) for name in events.columns}
+    return xr.Dataset(data).set_coords("time")
+
+
+def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
+    """Samples of one window along the coordinate `time`; envelopes keep their ``_min`` and ``_max``.
+
+    theta : rad, where ``w_point`` was taken
+    """
+    data = {name: ("time", _narrow(name, values), attributes(name)) for name, values in samples.items()}
+    return xr.Dataset(data, attrs={"theta": theta})
+
+
+def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict[str, xr.Dataset]:
+    """What stands for a case that raised an error: all its scalars, unknown but for its status."""
+    values: dict[str, Any] = dict.fromkeys(SCALARS, math.nan) | dict.fromkeys(COUNTS, 0)
+    values |= {"status": STATUSES.index("failed"), "t_end": t_end, "tol": tol}
+    return {"": _scalar_dataset(p, values, "failed", message)}
+
+
+def _scalars(result: Result) -> xr.Dataset:
+    statistics = result.statistics
+    values = {name: statistics[name] for name in SCALARS if name in statistics}
+    values |= {name: statistics[key] for name, key in COUNTS.items()}
+    values |= {
+        "status": STATUSES.index(result.status.value),
+        "first_separation": result.first_separation,
+        "t_end": result.t_end,
+        "time_reached": result.final_state.time,
+        "tol": result.tol,
+        "u_0": result.u_0,
+    }
+    return _scalar_dataset(result.parameters, values, result.status.value, result.message)
+
+
+def _scalar_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
+    data: dict[str, Any] = {}
+    for name in SCALARS:
+        value = np.int8(values[name]) if name == "status" else values.get(name, math.nan)
+        data[name] = ((), np.int64(value) if name in COUNTS else value, attributes(name))
+    for name, value in p.model_dump().items():
+        stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
+        data[name] = ((), stored, attributes(name))
+    attrs = {
+        "Conventions": CONVENTIONS,
+        "parameters": p.canonical_json,
+        "parameters_key": p.key,
+        "status": status,
+        "message": message,
+    }
+    if p.truncation:
+        attrs["truncation"] = p.truncation
+    return xr.Dataset(data, attrs=attrs)
+
+
+def _column(events: Any, name: str) -> np.ndarray:
+    column = events[name]
+    flags = SERIES[name].flags
+    if not flags:
+        return np.asarray(column, dtype=float)
+    return pd.Categorical(column, categories=flags).codes.astype(np.int8)
+
+
+def _narrow(name: str, values: Any) -> np.ndarray:
+    return np.asarray(values, dtype=np.int8 if name == "phase" else float)
+
+
+def _to(dataset: xr.Dataset, dim: str) -> dict[str, str]:
+    return {old: dim for old in map(str, dataset.dims) if old != dim}
+
+
+# ----------------------------------------------------------------------------------------------------
+# Trees and files
+
+
+def to_tree(groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
+    """Groups as `result_groups` gives them, as a tree."""
+    return xr.DataTree.from_dict({f"/{name}": dataset for name, dataset in groups.items()})
+
+
+def save(tree: xr.DataTree, path: str | Path) -> None:
+    """Write a tree as netCDF 4, compressed, in one piece: `path` is either what it was before or complete.
+
+    Raises
+    ------
+    disc_model.data.files.WriteError
+        If the disk is full.
+    """
+    encoding = _encoding(tree)
+    size = sum(node.to_dataset(inherit=False).nbytes for node in tree.subtree)
+    write_whole(Path(path), lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)
+
+
+def load(path: str | Path) -> xr.DataTree:
+    """Read a file written by `save` into memory.
+
+    Raises
+    ------
+    disc_model.data.files.DamagedFile
+        If it is not what was written.
+    """
+    check_whole(Path(path))
+    with xr.open_datatree(path, engine="netcdf4", decode_timedelta=False) as tree:
+        return tree.load()
+
+
+def json_attribute(value: Any) -> str:
+    """A mapping or list as text: netCDF attributes hold neither, nor None or bool."""
+    return json.dumps(value, sort_keys=True)
+
+
+def _encoding(tree: xr.DataTree) -> dict[str, dict[str, Any]]:
+    own = {node.path: node.to_dataset(inherit=False).variables for node in tree.subtree}
+    return {path: {str(name): _encode(var) for name, var in variables.items()} for path, variables in own.items()}
+
+
+def _encode(variable: xr.Variable) -> dict[str, Any]:
+    if variable.dtype.kind in "UO":
+        return {"dtype": "S1"}
+    encoding: dict[str, Any] = {"_FillValue": None}
+    if variable.ndim and variable.size:
+        encoding |= {"zlib": True, "complevel": 1, "shuffle": True}
+    return encoding

@@ -1,0 +1,96 @@
+"""The table of variables: what each is, in which unit, and what the values of flags mean."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from disc_model.parameters import Parameters
+from disc_model.simulation.result import EVENT_KINDS, PHASES, Status
+
+STATUSES = (*(status.value for status in Status), "failed")
+NORMALIZATIONS = ("as_published", "orthonormal")
+CONTACTS = ("separable", "bonded")
+
+
+class Variable(NamedTuple):
+    """What a variable is: unit, name in words, and the words that its values stand for, if it is a flag."""
+
+    units: str
+    long_name: str
+    flags: tuple[str, ...] = ()
+
+
+SERIES = {
+    "time": Variable("s", "time"),
+    "kind": Variable("1", "kind of switch", EVENT_KINDS),
+    "phase": Variable("1", "phase of the motion", PHASES),
+    "P": Variable("N", "contact force, positive in compression"),
+    "u": Variable("m", "vertical displacement of the slider"),
+    "u_velocity": Variable("m s-1", "vertical velocity of the slider"),
+    "w": Variable("m", "displacement of the disc under the slider"),
+    "w_point": Variable("m", "displacement of the disc at r_0 and a fixed angle"),
+    "w_point_velocity": Variable("m s-1", "velocity of the disc at r_0 and a fixed angle"),
+    "psi": Variable("rad", "angle of the drive point ahead of the slider"),
+    "psi_velocity": Variable("rad s-1", "angular velocity of the drive point relative to the slider, Omega - f"),
+    "f": Variable("rad s-1", "absolute angular velocity of the slider"),
+}
+SCALARS = {
+    "status": Variable("1", "how the simulation ended", STATUSES),
+    "first_separation": Variable("s", "time of the first separation, nan if there was none"),
+    "t_end": Variable("s", "time up to which the simulation was asked for"),
+    "time_reached": Variable("s", "time that the simulation reached"),
+    "tol": Variable("1", "tolerance of the simulation"),
+    "u_0": Variable("m", "displacement of the slider in static equilibrium"),
+    "steps": Variable("1", "number of accepted steps"),
+    "rejected": Variable("1", "number of rejected steps"),
+    "n_events": Variable("1", "number of switches"),
+    "n_separations": Variable("1", "number of separations"),
+    "time_stick": Variable("s", "time spent sticking"),
+    "time_slip": Variable("s", "time spent slipping"),
+    "time_separation": Variable("s", "time spent separated"),
+    "energy_residual": Variable("1", "largest relative residual of the energy balance over one audited step"),
+    "energy_transverse": Variable("1", "accumulated relative residual of the transverse energy balance"),
+    "energy_inplane": Variable("1", "accumulated relative residual of the in-plane energy balance"),
+    "audited_steps": Variable("1", "number of steps whose energy balance was audited"),
+}
+COUNTS = {
+    "steps": "steps",
+    "rejected": "rejected",
+    "n_events": "events",
+    "n_separations": "separations",
+    "audited_steps": "audited_steps",
+}
+"""Whole numbers among the scalars, and what `Result.statistics` calls them."""
+CHOICES = {"normalization": NORMALIZATIONS, "contact": CONTACTS}
+_CF_UNITS = {"N m s": "N m s", "N s/m": "N s m-1", "N/m": "N m-1", "kg/m^3": "kg m-3", "rad/s": "rad s-1"}
+
+
+def attributes(name: str) -> dict[str, Any]:
+    """CF attributes of a variable: units, long_name, and what its values mean if it is a flag."""
+    stem, _, bound = name.rpartition("_")
+    if bound in ("min", "max") and stem in SERIES:
+        which = "least" if bound == "min" else "greatest"
+        variable = SERIES[stem]._replace(long_name=f"{SERIES[stem].long_name}, {which} within the bin")
+    else:
+        variable = (SERIES | SCALARS).get(name) or _parameter_variable(name)
+    result: dict[str, Any] = {"units": variable.units, "long_name": variable.long_name}
+    if variable.flags:
+        result |= {
+            "flag_values": np.arange(len(variable.flags), dtype=np.int8),
+            "flag_meanings": " ".join(variable.flags),
+        }
+    return result
+
+
+def flag_names(variable: Any) -> np.ndarray:
+    """Values of a flag variable (a DataArray) as words, array of str of the same shape."""
+    names: np.ndarray = np.array(variable.attrs["flag_meanings"].split())[variable.values]
+    return names
+
+
+def _parameter_variable(name: str) -> Variable:
+    field = Parameters.model_fields[name]
+    unit = Parameters.unit(name) or "1"
+    return Variable(_CF_UNITS.get(unit, unit), field.description or name, CHOICES.get(name, ()))

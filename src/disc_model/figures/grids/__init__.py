@@ -1,0 +1,1 @@
+"""Figures of grid studies, a module a kind."""

@@ -1,0 +1,265 @@
+"""The paper's figures: what each shows and needs. Imports nothing heavy: studies are checked against it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from disc_model.figures import STYLE
+from disc_model.parameters import Parameters
+from disc_model.simulation.record import Poincare, Window
+
+__all__ = ["CATALOGUE", "STYLE", "Entry", "caption", "module_of"]
+
+Windows = Mapping[str, Mapping[str, Window | Poincare | None]]
+
+
+class Entry(NamedTuple):
+    """A figure.
+
+    Attributes
+    ----------
+    section : of the paper
+    title : a few words for lists
+    caption : what it shows; `caption` fills in numbers and adds the parameters
+    needs : the windows it needs, by case; the Poincare section goes by the name ``poincare``
+    module : in `disc_model.figures`; by default the figure's own name
+    options : keyword arguments of its function ``draw``
+    """
+
+    section: str
+    title: str
+    caption: str
+    needs: Mapping[str, tuple[str, ...]]
+    module: str = ""
+    options: Mapping[str, Any] = {}
+
+    @property
+    def cases(self) -> tuple[str, ...]:
+        return tuple(self.needs)
+
+
+SECTIONS = {
+    "4.1": "4.1 Separation during vibration",
+    "4.2": "4.2 The critical speed",
+    "4.3": "4.3 Influence of parameters",
+    "4.4": "4.4 Frequencies that change with time",
+    "A": "Appendix",
+}
+
+
+def _section(section: str, case: str, title: str, what: str) -> Entry:
+    text = (
+        "Poincare sections, one point each drive period 2π/Ω: (a) in-plane motion of the slider relative to the drive "
+        f"point, (b) disc at r_0 and {{theta}}. {what}"
+    )
+    return Entry(section, f"Poincare sections, {title}", text, {case: ()}, "sections")
+
+
+BEFORE = "Blue crosses: in contact before the first separation; green dots: in contact after it; red triangles: apart."
+HALVES = "Blue crosses: first half of the run; green dots: second half."
+IGNORED = f"Separation ignored. {HALVES}"
+STAGES = f"Stages: {BEFORE}"
+QUIET = f"No separation occurs. {HALVES}"
+
+CATALOGUE: Mapping[str, Entry] = {
+    "fig02": Entry(
+        "4.1",
+        "Contact force",
+        "Contact force: (a) its range over the whole run, (b) {zoom} of it, separations shaded.",
+        {"F02": ("history", "zoom")},
+    ),
+    "fig03": Entry(
+        "4.1",
+        "One separation",
+        "Disc and slider during one separation and reattachment: (a) displacements from static equilibrium, (b) the "
+        "gap between them.",
+        {"F02": ("zoom",)},
+    ),
+    "fig04": _section("4.1", "F04", "separation ignored", IGNORED),
+    "fig05": _section("4.1", "F02", "with separation", STAGES),
+    "fig06": _section("4.1", "F06", "separation ignored, larger preload", IGNORED),
+    "fig07": _section("4.1", "F07", "with separation, larger preload", STAGES),
+    "fig08": _section("4.1", "F08", "separation ignored, higher speed", IGNORED),
+    "fig09": _section("4.1", "F09", "with separation, higher speed", STAGES),
+    "fig10": Entry(
+        "4.1",
+        "Disc, with separation and without",
+        "Range of the disc's displacement at r_0 and {theta}, with separation ignored and with separation.",
+        {"F02": ("history",), "F04": ("history",)},
+    ),
+    "fig11": Entry(
+        "4.2",
+        "Histories below the critical speed",
+        "(a) Contact force, (b) disc at r_0 and {theta}, as ranges.",
+        {"F11": ("history",)},
+    ),
+    "fig12": _section("4.2", "F11", "below the critical speed", QUIET),
+    "fig13": Entry(
+        "4.2",
+        "Histories above the critical speed",
+        "(a) Contact force, (b) disc at r_0 and {theta}, as ranges.",
+        {"F13": ("history",)},
+    ),
+    "fig14": _section("4.2", "F13", "above the critical speed", STAGES),
+    "fig16": _section("4.3", "F16", "small preload", QUIET),
+    "fig17": _section("4.3", "F17", "intermediate preload", STAGES),
+    "fig18": _section("4.3", "F18", "undamped disc", STAGES),
+    "fig19": _section("4.3", "F19", "in-plane damping", STAGES),
+    "fig20": _section("4.3", "F20", "damping normal to the disc", QUIET),
+    "fig21": _section("4.3", "F21", "soft disc", QUIET),
+    "fig22": _section("4.3", "F22", "soft in-plane spring", STAGES),
+    "fig23": Entry(
+        "4.3",
+        "Separations of a light slider",
+        "Disc and slider around separations of a light slider, displacements from static equilibrium; separations "
+        "shaded.",
+        {"F23": ("zoom",)},
+    ),
+    "fig24": Entry(
+        "4.4",
+        "Disc's vibration above the critical speed",
+        "Range of the disc's displacement at r_0 and {theta}; the stretches of Fig. 25 are marked.",
+        {"F13": ("history", "spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
+    ),
+    "fig25": Entry(
+        "4.4",
+        "Disc's spectrum in time above the critical speed",
+        "Time-frequency spectrum of the disc's displacement at r_0 and {theta} in four stretches of the run, relative "
+        "to the strongest line of all four. Ticks on the right of (a): the frequencies of Table 2; its first "
+        "half second, half a window, is left out. Dashed: first separation.",
+        {"F13": ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
+    ),
+    "fig26": Entry(
+        "4.4",
+        "Slider's motion above the critical speed",
+        "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
+        "the first separation, (b) its time-frequency spectrum. Dashed: first separation.",
+        {"F13": ("history", "spectrum_c", "spectrum_d")},
+        "response",
+        {
+            "case": "F13",
+            "variable": "psi",
+            "spectrum": "spectrum_c",
+            "zooms": [["spectrum_c", 52.0], ["spectrum_d", 105.0]],
+        },
+    ),
+    "fig27": Entry(
+        "4.4",
+        "Disc's vibration, smaller preload",
+        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum. Dashed: first "
+        "separation.",
+        {"F07": ("history", "spectrum_d")},
+        "response",
+        {"case": "F07", "variable": "w_point", "spectrum": "spectrum_d"},
+    ),
+    "fig28": Entry(
+        "4.4",
+        "Slider's motion, smaller preload",
+        "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
+        "the first separation, (b) its time-frequency spectrum. Dashed: first separation.",
+        {"F07": ("history", "spectrum_d")},
+        "response",
+        {
+            "case": "F07",
+            "variable": "psi",
+            "spectrum": "spectrum_d",
+            "zooms": [["spectrum_d", 143.1], ["spectrum_d", 152.0]],
+        },
+    ),
+    "fig29": Entry(
+        "4.4",
+        "Disc's vibration, soft disc",
+        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum. Dotted: the disc's "
+        "highest natural frequency.",
+        {"F21": ("history", "spectrum_d")},
+        "response",
+        {"case": "F21", "variable": "w_point", "spectrum": "spectrum_d", "highest": True},
+    ),
+    "figA1": Entry(
+        "A",
+        "Phase portrait, separation ignored",
+        "Phase portrait of the slider relative to the drive point, {orbit}, separation ignored.",
+        {"F04": ("orbit",)},
+        "portrait",
+    ),
+    "figA2": Entry(
+        "A",
+        "Phase portrait, with separation",
+        "Phase portrait of the slider relative to the drive point, {orbit}, by phase.",
+        {"F02": ("orbit",)},
+        "portrait",
+    ),
+}
+
+
+def module_of(name: str) -> str:
+    """Module that draws a figure: ``draw(cases, **options)`` takes trees of `disc_model.data.dataset.load` by case."""
+    return f"disc_model.figures.paper.{CATALOGUE[name].module or name}"
+
+
+def number_of(name: str) -> str:
+    """What the paper calls a figure, such as "Fig. 5" or "Fig. A1"."""
+    return f"Fig. {name.removeprefix('fig').lstrip('0')}"
+
+
+def label(name: str) -> str:
+    """Number and title, for lists that are sorted as text: one digit after two spaces comes before two digits."""
+    number = number_of(name)
+    spaced = number.replace(" ", "  ") if len(number) == len("Fig. 1") else number
+    return f"{spaced}: {CATALOGUE[name].title}"
+
+
+def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | None = None) -> str:
+    """A figure's caption with the parameters of its cases.
+
+    Parameters
+    ----------
+    parameters : by case, at least those that the figure shows
+    windows : by case and name, the Poincare section as ``poincare``; if not given, times and angles are not named
+    """
+    entry = CATALOGUE[name]
+    text = entry.caption.format(**_numbers(entry, windows or {}))
+    said: list[str] = []
+    for case in entry.cases:
+        values = said_parameters(parameters[case])
+        if values not in said:
+            said.append(values)
+    modes = {parameters[case].normalization for case in entry.cases}
+    named = " and ".join(_MODES[mode] for mode in sorted(modes))
+    return f"{text} {'; '.join(said)}; everything else as in Table 1; {named}."
+
+
+def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
+    """What captions say of times and angles, from the windows that the figure shows."""
+    needed = [(case, name) for case, names in entry.needs.items() for name in names or ("poincare",)]
+    shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]
+    angles = " and ".join(f"{theta:g}" for theta in sorted({window.theta for _, window in shown}))
+    said = {"theta": f"θ = {angles}" if angles else "a fixed θ", "zoom": "a stretch", "orbit": "a stretch of the run"}
+    for name, window in shown:
+        if name == "zoom":
+            said[name] = f"{1e3 * (window.stop - window.start):.3g} ms"
+        if name == "orbit":
+            said[name] = f"{window.start:g} to {window.stop:g} s"
+    return said
+
+
+_MODES = {
+    "as_published": "modes scaled as in the published results",
+    "orthonormal": "modes normalised as Eq. (17) says",
+}
+_SYMBOLS = {"Omega": "Ω", "D_star": "D*", "k_p": "k_p", "c_p": "c_p"}
+
+
+def said_parameters(p: Parameters) -> str:
+    """N, Omega and whatever differs from Table 1, with units."""
+    skipped = ("normalization", "contact")
+    changed = [
+        name
+        for name, field in Parameters.model_fields.items()
+        if name in ("N", "Omega") or (name not in skipped and getattr(p, name) != field.default)
+    ]
+    units = {name: Parameters.unit(name) for name in changed}
+    return ", ".join(
+        f"{_SYMBOLS.get(n, n)} = {getattr(p, n):g}" + (f" {units[n]}" if units[n] != "1" else "") for n in changed
+    )

@@ -1,0 +1,39 @@
+"""Phase portrait of the slider's motion relative to the drive point; figures A1 and A2 of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model.figures.paper.sections import MARKS
+from disc_model.figures.style import COLUMN, new_figure, styled
+from disc_model.simulation.result import PHASES
+
+NAMES = {"stick": "early", "slip": "later", "separation": "separated"}
+"""Colour by phase, those of the Poincare sections."""
+
+
+@styled
+def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """psi' over psi in the window `orbit`, coloured by phase."""
+    (case,) = cases.values()
+    window = case["orbit"].to_dataset()
+    psi, velocity, phase = (window[name].values for name in ("psi", "psi_velocity", "phase"))
+    figure = new_figure(COLUMN, 2.7)
+    ax = figure.subplots()
+    for i, name in enumerate(PHASES):
+        inside = phase == i
+        if not inside.any():
+            continue
+        # a line broken where the phase changes, so that no chord is drawn across others
+        shown = np.where(inside, velocity, np.nan)
+        colour = str(MARKS[NAMES[name]]["color"])
+        ax.plot(psi, shown, color=colour, linewidth=0.5, rasterized=True)
+        ax.plot([], [], color=colour, linewidth=1.5, label=name)
+    ax.margins(0.04)
+    ax.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, ncols=3)
+    return figure

@@ -1,0 +1,105 @@
+"""One variable of one case: its range over the run, and its spectrum in time in one stretch.
+
+Figures 26 to 29 of the paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
+
+from disc_model.analysis.spectra import TimeFrequency, time_frequency
+from disc_model.figures import parts
+from disc_model.figures.paper.spectrograms import colour_bar, mark_time, spectrogram, stretch
+from disc_model.figures.style import BLUE, GREEN, PAGE, SKY, new_figure, styled
+
+SCALES = {"psi": 1.0, "w_point": 1e3}
+"""From SI to what the axes show."""
+COLOURS = {"psi": BLUE, "w_point": GREEN}
+HIGHEST = 1000.0
+"""Highest frequency shown, Hz."""
+ZOOM = 0.2
+"""Length of a closer look, s."""
+
+
+@styled
+def draw(
+    cases: Mapping[str, xr.DataTree],
+    *,
+    case: str,
+    variable: str,
+    spectrum: str,
+    zooms: Sequence[tuple[str, float]] = (),
+    highest: bool = False,
+) -> Figure:
+    """(a) range over the run, with closer looks beside it if asked for, (b) spectrum in the window `spectrum`.
+
+    Parameters
+    ----------
+    zooms : windows and times in s at which a closer look begins
+    highest : mark the disc's highest natural frequency
+    """
+    tree = cases[case]
+    figure = new_figure(PAGE, 2.7)
+    layout = [["whole"] * max(len(zooms), 1)] + ([[f"zoom{i}" for i in range(len(zooms))]] if zooms else [])
+    left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
+    panels = left.subplot_mosaic(layout)
+    window = tree[spectrum].to_dataset()
+    found = time_frequency(window["time"].values, window[variable].values * SCALES[variable])
+    _whole(panels["whole"], tree, variable, stretch(found))
+    for i, (name, start) in enumerate(zooms):
+        _closer(panels[f"zoom{i}"], tree[name].to_dataset(), variable, start, first=i == 0)
+    _spectrum(right, tree, found, highest)
+    return figure
+
+
+def _whole(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, float]) -> None:
+    history = tree["history"].to_dataset()
+    ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
+    parts.envelope(ax, history, variable, scale=SCALES[variable], color=COLOURS[variable])
+    parts.mark_first_separation(ax, float(tree["first_separation"]))
+    ax.set(xlabel="Time (s)", ylabel=_label(variable, history))
+    parts.letter(ax, "a")
+
+
+def _label(variable: str, window: xr.Dataset) -> str:
+    return parts.disc_label(window) if variable == "w_point" else "ψ (rad)"
+
+
+def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first: bool) -> None:
+    part = window.sel(time=slice(start, start + ZOOM))
+    ax.plot(
+        (part["time"].values - start) * 1e3,
+        part[variable].values * SCALES[variable],
+        color=COLOURS[variable],
+        linewidth=0.6,
+    )
+    ax.set_xlabel(f"Time after {start:g} s (ms)")
+    ax.set_xlim(0, ZOOM * 1e3)
+    if first:
+        ax.set_ylabel(_label(variable, window))
+    else:
+        ax.set_label("shares the axis to its left")
+
+
+def _spectrum(figure: SubFigure, tree: xr.DataTree, found: TimeFrequency, highest: bool) -> None:
+    ax = figure.subplots()
+    mesh = spectrogram(ax, found, float(found.power.max()), HIGHEST)
+    mark_time(ax, float(tree["first_separation"]))
+    if highest:
+        ax.axhline(_highest_natural(tree), color="white", linewidth=0.9, linestyle=(0, (1, 2)))
+    ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
+    parts.letter(ax, "b")
+    colour_bar(figure, mesh, ax)
+
+
+def _highest_natural(tree: xr.DataTree) -> float:
+    from disc_model.parameters import Parameters
+    from disc_model.plate import plate_modes
+
+    p = Parameters.model_validate_json(tree.attrs["parameters"])
+    return float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)

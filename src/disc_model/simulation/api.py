@@ -1,0 +1,312 @@
+"""`simulate`: the engine behind one function."""
+
+from __future__ import annotations
+
+import logging
+import math
+import os
+import time as clock
+import warnings
+from collections.abc import Callable
+
+import numpy as np
+
+from disc_model.engine import audit, layout, machine
+from disc_model.errors import ParameterError
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
+from disc_model.simulation.bridge import read_state, write_state
+from disc_model.simulation.checkpoint import Checkpoint, Contents, faults, identity
+from disc_model.simulation.collector import Collector
+from disc_model.simulation.record import Record
+from disc_model.simulation.result import PHASES, Result, State, Status
+from disc_model.simulation.tolerance import series_order, series_tolerance
+
+log = logging.getLogger(__name__)
+
+TOLERANCES = (1e-15, 1e-2)
+AUDIT_EVERY = 64
+STEPS_PER_PAUSE = 100_000
+"""Steps between two pauses of the engine, about 0.1 s of work, where a step costs least."""
+
+_STATUS = {
+    machine.FINISHED: Status.OK,
+    machine.STOPPED: Status.STOPPED,
+    machine.STEP_LIMIT: Status.STEP_LIMIT,
+    machine.NO_SOLUTION: Status.PARADOX,
+    machine.STALLED: Status.STALLED,
+    machine.NON_FINITE: Status.NON_FINITE,
+}
+
+
+def simulate(
+    p: Parameters,
+    t_end: float,
+    *,
+    tol: float = 1e-10,
+    initial_state: State | None = None,
+    record: Record | None = None,
+    stop_at: str | None = None,
+    max_steps: int | None = None,
+    progress: Callable[[float], object] | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    checkpoint_every: float = 5.0,
+) -> Result:
+    """Simulate from the static equilibrium (or ``initial_state``) to the absolute time ``t_end``.
+
+    Parameters
+    ----------
+    p : the case
+    t_end : s, greater than the initial state's time
+    tol : relative truncation error of a step, 1e-15 to 1e-2; event times over a second of motion are about as good
+    initial_state : where to start; None is the published start (static equilibrium, stick, spring relaxed)
+    record : what to keep; None keeps events and statistics
+    stop_at : None, or "first_separation" to end at the first loss of contact
+    max_steps : bound on the number of steps; None bounds it generously by the highest frequency
+    progress : called now and then with the time reached
+    checkpoint : file by which the same call, made again after an interruption, goes on where this one was; its result
+        is the same to the last bit (but for ``wall_time``). Removed at the end. Not for two runs at the same time
+    checkpoint_every : s of wall time between checkpoints
+
+    Returns
+    -------
+    Result
+        Also if the run could not go on: its ``status`` and ``message`` then say at what time, in what phase and why.
+
+    Raises
+    ------
+    ParameterError
+        Bad input; the message names the argument, its value and the rule.
+    """
+    record = Record() if record is None else record
+    start = 0.0 if initial_state is None else initial_state.time
+    _check_arguments(p, t_end, tol, start, record, stop_at, max_steps, (checkpoint, checkpoint_every))
+    run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps)
+    _warn_of_empty(record, start, t_end)
+    kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
+    if kept is not None and (contents := kept.load()) is not None:
+        run.restore(contents)
+        log.info("goes on at t = %.9g s from checkpoint %s", run.time, kept.path)
+    code = machine.PAUSED
+    while code == machine.PAUSED:
+        code = run.advance()
+        if kept is not None and code == machine.PAUSED and kept.due:
+            kept.save(run.contents())
+        if progress is not None:
+            progress(run.time)
+    result = run.result(_STATUS[code])
+    if kept is not None:
+        kept.remove()
+    return result
+
+
+class _Run:
+    """One run: the engine's arrays, and the buffers that collect what is kept."""
+
+    def __init__(
+        self,
+        p: Parameters,
+        t_end: float,
+        tol: float,
+        initial_state: State | None,
+        record: Record,
+        stop_at: str | None,
+        max_steps: int | None,
+    ) -> None:
+        self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
+        self.model = model = build_model(p)
+        self.order = series_order(tol)
+        self.series = layout.build_series(model, self.order)
+        self.state, self.probe = layout.build_state(model), layout.build_state(model)
+        if initial_state is not None:
+            write_state(p, model, initial_state, self.state)
+        start = float(self.state.x[layout.TIME])
+        self.collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_COAST * model.unit)
+        self.counters, self.phase_times = np.zeros(machine.N_COUNTERS, np.int64), np.zeros(3)
+        self.sums, self.wall_time = np.zeros(audit.N_SUMS), np.zeros(1)
+        self.max_steps = _step_limit(model, t_end - start) if max_steps is None else max_steps
+        self.pause_after = _pause_after(model, record.energy)
+        if not _compiled_for(model):
+            self._call(max_steps=0)  # compiles, so that the wall time is the simulation's own
+
+    @property
+    def time(self) -> float:
+        """The time reached, s."""
+        return float(self.state.x[layout.TIME])
+
+    @property
+    def identity(self) -> dict[str, str]:
+        """What a checkpoint has to share to be this run's; asked for before the first step."""
+        return identity(self.p, self.t_end, self.tol, self.record, self.stop_at, self.max_steps, self.state)
+
+    def advance(self) -> int:
+        """Compute until the engine pauses or ends, and take over what it gave.  Returns the reason it stopped."""
+        began = clock.perf_counter()
+        code = self._call(self.max_steps)
+        self.collector.drain(self.counters)
+        self.wall_time += clock.perf_counter() - began
+        return code
+
+    def _call(self, max_steps: int) -> int:
+        keep = self.collector
+        code: int = machine.run(
+            self.model, self.series, self.state, self.probe, self.order, series_tolerance(self.tol), self.t_end,
+            self.stop_at is not None, max_steps, self.pause_after, 1 if self.record.energy else AUDIT_EVERY,
+            self.counters, self.phase_times, self.sums,
+            keep.samplers, keep.sampled, keep.capacity, keep.rows, keep.event_rows,
+        )  # fmt: skip
+        return code
+
+    def _changing(self) -> dict[str, np.ndarray]:
+        """The arrays through which one call of the engine acts on the next."""
+        state = {f"state_{name}": array for name, array in self.state._asdict().items()}
+        own = {name: getattr(self, name) for name in ("counters", "phase_times", "sums", "wall_time")}
+        return state | own
+
+    def contents(self) -> Contents:
+        """All that the rest of the run depends on and all that was kept so far, for `restore`."""
+        return Contents(self._changing() | self.collector.position(), self.collector.kept())
+
+    def restore(self, contents: Contents) -> None:
+        """Go on from where `contents` was called."""
+        for name, array in self._changing().items():
+            array[:] = contents.state[name]
+        self.collector.restore(*contents)
+
+    def result(self, status: Status) -> Result:
+        """What there is to return."""
+        samples, poincare = self.collector.finish()
+        return Result(
+            parameters=self.p,
+            t_end=self.t_end,
+            tol=self.tol,
+            record=self.record,
+            status=status,
+            message=_message(status, self.state, self.model),
+            event_rows=self.collector.events(),
+            first_separation=self.collector.first_separation,
+            final_state=read_state(self.p, self.model, self.state),
+            u_0=self.model.u_0,
+            statistics=_statistics(
+                self.counters, self.phase_times, self.sums, self.record.energy, float(self.wall_time[0])
+            ),
+            samples=samples,
+            poincare=poincare,
+        )
+
+
+def _compiled_for(model: layout.Model, _seen: set[int] = set()) -> bool:  # noqa: B006 - the set is the memory
+    """Whether the engine was used before for a model of this type (one block of lanes, or more)."""
+    kind = len(model.more_blocks)
+    known = kind in _seen
+    _seen.add(kind)
+    return known
+
+
+def build_model(p: Parameters) -> layout.Model:
+    """The engine's constants of a case."""
+    modes = mode_arrays(p)
+    return layout.build_model(
+        modes.diameters,
+        modes.omega,
+        modes.psi,
+        p.D_star / p.D * modes.omega**2,
+        N=p.N,
+        Omega=p.Omega,
+        k=p.k,
+        c=p.c,
+        m=p.m,
+        k_p=p.k_p,
+        c_p=p.c_p,
+        mu_s=p.mu_s,
+        mu_k=p.mu_k,
+        r_0=p.r_0,
+        bonded=p.contact == "bonded",
+    )
+
+
+def _check_arguments(
+    p: object,
+    t_end: float,
+    tol: float,
+    start: float,
+    record: object,
+    stop_at: str | None,
+    max_steps: int | None,
+    checkpoint: tuple[object, object],
+) -> None:
+    """Raise one ParameterError that lists every fault."""
+    found = []
+    if not isinstance(p, Parameters):
+        found.append(f"p={p!r}: must be Parameters")
+    if not isinstance(record, Record):
+        found.append(f"record={record!r}: must be a Record")
+    if not _is_number(t_end) or not math.isfinite(t_end) or t_end <= start:
+        found.append(f"t_end={t_end!r}: must be finite and > {start:g} (the time of the initial state)")
+    if not _is_number(tol) or not TOLERANCES[0] <= tol <= TOLERANCES[1]:
+        found.append(f"tol={tol!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}")
+    if stop_at not in (None, "first_separation"):
+        found.append(f"stop_at={stop_at!r}: must be None or 'first_separation'")
+    if max_steps is not None and (not isinstance(max_steps, int) or max_steps < 1):
+        found.append(f"max_steps={max_steps!r}: must be a whole number >= 1")
+    found += faults(*checkpoint)
+    if found:
+        raise ParameterError(*found)
+
+
+def _warn_of_empty(record: Record, start: float, t_end: float) -> None:
+    """Warn of windows that the run does not enter: no error, since runs made in pieces may share a record."""
+    for i, window in enumerate(record.windows):
+        if window.start > t_end or window.stop < start:
+            asked, given = f"[{window.start:g}, {window.stop:g}] s", f"from {start:g} to {t_end:g} s"
+            warnings.warn(f"windows[{i}] = {asked}: stays empty, the run is {given}", stacklevel=3)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float | np.floating | np.integer) and not isinstance(value, bool)
+
+
+def _step_limit(model: layout.Model, duration: float) -> int:
+    """Twenty steps for each radian of the highest mode, far more than any of the published cases takes."""
+    return int(min(10_000 + 20 * duration / model.unit, 2**62))
+
+
+def _pause_after(model: layout.Model, energy: bool) -> int:
+    """Steps between pauses, fewer where they cost more: checkpoints, progress and Ctrl-C have their turn then."""
+    cost = (1 + model.more_blocks[0]) * (6 if energy else 1)
+    return max(1, STEPS_PER_PAUSE // cost)
+
+
+def _message(status: Status, state: layout.State, model: layout.Model) -> str:
+    time, phase = state.x[layout.TIME], PHASES[int(state.x[layout.PHASE])]
+    text = f"{status}: at t = {time:.9g} s in {phase}"
+    if status is Status.PARADOX:
+        slope = float(np.dot(model.slope, state.z))
+        text += f", psi = {state.x[layout.PSI]:.6g} rad, f = {state.x[layout.SPEED]:.6g} rad/s, slope B = {slope:.6g}"
+    return text
+
+
+def _statistics(
+    counters: np.ndarray, phase_times: np.ndarray, sums: np.ndarray, energy: bool, wall: float
+) -> dict[str, float]:
+    def relative(residual: int, scale: int, turnover: int) -> float:
+        """Sum of the residuals over the largest energy present plus all energy exchanged."""
+        size = float(sums[scale] + sums[turnover])
+        if not energy:
+            return math.nan
+        return abs(float(sums[residual])) / size if size > 0 else 0.0
+
+    return {
+        "steps": int(counters[machine.STEPS]),
+        "rejected": 0,  # a Taylor step is sized after its series is known: none is ever rejected
+        "events": int(counters[machine.EVENTS]),
+        "separations": int(counters[machine.SEPARATIONS]),
+        "time_stick": float(phase_times[layout.STICK]),
+        "time_slip": float(phase_times[layout.SLIP]),
+        "time_separation": float(phase_times[layout.SEPARATION]),
+        "energy_residual": float(sums[audit.WORST]) if sums[audit.STEPS] else math.nan,
+        "energy_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
+        "energy_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
+        "audited_steps": int(sums[audit.STEPS]),
+        "wall_time": wall,
+    }

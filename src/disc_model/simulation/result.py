@@ -1,0 +1,164 @@
+"""What a simulation returns."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model import errors
+from disc_model.parameters import Parameters
+from disc_model.simulation.record import Record
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+PHASES = ("stick", "slip", "separation")
+EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
+EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
+"""Columns of `Result.event_rows`, as the engine writes them; kind and phase by their places in the tuples above."""
+
+
+class Status(enum.StrEnum):
+    """How a simulation ended; `advice` says what to do."""
+
+    OK = "ok"
+    STOPPED = "stopped"
+    STEP_LIMIT = "step_limit"
+    PARADOX = "paradox"
+    STALLED = "stalled"
+    NON_FINITE = "non_finite"
+
+    @property
+    def advice(self) -> str:
+        """What the outcome means and what to change, in a sentence."""
+        return _ADVICE[self]
+
+    @property
+    def complete(self) -> bool:
+        """Whether the simulation did what was asked."""
+        return self in (Status.OK, Status.STOPPED)
+
+
+_ADVICE = {
+    Status.OK: "The simulation reached t_end.",
+    Status.STOPPED: "The simulation stopped where stop_at asked it to.",
+    Status.STEP_LIMIT: "The allowed number of steps was used up: raise max_steps, or shorten t_end.",
+    Status.PARADOX: (
+        "Painleve's paradox: rigid Coulomb friction on this slope has no solution, or two; lower mu_k or N."
+    ),
+    Status.STALLED: "Switches follow each other without the clock moving: tighten tol, or perturb the initial state.",
+    Status.NON_FINITE: "The state overflowed: check the parameters' magnitudes; tighten tol if they are as meant.",
+}
+
+_ERRORS: dict[Status, type[errors.SimulationError]] = {
+    Status.STEP_LIMIT: errors.StepLimit,
+    Status.PARADOX: errors.PainleveParadox,
+    Status.STALLED: errors.Stalled,
+    Status.NON_FINITE: errors.NonFinite,
+}
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Where the system is, in the slider's frame.
+
+    Attributes
+    ----------
+    time : s
+    phase : "stick", "slip" or "separation"
+    direction : sgn(f) in slip, 0 otherwise
+    psi : rad, drive point's angle ahead of the slider
+    f : rad/s, the slider's angular speed over the disc
+    u, u_velocity : m, m/s, the slider's height and velocity (those of the disc's point in contact)
+    a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
+        along and across the slider's direction; b = beta = 0 for modes without nodal diameter
+    known : multiplicity of the root that the phase's switch function has at this very instant (0 away from a switch)
+    """
+
+    time: float
+    phase: str
+    direction: int
+    psi: float
+    f: float
+    u: float
+    u_velocity: float
+    a: Array
+    b: Array
+    alpha: Array
+    beta: Array
+    time_low: float = 0.0
+    known: int = 0
+
+    def replace(self, **changes: Any) -> State:
+        """A copy with some values changed."""
+        import dataclasses
+
+        return dataclasses.replace(self, **changes)
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A finished simulation, or as much of it as could be computed; see `status`.
+
+    Attributes
+    ----------
+    parameters, t_end (s), tol, record : what was asked
+    status, message : how it ended; the message says at what time, in what phase and why
+    event_rows : shape (n_events, len(EVENT_ROW)), what `events` is made of
+    events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
+        just after the event; made when it is first asked for
+    first_separation : s, nan if contact was never lost
+    final_state : `State` at the end
+    u_0 : m, static height of the slider
+    samples : one dict of arrays per window
+    poincare : dict of arrays, None if not asked for
+    statistics : steps, rejected, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
+        energy_transverse, energy_inplane, audited_steps, wall_time (s)
+    """
+
+    parameters: Parameters
+    t_end: float
+    tol: float
+    record: Record
+    status: Status
+    message: str
+    event_rows: Array = field(repr=False)
+    first_separation: float
+    final_state: State
+    u_0: float
+    statistics: Mapping[str, float]
+    samples: tuple[dict[str, Array], ...] = ()
+    poincare: dict[str, Array] | None = field(default=None)
+
+    @cached_property
+    def events(self) -> pd.DataFrame:
+        """The switches as a table: to make one takes longer than a short simulation."""
+        import pandas as pd
+
+        def words(name: str, meanings: tuple[str, ...]) -> pd.Categorical[str]:
+            return pd.Categorical.from_codes(columns[name].astype(np.int64), categories=pd.Index(list(meanings)))
+
+        columns = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
+        named = {"time": columns["time"], "kind": words("kind", EVENT_KINDS), "phase": words("phase", PHASES)}
+        return pd.DataFrame(named | {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")})
+
+    def to_dataset(self) -> xr.Dataset:
+        """All of it as one dataset with CF attributes; see `disc_model.data.dataset`."""
+        from disc_model.data.dataset import result_to_dataset
+
+        return result_to_dataset(self)
+
+    def raise_for_status(self) -> Result:
+        """Return self, or raise the `SimulationError` of an incomplete run."""
+        if not self.status.complete:
+            raise _ERRORS[self.status](f"{self.message}. {self.status.advice}")
+        return self

@@ -1,0 +1,313 @@
+"""`floquet`: the stick-slip cycle as a periodic orbit, and its stability.
+
+In the slider's frame the model is autonomous, so that the cycle is a fixed point of the return map of the section
+"stick is about to be released" (`disc_model.stability.return_map`) and its multipliers are the eigenvalues of that
+map's Jacobian.  Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, which stick forgets.
+"""
+
+from __future__ import annotations
+
+import enum
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.errors import DiscModelError, ParameterError
+from disc_model.parameters import Parameters
+from disc_model.simulation.result import State
+from disc_model.stability.return_map import OUTCOMES, RETURNED, Flight, ReturnMap, Solution, newton
+from disc_model.stability.sliding import SteadySliding, steady_sliding
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+TOLERANCES = (1e-14, 1e-6)
+RETURNS_TRIED = (1, 2, 3)
+"""Cycles with up to so many releases a period are looked for."""
+TRANSIENT = 60
+"""Returns simulated from the published start before Newton's method is tried again."""
+
+
+class CycleStatus(enum.StrEnum):
+    """What was found; `advice` says what it means and what to do."""
+
+    OK = "ok"
+    NO_CYCLE = "no_cycle"
+    SEPARATES = "separates"
+    NO_STICK_SLIP = "no_stick_slip"
+    AT_REST = "at_rest"
+    PARADOX = "paradox"
+    NON_FINITE = "non_finite"
+
+    @property
+    def advice(self) -> str:
+        """What the outcome means and what to do, in a sentence."""
+        return _ADVICE[self]
+
+
+_ADVICE = {
+    CycleStatus.OK: "A periodic stick-slip cycle was found; its growth rate says whether it is stable.",
+    CycleStatus.NO_CYCLE: (
+        "The slider sticks and slips, but no cycle of up to three releases exists near the published start, as "
+        "beyond a fold; follow the cycle from other parameters with disc_model.stability.continuation."
+    ),
+    CycleStatus.SEPARATES: "Near the published start no cycle keeps contact, and contact is soon lost: simulate.",
+    CycleStatus.NO_STICK_SLIP: "The slider does not stick again: look at disc_model.stability.sliding.",
+    CycleStatus.AT_REST: "Nothing ever slips: raise Omega, k_p or lower the friction.",
+    CycleStatus.PARADOX: "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N.",
+    CycleStatus.NON_FINITE: "The motion overflowed: check the parameters' magnitudes.",
+}
+
+KINDS = ("fold", "period_doubling", "neimark_sacker")
+
+
+class CycleError(DiscModelError):
+    """There is no cycle to speak of; the message says what was found instead."""
+
+
+@dataclass(frozen=True, eq=False)
+class FloquetResult:
+    """The stick-slip cycle of a case.
+
+    Attributes
+    ----------
+    parameters, tol : what was asked
+    status, message : what was found; without a cycle numbers are nan, arrays empty and `state` None
+    period : s
+    multipliers : complex, shape (n,), largest modulus first; n = 4 per pair of modes + 2 per axisymmetric mode
+    exponents : 1/s, complex, log(multipliers) / period
+    growth_rate : 1/s, largest real part of the exponents
+    stick_fraction : share of the period in stick
+    state : on the section, at the end of stick
+    kind : which bifurcation the leading multiplier brings when it crosses the unit circle: "fold" (real, positive),
+        "period_doubling" (real, negative) or "neimark_sacker" (complex); "" without a cycle
+    releases, backward_releases, reversals, separations, sticks : counts over a period
+    residual : of the return map, relative to the norm of the static deflection
+    sliding : steady sliding of the same case
+    """
+
+    parameters: Parameters
+    tol: float
+    status: CycleStatus
+    message: str
+    period: float
+    multipliers: ComplexArray
+    exponents: ComplexArray
+    growth_rate: float
+    stick_fraction: float
+    state: State | None
+    kind: str
+    releases: int
+    backward_releases: int
+    reversals: int
+    separations: int
+    sticks: int
+    residual: float
+    sliding: SteadySliding
+
+    @property
+    def stable(self) -> bool:
+        """Whether the cycle exists and small disturbances of it die out."""
+        return self.growth_rate < 0
+
+    @property
+    def attractors(self) -> tuple[str, ...]:
+        """Which of "stick_slip" and "steady_sliding" exist and are stable."""
+        found = (("stick_slip", self.stable), ("steady_sliding", self.sliding.stable))
+        return tuple(name for name, stable in found if stable)
+
+    def raise_for_status(self) -> FloquetResult:
+        """Return self, or raise `CycleError` if no cycle was found."""
+        if self.status is not CycleStatus.OK:
+            raise CycleError(f"{self.message}. {self.status.advice}")
+        return self
+
+
+def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, releases: int = 1) -> FloquetResult:
+    """Find the stick-slip cycle near the published start, or near a given state, and its multipliers.
+
+    Parameters
+    ----------
+    p : the case
+    tol : relative, of the series and of the return map's residual; 1e-14 to 1e-6
+    near : look for a cycle near the next release after this state, such as a simulation's last one; that cycle may lose
+        contact
+    releases : of stick in a period of the cycle near that state
+
+    Returns
+    -------
+    FloquetResult
+        Also if there is no cycle: its `status` and `message` then say what was found instead.
+
+    Raises
+    ------
+    ParameterError
+        Bad input; the message names the argument, its value and the rule.
+    """
+    faults = []
+    given: object = p
+    if not isinstance(given, Parameters):
+        faults.append(f"p={p!r}: must be Parameters")
+    if not TOLERANCES[0] <= tol <= TOLERANCES[1]:
+        faults.append(f"tol={tol!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}")
+    if releases < 1 or (near is None and releases != 1):
+        faults.append(f"releases={releases!r}: must be >= 1, and 1 without a state to look near")
+    if faults:
+        raise ParameterError(*faults)
+    cycle = find_cycle(p, tol) if near is None else find_cycle_near(p, near, releases, tol)
+    return _result(p, tol, cycle, steady_sliding(p))
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """What was found, without the trimmings of a `FloquetResult`."""
+
+    status: CycleStatus
+    message: str
+    map: ReturnMap | None = None
+    solution: Solution | None = None
+
+
+def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) -> Cycle:
+    """The cycle Newton's method finds from `start` (a point of the section), the static equilibrium by default.
+
+    Where it finds none from the equilibrium, the motion from there is simulated for some returns, and cycles of up to
+    three releases are looked for from where it has come to.  Beyond a fold there may be cycles far from the quiet
+    motion, in resonance and violently unstable; `disc_model.stability.continuation` finds them from the fold's other
+    side, and this function leaves them alone.
+    """
+    if p.Omega == 0 or p.N == 0 or p.mu_s == 0 or p.k_p == 0:
+        return _degenerate(p)
+    map_ = ReturnMap(p, tol)
+    solution = newton(map_, map_.static if start is None else start, tol=tol)
+    if solution.converged:
+        return _found(map_, solution)
+    if start is not None:
+        return Cycle(CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
+    return _second_try(map_, tol)
+
+
+def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-12) -> Cycle:
+    """A cycle near the next release after a state; it may lose contact."""
+    if p.Omega == 0 or p.N == 0 or p.mu_s == 0 or p.k_p == 0:
+        return _degenerate(p)
+    map_ = ReturnMap(p, tol)
+    outcome, x = map_.next_release(near)
+    if outcome == RETURNED:
+        solution = newton(map_, x, tol=tol, releases=releases, may_separate=True)
+        if solution.converged:
+            return _found(map_, solution)
+        return Cycle(CycleStatus.NO_CYCLE, f"no cycle of {releases} releases near the given state")
+    if OUTCOMES[outcome] == "time_over":
+        waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
+        return Cycle(CycleStatus.NO_STICK_SLIP, waited)
+    return Cycle(CycleStatus.NO_CYCLE, f"the motion from the given state does not return: {OUTCOMES[outcome]}")
+
+
+def _degenerate(p: Parameters) -> Cycle:
+    """Cases in which nothing can stick and slip."""
+    held = p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N
+    if p.Omega == 0 or held:
+        return Cycle(CycleStatus.AT_REST, "the slider stays where it is on the disc")
+    return Cycle(CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
+
+
+def _second_try(map_: ReturnMap, tol: float) -> Cycle:
+    """Look again from where a simulated transient has come to; else report what the motion does."""
+    x = map_.static
+    flight, end = map_.iterate(x, TRANSIENT)
+    if flight.outcome == RETURNED:
+        for releases in RETURNS_TRIED:
+            solution = newton(map_, end, tol=tol, releases=releases)
+            if solution.converged:
+                # a cycle run through several times counts once
+                once = newton(map_, solution.x, tol=tol) if releases > 1 else solution
+                same = once.converged and np.allclose(once.x, solution.x, rtol=0, atol=1e-7 * np.linalg.norm(once.x))
+                return _found(map_, once if same else solution)
+        found = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
+        return Cycle(CycleStatus.NO_CYCLE, found)
+    outcome = OUTCOMES[flight.outcome]
+    if outcome == "time_over":
+        return Cycle(CycleStatus.NO_STICK_SLIP, f"the slider slips on for {flight.period:.3g} s without sticking")
+    if outcome in ("lost_contact", "off_section"):
+        return Cycle(CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the published start")
+    if outcome == "non_finite":
+        return Cycle(CycleStatus.NON_FINITE, "the motion from the published start overflows")
+    if outcome == "stalled":
+        return Cycle(CycleStatus.NO_CYCLE, "switches follow each other without the clock moving")
+    return Cycle(CycleStatus.PARADOX, "the motion from the published start runs into Painleve's paradox")
+
+
+def _found(map_: ReturnMap, solution: Solution) -> Cycle:
+    flight = solution.flight
+    message = f"cycle of {flight.period:.9g} s with {_counted(flight)}"
+    return Cycle(CycleStatus.OK, message, map_, solution)
+
+
+def _counted(flight: Flight) -> str:
+    parts = [
+        f"{count} {name}{'s' if count > 1 else ''}"
+        for name, count in (
+            ("release", flight.releases),
+            ("backward release", flight.backward_releases),
+            ("slip reversal", flight.reversals),
+            ("separation", flight.separations),
+        )
+        if count
+    ]
+    return ", ".join(parts)
+
+
+def multipliers(jacobian: Array) -> ComplexArray:
+    """Eigenvalues of the return map's Jacobian, largest modulus first; of a complex pair the upper one first."""
+    values = np.linalg.eigvals(jacobian).astype(complex)
+    return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]
+
+
+def growth_rate(multiplier: complex, period: float) -> float:
+    """log of the modulus over the period, 1/s; -inf for a multiplier of zero."""
+    return math.log(abs(multiplier)) / period if multiplier else -math.inf
+
+
+def kind_of(multiplier: complex) -> str:
+    """Which bifurcation a multiplier brings when it crosses the unit circle."""
+    if multiplier.imag != 0:
+        return KINDS[2]
+    return KINDS[0] if multiplier.real > 0 else KINDS[1]
+
+
+def _result(p: Parameters, tol: float, cycle: Cycle, sliding: SteadySliding) -> FloquetResult:
+    if cycle.map is None or cycle.solution is None:
+        none = np.zeros(0, complex)
+        return FloquetResult(
+            p, tol, cycle.status, f"{cycle.status}: {cycle.message}", math.nan, none, none, math.nan, math.nan, None,
+            "", 0, 0, 0, 0, 0, math.nan, sliding,
+        )  # fmt: skip
+    solution, flight = cycle.solution, cycle.solution.flight
+    values = multipliers(solution.jacobian)
+    with np.errstate(divide="ignore"):
+        exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
+    for array in (values, exponents):
+        array.setflags(write=False)
+    return FloquetResult(
+        parameters=p,
+        tol=tol,
+        status=cycle.status,
+        message=f"{cycle.status}: {cycle.message}",
+        period=flight.period,
+        multipliers=values,
+        exponents=exponents,
+        growth_rate=growth_rate(complex(values[0]), flight.period),
+        stick_fraction=flight.stick_time / flight.period,
+        state=cycle.map.state(solution.x),
+        kind=kind_of(complex(values[0])),
+        releases=flight.releases,
+        backward_releases=flight.backward_releases,
+        reversals=flight.reversals,
+        separations=flight.separations,
+        sticks=flight.sticks,
+        residual=solution.residual / max(float(np.linalg.norm(cycle.map.static)), 1e-300),
+        sliding=sliding,
+    )

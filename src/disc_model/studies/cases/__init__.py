@@ -1,0 +1,1 @@
+"""Named cases: what a file says of them, running one, all in one file."""

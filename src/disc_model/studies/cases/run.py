@@ -1,0 +1,52 @@
+"""Running cases for the workflow: a failure becomes a status in the dataset instead of ending the study."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import xarray as xr
+
+from disc_model.data.dataset import failed_groups, json_attribute, result_groups, to_tree
+from disc_model.data.provenance import SIMULATION, git_commit, source_hash, versions
+from disc_model.errors import DiscModelError
+from disc_model.simulation.api import simulate
+from disc_model.studies.cases.spec import CaseSpec
+
+log = logging.getLogger(__name__)
+
+
+def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
+    """Simulate one case; the tree has the layout described in `disc_model.data.dataset`.
+
+    ``checkpoint``: file from which an interrupted case goes on, see `disc_model.simulation.api`.
+    """
+    p = spec.parameters
+    try:
+        result = simulate(p, spec.t_end, tol=spec.tol, record=spec.record, stop_at=spec.stop_at, checkpoint=checkpoint)
+    except DiscModelError as error:
+        log.error("no result: %s", error)
+        groups = failed_groups(p, spec.t_end, spec.tol, f"{type(error).__name__}: {error}")
+    else:
+        log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
+        groups = result_groups(result, [name for name, _ in spec.windows])
+        groups["events"] = _kept_events(groups["events"], spec.events)
+    groups[""].attrs |= provenance() | {"specification": spec.canonical, "specification_key": spec.key}
+    return to_tree(groups)
+
+
+def provenance() -> dict[str, str]:
+    """What produced a case: hash of the sources, commit, and versions of the packages."""
+    return {
+        "source_hash": source_hash(*SIMULATION),
+        "git_commit": git_commit(),
+        "versions": json_attribute(versions()),
+    }
+
+
+def _kept_events(events: xr.Dataset, span: tuple[float, float] | None) -> xr.Dataset:
+    if span is None:
+        return events.isel(event=slice(0))
+    time = events["time"].values
+    kept = events.isel(event=slice(*time.searchsorted([span[0], span[1]], side="left")))
+    return kept.assign_attrs(kept_from=span[0], kept_until=span[1])

@@ -1,0 +1,278 @@
+"""What a grid study may say about its figures. Imports nothing heavy: studies are checked against it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal, NamedTuple, Protocol
+
+from pydantic import Field
+
+from disc_model.parameters import Parameters, Real
+from disc_model.studies.faults import Strict
+
+Number = Annotated[Real, Field(allow_inf_nan=False)]
+Values = Mapping[str, Sequence[tuple[Any, ...]]]
+"""Values of the parameters along each dimension of a grid."""
+NORM = "normalization"
+"""The dimension that a study may have beside those that a figure needs."""
+
+
+class Fault(NamedTuple):
+    """What is wrong with a figure: where below its name, the value there, and the rule."""
+
+    place: tuple[str, ...]
+    value: str
+    rule: str
+
+
+class Role(NamedTuple):
+    """What a further study must be to be shown: its quantity, its dimensions but for `NORM`, and some options."""
+
+    quantity: str
+    dims: tuple[str, ...]
+    options: Mapping[str, Any] = {}
+    required: bool = False
+
+
+class Grid(Protocol):
+    """What there is to know of a study: a `disc_model.studies.grids.schema.GridStudy` is one."""
+
+    @property
+    def quantity(self) -> str: ...
+
+    @property
+    def options(self) -> Any: ...
+
+    @property
+    def base(self) -> Mapping[str, Any]: ...
+
+    @property
+    def values(self) -> Values: ...
+
+
+class Plot(Strict):
+    """A figure of a grid study.
+
+    others : further studies it shows, by the role they play in it
+    """
+
+    kind: str
+    title: str = ""
+    others: dict[str, str] = Field({})
+
+    @property
+    def quantity(self) -> str:
+        """The quantity it shows."""
+        raise NotImplementedError
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Dimensions that it needs."""
+        return ()
+
+    @property
+    def several(self) -> bool:
+        """Whether it has a panel for each normalization, and not room for one only."""
+        return False
+
+    @property
+    def roles(self) -> dict[str, Role]:
+        """What others it can show."""
+        return {}
+
+    def faults(self, values: Values) -> Iterator[Fault]:
+        """What keeps it from showing a study with these dimensions; one without values is only meant to be there."""
+        yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
+        for role, name in self.others.items():
+            if role not in self.roles:
+                yield Fault(("others", role), name, f"unknown role (known: {', '.join(self.roles)})")
+        for role, wanted in self.roles.items():
+            if wanted.required and role not in self.others:
+                yield Fault(("others", role), "", f"is required: a study of the quantity {wanted.quantity}")
+
+    def _wrong_axes(self, values: Values) -> Iterator[Fault]:
+        """Of those that the file chooses."""
+        chosen = {axis: name for axis in ("x", "y") if (name := getattr(self, axis, None)) is not None}
+        for axis, name in chosen.items():
+            if name not in values:
+                yield Fault((axis,), name, f"is no dimension of this study (known: {', '.join(values)})")
+            elif name not in Parameters.model_fields or not Parameters.unit(name):
+                yield Fault((axis,), name, "must be one parameter, and a number")
+        if len(set(chosen.values())) < len(chosen):
+            yield Fault(("y",), chosen["y"], "must differ from x")
+
+    def _wrong_dims(self, values: Values) -> Iterator[Fault]:
+        """Dimensions that it needs and the study has not, and the other way round."""
+        allowed = (*self.dims, NORM)
+        further = [name for name in values if values[name] and name not in allowed]
+        if missing := [name for name in self.dims if name not in values]:
+            yield Fault(("kind",), self.kind, f"needs the dimension {' and '.join(missing)}")
+        elif further:
+            yield Fault(("kind",), self.kind, f"can show {', '.join(allowed)}, but not {', '.join(further)} as well")
+        elif not self.several and len(values.get(NORM, ())) > 1:
+            yield Fault(("kind",), self.kind, f"can show one {NORM} only")
+
+    def misfits_of(self, role: str, study: Grid, other: Grid) -> Iterator[str]:
+        """Rules that a further study breaks, if it is to play a role in this figure of a study."""
+        wanted = self.roles[role]
+        if other.quantity != wanted.quantity:
+            yield f"must be a study of the quantity {wanted.quantity}, and not {other.quantity}"
+            return
+        for name, value in wanted.options.items():
+            if (found := getattr(other.options, name)) != value:
+                yield f"must have options.{name} = {value!r}, and not {found!r}"
+        if (dims := other.values.keys() - {NORM}) != set(wanted.dims):
+            needed, found = (", ".join(sorted(names)) or "nothing" for names in (wanted.dims, dims))
+            yield f"must vary {needed} beside {NORM}, and not {found}"
+        elif lacking := _normalizations(study) - _normalizations(other):
+            yield f"must be computed for the same {NORM}: {', '.join(sorted(lacking))}"
+
+    @property
+    def module(self) -> str:
+        """Module that draws it: ``draw(study, others, plot)`` with datasets and this."""
+        raise NotImplementedError
+
+
+def _normalizations(study: Grid) -> set[str]:
+    return {str(value) for (value,) in study.values.get(NORM, [(study.base.get(NORM),)])}
+
+
+class Mark(Strict):
+    """A case of the paper: where it lies, and what the paper says of it."""
+
+    x: Number
+    y: Number
+    paper: Literal["stable", "unstable", "separation"]
+
+
+CYCLE = Role("floquet", ("N", "Omega"))
+CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
+
+
+class StabilityMap(Plot):
+    """What becomes of the published start over two parameters, one panel for each normalization."""
+
+    kind: Literal["stability_map"] = "stability_map"
+    x: str
+    y: str
+    marks: dict[str, Mark] = Field({})
+
+    @property
+    def quantity(self) -> str:
+        return "outcome"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return (self.x, self.y)
+
+    @property
+    def several(self) -> bool:
+        return True
+
+    @property
+    def roles(self) -> dict[str, Role]:
+        return {"growth": Role("floquet", self.dims)}
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.stability_map"
+
+
+class CriticalSpeed(Plot):
+    """Speeds at which separation begins or ends against the preload, for several horizons."""
+
+    kind: Literal["critical_speed"] = "critical_speed"
+    claim: dict[str, tuple[Number, Number]] = Field({})
+
+    @property
+    def quantity(self) -> str:
+        return "critical_speed"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return ("N",)
+
+    @property
+    def roles(self) -> dict[str, Role]:
+        return {"hysteresis": Role("hysteresis", ("N",)), "cycle": CYCLE}
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.critical_speed"
+
+
+class Thresholds(CriticalSpeed):
+    """Where the cycle becomes unstable and where separation follows, on one chart."""
+
+    kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]
+
+    @property
+    def roles(self) -> dict[str, Role]:
+        return {"curves": CURVES._replace(required=True), "cycle": CYCLE}
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.thresholds"
+
+
+class GrowthMap(Plot):
+    """Growth rate of the stick-slip cycle over speed and preload, a panel for each normalization."""
+
+    kind: Literal["growth_map"] = "growth_map"
+
+    @property
+    def quantity(self) -> str:
+        return "floquet"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return ("N", "Omega")
+
+    @property
+    def several(self) -> bool:
+        return True
+
+    @property
+    def roles(self) -> dict[str, Role]:
+        return {"curves": CURVES}
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.thresholds"
+
+
+class Bifurcation(Plot):
+    """Samples once a turn against a parameter.
+
+    scale : of the variable, 1e3 for mrad or mm
+    """
+
+    kind: Literal["bifurcation"] = "bifurcation"
+    x: str
+    variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
+    scale: Number = 1.0e3
+
+    @property
+    def quantity(self) -> str:
+        return "bifurcation"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return (self.x,)
+
+    @property
+    def roles(self) -> dict[str, Role]:
+        return {"lyapunov": Role("lyapunov", self.dims)}
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.bifurcation"
+
+
+PLOTS: dict[str, type[Plot]] = {
+    "stability_map": StabilityMap,
+    "critical_speed": CriticalSpeed,
+    "thresholds": Thresholds,
+    "growth_map": GrowthMap,
+    "bifurcation": Bifurcation,
+}

@@ -1,0 +1,128 @@
+"""The batches of a grid study in one dataset over the grid.
+
+    study = xarray.open_dataset("results/map_N/map_N.nc")
+    study["first_separation"].sel(normalization="as_published").plot()
+
+Every point of the grid is there with its `status`. A zip is one dimension without coordinate of its own, named after
+its parameters, which lie along it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.dataset import CONVENTIONS, json_attribute
+from disc_model.data.variables import flag_names
+from disc_model.errors import DiscModelError
+from disc_model.studies.grids.quantities.table import STATUSES
+from disc_model.studies.grids.run import POINT, describe
+
+
+class MergeError(DiscModelError):
+    """The batches are not those of the grid."""
+
+
+def merge_batches(
+    batches: Sequence[xr.Dataset], grid: Sequence[Mapping[str, Any]], attrs: Mapping[str, str]
+) -> xr.Dataset:
+    """Put batches together.
+
+    Parameters
+    ----------
+    batches : as `disc_model.studies.grids.run.run_batch` makes them
+    grid : dimensions, as `disc_model.studies.grids.schema.GridStudy.grid`
+    attrs : further attributes, such as the title
+
+    Raises
+    ------
+    MergeError
+        If a point is missing, there twice, or foreign to the grid, or if the batches disagree about other dimensions.
+    """
+    try:
+        flat = xr.concat(
+            list(batches),
+            POINT,
+            join="exact",
+            combine_attrs="override",
+            data_vars="all",
+            coords="minimal",
+            compat="equals",
+        )
+    except ValueError as error:
+        raise MergeError(f"the batches do not fit together: {error}") from None
+    names = [name for dim in grid for name in dim["names"]]
+    place = _places(flat, grid, names)
+    sizes = {"_".join(dim["names"]): len(dim["values"]) for dim in grid}
+    data = {}
+    for name, variable in flat.data_vars.items():
+        values = variable.values[place].reshape(*sizes.values(), *variable.shape[1:])
+        data[name] = xr.Variable((*sizes, *map(str, variable.dims[1:])), values, variable.attrs)
+    coords = dict(_coordinates(grid)) | {name: flat[name] for name in flat.coords if name not in names}
+    merged = xr.Dataset(data, coords)
+    merged.attrs = {"Conventions": CONVENTIONS, **attrs, **_common(batches, names)}
+    return merged
+
+
+def failures(study: xr.Dataset) -> Iterator[str]:
+    """A line for each point without the result asked for: where it lies, its status, what happened; errors first."""
+    status = flag_names(study["status"])
+    failed = np.isin(status, STATUSES[1:])
+    others = ~failed & ((status != "ok") | (study["message"].values != ""))
+    for index in (*np.argwhere(failed), *np.argwhere(others)):
+        place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
+        point = study.isel(place)
+        where = ", ".join(f"{name} = {point[name].item()}" for name in _varied(study))
+        what, message = str(status[tuple(index)]), str(point["message"].item())
+        yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"
+
+
+def _varied(study: xr.Dataset) -> list[str]:
+    return [str(name) for name in study.coords if set(study[name].dims) <= set(study["status"].dims)]
+
+
+def _places(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]], names: Sequence[str]) -> np.ndarray:
+    """Row of each point of the grid, in the order of the grid, last dimension fastest."""
+    rows: dict[tuple[Any, ...], int] = {}
+    for row, point in enumerate(zip(*(flat[name].values.tolist() for name in names), strict=True)):
+        if point in rows:
+            raise MergeError(f"there twice: {dict(zip(names, point, strict=True))}")
+        rows[point] = row
+    points = list(_points([[tuple(value) for value in dim["values"]] for dim in grid]))
+    if missing := [point for point in points if point not in rows]:
+        raise MergeError(f"missing: {dict(zip(names, missing[0], strict=True))} and {len(missing) - 1} more")
+    if len(points) != len(rows):
+        raise MergeError(f"{len(rows) - len(points)} points do not belong to the grid")
+    return np.array([rows[point] for point in points])
+
+
+def _points(dims: Sequence[Sequence[tuple[Any, ...]]]) -> Iterator[tuple[Any, ...]]:
+    if not dims:
+        yield ()
+        return
+    for value in dims[0]:
+        for rest in _points(dims[1:]):
+            yield (*value, *rest)
+
+
+def _coordinates(grid: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, xr.Variable]]:
+    for dim in grid:
+        for i, name in enumerate(dim["names"]):
+            values = np.array([value[i] for value in dim["values"]])
+            yield name, xr.Variable("_".join(dim["names"]), values, describe(name))
+
+
+def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, str]:
+    """What all batches agree on: quantity, options, base values, sources; and all commits that made them."""
+    specification = json.loads(batches[0].attrs["specification"])
+    del specification["points"], specification["names"]
+    common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
+    common["source_hash"] = common.pop("sources")
+    for name in ("git_commit", "versions"):
+        values = sorted({str(batch.attrs[name]) for batch in batches})
+        common[name] = values[0] if len(values) == 1 else json_attribute(values)
+    return common

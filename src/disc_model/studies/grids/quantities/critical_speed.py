@@ -1,0 +1,149 @@
+"""The speeds at which separation within a horizon begins or ends: all of them, since there may be several."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from disc_model.data.variables import SCALARS, Variable
+from disc_model.parameters import Parameters
+from disc_model.stability.settling import follow
+from disc_model.studies.grids.quantities.critical_speed_options import CriticalSpeedOptions
+from disc_model.studies.grids.quantities.table import STATUS, Column, Table, tabulate
+
+KINDS = ("none", "begins", "ends")
+TABLE = {
+    "status": Column(STATUS),
+    "critical_speed": Column(
+        Variable(
+            "rad s-1",
+            "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
+        ),
+        ("horizon",),
+    ),
+    "n_crossings": Column(
+        Variable("1", "number of speeds found at which separation within the horizon begins or ends"),
+        ("horizon",),
+        whole=True,
+    ),
+    "crossing": Column(
+        Variable("rad s-1", "a speed at which separation begins or ends, upper end of the last interval"),
+        ("horizon", "crossing_number"),
+    ),
+    "crossing_kind": Column(
+        Variable("1", "whether separation begins or ends as the speed rises", KINDS), ("horizon", "crossing_number")
+    ),
+    "scan_first_separation": Column(SCALARS["first_separation"], ("scan_Omega",)),
+    "scan_status": Column(STATUS, ("scan_Omega",)),
+    "simulations": Column(Variable("1", "number of simulations"), whole=True),
+    "simulated_time": Column(Variable("s", "simulated time of all of them")),
+}
+
+OPTIONS = CriticalSpeedOptions
+
+
+def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]]:
+    """Horizons, numbers of crossings, and speeds of the scan."""
+    return {
+        "horizon": (np.array(options.horizons), Variable("s", "time within which separation must occur")),
+        "crossing_number": (
+            np.arange(options.max_crossings),
+            Variable("1", "number of the crossing, as the speed rises"),
+        ),
+        "scan_Omega": (
+            np.array(options.scan.blocks()[0]),
+            Variable("rad s-1", "speed of the drive point, in the scan"),
+        ),
+    }
+
+
+def compute(points: Sequence[Parameters], options: CriticalSpeedOptions) -> Table:
+    """Scan and bisect at each point; its own Omega is not used."""
+    sizes = {name: len(values) for name, (values, _) in coordinates(options).items()}
+    return tabulate(lambda p: _one(p, options), points, TABLE, sizes)
+
+
+def _one(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
+    horizons = options.horizons
+    step, scale = _lattice(options)
+    known: dict[int, float] = {}
+    statuses: dict[int, str] = {}
+    messages: list[str] = []
+    total = 0.0
+
+    def first_separation(i: int) -> float:
+        """At the i-th speed of the lattice, s; infinite if there is none within the longest horizon, nan if unknown."""
+        nonlocal total
+        if i not in known:
+            case = p.replace(Omega=scale(i))
+            followed = follow(case, horizons[-1], tol=options.tol, settled=options.settled, near=options.near)
+            total += followed.simulated
+            status = followed.result.status
+            statuses[i] = "ok" if status.complete else status.value
+            if not status.complete:
+                messages.append(f"Omega={case.Omega:g}: {followed.result.message}")
+            none = math.isnan(followed.first_separation) and status.complete
+            known[i] = math.inf if none else followed.first_separation
+        return known[i]
+
+    scan = [i * step for i in range(options.scan.intervals + 1)]
+    for i in scan:
+        first_separation(i)
+    for horizon in horizons:
+        _bisect(known, first_separation, horizon)
+    values: dict[str, Any] = {
+        "status": next((status for status in statuses.values() if status != "ok"), "ok"),
+        "scan_first_separation": [known[i] if math.isfinite(known[i]) else math.nan for i in scan],
+        "scan_status": [statuses[i] for i in scan],
+        "simulations": len(known),
+        "simulated_time": total,
+    }
+    columns = [_crossings(known, horizon, scale, options.max_crossings) for horizon in horizons]
+    for name in columns[0]:
+        values[name] = [column[name] for column in columns]
+    return values, "; ".join(messages)
+
+
+def _lattice(options: CriticalSpeedOptions) -> tuple[int, Callable[[int], float]]:
+    """Lattice points between the scan's speeds, and the speed at a lattice point."""
+    scan = options.scan
+    step = round((scan.stop - scan.start) / scan.intervals / options.precision)
+    return step, lambda i: float(f"{scan.start + i * options.precision:.12g}")
+
+
+def _bisect(known: dict[int, float], first_separation: Callable[[int], float], horizon: float) -> None:
+    """Halve every interval over which separation within the horizon begins or ends, down to the lattice."""
+    while True:
+        wide = [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]
+        if not wide:
+            return
+        for i in wide:
+            first_separation(i)
+
+
+def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
+    """Neighbours of which one separates within the horizon; what is unknown does neither this nor that."""
+    return [
+        (a, b)
+        for a, b in pairwise(sorted(known))
+        if not math.isnan(known[a] + known[b]) and (known[a] <= horizon) != (known[b] <= horizon)
+    ]
+
+
+def _crossings(known: dict[int, float], horizon: float, scale: Callable[[int], float], room: int) -> dict[str, Any]:
+    """What one horizon finds among the known speeds."""
+    found = [(scale(b), "begins" if known[b] <= horizon else "ends") for _, b in _changes(known, horizon)]
+    # the first that separates; one of which it is not known hides those above it
+    first = next((i for i in sorted(known) if not known[i] > horizon), None)
+    lowest = math.nan if first is None or math.isnan(known[first]) else scale(first)
+    kept = found[:room] + [(math.nan, "none")] * (room - len(found))
+    return {
+        "critical_speed": lowest,
+        "n_crossings": len(found),
+        "crossing": [speed for speed, _ in kept],
+        "crossing_kind": [kind for _, kind in kept],
+    }

@@ -1,0 +1,87 @@
+"""A slow sweep of the speed up and down, carrying the motion on: how far down does separation persist?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
+from disc_model.simulation.result import State
+from disc_model.stability.settling import late_stretch, numbers
+from disc_model.studies.grids.quantities.hysteresis_options import HysteresisOptions
+from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column, Table, tabulate
+
+DIRECTIONS = ("up", "down")
+_DIMS = ("direction", "sweep_Omega")
+TABLE = {
+    "status": Column(STATUS),
+    "sweep_status": Column(STATUS, _DIMS),
+    "separation_rate": Column(Variable("s-1", "separations per second at the end of the stay at a speed"), _DIMS),
+    "P_min": Column(Variable("N", "least contact force at the end of the stay at a speed"), _DIMS),
+    "P_max": Column(Variable("N", "greatest contact force at the end of the stay at a speed"), _DIMS),
+    "share_stick": Column(Variable("1", "share of the time spent sticking"), _DIMS),
+    "share_slip": Column(Variable("1", "share of the time spent slipping"), _DIMS),
+    "share_separation": Column(Variable("1", "share of the time spent separated"), _DIMS),
+    "onset": Column(Variable("rad s-1", "speed at which separation first is found on the way up")),
+    "persists_to": Column(Variable("rad s-1", "lowest speed to which it persists without a gap on the way down")),
+}
+
+OPTIONS = HysteresisOptions
+
+
+def coordinates(options: HysteresisOptions) -> dict[str, tuple[Any, Variable]]:
+    """Direction and speed of the sweep."""
+    return {
+        "direction": (np.array(DIRECTIONS), Variable("", "direction of the sweep")),
+        "sweep_Omega": (
+            np.array(options.scan.blocks()[0]),
+            Variable("rad s-1", "speed of the drive point, in the sweep"),
+        ),
+    }
+
+
+def compute(points: Sequence[Parameters], options: HysteresisOptions) -> Table:
+    """Sweep at each point; its own Omega is not used."""
+    sizes = {name: len(values) for name, (values, _) in coordinates(options).items()}
+    return tabulate(lambda p: _one(p, options), points, TABLE, sizes)
+
+
+def _one(p: Parameters, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
+    speeds = [float(value) for value in options.scan.blocks()[0]]
+    columns = {name: column for name, column in TABLE.items() if column.dims}
+    values: dict[str, Any] = {
+        name: np.full((2, len(speeds)), column.missing, column.dtype) for name, column in columns.items()
+    }
+    state: State | None = None
+    status, message = "ok", ""
+    ways = [(0, i) for i in range(len(speeds))] + [(1, i) for i in reversed(range(len(speeds)))]
+    for place in ways:
+        case = p.replace(Omega=speeds[place[1]])
+        result, late = late_stretch(case, state, options.dwell, options.late, options.tol)
+        if late is None:
+            status, message = result.status.value, f"Omega={case.Omega:g}: {result.message}"
+            values["sweep_status"][place] = STATUSES.index(status)
+            break
+        state = result.final_state
+        values["sweep_status"][place] = STATUSES.index("ok")
+        for name, number in numbers(late).items():
+            if name in values:
+                values[name][place] = number
+    done = values["sweep_status"] == STATUSES.index("ok")
+    values |= _ends(np.array(speeds), values["separation_rate"] > 0, done) | {"status": status}
+    return values, message
+
+
+def _ends(speeds: np.ndarray, separates: np.ndarray, done: np.ndarray) -> dict[str, float]:
+    """Where separation appears on the way up, and where it is lost on the way down, if the sweep got there."""
+    found: dict[str, float] = {}
+    if separates[0].any():
+        found["onset"] = float(speeds[separates[0].argmax()])
+    if separates[1, -1]:
+        quiet = np.flatnonzero(~separates[1])
+        if not quiet.size or done[1, quiet[-1]]:
+            found["persists_to"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
+    return found

@@ -1,0 +1,83 @@
+"""What becomes of the published start within a horizon: it stays quiet, it grows, or contact is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from disc_model.data.variables import SCALARS, Variable
+from disc_model.parameters import Parameters
+from disc_model.stability.settling import Followed, follow, late_stretch, numbers
+from disc_model.studies.grids.quantities.outcome_options import OutcomeOptions
+from disc_model.studies.grids.quantities.table import STATUS, Column, Table, tabulate
+
+OUTCOMES = ("unknown", "stable", "unstable", "separation")
+TABLE = {
+    "status": Column(STATUS),
+    "outcome": Column(
+        Variable("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES)
+    ),
+    "first_separation": Column(SCALARS["first_separation"]),
+    "settled": Column(Variable("s", "time at which the motion was left because it had settled, nan if it was not")),
+    "time_reached": Column(SCALARS["time_reached"]),
+    "distance": Column(Variable("1", "relative distance from the stick-slip cycle where the motion was left for it")),
+    "difference": Column(Variable("1", "relative difference of successive cycles at the last probe")),
+    "difference_rate": Column(Variable("s-1", "growth rate of that difference over the last probes")),
+    "P_min": Column(Variable("N", "least contact force over the late stretch")),
+    "P_max": Column(Variable("N", "greatest contact force over the late stretch")),
+    "u_min": Column(Variable("m", "lowest position of the slider over the late stretch, from static equilibrium")),
+    "u_max": Column(Variable("m", "highest position of the slider over the late stretch, from static equilibrium")),
+    "share_stick": Column(Variable("1", "share of the late stretch spent sticking")),
+    "share_slip": Column(Variable("1", "share of the late stretch spent slipping")),
+    "share_separation": Column(Variable("1", "share of the late stretch spent separated")),
+    "separation_rate": Column(Variable("s-1", "separations per second over the late stretch")),
+}
+
+OPTIONS = OutcomeOptions
+
+
+def coordinates(options: OutcomeOptions) -> dict[str, Any]:
+    """No dimensions beyond the grid's."""
+    return {}
+
+
+def compute(points: Sequence[Parameters], options: OutcomeOptions) -> Table:
+    """Outcome of each point; the late stretch of one that separates lies ``after_separation`` later."""
+    return tabulate(lambda p: _one(p, options), points, TABLE, {})
+
+
+def _one(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
+    followed = follow(
+        p, options.horizon, tol=options.tol, settled=options.settled, near=options.near, late=options.late
+    )
+    result, late = followed.result, followed.late
+    separated = result.status.value == "stopped"
+    if separated:
+        result, late = late_stretch(p, result.final_state, options.after_separation, options.late, options.tol)
+    elif followed.settled and followed.orbit is not None:
+        # what the motion tends to is known exactly
+        result, late = late_stretch(p, followed.orbit, options.late, options.late, options.tol)
+    values = {
+        "status": "ok" if result.status.complete else result.status.value,
+        "outcome": _outcome(followed),
+        "first_separation": followed.first_separation,
+        "time_reached": result.final_state.time if separated else followed.simulated,
+        "difference_rate": followed.settling.rate,
+    }
+    if followed.settling.differences:
+        values["difference"] = followed.settling.differences[-1]
+    if followed.orbit is not None:
+        values["distance"] = followed.settling.distance
+    if followed.settled:
+        values["settled"] = followed.simulated
+    if late is not None:
+        values |= numbers(late)
+    return values, "" if result.status.complete else result.message
+
+
+def _outcome(followed: Followed) -> str:
+    if followed.result.status.value == "stopped":
+        return "separation"
+    if not followed.result.status.complete:
+        return "unknown"
+    return "stable" if followed.orbit is not None or not followed.settling.growing else "unstable"

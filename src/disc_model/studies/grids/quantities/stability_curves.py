@@ -1,0 +1,93 @@
+"""Neutral curves and folds of the stick-slip cycle, by continuation in two parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
+from disc_model.stability.curves import StabilityCurve, stability_curves
+from disc_model.studies.grids.quantities.stability_curves_options import StabilityCurvesOptions
+from disc_model.studies.grids.quantities.table import STATUS, Column, Table, tabulate
+
+KINDS = ("none", "neutral", "fold")
+SIDES = ("no", "yes")
+_ONE, _EACH = ("curve",), ("curve", "curve_point")
+TABLE = {
+    "status": Column(STATUS),
+    "n_curves": Column(Variable("1", "number of curves found"), whole=True),
+    "n_unfollowed": Column(Variable("1", "number of places at which a curve could not be followed"), whole=True),
+    "kind": Column(
+        Variable("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS), _ONE
+    ),
+    "x": Column(Variable("", "first parameter along the curve, SI units"), _EACH),
+    "y": Column(Variable("", "second parameter along the curve, SI units"), _EACH),
+    "border": Column(Variable("1", "whether the cycle is stable on one side", SIDES), _EACH),
+    "period": Column(Variable("s", "period of the cycle on the curve"), _EACH),
+    "multiplier_re": Column(Variable("1", "real part of the leading multiplier"), _EACH),
+    "multiplier_im": Column(Variable("1", "imaginary part of the leading multiplier"), _EACH),
+    "tongue_harmonic": Column(Variable("1", "n of the resonance n f_s = f + s l Omega / 2 pi"), _ONE),
+    "tongue_frequency": Column(Variable("Hz", "f of that resonance, of a mode at rest"), _ONE),
+    "tongue_diameters": Column(Variable("1", "l of that resonance"), _ONE, whole=True),
+    "tongue_sign": Column(Variable("1", "s of that resonance, -1, 0 or 1"), _ONE, whole=True),
+    "tongue_detuning": Column(Variable("Hz", "how far the cycle at the curve's middle is from that resonance"), _ONE),
+}
+
+OPTIONS = StabilityCurvesOptions
+
+
+def coordinates(options: StabilityCurvesOptions) -> dict[str, tuple[Any, Variable]]:
+    """Numbers of the curves and of their points."""
+    return {
+        "curve": (np.arange(options.max_curves), Variable("1", "number of the curve")),
+        "curve_point": (np.arange(2 * options.max_points), Variable("1", "number of the point along the curve")),
+    }
+
+
+def compute(points: Sequence[Parameters], options: StabilityCurvesOptions) -> Table:
+    """The curves of each point; its own values of the two parameters are not used."""
+    sizes = {name: len(values) for name, (values, _) in coordinates(options).items()}
+    return tabulate(lambda p: _one(p, options, sizes), points, TABLE, sizes)
+
+
+def _one(p: Parameters, options: StabilityCurvesOptions, sizes: dict[str, int]) -> tuple[dict[str, Any], str]:
+    curves, notes = stability_curves(
+        p,
+        (options.x, options.y),
+        options.bounds,
+        options.y_lines.blocks()[0],  # type: ignore[arg-type]
+        points=options.points,
+        max_points=options.max_points,
+        longest=options.longest,
+        tol=options.tol,
+    )
+    values: dict[str, Any] = {
+        name: np.full([sizes[dim] for dim in column.dims], column.missing, column.dtype)
+        for name, column in TABLE.items()
+        if column.dims
+    }
+    # room is for the longest
+    kept = sorted(curves, key=lambda curve: -len(curve.period))[: options.max_curves]
+    for i, curve in enumerate(kept):
+        for name, array in _arrays(curve).items():
+            values[name][i, : len(array)] = array
+        tongue = curve.tongue
+        values["kind"][i] = KINDS.index(curve.kind)
+        for name in ("harmonic", "frequency", "diameters", "sign", "detuning"):
+            values[f"tongue_{name}"][i] = getattr(tongue, name)
+    counts = {"n_curves": len(curves), "n_unfollowed": len(notes)}
+    return values | counts | {"status": "ok"}, ""
+
+
+def _arrays(curve: StabilityCurve) -> dict[str, np.ndarray]:
+    return {
+        "x": curve.values[:, 0],
+        "y": curve.values[:, 1],
+        "border": curve.border,
+        "period": curve.period,
+        "multiplier_re": curve.multipliers.real,
+        "multiplier_im": curve.multipliers.imag,
+    }

@@ -1,0 +1,96 @@
+"""Running one batch of a grid study for the workflow."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import logging
+import time
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.dataset import CONVENTIONS, json_attribute
+from disc_model.data.provenance import git_commit, versions
+from disc_model.data.variables import CHOICES, Variable, attributes
+from disc_model.errors import DiscModelError
+from disc_model.parameters import AUTO, Parameters
+from disc_model.studies.grids.quantities.table import Column
+
+log = logging.getLogger(__name__)
+POINT = "point"
+
+
+def run_batch(text: str) -> xr.Dataset:
+    """Compute a batch, given as the text that `disc_model.studies.grids.schema.GridStudy.batches` holds.
+
+    The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
+    """
+    data = json.loads(text)
+    names, points = data["names"], data["points"]
+    module = importlib.import_module(data["quantity"])
+    options = module.OPTIONS.model_validate(data["options"])
+    parameters = [_made(data["base"] | dict(zip(names, point, strict=True))) for point in points]
+    began = time.process_time()
+    table = module.compute(parameters, options)
+    log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
+    for point, message in zip(points, table.messages, strict=True):
+        if message:
+            log.warning("%s: %s", dict(zip(names, point, strict=True)), message)
+    variables = {name: _variable(column, table.arrays[name]) for name, column in module.TABLE.items()}
+    if data["base"].get("n_diameters") == AUTO:
+        variables |= {name: _chosen(name, parameters) for name in ("n_diameters", "n_circles")}
+    variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
+    coords = {name: _coordinate(name, [point[i] for point in points]) for i, name in enumerate(names)}
+    own = {name: (name, *_described(values)) for name, values in module.coordinates(options).items()}
+    attrs = {
+        "Conventions": CONVENTIONS,
+        "specification": text,
+        "git_commit": git_commit(),
+        "versions": json_attribute(versions()),
+    }
+    return xr.Dataset(variables, coords | own, attrs)
+
+
+def _made(values: Mapping[str, Any]) -> Parameters | DiscModelError:
+    """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
+    try:
+        return Parameters(**values)
+    except DiscModelError as error:
+        return error
+
+
+def _chosen(name: str, parameters: Sequence[Parameters | DiscModelError]) -> xr.Variable:
+    """What was chosen for each point, -1 where nothing could be."""
+    return xr.Variable(POINT, np.array([getattr(p, name, -1) for p in parameters]), attributes(name))
+
+
+def describe(name: str) -> dict[str, Any]:
+    """Attributes of a parameter that is a coordinate; choices are stored as words, without unit."""
+    described = attributes(name)
+    return {"long_name": described["long_name"]} if name in CHOICES else described
+
+
+def _variable(column: Column, values: np.ndarray) -> xr.Variable:
+    return xr.Variable((POINT, *column.dims), values, _attributes(column.variable))
+
+
+def _attributes(variable: Variable) -> dict[str, Any]:
+    attrs: dict[str, Any] = {"long_name": variable.long_name}
+    if variable.units:
+        attrs["units"] = variable.units
+    if variable.flags:
+        attrs["flag_values"] = np.arange(len(variable.flags), dtype=np.int8)
+        attrs["flag_meanings"] = " ".join(variable.flags)
+    return attrs
+
+
+def _coordinate(name: str, values: Sequence[Any]) -> xr.Variable:
+    return xr.Variable(POINT, np.array(values), describe(name))
+
+
+def _described(given: tuple[np.ndarray, Variable]) -> tuple[np.ndarray, Mapping[str, Any]]:
+    values, variable = given
+    return values, _attributes(variable)

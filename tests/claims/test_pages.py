@@ -1,0 +1,88 @@
+"""Tables and pages made of claims and cases."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from disc_model import Parameters
+from disc_model.claims import COLUMNS
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Needed
+from disc_model.claims.page import ledger, table_page
+from disc_model.claims.paper_tables import LISTED, TABLE_1, stick_slip_rate, table_1, table_2
+from disc_model.data.variables import STATUSES
+
+F_S, OMEGA = 67.63, 15.1
+DRIVE = OMEGA / (2 * np.pi)
+
+
+def case_of_known_lines() -> CaseView:
+    """Ten seconds of a disc that vibrates at n f_s -/+ f_drive, and of a slider at f_s."""
+    t = np.arange(40_001) / 4000
+    disc = np.cos(2 * np.pi * DRIVE * t)
+    for n, amplitude in zip(range(1, 5), (3e-2, 1e-2, 3e-3, 1e-3), strict=True):
+        disc += amplitude * (np.cos(2 * np.pi * (n * F_S - DRIVE) * t) + np.sin(2 * np.pi * (n * F_S + DRIVE) * t))
+    window = {"w_point": ("time", disc), "psi": ("time", 0.05 * np.cos(2 * np.pi * F_S * t))}
+    root = xr.Dataset({"Omega": OMEGA})
+    groups = {"/": root, "/spectrum_a": xr.Dataset(window, coords={"time": t})}
+    return CaseView("F13", xr.DataTree.from_dict(groups))
+
+
+def test_table_2_names_the_lines() -> None:
+    table = table_2(case_of_known_lines())
+    pairs = [f"{n}f_s {sign} f_Ω" for n in ("", "2 ", "3 ", "4 ") for sign in ("−", "+")]
+    assert list(table["ours_is"]) == ["f_Ω", *pairs]
+    assert list(table["paper_Hz"]) == list(LISTED)
+    expected = [DRIVE] + [n * F_S + side * DRIVE for n in range(1, 5) for side in (-1, 1)]
+    np.testing.assert_allclose(table["ours_Hz"], expected, atol=0.01)
+    np.testing.assert_allclose(table["predicted_Hz"], expected, atol=0.02)
+    assert table["level_dB"].iloc[1] == pytest.approx(20 * np.log10(3e-2), abs=0.3)
+
+
+def test_the_stick_slip_rate_is_that_of_the_slider() -> None:
+    assert stick_slip_rate(case_of_known_lines()) == pytest.approx(F_S, abs=0.005)
+
+
+def test_table_1_is_what_is_computed_with() -> None:
+    table = table_1(Parameters(N=200, Omega=20)).set_index("symbol")
+    assert list(table["paper"]) == list(table["ours"])
+    assert set(table.index) == set(TABLE_1)
+    assert table.loc["E", "unit"] == "Pa"
+
+
+def ledger_of(*verdicts: str) -> pd.DataFrame:
+    rows = [{name: f"{name} <{i}>" for name in COLUMNS} | {"verdict": v} for i, v in enumerate(verdicts)]
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def test_the_ledger_counts_and_escapes() -> None:
+    text = ledger(ledger_of(HOLDS, HOLDS, REMARK, FAILS, f"{NOT_COMPUTED}: no case"))
+    assert f"5 statements; {HOLDS}: 2" in text
+    assert f"{FAILS}: 1" in text
+    assert "&lt;3&gt;" in text
+    assert not re.search(r"<\d>", text)
+    assert text.count("<tr>") == 6
+    assert not re.search(r"(src|href)=", text), "self-contained"
+
+
+def test_a_table_page_leaves_unknown_numbers_empty() -> None:
+    text = table_page("T", "", pd.DataFrame({"x": [1.5, np.nan]}))
+    assert '<td class="number">1.5</td>' in text
+    assert '<td class="number"></td>' in text
+
+
+def test_what_separation_does_does_not_hold_without_one() -> None:
+    p = Parameters(N=200, Omega=20)
+    scalars = {"status": STATUSES.index("ok"), "n_separations": 0, "time_reached": 9.0}
+    case = CaseView("A", xr.DataTree(xr.Dataset(scalars, attrs={"parameters": p.canonical_json})))
+    needed = Needed({"N": 200, "Omega": 20}, separates=True)
+    claim = Claim("X", "", "", "", "", "", lambda *_: Finding("1", HOLDS), needs={"A": needed})
+    found = claim.evaluate({"A": case})
+    assert found == Finding("case A: no separation in 9 s", FAILS)
+    other = p.replace(normalization="orthonormal")
+    case.node.attrs["parameters"] = other.canonical_json
+    assert claim.evaluate({"A": case}).verdict == FAILS, "a claim is judged for either normalisation"

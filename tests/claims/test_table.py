@@ -1,0 +1,154 @@
+"""The table of claims: complete, computed, and honest about what it lacks."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from disc_model import Parameters
+from disc_model.claims import COLUMNS, check_claims, disc, measures, to_markdown
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Needed
+from disc_model.claims.table import CLAIMS
+from disc_model.data.dataset import events_dataset
+from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases.schema import parse_study
+
+
+def tree_of(**cases: dict[str, Any]) -> xr.DataTree:
+    """Merged cases of a study with these cases."""
+    from disc_model.studies.cases.merge import merge_cases
+
+    study = parse_study({"study": "x", "cases": {name: {"title": ""} | case for name, case in cases.items()}})
+    return merge_cases({name: run_case(spec) for name, spec in study.specs.items()}, study.labels)
+
+
+@pytest.fixture(scope="module")
+def table() -> pd.DataFrame:
+    return check_claims(
+        tree_of(
+            F13={"parameters": {"N": 385, "Omega": 15.1}, "t_end": 60, "record": {"events": False}},
+            F11={"parameters": {"N": 385, "Omega": 15}, "t_end": 1},
+            F16={"parameters": {"N": 60, "Omega": 15}, "t_end": 1},
+        )
+    ).set_index("id")
+
+
+def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
+    assert [*table.reset_index().columns] == list(COLUMNS)
+    assert list(table.index) == [claim.id for claim in CLAIMS]
+    assert table.index.is_unique
+
+
+def test_verdicts_are_from_the_list(table: pd.DataFrame) -> None:
+    assert all(
+        verdict in (HOLDS, REMARK, FAILS) or verdict.startswith(f"{NOT_COMPUTED}: ") for verdict in table["verdict"]
+    )
+    computed = ~table["verdict"].str.startswith(NOT_COMPUTED)
+    assert table["ours"][computed].str.len().gt(0).all()
+    assert table["ours"][~computed].eq("").all()
+    assert table["remark"][table["verdict"] == REMARK].str.len().gt(0).all()
+
+
+def test_claims_about_the_disc_need_no_simulation(table: pd.DataFrame) -> None:
+    verdicts = table["verdict"].to_dict()
+    assert {name: verdicts[name] for name in ("P01", "P02", "P04", "P05", "P06", "P07")} == {
+        "P01": HOLDS,
+        "P02": HOLDS,
+        "P04": REMARK,
+        "P05": REMARK,
+        "P06": HOLDS,
+        "P07": FAILS,
+    }
+    assert table.loc["P04", "ours"].startswith("850.86, 1492.55, 1516.76, 1814.90")
+    assert "1178.65, 1500.28, 1723.08, 2575.73, 4111.83" in table.loc["P04", "remark"]
+    assert table.loc["P07", "ours"] == "911.94 rad/s"
+    assert "607.96" in table.loc["P07", "remark"]
+
+
+def test_first_separation_is_found(table: pd.DataFrame) -> None:
+    assert table.loc["F13", "ours"] == "first separation at 54.42 s"
+    assert table.loc["F13", "verdict"] == HOLDS
+
+
+@pytest.mark.parametrize(
+    ("claim", "reason"),
+    [
+        ("F04", "case F04 is not in this study"),
+        ("F11", "case F11 ends at 1 s"),
+        ("F16", "case F16 has another N in this study"),
+        ("F14", "case F13 ends at 60 s"),
+    ],
+)
+def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -> None:
+    assert table.loc[claim, "verdict"].startswith(f"{NOT_COMPUTED}: {reason}")
+
+
+def test_status_of_a_failed_case_is_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    from disc_model import NonFinite
+    from disc_model.studies.cases import run as batch
+
+    def fail(*_: object, **__: object) -> None:
+        raise NonFinite("overflow")
+
+    monkeypatch.setattr(batch, "simulate", fail)
+    found = check_claims(tree_of(F13={"parameters": {"N": 385, "Omega": 15.1}, "t_end": 60})).set_index("id")
+    assert found.loc["F13", "verdict"] == f"{NOT_COMPUTED}: failed (case F13)"
+
+
+def test_no_result_is_typed_in() -> None:
+    """The paper's numbers and bounds stand in claims; a number we find may stand in no source."""
+    source = "".join(open(path, encoding="utf-8").read() for path in [disc.__file__])  # noqa: SIM115
+    assert not re.search(r"1178\.65|911\.94|607\.96|24\.2", source)
+
+
+def test_markdown_is_a_table(table: pd.DataFrame) -> None:
+    lines = to_markdown(table.reset_index()).splitlines()
+    rows = [line for line in lines if line.startswith("|")]
+    assert len(rows) == len(CLAIMS) + 2
+    assert {len(re.findall(r"(?<!\\)\|", row)) for row in rows} == {len(COLUMNS) + 1}
+
+
+def case_with(events: list[tuple[float, str, str]], kept: tuple[float, float]) -> CaseView:
+    frame = pd.DataFrame(events, columns=["time", "kind", "phase"])
+    dataset = events_dataset(frame).assign_attrs(kept_from=kept[0], kept_until=kept[1])
+    root = xr.Dataset({"time_reached": kept[1]})
+    return CaseView("X", xr.DataTree.from_dict({"/": root, "/events": dataset}))
+
+
+def test_separation_durations_count_whole_separations() -> None:
+    case = case_with(
+        [
+            (1.0, "reattachment", "slip"),
+            (2.0, "separation", "separation"),
+            (2.5, "reattachment", "slip"),
+            (3.0, "separation", "separation"),
+            (3.25, "reattachment", "slip"),
+            (4.0, "separation", "separation"),
+        ],
+        (0.0, 5.0),
+    )
+    np.testing.assert_array_equal(measures.separation_durations(case), [0.5, 0.25])
+    assert measures.rate_of(case, "separation") == pytest.approx(3 / 5)
+
+
+def test_phase_share() -> None:
+    case = case_with([(1.0, "slip_to_stick", "stick"), (2.0, "stick_to_slip", "slip")], (0.0, 5.0))
+    assert measures.phase_share(case, "stick") == pytest.approx(0.25)
+
+
+def test_shortest_period() -> None:
+    intervals = np.tile([1.0, 2.0, 3.0], 10)
+    assert measures.shortest_period(intervals, 1e-9) == 3
+    assert measures.shortest_period(intervals + np.arange(30), 1e-9) == 0
+    assert measures.irregularity(np.ones(5)) == 0
+
+
+def test_a_claim_without_its_evidence_is_not_judged() -> None:
+    claim = Claim("X", "", "", "", "", "", lambda *_: Finding("1", HOLDS), needs={"A": Needed({"N": 1, "Omega": 1})})
+    assert claim.evaluate({}).verdict.startswith(NOT_COMPUTED)
+    assert Parameters(**claim.needs["A"].parameters).N == 1

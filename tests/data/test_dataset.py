@@ -1,0 +1,195 @@
+"""Results as datasets and files: names, units, flags, round trips, equal bytes, and nothing half written."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model import Parameters, Poincare, Record, Result, Status, StepLimit, Window, simulate
+from disc_model.data.dataset import load, result_to_dataset, save
+from disc_model.data.variables import STATUSES, attributes, flag_names
+from disc_model.studies.cases import run as batch
+from disc_model.studies.cases.merge import merge_cases
+from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases.spec import CaseSpec
+
+P = Parameters(N=385, Omega=15.1)
+T_END = 0.5
+
+
+def spec_of(p: Parameters = P, events: tuple[float, float] | None = (0.1, T_END)) -> CaseSpec:
+    windows = (
+        ("history", Window(start=0, stop=0.4995, rate=1000, envelope=50)),
+        ("zoom", Window(start=0.1, stop=0.2, rate=2000, theta=0.5)),
+    )
+    return CaseSpec(p, T_END, 1e-10, None, windows, Poincare(theta=2.0), events, False)
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    return simulate(P, T_END, record=spec_of().record)
+
+
+@pytest.fixture(scope="module")
+def tree() -> xr.DataTree:
+    return run_case(spec_of())
+
+
+def test_flat_dataset_holds_everything(result: Result) -> None:
+    flat = result_to_dataset(result)
+    xr.testing.assert_identical(flat, result.to_dataset())
+    assert set(flat.sizes) == {"event", "sample_0", "sample_1", "poincare"}
+    np.testing.assert_array_equal(flat["event_time"], result.events["time"])
+    np.testing.assert_array_equal(flag_names(flat["event_kind"]), result.events["kind"].astype(str))
+    np.testing.assert_array_equal(flag_names(flat["event_phase"]), result.events["phase"].astype(str))
+    np.testing.assert_array_equal(flat["sample_0_P_max"], result.samples[0]["P_max"])
+    np.testing.assert_array_equal(flat["sample_1_w_point"], result.samples[1]["w_point"])
+    assert float(flat["N"]) == 385
+    assert int(flat["n_events"]) == len(result.events)
+    assert flat.attrs["parameters"] == P.canonical_json
+
+
+def test_the_angle_of_the_disc_is_kept_with_what_was_taken_there(
+    result: Result, tree: xr.DataTree, tmp_path: Path
+) -> None:
+    save(merge_cases({"A": tree}, {}), tmp_path / "cases.nc")
+    merged = load(tmp_path / "cases.nc")["A"]
+    for name, theta in (("history", 1.0), ("zoom", 0.5), ("poincare", 2.0)):
+        assert tree[name].attrs["theta"] == theta
+        assert merged[name].attrs["theta"] == theta
+    flat = result_to_dataset(result)
+    assert [flat.attrs[f"{name}_theta"] for name in ("sample_0", "sample_1", "poincare")] == [1.0, 0.5, 2.0]
+
+
+def test_default_record_gives_events_and_scalars_alone() -> None:
+    flat = simulate(P, 0.1).to_dataset()
+    assert set(flat.sizes) == {"event"}
+    flat = simulate(P, 0.1, record=Record(events=False)).to_dataset()
+    assert flat.sizes == {"event": 0}
+
+
+def test_every_variable_has_a_unit_and_a_name(tree: xr.DataTree) -> None:
+    for node in tree.subtree:
+        for name, variable in node.to_dataset(inherit=False).variables.items():
+            assert variable.attrs["units"], name
+            assert variable.attrs["long_name"], name
+
+
+@pytest.mark.parametrize("name", ["kind", "phase", "status", "normalization", "contact"])
+def test_flags_say_what_their_values_mean(name: str) -> None:
+    attrs = attributes(name)
+    assert len(attrs["flag_values"]) == len(attrs["flag_meanings"].split())
+    assert attrs["flag_values"].dtype == np.int8
+
+
+def test_file_gives_back_what_was_saved(tree: xr.DataTree, tmp_path: Path) -> None:
+    save(tree, tmp_path / "a.nc")
+    again = load(tmp_path / "a.nc")
+    xr.testing.assert_equal(again, tree)
+    assert again.attrs == tree.attrs
+    history = xr.open_dataset(tmp_path / "a.nc", group="history")
+    assert history["P_min"].attrs["units"] == "N"
+    assert history.sizes == {"time": 10}
+    history.close()
+
+
+def test_equal_runs_give_equal_bytes(tmp_path: Path) -> None:
+    for name in ("a.nc", "b.nc"):
+        case = run_case(spec_of())
+        save(case, tmp_path / name)
+        save(merge_cases({"A": case, "B": case}, {"A": {"title": "é"}}), tmp_path / f"merged_{name}")
+    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+    assert (tmp_path / "merged_a.nc").read_bytes() == (tmp_path / "merged_b.nc").read_bytes()
+
+
+def test_only_events_asked_for_are_kept(tree: xr.DataTree) -> None:
+    time = tree["events"].to_dataset()["time"].values
+    assert time.min() >= 0.1
+    assert int(tree["n_events"]) > time.size
+    assert run_case(spec_of(events=None))["events"].sizes["event"] == 0
+
+
+def test_merged_file_is_a_table_with_a_group_per_case(tree: xr.DataTree, tmp_path: Path) -> None:
+    other = run_case(spec_of(P.replace(N=200)))
+    labels = {"A": {"title": "first", "reference": "Fig. 1"}, "B": {"title": "zweite, größer"}}
+    save(merge_cases({"A": tree, "B": other}, labels), tmp_path / "cases.nc")
+    table = xr.open_dataset(tmp_path / "cases.nc")
+    assert list(table["case"].values) == ["A", "B"]
+    assert list(table["N"].values) == [385, 200]
+    assert list(table["title"].values) == ["first", "zweite, größer"]
+    assert list(table["reference"].values) == ["Fig. 1", ""]
+    assert list(flag_names(table["status"])) == ["ok", "ok"]
+    assert table["first_separation"].attrs["units"] == "s"
+    assert {"source_hash", "git_commit", "versions", "Conventions"} <= set(table.attrs)
+    table.close()
+    merged = load(tmp_path / "cases.nc")
+    xr.testing.assert_equal(merged["A/zoom"].to_dataset(inherit=False), tree["zoom"].to_dataset(inherit=False))
+    assert merged["A"].attrs["parameters"] == tree.attrs["parameters"]
+
+
+def test_a_failed_case_is_a_status_in_the_table(
+    tree: xr.DataTree, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object, **__: object) -> Result:
+        raise StepLimit("too many steps at t = 1 s")
+
+    monkeypatch.setattr(batch, "simulate", fail)
+    failed = run_case(spec_of())
+    assert STATUSES[int(failed["status"])] == "failed"
+    assert math.isnan(float(failed["first_separation"]))
+    save(merge_cases({"A": tree, "B": failed}, {}), tmp_path / "cases.nc")
+    table = load(tmp_path / "cases.nc")
+    assert list(flag_names(table["status"])) == ["ok", "failed"]
+    assert "too many steps" in str(table["message"].values[1])
+    assert list(table["N"].values) == [385, 385]
+
+
+def test_every_status_of_a_result_can_be_stored() -> None:
+    assert {status.value for status in Status} < set(STATUSES)
+
+
+def test_a_failing_write_leaves_the_old_file_and_nothing_else(
+    tree: xr.DataTree, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "a.nc"
+    save(tree, path)
+    before = path.read_bytes()
+
+    def half(self: xr.DataTree, target: str, **_: object) -> None:
+        Path(target).write_bytes(before[: len(before) // 2])
+        raise OSError("disk full")
+
+    monkeypatch.setattr(xr.DataTree, "to_netcdf", half)
+    with pytest.raises(OSError, match="disk full"):
+        save(tree, path)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs SIGKILL")
+def test_killed_while_writing_leaves_no_half_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.nc"
+    script = f"""
+        import os, signal
+        import xarray as xr
+        from disc_model.data.dataset import save
+        whole = xr.DataTree.to_netcdf
+        def killed(self, target, **options):
+            whole(self, target, **options)
+            os.truncate(target, os.path.getsize(target) // 2)
+            os.kill(os.getpid(), signal.SIGKILL)
+        xr.DataTree.to_netcdf = killed
+        save(xr.DataTree(xr.Dataset({{"x": ("t", [1.0] * 1000)}})), {str(path)!r})
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], env=os.environ, check=False)
+    assert done.returncode == -signal.SIGKILL
+    assert not path.exists()

@@ -1,0 +1,94 @@
+"""Source hashes cover what a result depends on, and nothing else."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from disc_model.data import provenance
+from disc_model.data.provenance import PACKAGE, SIMULATION, git_commit, source_files, source_hash, versions
+from disc_model.figures.paper.catalogue import CATALOGUE, module_of
+
+
+def names(*modules: str) -> set[str]:
+    return {path.relative_to(PACKAGE).as_posix() for path in source_files(*modules)}
+
+
+def test_a_simulation_depends_on_the_whole_engine_and_on_no_figure_or_claim() -> None:
+    found = names(*SIMULATION)
+    imported = {path.relative_to(PACKAGE).as_posix() for path in (PACKAGE / "engine").glob("*.py")}
+    assert {"simulate.py", "parameters.py", "plate.py", "record.py", "result.py", "dataset.py"} <= found
+    assert "engine/machine.py" in found
+    unused = imported - found
+    assert not {name for name in unused if "switch" in name or "series" in name}
+    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name == "study.py"}
+
+
+@pytest.mark.parametrize("figure", CATALOGUE)
+def test_a_figure_depends_on_its_module_and_the_style_but_not_on_the_solver(figure: str) -> None:
+    def file_of(name: str) -> str:
+        return module_of(name).removeprefix("disc_model.").replace(".", "/") + ".py"
+
+    found = names(module_of(figure))
+    assert {file_of(figure), "figures/style.py"} <= found
+    assert not {name for name in found if name.startswith(("engine/", "claims/")) or name == "simulate.py"}
+    # figures of one kind share a module; another kind's module must not make this one be drawn again
+    own_parts = {file_of(figure), "figures/sections.py", "figures/response.py", "figures/spectrograms.py"}
+    own_parts |= {file_of("fig24")} if figure == "fig25" else set()  # the segments that Fig. 24 marks
+    assert not ({file_of(other) for other in CATALOGUE} - own_parts) & found
+
+
+def test_imports_of_every_kind_are_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "disc_model"
+    (package / "sub").mkdir(parents=True)
+    sources = {
+        "__init__.py": "",
+        "top.py": "import disc_model.a\nfrom disc_model import b\nfrom disc_model.sub import c\nimport os",
+        "a.py": "def f():\n    from .sub.d import g",
+        "b.py": "",
+        "sub/__init__.py": "",
+        "sub/c.py": "from . import e\nfrom .. import top",
+        "sub/d.py": "",
+        "sub/e.py": "",
+        "unused.py": "",
+    }
+    for name, text in sources.items():
+        (package / name).write_text(text)
+    monkeypatch.setattr(provenance, "PACKAGE", package)
+    found = {path.relative_to(package).as_posix() for path in source_files("disc_model.top")}
+    assert found == set(sources) - {"__init__.py", "unused.py"}
+    before = source_hash("disc_model.top")
+    (package / "unused.py").write_text("x = 1")
+    assert source_hash("disc_model.top") == before
+    (package / "sub" / "d.py").write_text("x = 1")
+    assert source_hash("disc_model.top") != before
+
+
+def test_further_files_count(tmp_path: Path) -> None:
+    file = tmp_path / "style"
+    file.write_text("a")
+    first = source_hash("disc_model.errors", files=[file])
+    file.write_text("b")
+    assert source_hash("disc_model.errors", files=[file]) != first != source_hash("disc_model.errors")
+
+
+def test_versions_and_commit_are_text() -> None:
+    assert set(provenance.VERSIONS_OF) | {"python"} == set(versions())
+    assert all(isinstance(text, str) and text for text in (*versions().values(), git_commit()))
+
+
+def test_the_commit_of_another_repository_is_not_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The package may be installed in an environment that lies in somebody's own repository."""
+    site = tmp_path / "venv" / "disc_model"
+    site.mkdir(parents=True)
+    (site / "provenance.py").write_text("")
+    identity = ("-c", "user.name=somebody", "-c", "user.email=somebody@example.org")
+    for command in (("init", "-q"), (*identity, "commit", "-q", "--allow-empty", "-m", "own work")):
+        subprocess.run(["git", *command], cwd=tmp_path, check=True)
+    monkeypatch.setattr(provenance, "PACKAGE", site)
+    assert git_commit.__wrapped__() == "unknown"
+    subprocess.run(["git", "add", "."], cwd=tmp_path, check=True)
+    subprocess.run(["git", *identity, "commit", "-q", "-m", "all of it"], cwd=tmp_path, check=True)
+    assert len(git_commit.__wrapped__()) == 40

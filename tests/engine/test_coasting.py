@@ -1,0 +1,167 @@
+"""Stick in closed form against its Taylor series, and the bound that says how long stick lasts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, Record, Window, simulate
+from disc_model.engine import coasting, dense_output, layout, machine, series, stick_modes
+from disc_model.engine.switches import stick_force
+from disc_model.simulation.api import _Run, build_model
+from tests.engine.compiled import kernel
+
+ORDER = 40
+VARIANTS = {
+    "base": {},
+    "undamped": {"D_star": 0.0},
+    "dampers": {"c": 20.0, "c_p": 0.5, "D_star": 1e-2},
+    "orthonormal": {"normalization": "orthonormal"},
+    "more blocks": {"n_diameters": 7, "n_circles": 1, "c": 2.0},
+    "no pairs": {"n_diameters": 0},
+}
+
+
+@kernel
+def _coast(model, s, state, x):
+    length = coasting.coast_length(model, s, state)
+    coasting.coast_to(model, s, x, state)
+    return length
+
+
+@kernel
+def _follow(model, s, state, x):
+    dense_output.load_state(s, state)
+    series.stick_series(model, s, ORDER)
+    dense_output.state_at(model, s, ORDER, x, 0.0, state)
+
+
+@kernel
+def _force(model, state):
+    return stick_force(model, state)
+
+
+def _lively(model: layout.Model, seed: int = 1) -> layout.State:
+    """Stick with every mode in motion."""
+    state, rng = layout.build_state(model), np.random.default_rng(seed)
+    used = model.stiffness > 0
+    state.z[:] += 1e-6 * rng.normal(size=len(state.z)) * used
+    state.e[:] += 3e-3 * rng.normal(size=len(state.e)) * used
+    state.y[:] += 1e-6
+    state.x[layout.PSI] = -0.01
+    return state
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("x", [0.0, 0.1, 1.7, 4.0])
+def test_closed_form_is_the_series(variant: str, x: float) -> None:
+    """Both are exact but for rounding: 40 terms, whose largest is 4^4 / 4! = 11 times the sum at x = 4.
+
+    A velocity is rounded as the static deflection is, times the highest frequency.
+    """
+    model = build_model(Parameters(N=385, Omega=15.1, **VARIANTS[variant]))
+    closed, taylor = _lively(model), _lively(model)
+    _coast(model, layout.build_series(model, ORDER), closed, x)
+    _follow(model, layout.build_series(model, ORDER), taylor, x)
+    size = max(np.abs(taylor.z).max(), np.abs(taylor.y).max(initial=0.0))
+    for mine, theirs, unit in (
+        (closed.e, taylor.e, model.unit),
+        (closed.g, taylor.g, model.unit),
+        (closed.z, taylor.z, 1.0),
+        (closed.y, taylor.y, 1.0),
+    ):
+        np.testing.assert_allclose(mine, theirs, atol=1e-14 * size / unit, rtol=0)
+    assert closed.x[layout.PSI] == pytest.approx(taylor.x[layout.PSI], rel=1e-15)
+
+
+def test_coasts_compose() -> None:
+    """Two coasts are one coast of their sum, however far: 300 units are 48 turns of the fastest mode."""
+    model = build_model(Parameters(N=385, Omega=1.0, **VARIANTS["dampers"]))
+    s, once, twice = layout.build_series(model, ORDER), _lively(model), _lively(model)
+    _coast(model, s, once, 300.3)
+    _coast(model, s, twice, 123.1)
+    _coast(model, s, twice, 300.3 - 123.1)
+    np.testing.assert_allclose(twice.disc, once.disc, rtol=0, atol=1e-13 * np.abs(once.disc).max())
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("seed", range(4))
+def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed: int) -> None:
+    p = Parameters(N=385, Omega=5.0, **VARIANTS[variant])
+    model = build_model(p)
+    s, state = layout.build_series(model, ORDER), _lively(model, seed)
+    length = _coast(model, s, state, 0.0)
+    assert coasting.SHORTEST_COAST <= length < stick_modes.LONGEST_COAST
+    swing, lowest = 0.0, np.inf
+    for x in np.linspace(0.0, length, 2000):
+        coasting.coast_to(model, s, x, state)
+        P = _force(model, state)
+        pull = p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega)
+        lowest = min(lowest, p.mu_s * P - abs(pull))
+        swing = max(swing, abs(P - p.N))
+    assert lowest > -1e-12 * p.N
+    # the bound adds amplitudes that are never all at their worst together: it may not be idle, though
+    bound = p.N - p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega) / p.mu_s
+    assert swing <= bound <= 4.0 * swing
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [{"D_star": 50.0}, {"D_star": 200.0, "n_diameters": 1}, {"n_diameters": 20, "n_circles": 3}, {"k": 1e9}],
+    ids=["near critical damping", "overdamped", "many modes", "faster than the series allows"],
+)
+def test_the_rest_is_left_to_the_series(parameters: dict[str, float]) -> None:
+    assert build_model(Parameters(N=385, Omega=15.1, **parameters)).modes.gain.size == 0
+
+
+def test_nothing_is_promised_where_nothing_is_sure() -> None:
+    """A spring beyond the friction limit, or a swing that could take P to zero."""
+    model = build_model(Parameters(N=385, Omega=15.1))
+    s, pulled, shaken = layout.build_series(model, ORDER), _lively(model), _lively(model)
+    pulled.x[layout.PSI] = 0.1
+    shaken.e[:] *= 1e4
+    assert _coast(model, s, pulled, 0.0) == _coast(model, s, shaken, 0.0) == 0.0
+
+
+def test_events_are_those_of_the_series(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Slow drive: stick is nearly all of the motion and coasts are long."""
+    p = Parameters(N=385, Omega=1.0)
+    closed = simulate(p, 2.0, tol=1e-14)
+    monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+    stepped = simulate(p, 2.0, tol=1e-14)
+    assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
+    assert list(closed.events["kind"]) == list(stepped.events["kind"])
+    # rounding of a clock that reads 2 s, and of the forces at a release that the slow spring reaches at a flat angle
+    np.testing.assert_allclose(closed.events["time"], stepped.events["time"], atol=1e-12, rtol=0)
+
+
+def test_samples_and_audit_within_a_coast(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Samples that fall into a coast, and its energy balance, are as good as those of steps."""
+    p = Parameters(N=385, Omega=1.0, c=1.0, D_star=1e-3)
+    record = Record(windows=(Window(start=0.0, stop=0.3, rate=2000.0),), energy=True)
+    closed = simulate(p, 0.3, tol=1e-14, record=record)
+    monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+    stepped = simulate(p, 0.3, tol=1e-14, record=record)
+    assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
+    for name, values in stepped.samples[0].items():
+        # the series leave 1e-14 of the static deflection at each step, which a small velocity feels
+        size = max(np.abs(values).max(), 1e-3 * (name == "u_velocity"))
+        np.testing.assert_allclose(closed.samples[0][name], values, rtol=0, atol=1e-9 * size, err_msg=name)
+    # the quadrature of a step is good to rounding, so is that of a coast
+    assert closed.statistics["energy_transverse"] < 1e-13
+    assert closed.statistics["energy_inplane"] < 1e-13
+
+
+def test_samples_of_a_coast_fit_their_buffer() -> None:
+    """The engine writes a whole coast before it pauses; numba would not say if it wrote beyond the end."""
+    window = Window(start=0.0, stop=0.5, rate=200_000.0)
+    run = _Run(Parameters(N=385, Omega=0.2), 0.5, 1e-10, None, Record(windows=(window,)), None, None)
+    room, width = run.collector.rows.shape
+    run.collector.rows = np.full((4 * room, width), np.nan)
+    pauses = 0
+    while run.advance() == machine.PAUSED:
+        pauses += 1
+    assert pauses >= 1
+    assert np.isnan(run.collector.rows[room:]).all()
+    # the longest coast has begun just before the pause: else this test shows nothing
+    assert np.isfinite(run.collector.rows[run.collector.capacity + 5000, 1])

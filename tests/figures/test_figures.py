@@ -1,0 +1,206 @@
+"""Figures can be drawn from data alone, in the common style, with units on the axes, and reproducibly."""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+
+from disc_model import Parameters, Poincare, Window
+from disc_model.figures import parts
+from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, module_of, number_of
+from disc_model.figures.style import COLUMN, PAGE, save
+
+
+def made_up_case(*, separates: bool = True) -> xr.DataTree:
+    """A case with the windows that figures look for; contact is lost at P = 0 once a cycle."""
+    t = np.arange(0.25, 60, 0.5)
+    grow = np.minimum(np.exp((t - 40) / 10), 1)
+    history = {
+        f"{name}_{end}": ("time", offset + sign * scale * grow)
+        for name, offset, scale in (("P", 200.0, 200.0), ("w_point", -5e-4, 0.01), ("psi", 0.02, 0.05))
+        for end, sign in (("min", -1), ("max", 1))
+    }
+    s = np.linspace(0, 0.035, 3501)
+    cycle = np.sin(2 * np.pi * 135 * s)
+    force = np.maximum(200 + (220 if separates else 100) * cycle, 0)
+    zoom = {
+        "P": ("time", force),
+        "phase": ("time", np.where(force == 0, 2, 1).astype(np.int8)),
+        "u": ("time", 0.009 * cycle),
+        "w": ("time", 0.009 * cycle - 3e-5 * (force == 0)),
+    }
+    p = Parameters(N=200, Omega=20)
+    root = xr.Dataset(
+        {"first_separation": 40.0 if separates else np.nan, "u_0": -0.001, "time_reached": 60.0},
+        attrs={"parameters": p.canonical_json},
+    )
+    stretches = {
+        f"spectrum_{name}": made_up_samples(start, 4000, 3.0) for name, start in zip("abcd", STARTS, strict=True)
+    }
+    stretches["orbit"] = made_up_samples(59, 5000, 1.0)
+    stretches["poincare"] = made_up_samples(0, 3, 60.0)
+    if not separates:
+        stretches = {name: window.assign(phase=window["phase"] % 2) for name, window in stretches.items()}
+    return xr.DataTree.from_dict(
+        {
+            "/": root,
+            "/history": xr.Dataset(history, {"time": t}, {"theta": 0.5}),
+            "/zoom": xr.Dataset(zoom, coords={"time": 50 + s}),
+        }
+        | {f"/{name}": window for name, window in stretches.items()}
+    )
+
+
+STARTS = (0.0, 20.0, 38.5, 50.0)
+"""Of the stretches whose spectra are shown, s."""
+
+
+def made_up_samples(start: float, rate: float, length: float) -> xr.Dataset:
+    """A slider that sticks, slips and separates at 70 Hz, and a disc at 140 Hz."""
+    t = start + np.arange(round(length * rate)) / rate
+    cycle, turn = np.sin(2 * np.pi * 70 * t), np.cos(2 * np.pi * 3.2 * t)
+    values = {
+        "psi": 0.05 * cycle,
+        "psi_velocity": np.minimum(20.0, 22 * np.cos(2 * np.pi * 70 * t)),
+        "w_point": 1e-3 * turn + 1e-4 * np.sin(2 * np.pi * 140 * t),
+        "w_point_velocity": 0.1 * np.cos(2 * np.pi * 140 * t),
+        "phase": np.where(cycle > 0.9, 2, np.where(cycle > 0, 0, 1)).astype(np.int8),
+    }
+    return xr.Dataset({name: ("time", value) for name, value in values.items()}, {"time": t}, {"theta": 0.5})
+
+
+OPTIONS = {
+    "fig26": CATALOGUE["fig26"].options | {"zooms": [["spectrum_c", 39.0], ["spectrum_d", 51.0]]},
+    "fig28": CATALOGUE["fig28"].options | {"zooms": [["spectrum_d", 50.5], ["spectrum_d", 51.0]]},
+}
+"""Closer looks at times that the made-up case has."""
+
+
+def draw(name: str, *, separates: bool = True) -> Figure:
+    cases = {case: made_up_case(separates=separates) for case in CATALOGUE[name].cases}
+    figure: Figure = importlib.import_module(module_of(name)).draw(cases, **OPTIONS.get(name, CATALOGUE[name].options))
+    return figure
+
+
+UNLABELLED = ("shares the axis to its left",)
+
+
+@pytest.mark.parametrize("separates", [True, False])
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_figures_name_their_quantities_and_units(name: str, separates: bool) -> None:
+    figure = draw(name, separates=separates)
+    assert figure.get_figwidth() in (COLUMN, PAGE)
+    for ax in figure.axes:
+        if ax.get_label() in UNLABELLED:
+            continue
+        assert ax.get_ylabel().endswith(")"), "a unit in brackets"
+        assert ax.has_data() or not separates
+    assert any(ax.get_xlabel().endswith(")") for ax in figure.axes) or not separates
+    assert figure.get_suptitle() == ""
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_text_is_legible_at_print_size(name: str) -> None:
+    figure = draw(name)
+    sizes = [text.get_fontsize() for text in figure.findobj(mpl.text.Text) if text.get_text()]
+    assert min(sizes) >= 7
+
+
+@pytest.mark.parametrize("suffix", ["pdf", "png"])
+def test_equal_figures_give_equal_bytes(suffix: str, tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        save(draw("fig13"), tmp_path / f"{name}.{suffix}")
+    content = (tmp_path / f"a.{suffix}").read_bytes()
+    assert content == (tmp_path / f"b.{suffix}").read_bytes()
+    assert b"CreationDate" not in content
+    assert b"/Type3" not in content, "fonts are embedded as TrueType"
+
+
+def test_style_does_not_leak(tmp_path: Path) -> None:
+    before = dict(mpl.rcParams)
+    save(draw("fig11"), tmp_path / "a.png")
+    assert dict(mpl.rcParams) == before
+
+
+def test_users_settings_do_not_change_a_figure() -> None:
+    with mpl.rc_context({"axes.labelsize": 30, "lines.linewidth": 9}):
+        figure = draw("fig02")
+    assert figure.axes[1].yaxis.label.get_fontsize() == 8
+
+
+def test_separations_of_a_window() -> None:
+    window = xr.Dataset({"phase": ("time", [2, 2, 1, 2, 2, 2, 0, 2])}, coords={"time": np.arange(8.0)})
+    assert parts.separations(window) == [(0, 1), (3, 5), (7, 7)]
+    assert parts.complete_separations(window) == [(3, 5)]
+
+
+def test_first_separation_is_marked() -> None:
+    from disc_model.figures.style import VERMILION
+
+    texts = [text.get_text() for text in draw("fig13").findobj(mpl.text.Text)]
+    assert "first separation 40.00 s" in texts
+    lines = draw("fig13").axes[0].lines
+    assert [to_hex(line.get_color()).upper() for line in lines] == [VERMILION]
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_captions_name_the_parameters_and_the_modes(name: str) -> None:
+    p = Parameters(N=385, Omega=15.1, c_p=0.5)
+    for normalization, words in (("as_published", "as in the published results"), ("orthonormal", "Eq. (17)")):
+        cases = dict.fromkeys(CATALOGUE[name].cases, p.replace(normalization=normalization))
+        text = caption(name, cases)
+        assert "N = 385 N, Ω = 15.1 rad/s, c_p = 0.5 N s/m" in text
+        assert words in text
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_the_disc_is_named_at_the_angle_that_was_recorded(name: str) -> None:
+    figure = draw(name)
+    labels = [text for ax in figure.axes for text in (ax.get_xlabel(), ax.get_ylabel()) if text.startswith("Disc at")]
+    assert set(labels) <= {r"Disc at $r_0$, $\theta$ = 0.5 (mm)"}
+    assert labels or "{theta}" not in CATALOGUE[name].caption or name == "fig25"
+    # no number is said of what may be configured
+    assert not any(character.isdigit() for character in CATALOGUE[name].title)
+
+
+def test_two_angles_are_both_named() -> None:
+    cases = {name: made_up_case() for name in ("F02", "F04")}
+    cases["F04"]["history"].attrs["theta"] = 2.0
+    figure = importlib.import_module(module_of("fig10")).draw(cases)
+    assert figure.axes[0].get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 and 2 (mm)"
+
+
+def test_captions_say_times_and_angles_of_the_windows() -> None:
+    p = Parameters(N=200, Omega=20)
+    windows = {
+        "history": Window(start=0, stop=9, rate=10, theta=0.5, envelope=2),
+        "zoom": Window(start=3, stop=3.05, rate=1e3),
+        "orbit": Window(start=7.5, stop=9, rate=1e3),
+        "poincare": Poincare(theta=-0.25),
+    }
+
+    def said(name: str) -> str:
+        return caption(name, {"F02": p, "F04": p}, {"F02": windows, "F04": windows | {"history": windows["zoom"]}})
+
+    assert "(b) 50 ms of it" in said("fig02")
+    assert "r_0 and θ = -0.25." in said("fig05")
+    assert "r_0 and θ = 0.5 and 1, with" in said("fig10")
+    assert "drive point, 7.5 to 9 s, by phase" in said("figA2")
+    # without a section, as if nothing had been said of it
+    assert "r_0 and a fixed θ." in caption("fig05", {"F02": p}, {"F02": {"poincare": None}})
+    assert "{" not in "".join(caption(name, dict.fromkeys(CATALOGUE[name].cases, p)) for name in CATALOGUE)
+
+
+def test_every_figure_has_its_place() -> None:
+    assert all(entry.section in SECTIONS and entry.title for entry in CATALOGUE.values())
+    assert [number_of(name) for name in ("fig02", "fig29", "figA1")] == ["Fig. 2", "Fig. 29", "Fig. A1"]
+    assert sorted(["fig10", "fig02", "fig29"], key=label) == ["fig02", "fig10", "fig29"]
+    shown = {*range(2, 30)} - {15}  # 1 is a sketch, 15 belongs to a study of its own
+    assert set(CATALOGUE) == {f"fig{n:02d}" for n in shown} | {"figA1", "figA2"}

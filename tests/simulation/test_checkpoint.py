@@ -1,0 +1,532 @@
+"""An interrupted simulation goes on from its checkpoint to the same result, bit for bit; and so do long ones."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import importlib
+import json
+import logging
+import os
+import pickle
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from disc_model import ParameterError, Parameters, Poincare, Record, Window
+from disc_model.cli import main
+from disc_model.data.dataset import load
+from disc_model.engine import machine
+from disc_model.simulation import checkpoint
+from disc_model.simulation.api import simulate
+from disc_model.simulation.result import EVENT_ROW, Result, State
+from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases.spec import CaseSpec
+from tests.workflow.conftest import Project, copy_repository
+
+ROOT = Path(__file__).parents[2]
+SIMULATE = importlib.import_module("disc_model.simulation.api")
+P = Parameters(N=385, Omega=15.1)
+# the last window of ALL is beyond the end of every run
+pytestmark = pytest.mark.filterwarnings("ignore:windows:UserWarning")
+
+ALL = Record(
+    windows=(
+        Window(start=54.5, stop=55.2, rate=3e3),
+        Window(start=54.45, stop=55.5, rate=1e3, theta=2.0, envelope=7),
+        Window(start=60, stop=61, rate=1e3),
+    ),
+    poincare=Poincare(start=54.6),
+    energy=True,
+)
+
+
+class Interrupted(Exception):
+    pass
+
+
+@pytest.fixture(scope="module")
+def separating() -> State:
+    """The first loss of contact."""
+    return simulate(P, 60, stop_at="first_separation").final_state
+
+
+@pytest.fixture(autouse=True)
+def _many_pauses(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(SIMULATE, "STEPS_PER_PAUSE", 120)
+
+
+def interrupted_after(pauses: int) -> Callable[[float], None]:
+    """To be given as ``progress``: raises at one of the pauses."""
+    left = iter(range(pauses))
+
+    def progress(time: float) -> None:
+        if next(left, None) is None:
+            raise Interrupted
+
+    return progress
+
+
+def interrupt(pauses: int, *args: Any, **options: Any) -> None:
+    """Run until an interruption."""
+    with pytest.raises(Interrupted):
+        simulate(*args, **options, checkpoint_every=0, progress=interrupted_after(pauses))
+
+
+def same(a: Result, b: Result) -> None:
+    """All but the wall time is equal, bit for bit."""
+    np.testing.assert_array_equal(a.event_rows, b.event_rows)
+    pd.testing.assert_frame_equal(a.events, b.events, check_exact=True)
+    assert len(a.samples) == len(b.samples)
+    for one, other in zip((*a.samples, a.poincare or {}), (*b.samples, b.poincare or {}), strict=True):
+        assert list(one) == list(other)
+        for name in one:
+            assert one[name].tobytes() == other[name].tobytes(), name
+    for field in dataclasses.fields(State):
+        np.testing.assert_array_equal(getattr(a.final_state, field.name), getattr(b.final_state, field.name))
+    assert (a.status, a.message, a.u_0, a.parameters) == (b.status, b.message, b.u_0, b.parameters)
+    np.testing.assert_array_equal(a.first_separation, b.first_separation)
+    assert set(a.statistics) == set(b.statistics)
+    for name in set(a.statistics) - {"wall_time"}:
+        np.testing.assert_array_equal(a.statistics[name], b.statistics[name], err_msg=name)
+
+
+RUNS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "everything": ({}, {"record": ALL}),
+    "events alone": ({}, {}),
+    "nothing kept": ({}, {"record": Record(events=False)}),
+    "stopped": ({}, {"stop_at": "first_separation", "record": Record(energy=True)}),
+    "out of steps": ({}, {"max_steps": 900, "record": ALL}),
+    "other tolerance": ({}, {"tol": 1e-6, "record": ALL}),
+    "many modes": ({"n_diameters": 9, "n_circles": 1, "c": 3.0}, {"record": ALL}),
+    "bonded": ({"contact": "bonded"}, {"record": ALL}),
+}
+
+
+class TestGoingOn:
+    @pytest.mark.parametrize("pauses", [(0,), (1, 1, 0, 2)], ids=["once", "several times"])
+    @pytest.mark.parametrize("name", RUNS)
+    def test_the_result_is_that_of_an_undisturbed_run(
+        self, separating: State, tmp_path: Path, name: str, pauses: tuple[int, ...]
+    ) -> None:
+        changes, options = RUNS[name]
+        p = P.replace(**changes)
+        first = separating if not changes else simulate(p, separating.time, record=Record(events=False)).final_state
+        if "stop_at" in options:
+            first = simulate(P, 53.5, record=Record(events=False)).final_state
+        options = {"initial_state": first, **options}
+        file = tmp_path / "checkpoint"
+        undisturbed = simulate(p, 55.6, **options)
+        for n in pauses:
+            interrupt(n, p, 55.6, **options, checkpoint=file)
+        resumed = simulate(p, 55.6, **options, checkpoint=file)
+        same(undisturbed, resumed)
+        assert resumed.statistics["wall_time"] > 0
+        assert os.listdir(tmp_path) == []
+
+    def test_nothing_is_computed_twice(self, separating: State, tmp_path: Path) -> None:
+        whole: list[float] = []
+        simulate(P, 56, initial_state=separating, progress=whole.append)
+        interrupt(5, P, 56, initial_state=separating, checkpoint=tmp_path / "x")
+        rest: list[float] = []
+        simulate(P, 56, initial_state=separating, checkpoint=tmp_path / "x", progress=rest.append)
+        assert len(rest) > 5
+        assert rest == whole[6:]
+
+    def test_what_is_kept_is_written_once(self, separating: State, tmp_path: Path) -> None:
+        sizes: list[int] = []
+
+        def progress(time: float) -> None:
+            sizes.append((tmp_path / "x").stat().st_size)
+
+        options = {"initial_state": separating, "checkpoint": tmp_path / "x", "checkpoint_every": 0}
+        run = simulate(P, 57, **options, progress=progress)
+        added = np.diff(sizes[:-1])  # none at the end
+        assert len(added) >= 10
+        assert added.max() < 2 * added.min()
+        assert sizes[-1] < run.event_rows.nbytes + 12_000 * len(sizes)
+
+    def test_an_interruption_when_all_is_done(self, separating: State, tmp_path: Path) -> None:
+        """The very end is no place to go on from: one more step, of no length, would be counted."""
+        pauses: list[float] = []
+        undisturbed = simulate(P, 55, initial_state=separating, record=ALL, progress=pauses.append)
+        interrupt(len(pauses) - 1, P, 55, initial_state=separating, record=ALL, checkpoint=tmp_path / "x")
+        same(simulate(P, 55, initial_state=separating, record=ALL, checkpoint=tmp_path / "x"), undisturbed)
+
+    @pytest.mark.parametrize("every", [0, 3600])
+    def test_what_is_no_checkpoint_is_never_lost(self, separating: State, tmp_path: Path, every: float) -> None:
+        (tmp_path / "x").write_text("kept")
+        simulate(P, 55, initial_state=separating, checkpoint=tmp_path / "x", checkpoint_every=every)
+        assert os.listdir(tmp_path) == ["x.other"]
+        assert (tmp_path / "x.other").read_text() == "kept"
+
+    @pytest.mark.parametrize("every", [0, 3600])
+    def test_the_checkpoint_of_another_run_is_never_lost(self, separating: State, tmp_path: Path, every: float) -> None:
+        interrupt(3, P, 55, initial_state=separating, checkpoint=tmp_path / "x")
+        kept = (tmp_path / "x").read_bytes()
+        simulate(P, 54.5, initial_state=separating, checkpoint=tmp_path / "x", checkpoint_every=every)
+        assert (tmp_path / "x.other").read_bytes() == kept
+
+    def test_another_runs_checkpoint_that_cannot_be_moved_ends_this_run(
+        self, separating: State, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        interrupt(3, P, 55, initial_state=separating, checkpoint=tmp_path / "x")
+        kept = (tmp_path / "x").read_bytes()
+
+        def refused(*_: object) -> None:
+            raise PermissionError(13, "Permission denied")
+
+        monkeypatch.setattr(os, "replace", refused)
+        with pytest.raises(ParameterError, match=r"checkpoint='.*x': is of another run .* cannot be renamed"):
+            simulate(P, 54.5, initial_state=separating, checkpoint=tmp_path / "x", checkpoint_every=0)
+        assert (tmp_path / "x").read_bytes() == kept
+
+
+OTHERS: dict[str, tuple[Parameters, float, dict[str, Any]]] = {
+    "parameters": (P.replace(mu_k=0.23), 55, {}),
+    "t_end": (P, 55.25, {}),
+    "tol": (P, 55, {"tol": 1e-9}),
+    "record": (P, 55, {"record": Record(windows=ALL.windows[:1])}),
+    "stop_at": (P, 55, {"stop_at": "first_separation"}),
+    "max_steps": (P, 55, {"max_steps": 300}),
+}
+
+
+class TestNotTrusted:
+    @pytest.mark.parametrize("name", OTHERS)
+    def test_the_checkpoint_of_another_run(
+        self, separating: State, tmp_path: Path, caplog: pytest.LogCaptureFixture, name: str
+    ) -> None:
+        interrupt(3, P, 55, initial_state=separating, record=ALL, checkpoint=tmp_path / "x")
+        p, t_end, options = OTHERS[name]
+        options = {"initial_state": separating, "record": ALL} | options
+        found = simulate(p, t_end, **options, checkpoint=tmp_path / "x")
+        said = re.search(r"checkpoint (.*) ignored: of another run \(other (.*)\)", caplog.text)
+        assert said is not None
+        assert said[1] == str(tmp_path / "x")
+        assert name in said[2].split(", ")
+        same(found, simulate(p, t_end, **options))
+
+    def test_another_start(self, separating: State, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+        interrupt(3, P, 55, initial_state=separating, checkpoint=tmp_path / "x")
+        moved = separating.replace(psi=np.nextafter(separating.psi, 1))
+        found = simulate(P, 55, initial_state=moved, checkpoint=tmp_path / "x")
+        assert "(other initial state)" in caplog.text
+        same(found, simulate(P, 55, initial_state=moved))
+
+    @pytest.mark.parametrize(("function", "name"), [("source_hash", "sources"), ("versions", "versions")])
+    def test_another_engine(
+        self,
+        separating: State,
+        tmp_path: Path,
+        caplog: pytest.LogCaptureFixture,
+        monkeypatch: pytest.MonkeyPatch,
+        function: str,
+        name: str,
+    ) -> None:
+        interrupt(3, P, 55, initial_state=separating, checkpoint=tmp_path / "x")
+        monkeypatch.setattr(checkpoint, function, lambda *_: "another")
+        begun: list[float] = []
+        simulate(P, 55, initial_state=separating, checkpoint=tmp_path / "x", progress=begun.append)
+        assert f"(other {name})" in caplog.text
+        assert begun[0] < separating.time + 0.2
+
+    def test_the_sources_of_the_engine_are_part_of_the_key(self) -> None:
+        from disc_model.data.provenance import source_files
+
+        found = {path.name for path in source_files("disc_model.simulation.api")}
+        assert {"machine.py", "series.py", "plate.py", "collect.py", "checkpoint.py"} <= found
+
+    @pytest.mark.parametrize("share", [0.0, 0.001, 0.1, 0.5, 0.9, 0.9999])
+    def test_a_file_that_was_cut_off(
+        self, separating: State, tmp_path: Path, caplog: pytest.LogCaptureFixture, share: float
+    ) -> None:
+        """What is whole of it is used, and the file can be continued."""
+        options = {"initial_state": separating, "record": ALL, "checkpoint": tmp_path / "x"}
+        interrupt(4, P, 55.6, **options)
+        content = (tmp_path / "x").read_bytes()
+        (tmp_path / "x").write_bytes(content[: int(share * len(content))])
+        interrupt(1, P, 55.6, **options)
+        assert ("ignored from byte" in caplog.text) == (share > 0)
+        same(simulate(P, 55.6, **options), simulate(P, 55.6, initial_state=separating, record=ALL))
+
+    def test_a_byte_changed_anywhere(self, separating: State, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+        options = {"initial_state": separating, "record": ALL}
+        interrupt(1, P, 54.8, **options, checkpoint=tmp_path / "x")
+        content = (tmp_path / "x").read_bytes()
+        undisturbed = simulate(P, 54.8, **options)
+        places = [*range(40), *np.random.default_rng(1).integers(0, len(content), 40), len(content) - 1]
+        for place in places:
+            caplog.clear()
+            changed = bytearray(content)
+            changed[place] ^= 1 << int(place) % 8
+            (tmp_path / "x").write_bytes(changed)
+            same(simulate(P, 54.8, **options, checkpoint=tmp_path / "x"), undisturbed)
+            assert "ignored" in caplog.text
+
+    @pytest.mark.parametrize("content", [b"", b"\0" * 10_000, b"discCkpt" * 1000, pickle.dumps(list(range(1000)))])
+    def test_something_else(self, separating: State, tmp_path: Path, content: bytes) -> None:
+        (tmp_path / "x").write_bytes(content)
+        options = {"initial_state": separating}
+        interrupt(2, P, 55, **options, checkpoint=tmp_path / "x")
+        same(simulate(P, 55, **options, checkpoint=tmp_path / "x"), simulate(P, 55, **options))
+        assert not (tmp_path / "x").exists()
+
+
+class TestArguments:
+    def test_all_faults_in_one_error(self, tmp_path: Path) -> None:
+        with pytest.raises(ParameterError) as raised:
+            simulate(P, -1, checkpoint=tmp_path / "no" / "such", checkpoint_every=-1)
+        assert [fault.partition("=")[0] for fault in raised.value.faults] == ["t_end", "checkpoint", "checkpoint_every"]
+
+    @pytest.mark.parametrize("path", ["", ".", "/", 3, b"x", "\0", "x" * 5000 + "/x", __file__ + "/x"])
+    def test_a_place_for_no_file(self, path: Any) -> None:
+        with pytest.raises(ParameterError, match=r"^checkpoint=.*must be a file in a folder that exists$"):
+            simulate(P, 1, checkpoint=path)
+
+    @pytest.mark.parametrize("every", [-1, float("nan"), float("inf"), "5", None, True])
+    def test_no_time(self, every: Any) -> None:
+        with pytest.raises(ParameterError, match=r"^checkpoint_every=.*: must be finite and >= 0$"):
+            simulate(P, 1, checkpoint_every=every)
+
+    def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(
+        self, separating: State, tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        """The disk is full for a while, half-way through a record."""
+        write, calls = checkpoint._write, []
+
+        def failing(file: Any, *args: Any) -> None:
+            calls.append(file.tell())
+            write(file, *args)
+            if 3 < len(calls) < 6:
+                file.truncate(file.tell() - 1)
+                raise OSError(28, "No space left on device")
+
+        options = {"initial_state": separating, "record": ALL, "checkpoint": tmp_path / "x"}
+        monkeypatch.setattr(checkpoint, "_write", failing)
+        interrupt(4, P, 55.6, **options)
+        interrupt(4, P, 55.6, **options)
+        assert caplog.text.count("not written: [Errno 28]") == 2
+        assert len(calls) == 10
+        same(simulate(P, 55.6, **options), simulate(P, 55.6, initial_state=separating, record=ALL))
+
+    def test_the_file_is_removed_by_someone(self, separating: State, tmp_path: Path) -> None:
+        options = {"initial_state": separating, "record": ALL}
+        pauses = iter(range(100))
+
+        def progress(time: float) -> None:
+            pause = next(pauses)
+            if pause == 3:
+                (tmp_path / "x").unlink()
+            if pause == 6:
+                raise Interrupted
+
+        with pytest.raises(Interrupted):
+            simulate(P, 55.6, **options, checkpoint=tmp_path / "x", checkpoint_every=0, progress=progress)
+        same(simulate(P, 55.6, **options, checkpoint=tmp_path / "x"), simulate(P, 55.6, **options))
+
+
+class TestCommands:
+    def test_run(self, tmp_path: Path, capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture) -> None:
+        file = tmp_path / "x"
+        interrupt(2, P, 2.0, checkpoint=file)
+        command = ["run", "--N", "385", "--Omega", "15.1", "--t-end", "2"]
+        with pytest.raises(SystemExit) as ended:
+            main([*command, "--checkpoint", str(file)])
+        assert not ended.value.code
+        assert f"from checkpoint {file}" in caplog.text
+        assert not file.exists()
+        resumed = capsys.readouterr().out
+        with pytest.raises(SystemExit):
+            main(command)
+        undisturbed = capsys.readouterr().out
+        assert [line for line in resumed.splitlines() if "wall" not in line] == [
+            line for line in undisturbed.splitlines() if "wall" not in line
+        ]
+
+    def test_run_refuses_a_folder_that_is_not_there(self, capsys: pytest.CaptureFixture[str]) -> None:
+        with pytest.raises(SystemExit) as ended:
+            main(["run", "--N", "-1", "--Omega", "1", "--t-end", "1", "--checkpoint", "no/such"])
+        assert ended.value.code == 2
+        err = capsys.readouterr().err
+        assert "N=-1.0" in err
+        assert "checkpoint='no/such': must be a file in a folder that exists" in err
+
+    def test_a_case_of_the_workflow(self, tmp_path: Path) -> None:
+        window = Window(start=0, stop=5, rate=50, envelope=10)
+        spec = CaseSpec(P, 5.0, 1e-10, None, (("history", window),), None, (0.0, 5.0), energy=False)
+        interrupt(2, P, spec.t_end, record=spec.record, checkpoint=tmp_path / ".A.checkpoint")
+        script = [sys.executable, str(ROOT / "workflow/scripts/simulate_case.py"), spec.canonical]
+        done = subprocess.run([*script, str(tmp_path / "A.nc")], capture_output=True, text=True, check=True)
+        assert "goes on at t = " in done.stderr
+        assert os.listdir(tmp_path) == ["A.nc"]
+        assert load(tmp_path / "A.nc").identical(run_case(spec))
+
+
+class TestResult:
+    """The table of events is made when it is asked for."""
+
+    def test_columns_are_those_of_the_engine(self) -> None:
+        assert EVENT_ROW == machine.EVENT_ROW
+
+    def test_events_are_made_once(self) -> None:
+        result = simulate(P, 0.2)
+        assert "events" not in vars(result)
+        assert result.events is result.events
+        assert list(result.events) == ["time", "kind", "phase", "psi", "f", "u", "u_velocity", "P"]
+        assert list(result.events["phase"].cat.categories) == ["stick", "slip", "separation"]
+        assert len(result.events) == result.statistics["events"] == len(result.event_rows) > 0
+
+    def test_a_result_cannot_be_changed(self) -> None:
+        result = simulate(P, 0.1)
+        for name in ("events", "event_rows", "status"):
+            with pytest.raises(dataclasses.FrozenInstanceError):
+                setattr(result, name, None)
+
+    @pytest.mark.parametrize("asked_before", [False, True])
+    @pytest.mark.parametrize(
+        "way", [copy.copy, copy.deepcopy, dataclasses.replace, lambda result: pickle.loads(pickle.dumps(result))]
+    )
+    def test_copies(self, way: Callable[[Result], Result], asked_before: bool) -> None:
+        result = simulate(P, 0.3, record=Record(windows=(Window(start=0, stop=0.1, rate=100),)))
+        if asked_before:
+            assert len(result.events)
+        same(way(result), result)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Long runs
+
+HOUR = """
+import logging, pickle, sys
+from disc_model import Parameters, Poincare, Record, Window
+from disc_model.simulation.api import simulate
+logging.basicConfig(level=logging.INFO)
+windows = Window(start=0, stop=3600, rate=200, envelope=100), Window(start=3000, stop=3001, rate=1e4)
+record = Record(windows=windows, poincare=Poincare(start=1000))
+result = simulate(Parameters(N=385, Omega=15.1), 3600, record=record, checkpoint=sys.argv[2], checkpoint_every=0.3)
+pickle.dump(result, open(sys.argv[1], "wb"))
+"""
+
+
+@pytest.mark.slow
+def test_an_hour_killed_several_times(tmp_path: Path) -> None:
+    """SIGKILL, at any moment, leaves no chance to tidy up."""
+    file, log = tmp_path / "checkpoint", tmp_path / "log"
+
+    def start(name: str, checkpoint: Path) -> subprocess.Popen[bytes]:
+        command = [sys.executable, "-c", HOUR, str(tmp_path / name), str(checkpoint)]
+        return subprocess.Popen(command, stderr=log.open("a"))
+
+    for delay in (0.4, 0.05, 0.01, 0.2):
+        size = file.stat().st_size if file.exists() else 0
+        process = start("resumed", file)
+        while not (file.exists() and file.stat().st_size > size):
+            assert process.poll() is None, log.read_text()
+            time.sleep(0.001)
+        time.sleep(delay)
+        process.kill()
+        assert process.wait() < 0, "it was done before it could be killed"
+    assert start("resumed", file).wait() == 0
+    assert start("undisturbed", tmp_path / "other").wait() == 0
+    assert log.read_text().count("goes on at t = ") == 4
+    resumed, undisturbed = (pickle.loads((tmp_path / name).read_bytes()) for name in ("resumed", "undisturbed"))
+    same(resumed, undisturbed)
+    assert undisturbed.statistics["events"] > 1e6
+    assert {path.name for path in tmp_path.iterdir()} == {"resumed", "undisturbed", "log"}
+
+
+TWO_HOURS = """
+import json, resource
+from disc_model import Parameters, Record
+from disc_model.simulation.api import simulate
+seen = []
+def progress(time):
+    seen.append((time, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss))
+result = simulate(Parameters(N=385, Omega=15.1), 7200, record=Record(events=False), progress=progress)
+print(json.dumps({"seen": seen, "status": result.status.value, **result.statistics}))
+"""
+
+
+@pytest.mark.slow
+def test_two_hours_need_no_more_memory_than_twelve_minutes() -> None:
+    done = subprocess.run([sys.executable, "-c", TWO_HOURS], capture_output=True, text=True, check=True)
+    found = json.loads(done.stdout)
+    assert found["status"] == "ok"
+    assert found["events"] >= 1e6
+    assert found["energy_residual"] < 1e-11
+    unit = 1 if sys.platform == "darwin" else 1024
+    early = max(size for time, size in found["seen"] if time <= 720)
+    assert (found["seen"][-1][1] - early) * unit < 2e6
+
+
+@pytest.mark.slow
+def test_the_energy_balance_does_not_drift_over_a_million_switches() -> None:
+    """Residuals are summed over every step of each tenth: they stay what they are, relative to what is exchanged."""
+    state, tenths, switches = None, [], 0
+    for i in range(10):
+        result = simulate(P, 200.0 * (i + 1), initial_state=state, record=Record(events=False, energy=True))
+        assert result.status == "ok"
+        state, switches = result.final_state, switches + int(result.statistics["events"])
+        tenths.append(result.statistics)
+    assert switches >= 1e6
+    for name, bound in {"energy_transverse": 5e-9, "energy_inplane": 1e-12, "energy_residual": 1e-11}.items():
+        found = [tenth[name] for tenth in tenths]
+        assert max(found) < bound, (name, found)
+        assert found[-1] < 1.5 * found[0] + 1e-14, (name, found)
+
+
+STUDY = """\
+study: long
+record: {windows: {history: {rate: 50, envelope: 10}}, events: {last: 10}}
+cases: {A: {title: a long one, parameters: {N: 385, Omega: 15.1}, t_end: 12000}}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.workflow
+def test_a_workflow_that_is_killed(tmp_path: Path) -> None:
+    """Snakemake and its job vanish together, as with the machine; the job goes on when Snakemake runs again."""
+    interrupted, undisturbed = projects = [Project(tmp_path / name) for name in ("interrupted", "undisturbed")]
+    for project in projects:
+        project.folder.mkdir()
+        copy_repository(project.folder)
+        (project.folder / "config/long.yaml").write_text(STUDY)
+    cases = interrupted.folder / "results/long/cases"
+    file = cases / ".A.checkpoint"
+    command = interrupted.command("-j1", "results/long/cases/A.nc", config="config/long.yaml")
+    options: dict[str, Any] = {"cwd": interrupted.folder, "env": interrupted.environment, "start_new_session": True}
+    with subprocess.Popen(command, **options, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        sizes = [0, 0]
+        while not 0 < sizes[-1] == sizes[-2]:  # else the first record may be cut off
+            assert process.poll() is None
+            time.sleep(1)
+            sizes.append(file.stat().st_size if file.exists() else 0)
+        os.killpg(process.pid, signal.SIGKILL)
+    assert os.listdir(cases) == [".A.checkpoint"]
+    interrupted.snakemake("--unlock", config="config/long.yaml")
+    for project in projects:
+        done = project.snakemake("-j1", "results/long/cases/A.nc", config="config/long.yaml")
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert "goes on at t = " in (interrupted.folder / "results/long/logs/simulate_case/A.log").read_text()
+    assert os.listdir(cases) == ["A.nc"]
+    assert (cases / "A.nc").read_bytes() == (undisturbed.folder / "results/long/cases/A.nc").read_bytes()
+
+
+def test_progress_goes_on_as_before(caplog: pytest.LogCaptureFixture) -> None:
+    """Without a checkpoint nothing is written or said."""
+    caplog.set_level(logging.INFO)
+    times: list[float] = []
+    simulate(P, 1, progress=times.append)
+    assert times == sorted(times)
+    assert times[-1] == 1
+    assert not caplog.records

@@ -1,0 +1,215 @@
+"""Study files: what they expand to, and that every fault is named, with its path, in one error."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from disc_model import Parameters
+from disc_model.studies.cases.schema import Study, StudyError, load_study, parse_study, study_from_config
+from disc_model.studies.cases.spec import CaseSpec
+
+ROOT = Path(__file__).parents[3]
+CONFIGS = sorted((ROOT / "config").glob("*.yaml"))
+
+
+def raw_study() -> dict[str, Any]:
+    return {
+        "study": "small",
+        "base": {"N": 385, "c": 0.1},
+        "record": {"windows": {"history": {"rate": 100}}, "events": {"last": 2}},
+        "cases": {
+            "A": {"title": "a", "parameters": {"Omega": 15}, "t_end": 10},
+            "B": {"title": "b", "parameters": {"Omega": 15.1, "N": 50}, "t_end": 1, "tol": "1e-8"},
+        },
+    }
+
+
+def faults_of(raw: Any) -> tuple[str, ...]:
+    with pytest.raises(StudyError) as caught:
+        parse_study(raw)
+    return caught.value.faults
+
+
+@pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
+def test_shipped_files_are_valid_and_named_after_their_study(path: Path) -> None:
+    assert load_study(path).name == path.stem
+
+
+def test_paper_has_the_named_cases_with_their_values() -> None:
+    specs = load_study(ROOT / "config" / "paper.yaml").specs
+    wanted = {
+        "F02": {"N": 200, "Omega": 20},
+        "F04": {"N": 200, "Omega": 20, "contact": "bonded"},
+        "F06": {"N": 300, "Omega": 20, "contact": "bonded"},
+        "F07": {"N": 300, "Omega": 20},
+        "F08": {"N": 200, "Omega": 50, "contact": "bonded"},
+        "F09": {"N": 200, "Omega": 50},
+        "F11": {"N": 385, "Omega": 15},
+        "F13": {"N": 385, "Omega": 15.1},
+        "F16": {"N": 50, "Omega": 15},
+        "F17": {"N": 200, "Omega": 15},
+        "F18": {"N": 200, "Omega": 10, "D_star": 0},
+        "F19": {"N": 385, "Omega": 15, "c_p": 0.5},
+        "F20": {"N": 200, "Omega": 20, "c": 0.5},
+        "F21": {"N": 200, "Omega": 11, "E": 100e9},
+        "F22": {"N": 300, "Omega": 50, "k_p": 2e3},
+        "F23": {"N": 200, "Omega": 20, "m": 0.01},
+    }
+    assert {name: specs[name].parameters for name in wanted} == {
+        name: Parameters(**values) for name, values in wanted.items()
+    }
+
+
+def test_cases_inherit_and_override() -> None:
+    study = parse_study(raw_study())
+    a, b = study.specs["A"], study.specs["B"]
+    assert a.parameters == Parameters(N=385, Omega=15, c=0.1)
+    assert b.parameters == Parameters(N=50, Omega=15.1, c=0.1)
+    assert (a.tol, b.tol) == (1e-10, 1e-8)
+    assert a.events == (8.0, 10.0)
+    assert b.events == (0.0, 1.0), "the last 2 s of a run of 1 s are all of it"
+    (name, window), *rest = a.windows
+    assert (name, window.start, window.stop, rest) == ("history", 0.0, 10.0, [])
+
+
+def test_null_drops_what_is_inherited() -> None:
+    raw = raw_study()
+    raw["cases"]["A"]["record"] = {"windows": {"history": None}, "events": False}
+    spec = parse_study(raw).specs["A"]
+    assert spec.windows == ()
+    assert spec.events is None
+    assert not spec.record.events
+
+
+def test_envelope_has_no_bin_of_its_own_for_the_last_instant() -> None:
+    raw = raw_study()
+    raw["record"]["windows"]["history"]["envelope"] = 100
+    window = parse_study(raw).specs["A"].windows[0][1]
+    assert window.count == 1000
+
+
+def test_specification_survives_its_text() -> None:
+    raw = raw_study()
+    raw["record"]["poincare"] = {"theta": 0.5}
+    for spec in parse_study(raw).specs.values():
+        assert CaseSpec.from_canonical(spec.canonical) == spec
+
+
+def test_key_depends_on_content_alone() -> None:
+    def key(change: dict[str, Any]) -> str:
+        raw = raw_study()
+        raw["cases"]["A"] |= change
+        return parse_study(raw).specs["A"].key
+
+    same = key({})
+    assert key({"title": "other", "reference": "elsewhere"}) == same
+    assert key({"t_end": "1e1"}) == same
+    assert key({"parameters": {"c": "0.10", "Omega": 15.0}}) == same
+    assert key({"t_end": 11}) != same
+    assert key({"tol": 1e-9}) != same
+    assert key({"parameters": {"Omega": 15, "m": 0.2}}) != same
+    assert key({"record": {"windows": {"history": {"rate": 200}}}}) != same
+
+
+def test_every_fault_is_listed_with_its_path() -> None:
+    raw = raw_study()
+    raw["extra"] = 1
+    raw["cases"]["A"]["parameters"] = {"Omega": "fast", "N": -5, "Omga": 3}
+    raw["cases"]["A"]["record"] = {"windows": {"zoom": {"start": 11, "rate": 10}, "late": {"rate": -1}}}
+    raw["cases"]["B"]["t_end"] = 0
+    raw["cases"]["B"]["tol"] = 0.1
+    raw["cases"]["B"]["stop_at"] = "never"
+    raw["cases"]["1st"] = {"title": "no name", "t_end": 1, "parameters": {"Omega": 1}}
+    raw["cases"]["N"] = {"title": "taken", "t_end": 1, "parameters": {"Omega": 1}}
+    raw["figures"] = ["fig11", "fig99"]
+    listed = "\n".join(faults_of(raw))
+    for wanted in (
+        "extra = 1: unknown key",
+        "cases.A.parameters.N = -5.0: must be >= 0",
+        "cases.A.parameters.Omega = 'fast': must be a number",
+        "cases.A.parameters.Omga = 3",
+        "cases.A.record.windows.late.rate = -1: must be > 0",
+        "cases.B.t_end = 0: must be > 0",
+        "cases.B.tol = 0.1: must be <= 0.01",
+        "cases.B.stop_at = 'never'",
+        "cases.1st: a case's name must be",
+        "cases.N: a case must not be called so",
+        "figures.0 = 'fig11': needs a case F11",
+        "figures.1 = 'fig99': unknown figure",
+    ):
+        assert wanted in listed
+
+
+def test_window_outside_the_run() -> None:
+    raw = raw_study()
+    raw["cases"]["A"]["record"] = {"windows": {"zoom": {"start": 11, "rate": 10}}}
+    (fault,) = faults_of(raw)
+    assert fault.startswith("cases.A.record.windows.zoom: must be within the run")
+
+
+def test_inherited_faults_are_listed_once_and_where_they_stand() -> None:
+    raw = raw_study()
+    raw["base"]["m"] = 0
+    raw["record"]["windows"]["history"]["rate"] = 0
+    raw["tol"] = 1
+    assert faults_of(raw) == (
+        "tol = 1: must be <= 0.01",
+        "record.windows.history.rate = 0: must be > 0",
+        "base.m = 0.0: must be > 0",
+    )
+
+
+@pytest.mark.parametrize("raw", [None, [], "text", {}, {"study": "x", "cases": None}, {"study": "x", "cases": {}}])
+def test_what_is_no_study_at_all(raw: Any) -> None:
+    assert faults_of(raw)
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), True, None, "x", [1]])
+def test_bad_end_times(value: Any) -> None:
+    raw = raw_study()
+    raw["cases"]["A"]["t_end"] = value
+    assert any(fault.startswith("cases.A.t_end") for fault in faults_of(raw))
+
+
+def test_keys_given_twice(tmp_path: Path) -> None:
+    text = "study: x\ncases:\n  A: {title: a, t_end: 1, parameters: {N: 1, Omega: 2, N: -3}}\nstudy: y\n"
+    path = tmp_path / "twice.yaml"
+    path.write_text(text)
+    for load in (load_study, lambda file: study_from_config({"study": "x", "cases": {}}, [file])):
+        with pytest.raises(StudyError) as caught:
+            load(path)
+        message = str(caught.value)
+        assert "twice.yaml" in message
+        assert "study: given twice, in lines 1 and 4" in message
+        assert "N: given twice" in message
+
+
+@pytest.mark.parametrize("text", ["a: [1", "a: b: c"])
+def test_broken_yaml(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "broken.yaml"
+    path.write_text(text)
+    with pytest.raises(StudyError, match=r"broken\.yaml"):
+        load_study(path)
+
+
+def test_missing_file(tmp_path: Path) -> None:
+    with pytest.raises(StudyError, match="cannot be read"):
+        load_study(tmp_path / "none.yaml")
+
+
+def test_overlay_of_two_files_is_checked_as_merged() -> None:
+    raw = copy.deepcopy(raw_study())
+    study = study_from_config(raw, [])
+    assert isinstance(study, Study)
+    assert list(study.labels) == ["A", "B"]
+
+
+def test_error_survives_pickling() -> None:
+    error = StudyError("a: b", "c: d", source="x.yaml")
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.faults) == (str(error), error.faults)

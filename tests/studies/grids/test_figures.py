@@ -1,0 +1,163 @@
+"""Which studies a figure can show, alone and beside others: all that could end in an error once they are computed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from disc_model.studies.grids.figures import PLOTS, Plot
+from disc_model.studies.grids.schema import load_grids
+
+CONFIG = Path(__file__).parents[3] / "config" / "studies"
+NORMS = ["as_published", "orthonormal"]
+
+
+def plot(kind: str, **given: Any) -> Plot:
+    return PLOTS[kind].model_validate({"kind": kind, **given})
+
+
+def values(**dims: list[Any]) -> dict[str, list[tuple[Any, ...]]]:
+    return {
+        name: [value if isinstance(value, tuple) else (value,) for value in column] for name, column in dims.items()
+    }
+
+
+def study(quantity: str, options: dict[str, Any] | None = None, base: str = "as_published", **dims: list[Any]) -> Any:
+    own = {} if "normalization" in dims else {"normalization": base}
+    return SimpleNamespace(quantity=quantity, options=SimpleNamespace(**options or {}), base=own, values=values(**dims))
+
+
+MAP = {"kind": "stability_map", "x": "N", "y": "k"}
+
+
+@pytest.mark.parametrize(
+    ("given", "dims", "faults"),
+    [
+        (MAP, {"N": [1], "k": [2]}, []),
+        (MAP, {"N": [1], "k": [2], "normalization": NORMS}, []),
+        (MAP | {"x": "n_diameters"}, {"n_diameters": [1], "k": [2]}, []),
+        # one that has faults of its own is only meant to be there
+        (MAP, {"N": [1], "k": [], "c": []}, []),
+        (MAP, {"N": [1]}, ["y = 'k': is no dimension of this study (known: N)"]),
+        (MAP | {"y": "N"}, {"N": [1]}, ["y = 'N': must differ from x"]),
+        (
+            MAP | {"x": "contact"},
+            {"contact": ["bonded"], "k": [1]},
+            ["x = 'contact': must be one parameter, and a number"],
+        ),
+        (MAP | {"x": "N_c"}, {"N_c": [(1, 2)], "k": [1]}, ["x = 'N_c': must be one parameter, and a number"]),
+        (
+            MAP,
+            {"N": [1], "k": [2], "c": [0], "contact": ["bonded"]},
+            ["kind = 'stability_map': can show N, k, normalization, but not c, contact as well"],
+        ),
+        (
+            MAP | {"others": {"growht": "g"}},
+            {"N": [1], "k": [2]},
+            ["others.growht = 'g': unknown role (known: growth)"],
+        ),
+        ({"kind": "critical_speed"}, {"N": [1]}, []),
+        ({"kind": "critical_speed"}, {"c": [1]}, ["kind = 'critical_speed': needs the dimension N"]),
+        (
+            {"kind": "critical_speed"},
+            {"N": [1], "normalization": NORMS},
+            ["kind = 'critical_speed': can show one normalization only"],
+        ),
+        (
+            {"kind": "critical_speed"},
+            {"N": [1], "k": [1]},
+            ["kind = 'critical_speed': can show N, normalization, but not k as well"],
+        ),
+        (
+            {"kind": "thresholds", "others": {"hysteresis": "h"}},
+            {"N": [1]},
+            [
+                "others.hysteresis = 'h': unknown role (known: curves, cycle)",
+                "others.curves: is required: a study of the quantity stability_curves",
+            ],
+        ),
+        ({"kind": "growth_map"}, {"N": [1], "Omega": [1]}, []),
+        ({"kind": "growth_map"}, {"k": [1]}, ["kind = 'growth_map': needs the dimension N and Omega"]),
+        ({"kind": "bifurcation", "x": "k"}, {"k": [1]}, []),
+        (
+            {"kind": "bifurcation", "x": "normalization"},
+            {"normalization": NORMS},
+            ["x = 'normalization': must be one parameter, and a number"],
+        ),
+    ],
+)
+def test_what_a_figure_can_show(given: dict[str, Any], dims: dict[str, list[Any]], faults: list[str]) -> None:
+    found = [
+        ".".join(place) + (f" = {value!r}" if value else "") + f": {rule}"
+        for place, value, rule in plot(**given).faults(values(**dims))
+    ]
+    assert found == faults
+
+
+PLANE = {"x": "Omega", "y": "N"}
+
+
+@pytest.mark.parametrize(
+    ("given", "role", "other", "faults"),
+    [
+        (MAP, "growth", study("floquet", k=[1], N=[2]), []),
+        (MAP, "growth", study("floquet", k=[1], N=[2], normalization=NORMS), []),
+        (MAP, "growth", study("outcome", k=[1]), ["must be a study of the quantity floquet, and not outcome"]),
+        (MAP, "growth", study("floquet", N=[1]), ["must vary N, k beside normalization, and not N"]),
+        (
+            MAP,
+            "growth",
+            study("floquet", base="orthonormal", N=[1], k=[2]),
+            ["must be computed for the same normalization: as_published"],
+        ),
+        ({"kind": "critical_speed"}, "hysteresis", study("hysteresis", N=[2]), []),
+        (
+            {"kind": "critical_speed"},
+            "hysteresis",
+            study("hysteresis", N=[2], c=[1]),
+            ["must vary N beside normalization, and not N, c"],
+        ),
+        ({"kind": "thresholds"}, "curves", study("stability_curves", PLANE, normalization=NORMS), []),
+        (
+            {"kind": "growth_map"},
+            "curves",
+            study("stability_curves", {"x": "N", "y": "c_p"}, normalization=NORMS),
+            ["must have options.x = 'Omega', and not 'N'", "must have options.y = 'N', and not 'c_p'"],
+        ),
+        (
+            {"kind": "growth_map"},
+            "curves",
+            study("stability_curves", PLANE, k=[1, 2]),
+            ["must vary nothing beside normalization, and not k"],
+        ),
+        ({"kind": "bifurcation", "x": "k"}, "lyapunov", study("lyapunov", k=[1]), []),
+        (
+            {"kind": "bifurcation", "x": "k"},
+            "lyapunov",
+            study("lyapunov", m=[1]),
+            ["must vary k beside normalization, and not m"],
+        ),
+    ],
+)
+def test_what_it_can_show_beside(given: dict[str, Any], role: str, other: Any, faults: list[str]) -> None:
+    shown = plot(**given)
+    own = study(shown.quantity, **{name: [1] for name in shown.dims})
+    assert list(shown.misfits_of(role, own, other)) == faults
+
+
+@pytest.mark.parametrize("folder", [CONFIG, CONFIG / "test"], ids=["paper", "test"])
+def test_the_figures_of_the_repository_can_be_drawn(folder: Path) -> None:
+    grids = load_grids(sorted(folder.glob("*.yaml")))
+    seen = {name: study(grid.quantity, grid.options.model_dump(), **_values(grid)) for name, grid in grids.items()}
+    for name, grid in grids.items():
+        for figure in grid.plots.values():
+            assert not list(figure.faults(seen[name].values))
+            for role, other in figure.others.items():
+                assert not list(figure.misfits_of(role, seen[name], seen[other]))
+
+
+def _values(grid: Any) -> dict[str, list[Any]]:
+    return {dim.name: list(dim.values) for dim in grid.dims}

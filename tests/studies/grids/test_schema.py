@@ -1,0 +1,441 @@
+"""Grid studies: what files may say, how grids become batches, and merging them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model import Parameters, floquet, truncation
+from disc_model.data.variables import flag_names
+from disc_model.errors import DiscModelError
+from disc_model.figures.grids.stability_map import draw as draw_map
+from disc_model.studies.faults import StudyError
+from disc_model.studies.grids.merge import MergeError, failures, merge_batches
+from disc_model.studies.grids.run import run_batch
+from disc_model.studies.grids.schema import GridStudy, load_grid, load_grids, parse_grid
+
+STUDIES = sorted((Path(__file__).parents[3] / "config" / "studies").glob("*.yaml"))
+
+
+def study(**changes: Any) -> dict[str, Any]:
+    """A small study, with some keys changed."""
+    raw = {
+        "study": "small",
+        "quantity": "outcome",
+        "options": {"horizon": 2, "late": 0.2, "after_separation": 0.2},
+        "axes": {"N": [100, 200, 300], "Omega": {"start": 10, "stop": 20, "count": 3}},
+        "batch": {"over": ["Omega"], "size": 2},
+    }
+    return {**raw, **changes}
+
+
+def points(grid: GridStudy) -> list[list[list[Any]]]:
+    return [json.loads(text)["points"] for text in grid.batches.values()]
+
+
+def faults(raw: Any) -> list[str]:
+    with pytest.raises(StudyError) as error:
+        parse_grid(raw)
+    return list(error.value.faults)
+
+
+# ---- expansion
+
+
+def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
+    grid = parse_grid(study())
+    assert points(grid) == [
+        [[100.0, 10.0], [100.0, 15.0]], [[100.0, 20.0]],
+        [[200.0, 10.0], [200.0, 15.0]], [[200.0, 20.0]],
+        [[300.0, 10.0], [300.0, 15.0]], [[300.0, 20.0]],
+    ]  # fmt: skip
+    assert grid.n_points == 9
+    assert all(len(name) == 12 for name in grid.batches)
+
+
+@pytest.mark.parametrize(
+    ("given", "values"),
+    [
+        ([0.3, "1e-1", 0.2, 0.20], [0.1, 0.2, 0.3]),
+        ({"start": 0, "stop": 0.3, "step": 0.1}, [0.0, 0.1, 0.2, 0.3]),
+        ({"start": 0.1, "stop": 10, "count": 3, "scale": "log"}, [0.1, 1.0, 10.0]),
+        ({"blocks": [[1, 2], {"start": 1, "stop": 3, "count": 5}]}, [1.0, 1.5, 2.0, 2.5, 3.0]),
+    ],
+)
+def test_values_of_an_axis(given: Any, values: list[float]) -> None:
+    grid = parse_grid(study(axes={"N": [100], "Omega": [10], "c": given}))
+    assert [value for (value,) in grid.dims[-1].values] == values
+
+
+def test_zipped_pairs_are_one_dimension() -> None:
+    grid = parse_grid(study(axes={"D_star": [0, 1e-5]}, zip={"Omega": [20, 10, 20], "N": [200, 385, 200]}, batch={}))
+    assert [dim.name for dim in grid.dims] == ["N_Omega", "D_star"]
+    assert grid.dims[0].values == ((200.0, 20.0), (385.0, 10.0))
+    assert points(grid) == [[[200.0, 20.0, 0.0], [200.0, 20.0, 1e-5]], [[385.0, 10.0, 0.0], [385.0, 10.0, 1e-5]]]
+
+
+def test_all_kinds_of_parameters_can_vary() -> None:
+    grid = parse_grid(
+        study(axes={"N": [1], "Omega": [1], "n_diameters": ["4", 3.0], "contact": ["bonded"]}, batch={"over": ["N"]})
+    )
+    assert points(grid) == [[[1.0, 1.0, 3, "bonded"]], [[1.0, 1.0, 4, "bonded"]]]
+
+
+def test_spelling_and_order_do_not_matter() -> None:
+    axes = {"Omega": ["20.0", 1.5e1, 10], "N": [300, 100, 200.0, 100]}
+    other = parse_grid(study(axes=axes, title="called otherwise"))
+    assert other.batches == parse_grid(study()).batches
+    assert other.key == parse_grid(study()).key
+
+
+def test_minus_zero_is_zero() -> None:
+    one, other = (parse_grid(study(axes={"N": [1], "Omega": [zero]})) for zero in (0.0, -0.0))
+    assert one.batches == other.batches
+
+
+def test_changes_change_only_the_batches_they_touch() -> None:
+    before = set(parse_grid(study()).batches)
+    axes = study()["axes"]
+    assert len(set(parse_grid(study(axes={**axes, "N": [100, 150, 200, 300]})).batches) - before) == 2
+    assert set(parse_grid(study(axes={**axes, "N": [100, 300]})).batches) < before
+    assert not before & set(parse_grid(study(base={"mu_k": 0.23})).batches)
+    assert not before & set(parse_grid(study(options={"horizon": 3})).batches)
+    longer = {"blocks": [axes["Omega"], [12.5]]}
+    assert len(set(parse_grid(study(axes={**axes, "Omega": longer})).batches) - before) == 3
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_finer_resolution_keeps_all_batches(scale: str) -> None:
+    axes = {"N": [100], "Omega": {"start": 10, "stop": 20, "count": 4, "scale": scale}}
+    coarse, fine, finest = (parse_grid(study(axes=axes), resolution) for resolution in (1, 2, "4"))
+    assert [grid.n_points for grid in (coarse, fine, finest)] == [4, 7, 13]
+    assert coarse.batches.keys() < fine.batches.keys() < finest.batches.keys()
+
+
+def test_the_key_tells_grids_apart_and_covers_the_sources() -> None:
+    keys = {parse_grid(study(axes={"N": [n], "Omega": [10]})).key for n in (100, 200)}
+    assert len(keys) == 2
+    assert all("sources" in json.loads(text) for text in parse_grid(study()).batches.values())
+
+
+# ---- faults
+
+
+def test_every_fault_is_reported_with_its_path() -> None:
+    raw = study(
+        options={"horizon": 0, "late": 0.2, "speed": 1},
+        base={"m": -1, "Omega": "fast", "mu": 0.3},
+        axes={
+            "N": [-5, 10],
+            "E": {"start": 2, "stop": 1, "count": 5},
+            "rho": [1],
+            "k": [],
+            "c": {"start": 0, "stop": 1},
+        },
+        zip={"D_star": [0, 1e-5], "c_p": [0]},
+        batch={"size": 0},
+        figures={"map": {"kind": "chart"}},
+        colour="red",
+    )
+    found = "\n".join(faults(raw))
+    for fault in (
+        "colour = 'red': unknown key",
+        "batch.size = 0: must be >= 1",
+        "options.horizon = 0: must be > 0",
+        "options.speed = 1: unknown key",
+        "base.m = -1.0: must be > 0",
+        "base.Omega = 'fast': must be a number",
+        "base.mu = 0.3: unknown parameter",
+        "axes.N = -5.0: must be >= 0",
+        "axes.E: start=2 must be < stop=1",
+        "axes.rho: cannot be an axis",
+        "axes.k = []: must be a list of values, or a range",
+        "axes.c: must give either count or step",
+        "zip: must have columns of equal length, not D_star: 2, c_p: 1",
+        "figures.map.kind = 'chart': unknown kind of figure",
+    ):
+        assert fault in found
+
+
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        (
+            {"quantity": "noise"},
+            "quantity = 'noise': unknown quantity (known: outcome, critical_speed, floquet, hysteresis, ",
+        ),
+        ({"axes": {"N": [1]}}, "axes.Omega: is required, here, in a zip or in base"),
+        ({"axes": {"N": [1], "Omega": [1]}, "zip": {"N": [2], "c": [0]}}, "axes.N: varies along two dimensions"),
+        ({"batch": {"over": ["c"]}}, "batch.over = 'c': must name dimensions (known: N, Omega)"),
+        ({"quantity": "critical_speed"}, "axes.Omega: is varied by the quantity critical_speed"),
+        (
+            {"figures": {"f": {"kind": "stability_map", "x": "N", "y": "E"}}},
+            "figures.f.y = 'E': is no dimension of this study (known: N, Omega)",
+        ),
+        (
+            {"axes": {"N": [1], "Omega": {"start": 0, "stop": 1, "step": 0.3}}},
+            "axes.Omega: stop - start must be a multiple",
+        ),
+    ],
+)
+def test_rules_between_parts(changes: dict[str, Any], fault: str) -> None:
+    assert fault in "\n".join(faults(study(**changes)))
+
+
+HUGE = {"start": 1, "stop": 2, "count": 10**9}
+
+
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        ({"axes": {"N": [1], "Omega": HUGE}}, "axes.Omega: must be at most 100000 values"),
+        (
+            {"axes": {"N": [1], "Omega": {"start": 1, "stop": 1e300, "step": 1e-300}}},
+            "axes.Omega: must be at most 100000",
+        ),
+        ({"axes": {"N": [1], "Omega": {"start": -1e308, "stop": 1e308, "count": 2}}}, "stop - start must be finite"),
+        ({"axes": {"N": [1], "Omega": {"blocks": [[1], HUGE]}}}, "axes.Omega.blocks.1: must be at most 100000 values"),
+        (
+            {"quantity": "hysteresis", "options": {"scan": HUGE, "dwell": 9}},
+            "options.scan: must be at most 100000 values",
+        ),
+        (
+            {"axes": {name: {"start": 1, "stop": 2, "count": 1001} for name in ("N", "Omega")}, "batch": {}},
+            "axes: must make at most 1000000 points, and not 1002001",
+        ),
+    ],
+)
+def test_what_is_too_large_is_refused_before_it_is_made(changes: dict[str, Any], fault: str) -> None:
+    assert fault in "\n".join(faults(study(**changes)))
+
+
+def test_a_resolution_that_makes_too_many_values_is_refused() -> None:
+    raw = study(axes={"N": [1], "Omega": {"start": 1, "stop": 2, "count": 11}})
+    with pytest.raises(StudyError, match=r"axes\.Omega: must be at most 100000 values, and not 1000001"):
+        parse_grid(raw, 100_000)
+
+
+def test_resolution_divides_the_ranges_in_blocks_too() -> None:
+    axes = {"N": [100], "Omega": {"blocks": [[1.0, 9.0], {"start": 2, "stop": 4, "count": 3}]}}
+    coarse, fine = (parse_grid(study(axes=axes), resolution) for resolution in (1, 2))
+    assert [value for (value,) in coarse.dims[-1].values] == [1, 2, 3, 4, 9]
+    assert [value for (value,) in fine.dims[-1].values] == [1, 2, 2.5, 3, 3.5, 4, 9]
+    assert coarse.batches.keys() < fine.batches.keys()
+
+
+# ---- the number of modes, left to each point
+
+
+AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "2e-3"}
+
+
+def test_the_modes_are_chosen_for_each_point() -> None:
+    axes = {"normalization": ["as_published", "orthonormal"]}
+    grid = parse_grid(
+        study(quantity="floquet", options={}, base={"N": 300, "Omega": 20, **AUTOMATIC}, axes=axes, batch={})
+    )
+    [text] = grid.batches.values()
+    done = run_batch(text)
+    for i, normalization in enumerate(axes["normalization"]):
+        own = Parameters(N=300, Omega=20, normalization=normalization, **AUTOMATIC)
+        assert (done["n_diameters"][i], done["n_circles"][i]) == (own.n_diameters, own.n_circles)
+        assert done["growth_rate"][i] == pytest.approx(floquet(own).growth_rate, abs=1e-9)
+    assert done["n_diameters"][0] < done["n_diameters"][1]
+    merged = merge_batches([done], grid.grid, {})
+    assert merged["n_diameters"].dims == ("normalization",)
+    assert json.loads(merged.attrs["base"])["n_diameters"] == "auto"
+
+
+def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    choose = truncation.truncation_choice
+
+    def not_on_a_wall(p: Parameters, tolerance: float) -> truncation.TruncationChoice:
+        if p.k > 1e6:
+            raise DiscModelError("no model up to (20, 6) (diameters, circles) meets it")
+        return choose(p, tolerance)
+
+    monkeypatch.setattr(truncation, "truncation_choice", not_on_a_wall)
+    base = {"N": 300, "Omega": 20, **AUTOMATIC}
+    grid = parse_grid(study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={}))
+    [text] = grid.batches.values()
+    done = run_batch(text)
+    assert flag_names(done["status"]).tolist() == ["ok", "failed"]
+    assert done["n_diameters"].values.tolist() == [3, -1]
+    assert "no model up to" in str(done["message"].values[1])
+    assert np.isnan(done["growth_rate"].values[1])
+
+
+@pytest.mark.parametrize(
+    ("base", "axes", "fault"),
+    [
+        ({}, {"n_diameters": [4, "auto"]}, "axes.n_diameters = 'auto': cannot be varied: give it in base"),
+        (AUTOMATIC, {"n_circles": [0, 1]}, "axes.n_circles: is chosen for each point"),
+        ({**AUTOMATIC, "n_circles": 1}, {}, "base.n_circles: is chosen for each point"),
+        ({**AUTOMATIC, "truncation_tolerance": "fine"}, {}, "base.truncation_tolerance = 'fine': must be a number"),
+        (
+            {**AUTOMATIC, "truncation_tolerance": 1e-9},
+            {},
+            "base.truncation_tolerance = 1e-09: must be finite and >= 0.0001",
+        ),
+        ({"truncation_tolerance": 1e-3}, {}, "base.truncation_tolerance = 0.001: is used with n_diameters='auto' only"),
+    ],
+)
+def test_contradictions_about_the_modes_are_faults(base: dict[str, Any], axes: dict[str, Any], fault: str) -> None:
+    raw = study(base={"m": 0.2, **base}, axes={"N": [1], "Omega": [1], **axes}, batch={})
+    assert fault in "\n".join(faults(raw))
+
+
+def test_the_only_fault_of_a_figure_is_the_one_that_matters() -> None:
+    figure = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growht": "g"}}
+    axes = {"N": [1], "Omega": [1], "k": [1, 2]}
+    assert faults(study(axes=axes, figures={"f": figure})) == [
+        "figures.f.kind = 'stability_map': can show N, Omega, normalization, but not k as well",
+        "figures.f.others.growht = 'g': unknown role (known: growth)",
+    ]
+    wrong = {"f": {"kind": "critical_speed", "others": {"growht": "g"}}}
+    assert faults(study(figures=wrong)) == ["figures.f.kind = 'critical_speed': needs the quantity critical_speed"]
+
+
+def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
+    others = {"growth": "other"}
+    shown = study(figures={"f": {"kind": "stability_map", "x": "N", "y": "Omega", "others": others}})
+    other = {"study": "other", "quantity": "floquet", "axes": {"N": [1], "Omega": [1]}}
+    files = tmp_path / "small.yaml", tmp_path / "other.yaml"
+    for changes, fault in (
+        ({}, ""),
+        (
+            {"quantity": "outcome", "options": {"horizon": 2}},
+            "must be a study of the quantity floquet, and not outcome",
+        ),
+        ({"axes": {"N": [1], "Omega": [1], "k": [2]}}, "must vary N, Omega beside normalization, and not N, Omega, k"),
+        ({"base": {"normalization": "orthonormal"}}, "must be computed for the same normalization: as_published"),
+    ):
+        for file, raw in zip(files, (shown, other | changes), strict=True):
+            file.write_text(json.dumps(raw))
+        if not fault:
+            assert load_grids(files)["small"].values["N"] == ((100.0,), (200.0,), (300.0,))
+            continue
+        with pytest.raises(StudyError) as error:
+            load_grids(files)
+        assert error.value.faults == (f"small: figures.f.others.growth = 'other': {fault}",)
+
+
+def test_a_bad_axis_is_the_only_fault_of_a_figure_over_it() -> None:
+    figure = {"f": {"kind": "stability_map", "x": "N", "y": "Omega"}}
+    assert faults(study(axes={"N": [-1], "Omega": [1]}, figures=figure)) == ["axes.N = -1.0: must be >= 0"]
+    uneven = study(axes={"Omega": [1]}, zip={"N": [1, 2], "c": [0]}, batch={}, figures=figure)
+    assert faults(uneven) == ["zip: must have columns of equal length, not N: 2, c: 1"]
+
+
+@pytest.mark.parametrize("raw", [None, [], "text", {"study": "x"}, {"axes": 3, "quantity": []}])
+def test_nonsense_is_refused_without_another_error(raw: Any) -> None:
+    assert faults(raw)
+
+
+def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
+    (tmp_path / "one.yaml").write_text("study: one\nquantity: outcome\n")
+    (tmp_path / "two.yaml").write_text("study: other\nquantity: floquet\naxes: {N: [1], Omega: [1], N: [2]}\n")
+    with pytest.raises(StudyError) as error:
+        load_grids([tmp_path / "one.yaml", tmp_path / "two.yaml"], {"three": {}})
+    found = str(error.value)
+    assert "one.yaml: axes.Omega: is required" in found
+    assert "two.yaml: N: given twice, in lines 3 and 3" in found
+    assert "overrides.three: no such study (known: one, two)" in found
+
+
+def test_overrides_are_laid_over_the_file(tmp_path: Path) -> None:
+    file = tmp_path / "small.yaml"
+    file.write_text(json.dumps(study()))
+    grid = load_grid(file, {"axes": {"N": [50]}, "options": {"horizon": 7}})
+    assert grid.n_points == 3
+    assert grid.options.horizon == 7  # type: ignore[attr-defined]
+
+
+def test_the_studies_of_the_repository_are_right() -> None:
+    every = load_grids(STUDIES)
+    after = ("bifurcation", "lyapunov")
+    grids = {name: grid for name, grid in every.items() if grid.quantity not in after}
+    pairs = {frozenset(dim.name for dim in grid.dims) - {"normalization"} for grid in grids.values() if grid.plots}
+    wanted = ["N", "D_star", "c", "k", "k_p", "E", "m"]
+    assert {frozenset(("Omega", name)) for name in wanted} | {frozenset(("N", "c_p")), frozenset(("N",))} == pairs
+    for grid in grids.values():
+        assert any("normalization" in dim.names for dim in grid.dims)
+
+
+# ---- batches and merging
+
+
+@pytest.fixture(scope="module")
+def batches() -> list[xr.Dataset]:
+    return [run_batch(text) for text in parse_grid(study()).batches.values()]
+
+
+def test_merged_study_has_every_point_with_units(batches: list[xr.Dataset], tmp_path: Path) -> None:
+    grid = parse_grid(study())
+    merged = merge_batches(batches[::-1], grid.grid, {"title": "small"})
+    merged.to_netcdf(tmp_path / "small.nc")
+    with xr.open_dataset(tmp_path / "small.nc") as read:
+        assert dict(read["status"].sizes) == {"N": 3, "Omega": 3}
+        assert (read["status"] == 0).all()
+        assert read["Omega"].attrs["units"] == "rad s-1"
+        assert read["P_max"].attrs["units"] == "N"
+        assert (read["P_max"].diff("N") > 0).all()
+        assert json.loads(read.attrs["base"])["normalization"] == "as_published"
+    assert list(failures(merged)) == []
+
+
+def test_zips_and_two_normalizations_keep_their_order() -> None:
+    axes = {"normalization": ["orthonormal", "as_published"]}
+    zipped = {"N": [300, 100], "Omega": [20, 10]}
+    grid = parse_grid(study(quantity="floquet", options={}, axes=axes, zip=zipped, batch={}))
+    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {})
+    assert dict(merged["growth_rate"].sizes) == {"N_Omega": 2, "normalization": 2}
+    assert merged["N"].dims == ("N_Omega",)
+    alone = parse_grid(
+        study(quantity="floquet", options={}, base={"normalization": "orthonormal"}, axes={"N": [300], "Omega": [20]})
+    )
+    single = run_batch(next(iter(alone.batches.values())))
+    assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == single["growth_rate"].values[0]
+
+
+def test_merge_refuses_what_is_not_the_grid(batches: list[xr.Dataset]) -> None:
+    grid = parse_grid(study())
+    with pytest.raises(MergeError, match="missing"):
+        merge_batches(batches[1:], grid.grid, {})
+    with pytest.raises(MergeError, match="there twice"):
+        merge_batches([*batches, batches[0]], grid.grid, {})
+    fewer = parse_grid(study(axes={"N": [100, 200], "Omega": {"start": 10, "stop": 20, "count": 3}}))
+    with pytest.raises(MergeError, match="do not belong"):
+        merge_batches(batches, fewer.grid, {})
+
+
+def test_a_point_that_fails_has_a_status_and_a_line() -> None:
+    # in the last case rigid friction on the sloping disc has no solution
+    raw = study(
+        axes={"N": [300, 1e6], "Omega": [20]},
+        base={"k_p": 2e6, "mu_s": 3.0, "mu_k": 2.9, "E": 1e9},
+        batch={"over": ["N"]},
+    )
+    grid = parse_grid(raw)
+    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {})
+    lines = list(failures(merged))
+    bad = merged["status"].values != 0
+    assert bad.any()
+    assert len(lines) == bad.sum()
+    assert lines[-1].startswith("N = 1000000.0, Omega = 20.0: ")
+    assert np.isnan(merged["P_max"].values[bad]).all()
+
+
+def test_maps_draw_failed_points_and_need_no_growth_rates(batches: list[xr.Dataset]) -> None:
+    figures = {"m": {"kind": "stability_map", "x": "Omega", "y": "N"}}
+    grid = parse_grid(study(figures=figures))
+    merged = merge_batches(batches, grid.grid, {}).assign_coords(normalization="as_published")
+    merged["outcome"].values[0, 0] = 0
+    figure = draw_map(merged, {}, grid.plots["m"])
+    assert figure.axes[0].get_xlabel() == "Speed Ω (rad/s)"
+    assert figure.axes[0].get_ylabel() == "Preload N (N)"
