@@ -27,7 +27,7 @@ _HOMES = {
     "Poincare": "simulation.record",
     "Result": "simulation.result",
     "State": "simulation.result",
-    "Status": "simulation.result",
+    "Status": "status",
     "DiscModelError": "errors",
     "ParameterError": "errors",
     "ModeError": "errors",
@@ -55,9 +55,10 @@ if TYPE_CHECKING:
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
     from disc_model.simulation.api import simulate
     from disc_model.simulation.record import Poincare, Record, Window
-    from disc_model.simulation.result import Result, State, Status
+    from disc_model.simulation.result import Result, State
     from disc_model.stability.cycle import floquet
     from disc_model.stability.sliding import steady_sliding
+    from disc_model.status import Status
 
 
 def __getattr__(name: str) -> Any:

@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import EVENT_KINDS, PHASES, Status
+from disc_model.simulation.result import EVENT_KINDS, PHASES
+from disc_model.status import Status
 
 STATUSES = (*(status.value for status in Status), "failed")
 NORMALIZATIONS = ("as_published", "orthonormal")

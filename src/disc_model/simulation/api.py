@@ -19,8 +19,9 @@ from disc_model.simulation.bridge import read_state, write_state
 from disc_model.simulation.checkpoint import Checkpoint, Contents, faults, identity
 from disc_model.simulation.collector import Collector
 from disc_model.simulation.record import Record
-from disc_model.simulation.result import PHASES, Result, State, Status
+from disc_model.simulation.result import PHASES, Result, State
 from disc_model.simulation.tolerance import series_order, series_tolerance
+from disc_model.status import Status
 
 log = logging.getLogger(__name__)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import enum
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 from disc_model import errors
 from disc_model.parameters import Parameters
 from disc_model.simulation.record import Record
+from disc_model.status import Status
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,38 +26,6 @@ EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", 
 EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
 """Columns of `Result.event_rows`, as the engine writes them; kind and phase by their places in the tuples above."""
 
-
-class Status(enum.StrEnum):
-    """How a simulation ended; `advice` says what to do."""
-
-    OK = "ok"
-    STOPPED = "stopped"
-    STEP_LIMIT = "step_limit"
-    PARADOX = "paradox"
-    STALLED = "stalled"
-    NON_FINITE = "non_finite"
-
-    @property
-    def advice(self) -> str:
-        """What the outcome means and what to change, in a sentence."""
-        return _ADVICE[self]
-
-    @property
-    def complete(self) -> bool:
-        """Whether the simulation did what was asked."""
-        return self in (Status.OK, Status.STOPPED)
-
-
-_ADVICE = {
-    Status.OK: "The simulation reached t_end.",
-    Status.STOPPED: "The simulation stopped where stop_at asked it to.",
-    Status.STEP_LIMIT: "The allowed number of steps was used up: raise max_steps, or shorten t_end.",
-    Status.PARADOX: (
-        "Painleve's paradox: rigid Coulomb friction on this slope has no solution, or two; lower mu_k or N."
-    ),
-    Status.STALLED: "Switches follow each other without the clock moving: tighten tol, or perturb the initial state.",
-    Status.NON_FINITE: "The state overflowed: check the parameters' magnitudes; tighten tol if they are as meant.",
-}
 
 _ERRORS: dict[Status, type[errors.SimulationError]] = {
     Status.STEP_LIMIT: errors.StepLimit,

@@ -18,9 +18,9 @@ from disc_model.figures.grids import stability_map as maps
 from disc_model.figures.grids import thresholds
 from disc_model.figures.style import save
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import Status
 from disc_model.stability import settling
 from disc_model.stability.settling import Late
+from disc_model.status import Status
 from disc_model.studies.grids.figures import Bifurcation, CriticalSpeed, GrowthMap, Mark, StabilityMap, Thresholds
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome

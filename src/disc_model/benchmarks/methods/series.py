@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
 from disc_model.simulation.api import simulate
-from disc_model.simulation.result import Status
+from disc_model.status import Status
 
 STEPS_PER_SECOND = 300_000
 """What the budget of seconds is turned into: the engine stops by steps, not by the clock."""

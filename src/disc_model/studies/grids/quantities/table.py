@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
-from disc_model.simulation.result import Status
+from disc_model.status import Status
 
 STATUSES = (
     "ok",
