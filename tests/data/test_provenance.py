@@ -19,11 +19,12 @@ def names(*modules: str) -> set[str]:
 def test_a_simulation_depends_on_the_whole_engine_and_on_no_figure_or_claim() -> None:
     found = names(*SIMULATION)
     imported = {path.relative_to(PACKAGE).as_posix() for path in (PACKAGE / "engine").glob("*.py")}
-    assert {"simulate.py", "parameters.py", "plate.py", "record.py", "result.py", "dataset.py"} <= found
+    simulation = {f"simulation/{name}.py" for name in ("api", "record", "result", "collector")}
+    assert {"parameters.py", "plate.py", "data/dataset.py", *simulation} <= found
     assert "engine/machine.py" in found
     unused = imported - found
     assert not {name for name in unused if "switch" in name or "series" in name}
-    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name == "study.py"}
+    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name.endswith("schema.py")}
 
 
 @pytest.mark.parametrize("figure", CATALOGUE)
@@ -33,9 +34,9 @@ def test_a_figure_depends_on_its_module_and_the_style_but_not_on_the_solver(figu
 
     found = names(module_of(figure))
     assert {file_of(figure), "figures/style.py"} <= found
-    assert not {name for name in found if name.startswith(("engine/", "claims/")) or name == "simulate.py"}
+    assert not {name for name in found if name.startswith(("engine/", "claims/")) or name == "simulation/api.py"}
     # figures of one kind share a module; another kind's module must not make this one be drawn again
-    own_parts = {file_of(figure), "figures/sections.py", "figures/response.py", "figures/spectrograms.py"}
+    own_parts = {file_of(figure), *(f"figures/paper/{name}.py" for name in ("sections", "response", "spectrograms"))}
     own_parts |= {file_of("fig24")} if figure == "fig25" else set()  # the segments that Fig. 24 marks
     assert not ({file_of(other) for other in CATALOGUE} - own_parts) & found
 
@@ -83,7 +84,7 @@ def test_the_commit_of_another_repository_is_not_taken(tmp_path: Path, monkeypat
     """The package may be installed in an environment that lies in somebody's own repository."""
     site = tmp_path / "venv" / "disc_model"
     site.mkdir(parents=True)
-    (site / "provenance.py").write_text("")
+    (site / "__init__.py").write_text("")
     identity = ("-c", "user.name=somebody", "-c", "user.email=somebody@example.org")
     for command in (("init", "-q"), (*identity, "commit", "-q", "--allow-empty", "-m", "own work")):
         subprocess.run(["git", *command], cwd=tmp_path, check=True)

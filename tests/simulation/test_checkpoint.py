@@ -244,7 +244,7 @@ class TestNotTrusted:
         from disc_model.data.provenance import source_files
 
         found = {path.name for path in source_files("disc_model.simulation.api")}
-        assert {"machine.py", "series.py", "plate.py", "collect.py", "checkpoint.py"} <= found
+        assert {"machine.py", "series.py", "plate.py", "collector.py", "checkpoint.py"} <= found
 
     @pytest.mark.parametrize("share", [0.0, 0.001, 0.1, 0.5, 0.9, 0.9999])
     def test_a_file_that_was_cut_off(
