@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 
 class DiscModelError(Exception):
     """Base class of everything this package raises on purpose."""
+
+
+def exit_on_error(main: Callable[[], None]) -> None:
+    """Run a script's main function; an error of this package ends the script with its message alone, no traceback."""
+    try:
+        main()
+    except DiscModelError as error:
+        raise SystemExit(str(error)) from None
 
 
 class ParameterError(DiscModelError, ValueError):

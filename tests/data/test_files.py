@@ -13,8 +13,8 @@ import xarray as xr
 
 from disc_model.data.dataset import load, save
 from disc_model.data.files import DamagedFile, WriteError, check_whole, write_whole
-from disc_model.studies.inputs import load_inputs
-from disc_model.studies.records import unrecorded
+from disc_model.data.inputs import InputsError, load_inputs
+from disc_model.data.records import unrecorded
 from tests.tally import tried
 
 TREE = xr.DataTree.from_dict(
@@ -87,7 +87,7 @@ def test_all_damaged_inputs_are_named_and_set_aside(path: Path) -> None:
     intact.write_bytes(path.read_bytes())
     other.write_bytes(b"")
     os.truncate(path, 100)
-    with pytest.raises(SystemExit) as stop:
+    with pytest.raises(InputsError) as stop:
         load_inputs([path, intact, other, path.with_name("gone.nc")])
     lines = str(stop.value).splitlines()
     assert [line.split(":")[0] for line in lines[:3]] == [str(path), str(other), str(path.with_name("gone.nc"))]

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.data.inputs import InputsError, each_intact
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.studies.cases.merge import merge_cases
@@ -24,7 +25,6 @@ from disc_model.studies.grids.quantities.preparation import prepared
 from disc_model.studies.grids.quantities.registry import QUANTITIES
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import load_grids, parse_grid
-from disc_model.studies.inputs import each_intact
 
 #: The slider stays where it is on the disc: nothing has to be computed.
 STILL = {"study": "still", "quantity": "floquet", "base": {"k_p": 0}, "axes": {"N": [100, 200], "Omega": [10, 20]}}
@@ -224,7 +224,7 @@ def test_inputs_are_read_in_their_order(tmp_path: Path) -> None:
     for name in ("a", "b"):
         (tmp_path / name).write_text(name)
     assert each_intact(lambda path: path.read_text(), [tmp_path / "b", tmp_path / "a"]) == ["b", "a"]
-    with pytest.raises(SystemExit, match="not there"):
+    with pytest.raises(InputsError, match="not there"):
         each_intact(lambda path: path.read_text(), [tmp_path / "c"])
 
 

@@ -84,10 +84,10 @@ def test_a_removed_case_leaves_the_merged_file(project: Project) -> None:
         assert list(table["case"].values) == ["F11", "F13"]
 
 
-@pytest.mark.parametrize("source", ["engine/machine.py", "plate.py", "simulate.py", "parameters.py"])
+@pytest.mark.parametrize("source", ["engine/machine.py", "plate.py", "simulation/api.py", "parameters.py"])
 def test_solver_sources_run_everything(project: Project, source: str) -> None:
     project.append(f"src/disc_model/{source}", "\n# changed\n")
-    assert project.planned() == {"warm_cache"} | SIMULATIONS | FIGURES | TABLES
+    assert project.planned() == {"warm_cache", "warm_studies"} | SIMULATIONS | FIGURES | TABLES
 
 
 def test_touching_sources_without_changing_them_runs_nothing(project: Project) -> None:

@@ -2,8 +2,10 @@
 
 
 rule check_claims:
+    # Some claims ask for multipliers of the case's cycle.
     input:
-        rules.merge_cases.output,
+        rules.warm_studies.output,
+        cases=rules.merge_cases.output,
     output:
         csv=f"{RESULTS}/claims.csv",
         md=f"{RESULTS}/claims.md",
@@ -23,7 +25,7 @@ rule check_claims:
             "check_claims.py", "disc_model.claims", "disc_model.claims.page"
         ),
     shell:
-        "python workflow/scripts/check_claims.py {input} --csv {output.csv} --md {output.md} --html {output.html}"
+        "python workflow/scripts/check_claims.py {input.cases} --csv {output.csv} --md {output.md} --html {output.html}"
         " > {log} 2>&1"
 
 

@@ -13,7 +13,7 @@ from disc_model.figures.paper.catalogue import CATALOGUE, STYLE, module_of
 from disc_model.data.provenance import SIMULATION, source_hash
 from disc_model.studies.faults import read_file
 from disc_model.studies.grids.schema import load_grids
-from disc_model.studies.records import unrecorded
+from disc_model.data.records import unrecorded
 from disc_model.studies.cases.schema import StudyError, study_from_config
 
 PAPER = Path("config/paper.yaml")

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from disc_model.claims import check_claims, to_markdown
 from disc_model.claims.page import ledger
-from disc_model.studies.inputs import load_inputs
+from disc_model.data.inputs import load_inputs
+from disc_model.errors import exit_on_error
 
 
 def main() -> None:
@@ -25,4 +26,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

@@ -17,7 +17,7 @@ import time
 from pathlib import Path
 
 from disc_model.data.files import DamagedFile, check_whole
-from disc_model.studies.inputs import set_aside
+from disc_model.data.inputs import set_aside
 
 
 def main() -> None:

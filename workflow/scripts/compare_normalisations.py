@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 
 from disc_model.claims.normalisation import compare
-from disc_model.studies.inputs import load_inputs
+from disc_model.data.inputs import load_inputs
+from disc_model.errors import exit_on_error
 
 
 def main() -> None:
@@ -22,4 +23,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

@@ -11,10 +11,11 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.claims.page import page, table_html
+from disc_model.data.inputs import load_inputs
 from disc_model.data.variables import STATUSES
+from disc_model.errors import exit_on_error
 from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
-from disc_model.studies.inputs import load_inputs
 
 
 def main() -> None:
@@ -68,4 +69,4 @@ def rows(tree: xr.DataTree) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

@@ -7,9 +7,10 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from disc_model.data.inputs import load_inputs
+from disc_model.errors import exit_on_error
 from disc_model.figures import benchmark
 from disc_model.figures.style import save
-from disc_model.studies.inputs import load_inputs
 
 PREFIX = "work_precision_"
 
@@ -37,4 +38,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

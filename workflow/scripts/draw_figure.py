@@ -7,8 +7,9 @@ import importlib
 import json
 from pathlib import Path
 
+from disc_model.data.inputs import load_cases
+from disc_model.errors import exit_on_error
 from disc_model.figures.style import save
-from disc_model.studies.inputs import load_cases
 
 
 def main() -> None:
@@ -26,4 +27,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

@@ -7,9 +7,10 @@ import importlib
 import json
 from pathlib import Path
 
+from disc_model.data.inputs import load_inputs
+from disc_model.errors import exit_on_error
 from disc_model.figures.style import save
 from disc_model.studies.grids.figures import PLOTS
-from disc_model.studies.inputs import load_inputs
 
 
 def main() -> None:
@@ -28,4 +29,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

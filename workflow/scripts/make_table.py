@@ -10,7 +10,8 @@ import pandas as pd
 from disc_model.claims.model import CaseView
 from disc_model.claims.page import table_page
 from disc_model.claims.paper_tables import table_1, table_2
-from disc_model.studies.inputs import load_inputs
+from disc_model.data.inputs import load_inputs
+from disc_model.errors import exit_on_error
 
 TITLES = {"table1": "Table 1: base values", "table2": "Table 2: frequencies of the disc in the first 10 s"}
 NOTES = {
@@ -61,4 +62,4 @@ def _markdown(name: str, table: pd.DataFrame) -> str:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

@@ -13,8 +13,9 @@ from pathlib import Path
 import xarray as xr
 
 from disc_model.data.dataset import save
+from disc_model.data.inputs import load_inputs
+from disc_model.errors import exit_on_error
 from disc_model.studies.grids.merge import failures, merge_batches
-from disc_model.studies.inputs import load_inputs
 
 
 def main() -> None:
@@ -31,4 +32,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

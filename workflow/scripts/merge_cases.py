@@ -7,8 +7,9 @@ import json
 from pathlib import Path
 
 from disc_model.data.dataset import save
+from disc_model.data.inputs import load_cases
+from disc_model.errors import exit_on_error
 from disc_model.studies.cases.merge import merge_cases
-from disc_model.studies.inputs import load_cases
 
 
 def main() -> None:
@@ -21,4 +22,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

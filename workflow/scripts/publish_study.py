@@ -7,7 +7,8 @@ import shutil
 from pathlib import Path
 
 from disc_model.data.files import check_whole
-from disc_model.studies.inputs import each_intact
+from disc_model.data.inputs import each_intact
+from disc_model.errors import exit_on_error
 
 
 def main() -> None:
@@ -21,4 +22,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    exit_on_error(main)

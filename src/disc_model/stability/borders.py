@@ -25,6 +25,7 @@ from disc_model.stability.cycle_problem import (
     Lost,
     branch_of,
     check,
+    newton_step,
     shortened,
     starting_point,
 )
@@ -227,7 +228,6 @@ def _correct_on_curve(
         if error > 0.9 * last:
             break
         last = error
-        step = np.linalg.solve(np.vstack([point.by, gradient, rows]), right)
-        point = problem.evaluate(point.z - step)
+        point = problem.evaluate(point.z - newton_step(np.vstack([point.by, gradient, rows]), right))
         value, found = test(point.jacobian, found)
     raise Lost("Newton's method does not converge")

@@ -134,7 +134,7 @@ class CycleProblem:
                     return point
                 break
             last = error
-            point = self.evaluate(point.z - np.linalg.solve(np.vstack([point.by, rows]), right))
+            point = self.evaluate(point.z - newton_step(np.vstack([point.by, rows]), right))
         raise Lost("Newton's method does not converge")
 
     def leading_diameters(self, jacobian: Array) -> int:
@@ -147,6 +147,14 @@ class CycleProblem:
         """Orthonormal basis of the null space of F's Jacobian: (number of parameters, n + number of parameters)."""
         _, _, rows = np.linalg.svd(point.by)
         return np.asarray(rows[self.n :], dtype=float)
+
+
+def newton_step(matrix: Array, right: Array) -> Array:
+    """Solution of a linear system; raises `Lost` if it has none, or more than one."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=float)
+    except np.linalg.LinAlgError:
+        raise Lost("Newton's method does not converge: its matrix is singular") from None
 
 
 def default_scale(p: Parameters, name: str) -> float:

@@ -51,6 +51,8 @@ class Table(NamedTuple):
 
 
 Row = Mapping[str, Any]
+NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
+"""What a point may fail of: this package's errors, division by zero and overflow, matrices that cannot be solved."""
 
 
 def tabulate(
@@ -59,7 +61,7 @@ def tabulate(
     columns: Mapping[str, Column],
     sizes: Mapping[str, int],
 ) -> Table:
-    """Compute each point; one that raises this package's error gets the status `failed` and its message.
+    """Compute each point; one that fails (see `NUMERICAL`) gets the status `failed` and a message.
 
     Parameters
     ----------
@@ -73,7 +75,7 @@ def tabulate(
             if isinstance(point, DiscModelError):
                 raise point
             row, message = compute_one(point)
-        except DiscModelError as error:
+        except NUMERICAL as error:
             row, message = {"status": "failed"}, f"{type(error).__name__}: {error}"
         rows.append(row)
         messages.append(message)

@@ -1,4 +1,4 @@
-"""Reading what other jobs of the workflow have written."""
+"""Reading what other jobs have written."""
 
 from __future__ import annotations
 
@@ -12,11 +12,16 @@ import xarray as xr
 
 from disc_model.data.dataset import load
 from disc_model.data.files import DamagedFile
+from disc_model.errors import DiscModelError
 
 T = TypeVar("T")
 
 SET_ASIDE = ".damaged"
 """Ending that a damaged file gets."""
+
+
+class InputsError(DiscModelError):
+    """Files that are damaged or missing: a line for each, and what to do."""
 
 
 def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
@@ -37,8 +42,8 @@ def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
 
     Raises
     ------
-    SystemExit
-        If any is damaged or missing: one line for each.
+    InputsError
+        If any is damaged or missing.
     """
     found, faults = [], []
     for path in paths:
@@ -49,7 +54,7 @@ def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
         except FileNotFoundError:
             faults.append(f"{path}: not there; another job may just have set it aside")
     if faults:
-        raise SystemExit("\n".join([*faults, "Run snakemake again: it computes them anew."]))
+        raise InputsError("\n".join([*faults, "Run snakemake again: it computes them anew."]))
     return found
 
 
