@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 
 import numpy as np
 import pytest
@@ -16,6 +17,14 @@ from disc_model.benchmarks.scenes import Verdict, answer
 from disc_model.data.variables import flag_names
 from disc_model.figures import benchmark as figures
 from disc_model.figures.style import save
+
+
+def available() -> set[int]:
+    """Cores that this process may use."""
+    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
+
+
+CORES = available()
 
 
 class Known(Method):
@@ -51,7 +60,6 @@ def known(monkeypatch: pytest.MonkeyPatch) -> dict[str, Known]:
     }
     for name, method in methods.items():
         monkeypatch.setitem(METHODS, name, method)
-    monkeypatch.setattr(work_precision, "use_one_core", lambda: None)
     return methods
 
 
@@ -85,6 +93,11 @@ def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict
         "gave_up",
         "not_run",
     ]
+
+
+def test_the_process_has_its_cores_back(dataset: xr.Dataset) -> None:
+    """It stayed on one of them."""
+    assert available() == CORES
 
 
 def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
@@ -135,16 +148,11 @@ def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
     ]
 
 
-def test_the_machine_is_named() -> None:
-    assert "cores" in work_precision.machine()
-
-
 # ------------------------------------------------------------------------------------- failure maps
 @pytest.fixture
 def short(monkeypatch: pytest.MonkeyPatch):
     """Maps of 20 ms of stick-slip and 10 ms of separations."""
     monkeypatch.setattr(failure_maps, "SPANS", {"stick_slip": 0.02, "separating": 1e-2})
-    monkeypatch.setattr(failure_maps, "use_one_core", lambda: None)
     for cached in (failure_maps.short_problem, failure_maps.engine_answer):
         cached.cache_clear()
     yield
@@ -159,6 +167,7 @@ def test_maps_of_steps_and_of_tolerances(tmp_path) -> None:
     assert found["step_limit"].values == pytest.approx(2 * math.sqrt(2) / found["omega_max"].values)
     assert found["shortest_phase"].values.min() > 0
     assert "observed_limit" not in found
+    assert available() == CORES  # it stayed on one of them
     engine = failure_maps.failure_map("series", "separating", (1, 2), (1e-6, 1e-10))
     assert (engine["verdict"].values == Verdict.CONVERGED).all()
     adaptive = failure_maps.failure_map("RK45", "separating", (1,), (1e-2, 1e-5))

@@ -13,13 +13,14 @@ from functools import lru_cache
 import numpy as np
 import xarray as xr
 
+from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Method, Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT, FixedStep
 from disc_model.benchmarks.methods.taylor_heyoka import Heyoka
 from disc_model.benchmarks.scenes import Answer, Verdict, errors, separating_start, shortest_phase, static_start
-from disc_model.benchmarks.work_precision import machine, use_one_core, verdict_attributes
+from disc_model.benchmarks.work_precision import verdict_attributes
 from disc_model.parameters import Parameters
 
 TRUNCATIONS = (1, 2, 4, 6, 8)
@@ -46,6 +47,7 @@ VALUES: Mapping[str, tuple[float, ...]] = {
 }
 
 
+@one_core()
 def failure_map(
     method: str,
     scene: str = "separating",
@@ -63,7 +65,6 @@ def failure_map(
     regularised friction law is stiffer than the disc; for RK4 in ``stick_slip`` also ``observed_limit`` (s), see
     `observed_step_limit`.
     """
-    use_one_core()
     budget = BUDGETS.get(method, BUDGET) if budget is None else budget
     values = VALUES[method] if values is None else values
     shape = (len(truncations), len(values))

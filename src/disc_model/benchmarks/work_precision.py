@@ -7,16 +7,14 @@ is the median over the rounds.  Points that take long are measured less often (`
 from __future__ import annotations
 
 import math
-import os
-import platform
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks import scenes
+from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.scenes import VERDICT_WORDS, Verdict
 from disc_model.data.dataset import json_attribute
@@ -121,6 +119,7 @@ def points(settings: Mapping[str, Mapping[str, Sequence[float]]]) -> list[Point]
     ]
 
 
+@one_core()
 def work_precision(
     settings: Mapping[str, Mapping[str, Sequence[float]]] = SETTINGS,
     *,
@@ -142,7 +141,6 @@ def work_precision(
     Dataset along (scene, solver, point), unused points nan; the variables of `VARIABLES`, the flag ``verdict``, and
     along (scene, solver) the fitted ``order_event`` and ``order_state``, see `fitted_order`.
     """
-    use_one_core()
     todo = points(settings)
     walls: dict[Point, list[float]] = {}
     rows: dict[Point, dict[str, float]] = {}
@@ -180,12 +178,6 @@ def _again(walls: Sequence[float], turn: int) -> bool:
     """Whether to measure a point in a later round: always if it is quick, twice more at most if it is not."""
     typical = float(np.median(walls))
     return typical < 0.1 * LONG or (typical < LONG and turn < 3)
-
-
-def use_one_core() -> None:
-    """Keep this process, and the libraries it uses, on one of its cores."""
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 
 def _dataset(
@@ -268,17 +260,6 @@ def fitted_order(n: np.ndarray, error: np.ndarray, floor: float = FLOOR) -> floa
     if np.ptp(x) < math.log(1.5):  # the steps are not what decides the error, but stability or events
         return math.nan
     return float(-np.polyfit(x, y, 1)[0])
-
-
-def machine() -> str:
-    """Processor and number of cores, as the system names them."""
-    model = platform.processor() or platform.machine()
-    try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-        model = next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
-    except (OSError, StopIteration):
-        pass
-    return f"{model}, {os.cpu_count()} cores, {platform.system()}"
 
 
 def _extra_versions() -> dict[str, str]:
