@@ -20,9 +20,8 @@ from disc_model.studies.cases.spec import CaseSpec
 from disc_model.studies.faults import StudyError, read_yaml
 from disc_model.studies.grids.figures import PLOTS
 from disc_model.studies.grids.merge import MergeError, failures, merge_batches
-from disc_model.studies.grids.quantities.options import SettlingOptions
 from disc_model.studies.grids.quantities.preparation import prepared
-from disc_model.studies.grids.quantities.registry import QUANTITIES
+from disc_model.studies.grids.quantities.schema import QUANTITIES, SettlingOptions
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import load_grids, parse_grid
 
@@ -229,7 +228,7 @@ def test_inputs_are_read_in_their_order(tmp_path: Path) -> None:
 
 
 def test_a_preparation_is_another_motions_end() -> None:
-    from disc_model.studies.grids.quantities.bifurcation_options import BifurcationOptions
+    from disc_model.studies.grids.quantities.schema import BifurcationOptions
 
     p = Parameters(N=200, Omega=50, n_diameters=1)
     asked = {"transient": 0.1, "samples": 1, "tol": 1e-8}

@@ -13,13 +13,18 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.settling import Settling, follow
 from disc_model.studies.grids.quantities import critical_speed, floquet, hysteresis, outcome
-from disc_model.studies.grids.quantities.outcome_options import OutcomeOptions
-from disc_model.studies.grids.quantities.table import STATUSES
+from disc_model.studies.grids.quantities.schema import (
+    CriticalSpeedOptions,
+    FloquetOptions,
+    HysteresisOptions,
+    OutcomeOptions,
+)
+from disc_model.studies.grids.quantities.table import STATUSES, compute
 
 
 def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.ndarray], list[str]]:
-    table = outcome.compute(cases, OutcomeOptions(**{"horizon": 1000, **options}))
-    words = outcome.TABLE["outcome"].variable.flags
+    table = compute(outcome, cases, OutcomeOptions(**{"horizon": 1000, **options}))
+    words = outcome.COLUMNS["outcome"].variable.flags
     return table.arrays, [words[i] for i in table.arrays["outcome"]]
 
 
@@ -75,7 +80,7 @@ def test_a_motion_left_early_would_have_stayed_quiet(case: dict[str, float]) -> 
 def test_the_observed_rate_of_decay_is_that_of_the_multipliers(N: float, Omega: float) -> None:
     p = Parameters(N=N, Omega=Omega)
     followed = follow(p, 60 if N == 385 else 120, tol=1e-10, settled=0, near=0)
-    rate = floquet.compute([p], floquet.OPTIONS()).arrays["growth_rate"][0]
+    rate = compute(floquet, [p], FloquetOptions()).arrays["growth_rate"][0]
     assert followed.settling.rate == pytest.approx(rate, rel=0.4 if N == 385 else 0.05)
     assert followed.settling.distance < 1e-3
 
@@ -117,10 +122,10 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
 def speeds(
     N: float, horizons: list[float], start: float, stop: float, step: float, precision: float
 ) -> dict[str, np.ndarray]:
-    options = critical_speed.OPTIONS.model_validate(
+    options = CriticalSpeedOptions.model_validate(
         {"horizons": horizons, "scan": {"start": start, "stop": stop, "step": step}, "precision": precision}
     )
-    return critical_speed.compute([Parameters(N=N, Omega=0)], options).arrays
+    return compute(critical_speed, [Parameters(N=N, Omega=0)], options).arrays
 
 
 @pytest.mark.slow
@@ -139,7 +144,7 @@ def test_385_N_turns_between_15_08_and_15_09() -> None:
     found = speeds(385, [200], 15, 15.2, 0.05, 0.01)
     assert found["critical_speed"][0, 0] == 15.09
     assert found["crossing"][0, 0, 0] == 15.09
-    kinds = critical_speed.TABLE["crossing_kind"].variable.flags
+    kinds = critical_speed.COLUMNS["crossing_kind"].variable.flags
     assert [kinds[i] for i in found["crossing_kind"][0, 0, :2]] == ["begins", "none"]
 
 
@@ -158,10 +163,8 @@ def test_all_crossings_are_found_where_separation_ends_again() -> None:
 
 def test_hysteresis_at_385_N() -> None:
     """Separation begins beyond the fold at 15.09 rad/s and persists below it on the way down."""
-    options = hysteresis.OPTIONS.model_validate(
-        {"scan": {"start": 12, "stop": 16, "step": 0.5}, "dwell": 60, "late": 2}
-    )
-    found = hysteresis.compute([Parameters(N=385, Omega=0)], options).arrays
+    options = HysteresisOptions.model_validate({"scan": {"start": 12, "stop": 16, "step": 0.5}, "dwell": 60, "late": 2})
+    found = compute(hysteresis, [Parameters(N=385, Omega=0)], options).arrays
     assert found["onset"][0] == 15.5
     assert found["persists_to"][0] < 15
     assert found["separation_rate"].shape == (1, 2, 9)
@@ -169,7 +172,7 @@ def test_hysteresis_at_385_N() -> None:
 
 
 def test_floquet_gives_a_status_where_there_is_no_cycle() -> None:
-    found = floquet.compute([Parameters(N=385, Omega=15), Parameters(N=0, Omega=15)], floquet.OPTIONS())
+    found = compute(floquet, [Parameters(N=385, Omega=15), Parameters(N=0, Omega=15)], FloquetOptions())
     assert floquet.STATUSES[found.arrays["status"][0]] == "ok"
     assert found.arrays["growth_rate"][0] == pytest.approx(-0.1055, abs=1e-3)
     assert floquet.STATUSES[found.arrays["status"][1]] != "ok"
@@ -177,7 +180,7 @@ def test_floquet_gives_a_status_where_there_is_no_cycle() -> None:
 
 
 def test_flags_read_as_words() -> None:
-    table = outcome.compute([Parameters(N=385, Omega=15)], OutcomeOptions(horizon=1, late=0.5))
+    table = compute(outcome, [Parameters(N=385, Omega=15)], OutcomeOptions(horizon=1, late=0.5))
     import xarray as xr
 
     attrs = {"flag_meanings": " ".join(outcome.OUTCOMES)}

@@ -24,7 +24,13 @@ from disc_model.status import Status
 from disc_model.studies.grids.figures import Bifurcation, CriticalSpeed, GrowthMap, Mark, StabilityMap, Thresholds
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
-from disc_model.studies.grids.quantities.table import STATUSES
+from disc_model.studies.grids.quantities.schema import (
+    QUANTITIES,
+    CriticalSpeedOptions,
+    HysteresisOptions,
+    OutcomeOptions,
+)
+from disc_model.studies.grids.quantities.table import STATUSES, compute
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import parse_grid
 from tests.stability.toy_map import fold_at, outside, toy
@@ -81,7 +87,7 @@ def test_growth_without_separation_is_unstable(monkeypatch: pytest.MonkeyPatch) 
         (Status.STEP_LIMIT, True, "unknown"),
     ):
         monkeypatch.setattr(outcome, "follow", lambda *_, s=status, g=growing, **__: followed(s, g))
-        table = outcome.compute([Parameters(N=1, Omega=1)], outcome.OPTIONS(horizon=9))
+        table = compute(outcome, [Parameters(N=1, Omega=1)], OutcomeOptions(horizon=9))
         assert outcome.OUTCOMES[table.arrays["outcome"][0]] == expected
         assert table.arrays["difference"][0] == 0.5
         assert list(table.messages) == ["why" if status is Status.STEP_LIMIT else ""]
@@ -167,8 +173,8 @@ def test_a_sweep_that_cannot_go_on_says_where(monkeypatch: pytest.MonkeyPatch) -
         return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, 0)
 
     monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
-    options = hysteresis.OPTIONS.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
-    table = hysteresis.compute([Parameters(N=200, Omega=0)], options)
+    options = HysteresisOptions.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
+    table = compute(hysteresis, [Parameters(N=200, Omega=0)], options)
     assert list(table.messages) == ["Omega=13.5: why"]
     statuses = [[hysteresis.STATUSES[i] for i in row] for row in table.arrays["sweep_status"][0]]
     assert statuses == [["ok", "ok", "ok", "paradox", "failed", "failed", "failed"], ["failed"] * 7]
@@ -191,8 +197,8 @@ def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
         return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, rate)
 
     monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
-    options = hysteresis.OPTIONS.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
-    found = hysteresis.compute([Parameters(N=200, Omega=0)], options).arrays
+    options = HysteresisOptions.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
+    found = compute(hysteresis, [Parameters(N=200, Omega=0)], options).arrays
     assert found["onset"][0] == 14.0
     assert found["persists_to"][0] == pytest.approx(persists_to, nan_ok=True)
     assert hysteresis.STATUSES[found["status"][0]] == "stalled"
@@ -211,8 +217,8 @@ def test_a_run_that_breaks_off_is_no_quiet_run(
         return SimpleNamespace(result=result, simulated=1.0, first_separation=math.nan)
 
     monkeypatch.setattr(critical_speed, "follow", follow)
-    options = critical_speed.OPTIONS.model_validate({"horizons": [1000], "scan": SCAN | {"stop": 14}})
-    found = critical_speed.compute([Parameters(N=400, Omega=0)], options).arrays
+    options = CriticalSpeedOptions.model_validate({"horizons": [1000], "scan": SCAN | {"stop": 14}})
+    found = compute(critical_speed, [Parameters(N=400, Omega=0)], options).arrays
     assert found["critical_speed"][0, 0] == pytest.approx(lowest, nan_ok=True)
     assert found["n_crossings"][0, 0] == crossings == np.isfinite(found["crossing"]).sum()
     status = STATUSES[found["status"][0]]
@@ -235,10 +241,12 @@ class Unmade(DiscModelError):
 )
 def test_of_a_failed_point_nothing_is_known(quantity, options, statuses, fake_motions: None) -> None:
     """Nor is anything computed for what stands in the place of parameters that could not be made."""
-    table = quantity.compute([Unmade("no modes")], quantity.OPTIONS.model_validate(options))
+    table = compute(
+        quantity, [Unmade("no modes")], QUANTITIES[quantity.__name__.rpartition(".")[2]].options.model_validate(options)
+    )
     assert table.messages == ["Unmade: no modes"]
     for name, array in table.arrays.items():
-        flags = quantity.TABLE[name].variable.flags
+        flags = quantity.COLUMNS[name].variable.flags
         if flags:
             assert {flags[i] for i in array.ravel()} == {"failed" if name in statuses else flags[0]}
         elif array.dtype.kind == "f":

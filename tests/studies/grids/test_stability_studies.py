@@ -17,7 +17,7 @@ from disc_model.simulation.api import simulate
 from disc_model.studies.faults import StudyError
 from disc_model.studies.grids.figures import Bifurcation, GrowthMap, Thresholds
 from disc_model.studies.grids.merge import merge_batches
-from disc_model.studies.grids.quantities.bifurcation_options import BifurcationOptions
+from disc_model.studies.grids.quantities.schema import BifurcationOptions
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import GridStudy, parse_grid
 

@@ -79,6 +79,11 @@ class Range(Strict):
         return float(f"{self.start + share * (self.stop - self.start):.12g}")
 
 
+def values_of(range_: Range) -> list[float]:
+    """The values of a range, ascending."""
+    return [float(value) for value in range_.blocks()[0]]
+
+
 def parse_blocks(raw: Any, path: tuple[str, ...], faults: Faults, resolution: int = 1) -> Blocks | None:
     """Blocks of raw values: a list, a range, or ``{blocks: [list or range, ...]}``.
 

@@ -17,10 +17,12 @@ from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import AUTO, Parameters
-from disc_model.studies.grids.quantities.table import Column
+from disc_model.studies.grids.quantities.table import Column, Quantity, compute
 
 log = logging.getLogger(__name__)
 POINT = "point"
+SCHEMA = "disc_model.studies.grids.quantities.schema"
+"""By name, since it is no source of a batch: the text of a batch holds the values of all options."""
 
 
 def run_batch(text: str) -> xr.Dataset:
@@ -30,21 +32,22 @@ def run_batch(text: str) -> xr.Dataset:
     """
     data = json.loads(text)
     names, points = data["names"], data["points"]
-    module = importlib.import_module(data["quantity"])
-    options = module.OPTIONS.model_validate(data["options"])
+    schema = importlib.import_module(SCHEMA)
+    quantity: Quantity = importlib.import_module(schema.module_of(data["quantity"]))
+    options = schema.QUANTITIES[data["quantity"]].options.model_validate(data["options"])
     parameters = [_made(data["base"] | dict(zip(names, point, strict=True))) for point in points]
     began = time.process_time()
-    table = module.compute(parameters, options)
+    table = compute(quantity, parameters, options)
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
     for point, message in zip(points, table.messages, strict=True):
         if message:
             log.warning("%s: %s", dict(zip(names, point, strict=True)), message)
-    variables = {name: _variable(column, table.arrays[name]) for name, column in module.TABLE.items()}
+    variables = {name: _variable(column, table.arrays[name]) for name, column in quantity.COLUMNS.items()}
     if data["base"].get("n_diameters") == AUTO:
         variables |= {name: _chosen(name, parameters) for name in ("n_diameters", "n_circles")}
     variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
     coords = {name: _coordinate(name, [point[i] for point in points]) for i, name in enumerate(names)}
-    own = {name: (name, *_described(values)) for name, values in module.coordinates(options).items()}
+    own = {name: (name, *_described(values)) for name, values in quantity.coordinates(options).items()}
     attrs = {
         "Conventions": CONVENTIONS,
         "specification": text,

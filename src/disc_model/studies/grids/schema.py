@@ -36,7 +36,7 @@ from disc_model.studies.faults import (
 )
 from disc_model.studies.grids.axes import Blocks, Value, parse_blocks, without_repeats
 from disc_model.studies.grids.figures import PLOTS, Plot, Values
-from disc_model.studies.grids.quantities.registry import QUANTITIES, Quantity
+from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
 
 VARIED = (
     "N", "Omega", "D_star", "c", "c_p", "k", "k_p", "E", "m",
@@ -428,11 +428,11 @@ def _batches(
     # a job that chooses modes depends on how, which `Parameters` imports by name only
     choice = ("disc_model.truncation",) if base.get("n_diameters") == AUTO else ()
     shared = {
-        "quantity": quantity.module,
+        "quantity": header.quantity,
         "options": options.model_dump(),
         "base": base,
         "names": [name for dim in dims for name in dim.names],
-        "sources": source_hash(quantity.module, RUNNER, *choice),
+        "sources": source_hash(module_of(header.quantity), RUNNER, *choice),
     }
     texts = (canonical_json({**shared, "points": points}) for points in _chunks(dims, header.batch))
     return {_short_hash(text): text for text in texts}

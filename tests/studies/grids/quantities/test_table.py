@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
-from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column, tabulate
+from disc_model.parameters import Parameters
+from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column, compute
 
-COLUMNS = {"status": Column(STATUS), "value": Column(Variable("1", "a number"))}
+P = Parameters(N=1, Omega=1)
+
+
+def quantity(at: Callable[..., object]) -> SimpleNamespace:
+    """A quantity that stands for a module."""
+    columns = {"status": Column(STATUS), "value": Column(Variable("1", "a number"))}
+    return SimpleNamespace(COLUMNS=columns, coordinates=lambda options: {}, at=at)
 
 
 @pytest.mark.parametrize(
@@ -26,24 +35,24 @@ COLUMNS = {"status": Column(STATUS), "value": Column(Variable("1", "a number"))}
 def test_a_numerical_failure_is_the_status_of_its_point(fail, message) -> None:
     """One singular matrix used to end all points of a batch."""
 
-    def compute_one(point: str):
-        return {"status": "ok", "value": 1.0 if point == "good" else fail()}, ""
+    def at(p: Parameters, options: None):
+        return {"status": "ok", "value": fail() if p.N == 0 else p.N}, ""
 
-    table = tabulate(compute_one, ["good", "bad", "good"], COLUMNS, {})
+    table = compute(quantity(at), [P, P.replace(N=0), P], None)
     assert [STATUSES[i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
     np.testing.assert_array_equal(table.arrays["value"], [1.0, math.nan, 1.0])
     assert table.messages == ["", message, ""]
 
 
 def test_a_mistake_in_the_program_is_no_status() -> None:
-    def compute_one(_):
+    def at(p: Parameters, options: None):
         raise KeyError("horizon")
 
     with pytest.raises(KeyError):
-        tabulate(compute_one, [1], COLUMNS, {})
+        compute(quantity(at), [P], None)
 
 
 def test_a_point_without_parameters_is_one_that_failed() -> None:
-    table = tabulate(lambda _: ({"status": "ok"}, ""), [DiscModelError("no modes")], COLUMNS, {})
+    table = compute(quantity(lambda *_: ({"status": "ok"}, "")), [DiscModelError("no modes")], None)
     assert table.messages == ["DiscModelError: no modes"]
     assert STATUSES[table.arrays["status"][0]] == "failed"

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,12 +10,14 @@ from disc_model.data.variables import SCALARS, SERIES, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import PHASES
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
-from disc_model.studies.grids.quantities.bifurcation_options import BifurcationOptions
 from disc_model.studies.grids.quantities.preparation import prepared
-from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column, Table, tabulate
+from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import BifurcationOptions
 
 _SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
-TABLE = {
+COLUMNS = {
     "status": Column(STATUS),
     **{name: Column(SERIES[name], ("sample",)) for name in _SAMPLED},
     "phase": Column(Variable("1", "phase of the motion at the sample", ("none", *PHASES)), ("sample",)),
@@ -25,20 +26,14 @@ TABLE = {
     "stick_fraction": Column(Variable("1", "share of the time spent sticking, transient included")),
 }
 
-OPTIONS = BifurcationOptions
-
 
 def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
     """Numbers of the samples."""
     return {"sample": (np.arange(options.samples), Variable("1", "number of the turn after the transient"))}
 
 
-def compute(points: Sequence[Parameters], options: BifurcationOptions) -> Table:
-    """Each point for itself, from the published start or the prepared one."""
-    return tabulate(lambda p: _one(p, options), points, TABLE, {"sample": options.samples})
-
-
-def _one(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
+def at(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
+    """From the published start or the prepared one."""
     data = bifurcation_samples(
         p,
         "Omega",
@@ -51,6 +46,6 @@ def _one(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], st
     ).isel(Omega=0)
     found = STATUS_NAMES[int(data["status"])]
     status = found if found in STATUSES else "ok"
-    values: dict[str, Any] = {name: data[name].values for name in TABLE if name not in ("status", "phase")}
+    values: dict[str, Any] = {name: data[name].values for name in COLUMNS if name not in ("status", "phase")}
     values |= {"status": status, "phase": data["phase"].values + 1}
     return values, "" if status == "ok" else f"the simulation ended early: {status}"

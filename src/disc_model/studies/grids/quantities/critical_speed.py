@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.settling import follow
-from disc_model.studies.grids.quantities.critical_speed_options import CriticalSpeedOptions
-from disc_model.studies.grids.quantities.table import STATUS, Column, Table, tabulate
+from disc_model.studies.grids.axes import values_of
+from disc_model.studies.grids.quantities.table import STATUS, Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions
 
 KINDS = ("none", "begins", "ends")
-TABLE = {
+COLUMNS = {
     "status": Column(STATUS),
     "critical_speed": Column(
         Variable(
@@ -43,8 +46,6 @@ TABLE = {
     "simulated_time": Column(Variable("s", "simulated time of all of them")),
 }
 
-OPTIONS = CriticalSpeedOptions
-
 
 def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]]:
     """Horizons, numbers of crossings, and speeds of the scan."""
@@ -55,19 +56,14 @@ def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]
             Variable("1", "number of the crossing, as the speed rises"),
         ),
         "scan_Omega": (
-            np.array(options.scan.blocks()[0]),
+            np.array(values_of(options.scan)),
             Variable("rad s-1", "speed of the drive point, in the scan"),
         ),
     }
 
 
-def compute(points: Sequence[Parameters], options: CriticalSpeedOptions) -> Table:
-    """Scan and bisect at each point; its own Omega is not used."""
-    sizes = {name: len(values) for name, (values, _) in coordinates(options).items()}
-    return tabulate(lambda p: _one(p, options), points, TABLE, sizes)
-
-
-def _one(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
+def at(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
+    """Scan and bisect; the point's own Omega is not used."""
     horizons = options.horizons
     step, scale = _lattice(options)
     known: dict[int, float] = {}

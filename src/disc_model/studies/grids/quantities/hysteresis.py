@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,12 +10,15 @@ from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.settling import late_stretch, numbers
-from disc_model.studies.grids.quantities.hysteresis_options import HysteresisOptions
-from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column, Table, tabulate
+from disc_model.studies.grids.axes import values_of
+from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import HysteresisOptions
 
 DIRECTIONS = ("up", "down")
 _DIMS = ("direction", "sweep_Omega")
-TABLE = {
+COLUMNS = {
     "status": Column(STATUS),
     "sweep_status": Column(STATUS, _DIMS),
     "separation_rate": Column(Variable("s-1", "separations per second at the end of the stay at a speed"), _DIMS),
@@ -29,32 +31,23 @@ TABLE = {
     "persists_to": Column(Variable("rad s-1", "lowest speed to which it persists without a gap on the way down")),
 }
 
-OPTIONS = HysteresisOptions
-
 
 def coordinates(options: HysteresisOptions) -> dict[str, tuple[Any, Variable]]:
     """Direction and speed of the sweep."""
     return {
         "direction": (np.array(DIRECTIONS), Variable("", "direction of the sweep")),
         "sweep_Omega": (
-            np.array(options.scan.blocks()[0]),
+            np.array(values_of(options.scan)),
             Variable("rad s-1", "speed of the drive point, in the sweep"),
         ),
     }
 
 
-def compute(points: Sequence[Parameters], options: HysteresisOptions) -> Table:
-    """Sweep at each point; its own Omega is not used."""
-    sizes = {name: len(values) for name, (values, _) in coordinates(options).items()}
-    return tabulate(lambda p: _one(p, options), points, TABLE, sizes)
-
-
-def _one(p: Parameters, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
-    speeds = [float(value) for value in options.scan.blocks()[0]]
-    columns = {name: column for name, column in TABLE.items() if column.dims}
-    values: dict[str, Any] = {
-        name: np.full((2, len(speeds)), column.missing, column.dtype) for name, column in columns.items()
-    }
+def at(p: Parameters, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
+    """Sweep up and down; the point's own Omega is not used."""
+    speeds = values_of(options.scan)
+    columns = {name: column for name, column in COLUMNS.items() if column.dims}
+    values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns.items()}
     state: State | None = None
     status, message = "ok", ""
     ways = [(0, i) for i in range(len(speeds))] + [(1, i) for i in reversed(range(len(speeds)))]

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
-from disc_model.studies.grids.quantities.lyapunov_options import LyapunovOptions
 from disc_model.studies.grids.quantities.preparation import prepared
-from disc_model.studies.grids.quantities.table import STATUS, Column, Table, tabulate
+from disc_model.studies.grids.quantities.table import STATUS, Column
 
-TABLE = {
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import LyapunovOptions
+
+COLUMNS = {
     "status": Column(STATUS),
     "exponent": Column(Variable("s-1", "Lyapunov exponent"), ("exponent_number",)),
     "exponent_error": Column(Variable("s-1", "its standard error, from 16 stretches"), ("exponent_number",)),
@@ -22,20 +23,14 @@ TABLE = {
     "separations": Column(Variable("1", "number of separations in that time"), whole=True),
 }
 
-OPTIONS = LyapunovOptions
-
 
 def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:
     """Numbers of the exponents."""
     return {"exponent_number": (np.arange(options.exponents), Variable("1", "number of the exponent, largest first"))}
 
 
-def compute(points: Sequence[Parameters], options: LyapunovOptions) -> Table:
-    """Each point for itself, from the published start or the prepared one."""
-    return tabulate(lambda p: _one(p, options), points, TABLE, {"exponent_number": options.exponents})
-
-
-def _one(p: Parameters, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
+def at(p: Parameters, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
+    """From the published start or the prepared one."""
     found = lyapunov_exponents(
         p,
         options.duration,

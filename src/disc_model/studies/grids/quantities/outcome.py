@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.settling import Followed, follow, late_stretch, numbers
-from disc_model.studies.grids.quantities.outcome_options import OutcomeOptions
-from disc_model.studies.grids.quantities.table import STATUS, Column, Table, tabulate
+from disc_model.studies.grids.quantities.table import STATUS, Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import OutcomeOptions
 
 OUTCOMES = ("unknown", "stable", "unstable", "separation")
-TABLE = {
+COLUMNS = {
     "status": Column(STATUS),
     "outcome": Column(
         Variable("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES)
@@ -33,20 +34,14 @@ TABLE = {
     "separation_rate": Column(Variable("s-1", "separations per second over the late stretch")),
 }
 
-OPTIONS = OutcomeOptions
-
 
 def coordinates(options: OutcomeOptions) -> dict[str, Any]:
     """No dimensions beyond the grid's."""
     return {}
 
 
-def compute(points: Sequence[Parameters], options: OutcomeOptions) -> Table:
-    """Outcome of each point; the late stretch of one that separates lies ``after_separation`` later."""
-    return tabulate(lambda p: _one(p, options), points, TABLE, {})
-
-
-def _one(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
+def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
+    """The late stretch of a point that separates lies ``after_separation`` later."""
     followed = follow(
         p, options.horizon, tol=options.tol, settled=options.settled, near=options.near, late=options.late
     )

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
-from disc_model.studies.grids.quantities.lead_options import Lead
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import Lead
 
 
 def prepared(p: Parameters, options: Lead) -> State | None:

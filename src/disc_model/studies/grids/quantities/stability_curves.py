@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.curves import StabilityCurve, stability_curves
-from disc_model.studies.grids.quantities.stability_curves_options import StabilityCurvesOptions
-from disc_model.studies.grids.quantities.table import STATUS, Column, Table, tabulate
+from disc_model.studies.grids.axes import values_of
+from disc_model.studies.grids.quantities.table import STATUS, Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import StabilityCurvesOptions
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
 _ONE, _EACH = ("curve",), ("curve", "curve_point")
-TABLE = {
+COLUMNS = {
     "status": Column(STATUS),
     "n_curves": Column(Variable("1", "number of curves found"), whole=True),
     "n_unfollowed": Column(Variable("1", "number of places at which a curve could not be followed"), whole=True),
@@ -36,8 +38,6 @@ TABLE = {
     "tongue_detuning": Column(Variable("Hz", "how far the cycle at the curve's middle is from that resonance"), _ONE),
 }
 
-OPTIONS = StabilityCurvesOptions
-
 
 def coordinates(options: StabilityCurvesOptions) -> dict[str, tuple[Any, Variable]]:
     """Numbers of the curves and of their points."""
@@ -47,27 +47,23 @@ def coordinates(options: StabilityCurvesOptions) -> dict[str, tuple[Any, Variabl
     }
 
 
-def compute(points: Sequence[Parameters], options: StabilityCurvesOptions) -> Table:
-    """The curves of each point; its own values of the two parameters are not used."""
-    sizes = {name: len(values) for name, (values, _) in coordinates(options).items()}
-    return tabulate(lambda p: _one(p, options, sizes), points, TABLE, sizes)
-
-
-def _one(p: Parameters, options: StabilityCurvesOptions, sizes: dict[str, int]) -> tuple[dict[str, Any], str]:
+def at(p: Parameters, options: StabilityCurvesOptions) -> tuple[dict[str, Any], str]:
+    """The curves of this plane; the point's own values of the two parameters are not used."""
+    lines = options.y_lines
+    margin = options.margin * (lines.stop - lines.start)
     curves, notes = stability_curves(
         p,
         (options.x, options.y),
-        options.bounds,
-        options.y_lines.blocks()[0],  # type: ignore[arg-type]
+        {options.x: options.x_range, options.y: (lines.start - margin, lines.stop + margin)},
+        values_of(lines),
         points=options.points,
         max_points=options.max_points,
         longest=options.longest,
         tol=options.tol,
     )
+    sizes = {name: len(along) for name, (along, _) in coordinates(options).items()}
     values: dict[str, Any] = {
-        name: np.full([sizes[dim] for dim in column.dims], column.missing, column.dtype)
-        for name, column in TABLE.items()
-        if column.dims
+        name: column.empty([sizes[dim] for dim in column.dims]) for name, column in COLUMNS.items() if column.dims
     }
     # room is for the longest
     kept = sorted(curves, key=lambda curve: -len(curve.period))[: options.max_curves]

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
+from disc_model.parameters import Parameters
 from disc_model.status import Status
 
 STATUSES = (
@@ -20,6 +21,11 @@ STATUSES = (
 )
 """What became of a point. `failed`: it raised an error, or was not reached."""
 STATUS = Variable("1", "what became of the computation", STATUSES)
+
+
+Row = Mapping[str, Any]
+NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
+"""What a point may fail of: this package's errors, division by zero and overflow, matrices that cannot be solved."""
 
 
 class Column(NamedTuple):
@@ -42,6 +48,22 @@ class Column(NamedTuple):
             return self.variable.flags.index("failed")
         return 0 if self.variable.flags or self.whole else math.nan
 
+    def empty(self, shape: Sequence[int]) -> NDArray[Any]:
+        """An array of nothing but `missing`."""
+        return np.full(shape, self.missing, dtype=self.dtype)
+
+
+class Quantity(Protocol):
+    """What a module of a quantity has."""
+
+    COLUMNS: Mapping[str, Column]
+
+    def coordinates(self, options: Any) -> Mapping[str, tuple[Any, Variable]]:
+        """Values along the quantity's own dimensions, beyond those of the grid."""
+
+    def at(self, p: Parameters, options: Any) -> tuple[Row, str]:
+        """Values at one point by column (flags as words), and a message; columns left out are missing."""
+
 
 class Table(NamedTuple):
     """Arrays by variable, shape (points, ...), and one message a point, empty where all went well."""
@@ -50,39 +72,30 @@ class Table(NamedTuple):
     messages: list[str]
 
 
-Row = Mapping[str, Any]
-NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
-"""What a point may fail of: this package's errors, division by zero and overflow, matrices that cannot be solved."""
-
-
-def tabulate(
-    compute_one: Callable[[Any], tuple[Row, str]],
-    points: Sequence[Any],
-    columns: Mapping[str, Column],
-    sizes: Mapping[str, int],
-) -> Table:
-    """Compute each point; one that fails (see `NUMERICAL`) gets the status `failed` and a message.
+def compute(quantity: Quantity, points: Sequence[Parameters | DiscModelError], options: Any) -> Table:
+    """A quantity at each point; one that fails (see `NUMERICAL`) gets the status `failed` and a message.
 
     Parameters
     ----------
-    points : what `compute_one` is given; an error stands for a point that could not be made, and is its message
-    compute_one : of parameters, its values by column (flags as words) and a message; columns left out are missing
-    sizes : of the dimensions beyond the grid's
+    points : parameters; an error stands for a point that could not be made, and is its message
+    options : as `schema` says for this quantity
     """
-    rows, messages = [], []
+    rows: list[Row] = []
+    messages: list[str] = []
     for point in points:
         try:
             if isinstance(point, DiscModelError):
                 raise point
-            row, message = compute_one(point)
+            row, message = quantity.at(point, options)
         except NUMERICAL as error:
             row, message = {"status": "failed"}, f"{type(error).__name__}: {error}"
         rows.append(row)
         messages.append(message)
+    sizes = {name: len(values) for name, (values, _) in quantity.coordinates(options).items()}
     arrays = {}
-    for name, column in columns.items():
+    for name, column in quantity.COLUMNS.items():
         shape = (len(rows), *(sizes[dim] for dim in column.dims))
-        array = np.full(shape, column.missing, dtype=column.dtype)
+        array = column.empty(shape)
         for i, row in enumerate(rows):
             if name in row:
                 array[i] = _stored(row[name], column)

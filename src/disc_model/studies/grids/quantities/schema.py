@@ -1,0 +1,249 @@
+"""The quantities that a grid study can compute, and what its file may say of each. Imports nothing heavy.
+
+A job is told all values of the options, so that nothing here is among the sources of its result: a quantity computes
+from the values alone, and what they amount to is worked out in its own file.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, NamedTuple, Self
+
+from pydantic import AfterValidator, Field, create_model, field_validator, model_validator
+
+from disc_model.parameters import Count, Parameters, Real
+from disc_model.studies.faults import Strict
+from disc_model.studies.grids.axes import MOST, Finite, Range
+
+Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False)]
+Tolerance = Annotated[Real, Field(ge=1e-15, le=1e-2)]
+CycleTolerance = Annotated[Real, Field(ge=1e-14, le=1e-6)]
+"""Relative, of the series and of the return map's residual."""
+Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
+
+# ----------------------------------------------------------------------------------------------------
+# Parts
+
+
+class SettlingOptions(Strict):
+    """When a motion without separation may be left before the horizon; see `disc_model.stability.settling`.
+
+    settled : successive cycles that agree this well, relative, end the simulation; 0 never does
+    near : a motion this near to a stable stick-slip cycle, relative, and ever nearer, ends it too; 0 never does
+    """
+
+    tol: Tolerance = 1e-10
+    settled: Deviation = 1e-9
+    near: Deviation = 1e-4
+
+
+_OPTIONAL: dict[str, Any] = {
+    name: (Annotated[field.annotation, field], None) for name, field in Parameters.model_fields.items()
+}
+_Some = create_model("_Some", __base__=Parameters, **_OPTIONAL)
+"""Parameters of which any may be left out; rules between several are checked if all of them are there."""
+
+
+class Preparation(Strict):
+    """Another case, and how long it is simulated from the published start: its last state is where the point starts.
+
+    parameters : those that differ from the point's
+    time : s
+    """
+
+    parameters: dict[str, Any]
+    time: Positive
+
+    @field_validator("parameters")
+    @classmethod
+    def _checked(cls, given: dict[str, Any]) -> dict[str, Any]:
+        """As `Parameters` understands them: floats, whole numbers, words."""
+        if given.get("n_diameters") == "auto":
+            raise ValueError("n_diameters='auto': must be a whole number, that of the points")
+        checked = _Some(**given)
+        return {name: getattr(checked, name) for name in given}
+
+
+class Lead(Strict):
+    """Where a motion starts.
+
+    prepare : after another motion, such as one that has separated; the published start if not given
+    """
+
+    prepare: Preparation | None = None
+    tol: Tolerance = 1e-10
+
+
+# ----------------------------------------------------------------------------------------------------
+# Options of each quantity
+
+
+class OutcomeOptions(SettlingOptions):
+    """One simulation from the published start.
+
+    horizon : s
+    late : s, length of the last stretch, over which ranges and shares of the phases are taken
+    after_separation : s that are simulated beyond the first separation, so that the late stretch shows its regime
+    """
+
+    horizon: Positive
+    late: Positive = 1.0
+    after_separation: Positive = 5.0
+
+    @model_validator(mode="after")
+    def _room(self) -> Self:
+        if self.late > min(self.after_separation, self.horizon):
+            raise ValueError("late must be <= after_separation and <= horizon")
+        return self
+
+
+class CriticalSpeedOptions(SettlingOptions):
+    """Scan of the speed, then bisection of each interval in which separation begins or ends.
+
+    horizons : s, each has its own critical speed; all come from the same simulations
+    scan : rad/s
+    precision : rad/s, width of the last interval; the scan's step must be a multiple
+    max_crossings : room for that many crossings at each horizon
+    """
+
+    horizons: Annotated[tuple[Positive, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
+    scan: Range
+    precision: Positive = 0.1
+    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
+
+    @model_validator(mode="after")
+    def _lattice(self) -> Self:
+        if self.scan.scale != "linear":
+            raise ValueError("scan must be linear")
+        step = (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
+        if not math.isfinite(step) or abs(step - round(step)) > 1e-6 or round(step) < 1:
+            raise ValueError("the scan's step must be a multiple of precision")
+        return self
+
+
+class FloquetOptions(Strict):
+    """The stick-slip cycle of each point."""
+
+    tol: CycleTolerance = 1e-12
+
+
+class HysteresisOptions(Strict):
+    """Sweep of the speed up from the published start and down again, each speed going on where the last one ended.
+
+    scan : rad/s
+    dwell : s at each speed
+    late : s, the last stretch of it, over which separations, ranges and shares of the phases are taken
+    """
+
+    tol: Tolerance = 1e-10
+    scan: Range
+    dwell: Positive
+    late: Positive = 5.0
+
+    @model_validator(mode="after")
+    def _room(self) -> Self:
+        if self.late > self.dwell:
+            raise ValueError("late must be <= dwell")
+        return self
+
+
+class BifurcationOptions(Lead):
+    """Samples once a turn of the drive, of what the motion has settled to.
+
+    transient : s, left out
+    samples : number of turns sampled after it
+    theta : rad, the disc's point whose displacement is sampled
+    """
+
+    transient: Positive
+    samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
+    theta: Finite = 1.0
+
+
+class LyapunovOptions(Lead):
+    """The largest Lyapunov exponents of the motion.
+
+    transient : s, left out
+    duration : s, over which the rates are averaged
+    exponents : how many, 1 to 8
+    interval : s, between orthonormalisations
+    """
+
+    transient: Positive
+    duration: Positive
+    exponents: Annotated[Count, Field(ge=1, le=8)] = 2
+    interval: Positive = 0.01
+
+
+Free = Literal["Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m"]
+
+
+class StabilityCurvesOptions(Strict):
+    """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
+
+    x, y : the parameters
+    x_range : from, to; the cycle is looked for at `points` places of it
+    y_lines : values of y along which that is done; curves are followed from the first to the last, widened by `margin`
+    margin : of the range of y, beyond the lines at both ends
+    longest : arclength of the longest step along a curve
+    max_points : of a curve, each way from where it was met
+    max_curves : room for that many
+    """
+
+    x: Free = "Omega"
+    y: Free = "N"
+    x_range: tuple[Finite, Finite]
+    y_lines: Range
+    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
+    longest: Positive = 0.1
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
+    max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
+    tol: CycleTolerance = 1e-12
+
+    @model_validator(mode="after")
+    def _plane(self) -> Self:
+        if self.x == self.y:
+            raise ValueError("x and y must differ")
+        if not self.x_range[0] < self.x_range[1]:
+            raise ValueError("x_range must ascend")
+        return self
+
+    @property
+    def scans(self) -> tuple[str, ...]:
+        """Parameters varied by the quantity itself."""
+        return (self.x, self.y)
+
+
+# ----------------------------------------------------------------------------------------------------
+# All of them
+
+
+class Quantity(NamedTuple):
+    """An entry: the schema of the options, and the parameters that the quantity varies by itself.
+
+    Options with a property ``scans`` name those parameters themselves.
+    """
+
+    options: type[Strict]
+    scans: tuple[str, ...] = ()
+
+    def scanned(self, options: Strict | None) -> tuple[str, ...]:
+        """Parameters that the quantity varies by itself, given its options."""
+        return tuple(getattr(options, "scans", self.scans))
+
+
+QUANTITIES = {
+    "outcome": Quantity(OutcomeOptions),
+    "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
+    "floquet": Quantity(FloquetOptions),
+    "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),
+    "bifurcation": Quantity(BifurcationOptions),
+    "lyapunov": Quantity(LyapunovOptions),
+    "stability_curves": Quantity(StabilityCurvesOptions),
+}
+
+
+def module_of(name: str) -> str:
+    """Module that computes a quantity, of the same name."""
+    return f"{__package__}.{name}"
