@@ -17,11 +17,10 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
-from disc_model.data.variables import STATUSES
+from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
 from disc_model.plate import slider_at_rest_frequencies
 from disc_model.simulation.record import Window
-from disc_model.simulation.result import PHASES
 from disc_model.studies.cases.schema import load_study
 from disc_model.studies.cases.spec import CaseSpec
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import Parameters, Poincare, Record, Result, Status, StepLimit, Window, simulate
-from disc_model.data.dataset import load, result_to_dataset, save
+from disc_model import ParameterError, Parameters, Poincare, Record, Result, Status, StepLimit, Window, simulate
+from disc_model.data.dataset import load, save
 from disc_model.data.variables import STATUSES, attributes, flag_names
 from disc_model.studies.cases import run as batch
 from disc_model.studies.cases.merge import merge_cases
@@ -44,18 +44,31 @@ def tree() -> xr.DataTree:
     return run_case(spec_of())
 
 
-def test_flat_dataset_holds_everything(result: Result) -> None:
-    flat = result_to_dataset(result)
-    xr.testing.assert_identical(flat, result.to_dataset())
-    assert set(flat.sizes) == {"event", "sample_0", "sample_1", "poincare"}
-    np.testing.assert_array_equal(flat["event_time"], result.events["time"])
-    np.testing.assert_array_equal(flag_names(flat["event_kind"]), result.events["kind"].astype(str))
-    np.testing.assert_array_equal(flag_names(flat["event_phase"]), result.events["phase"].astype(str))
-    np.testing.assert_array_equal(flat["sample_0_P_max"], result.samples[0]["P_max"])
-    np.testing.assert_array_equal(flat["sample_1_w_point"], result.samples[1]["w_point"])
-    assert float(flat["N"]) == 385
-    assert int(flat["n_events"]) == len(result.events)
-    assert flat.attrs["parameters"] == P.canonical_json
+def test_a_result_is_laid_out_as_its_file_is(result: Result, tree: xr.DataTree) -> None:
+    mine = result.to_tree(["history", "zoom"])
+    assert list(mine.children) == list(tree.children)
+    for name in ("history", "zoom", "poincare"):
+        xr.testing.assert_identical(mine[name].to_dataset(), tree[name].to_dataset())
+    xr.testing.assert_equal(mine.to_dataset(), tree.to_dataset())
+    events = mine["events"].to_dataset()
+    np.testing.assert_array_equal(events["time"], result.events["time"])
+    np.testing.assert_array_equal(flag_names(events["kind"]), result.events["kind"].astype(str))
+    np.testing.assert_array_equal(flag_names(events["phase"]), result.events["phase"].astype(str))
+    np.testing.assert_array_equal(mine["history/P_max"], result.samples[0]["P_max"])
+    assert mine["zoom"].sizes == {"time": 201}
+    assert float(mine["N"]) == 385
+    assert int(mine["n_events"]) == len(result.events)
+    assert mine.attrs["parameters"] == P.canonical_json
+
+
+def test_a_group_of_a_result_is_a_dataset(result: Result) -> None:
+    tree = result.to_tree()
+    assert list(tree.children) == ["events", "sample_0", "sample_1", "poincare"]
+    xr.testing.assert_identical(result.to_dataset(), tree.to_dataset())
+    for name, node in tree.children.items():
+        xr.testing.assert_identical(result.to_dataset(name), node.to_dataset())
+    with pytest.raises(ParameterError, match="group='sample_2': must be one of '', 'events', 'sample_0'"):
+        result.to_dataset("sample_2")
 
 
 def test_the_angle_of_the_disc_is_kept_with_what_was_taken_there(
@@ -66,15 +79,15 @@ def test_the_angle_of_the_disc_is_kept_with_what_was_taken_there(
     for name, theta in (("history", 1.0), ("zoom", 0.5), ("poincare", 2.0)):
         assert tree[name].attrs["theta"] == theta
         assert merged[name].attrs["theta"] == theta
-    flat = result_to_dataset(result)
-    assert [flat.attrs[f"{name}_theta"] for name in ("sample_0", "sample_1", "poincare")] == [1.0, 0.5, 2.0]
+    assert [result.to_dataset(name).attrs["theta"] for name in ("sample_0", "sample_1", "poincare")] == [1.0, 0.5, 2.0]
 
 
 def test_default_record_gives_events_and_scalars_alone() -> None:
-    flat = simulate(P, 0.1).to_dataset()
-    assert set(flat.sizes) == {"event"}
-    flat = simulate(P, 0.1, record=Record(events=False)).to_dataset()
-    assert flat.sizes == {"event": 0}
+    tree = simulate(P, 0.1).to_tree()
+    assert list(tree.children) == ["events"]
+    assert tree["events"].sizes["event"] > 0
+    tree = simulate(P, 0.1, record=Record(events=False)).to_tree()
+    assert tree["events"].sizes == {"event": 0}
 
 
 def test_every_variable_has_a_unit_and_a_name(tree: xr.DataTree) -> None:

@@ -183,7 +183,7 @@ import importlib, json, pkgutil, sys
 import disc_model
 
 result = disc_model.simulate(disc_model.Parameters(N=385, Omega=15.1), 2)
-result.to_dataset().to_netcdf("run.nc")
+result.to_tree().to_netcdf("run.nc")
 for module in pkgutil.walk_packages(disc_model.__path__, "disc_model."):
     if module.name not in ("disc_model.__main__", *OPTIONAL):
         importlib.import_module(module.name)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.simulation.result import PHASES
+from disc_model.data.variables import PHASES
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -37,7 +37,7 @@ def stages(time: Array, phase: NDArray[np.int8], first_separation: float, t_end:
     Parameters
     ----------
     time : s, shape (n,)
-    phase : shape (n,), index into `disc_model.simulation.result.PHASES`
+    phase : shape (n,), index into `disc_model.data.variables.PHASES`
     first_separation : s, nan if there was none
     t_end : s, length of the run
     """

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, Motion, closure, irregularity, motion_of, shortest_period
 from disc_model.claims.model import CaseView, Missing
-from disc_model.simulation.result import EVENT_KINDS, PHASES
+from disc_model.data.variables import EVENT_KINDS, PHASES
 
 __all__ = ["closure", "irregularity", "shortest_period"]  # beside what is defined here
 Array = NDArray[np.float64]

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +26,6 @@ import xarray as xr
 from disc_model.data.files import check_whole, write_whole
 from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import Result
 
 CONVENTIONS = "CF-1.11"
 OVERHEAD = 1 << 18
@@ -34,45 +33,11 @@ OVERHEAD = 1 << 18
 
 
 # ----------------------------------------------------------------------------------------------------
-# From a result to datasets
-
-
-def result_to_dataset(result: Result) -> xr.Dataset:
-    """A whole result as one dataset; what `Result.to_dataset` returns.
-
-    Scalars have no dimension; switches run along `event` as ``event_time``, ``event_kind``, ...; samples of
-    the i-th window along ``sample_i`` as ``sample_i_time``, ``sample_i_P``, ...; the Poincare samples along
-    `poincare`. Attributes of a group bear such names as well, ``sample_i_theta``.
-    """
-    groups = result_groups(result)
-    flat = groups.pop("")
-    for group, dataset in groups.items():
-        prefix = "event" if group == "events" else group
-        names = {name: f"{prefix}_{name}" for name in dataset.variables}
-        flat = flat.merge(dataset.drop_indexes("time", errors="ignore").swap_dims(_to(dataset, prefix)).rename(names))
-        flat.attrs |= {f"{prefix}_{name}": value for name, value in dataset.attrs.items()}
-    return flat
-
-
-def result_groups(result: Result, names: Sequence[str] | None = None) -> dict[str, xr.Dataset]:
-    """A result as datasets by group: "" for the scalars, "events", one per window, "poincare".
-
-    Parameters
-    ----------
-    names : of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
-    """
-    names = [f"sample_{i}" for i in range(len(result.samples))] if names is None else names
-    groups = {"": _scalars(result), "events": events_dataset(result.events)}
-    record = result.record
-    for name, window, data in zip(names, record.windows, result.samples, strict=True):
-        groups[name] = samples_dataset(data, window.theta)
-    if result.poincare is not None and record.poincare is not None:
-        groups["poincare"] = samples_dataset(result.poincare, record.poincare.theta)
-    return groups
+# The groups of a case
 
 
 def events_dataset(events: Any) -> xr.Dataset:
-    """Switches, from the frame `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
+    """Switches, from a frame like `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
     data = {name: ("event", _column(events, name), attributes(name)) for name in events.columns}
     return xr.Dataset(data).set_coords("time")
 
@@ -90,25 +55,17 @@ def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict
     """What stands for a case that raised an error: all its scalars, unknown but for its status."""
     values: dict[str, Any] = dict.fromkeys(SCALARS, math.nan) | dict.fromkeys(COUNTS, 0)
     values |= {"status": STATUSES.index("failed"), "t_end": t_end, "tol": tol}
-    return {"": _scalar_dataset(p, values, "failed", message)}
+    return {"": scalars_dataset(p, values, "failed", message)}
 
 
-def _scalars(result: Result) -> xr.Dataset:
-    statistics = result.statistics
-    values = {name: statistics[name] for name in SCALARS if name in statistics}
-    values |= {name: statistics[key] for name, key in COUNTS.items()}
-    values |= {
-        "status": STATUSES.index(result.status.value),
-        "first_separation": result.first_separation,
-        "t_end": result.t_end,
-        "time_reached": result.final_state.time,
-        "tol": result.tol,
-        "u_0": result.u_0,
-    }
-    return _scalar_dataset(result.parameters, values, result.status.value, result.message)
+def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
+    """The root of a case: what has no dimension.
 
-
-def _scalar_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
+    Parameters
+    ----------
+    values : of `SCALARS`, nan where not given; the status by its place in `STATUSES`
+    status, message : in words
+    """
     data: dict[str, Any] = {}
     for name in SCALARS:
         value = np.int8(values[name]) if name == "status" else values.get(name, math.nan)
@@ -140,16 +97,12 @@ def _narrow(name: str, values: Any) -> np.ndarray:
     return np.asarray(values, dtype=np.int8 if name == "phase" else float)
 
 
-def _to(dataset: xr.Dataset, dim: str) -> dict[str, str]:
-    return {old: dim for old in map(str, dataset.dims) if old != dim}
-
-
 # ----------------------------------------------------------------------------------------------------
 # Trees and files
 
 
 def to_tree(groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
-    """Groups as `result_groups` gives them, as a tree."""
+    """Groups by name, the root under "", as a tree."""
     return xr.DataTree.from_dict({f"/{name}": dataset for name, dataset in groups.items()})
 
 

@@ -7,9 +7,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import EVENT_KINDS, PHASES
 from disc_model.status import Status
 
+PHASES = ("stick", "slip", "separation")
+EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
+"""Phases and kinds of switch, in the order of the engine's numbers for them."""
 STATUSES = (*(status.value for status in Status), "failed")
 NORMALIZATIONS = ("as_published", "orthonormal")
 CONTACTS = ("separable", "bonded")

@@ -18,7 +18,7 @@ from .layout import (
     U,
 )
 
-# Kinds of event, in the order of ``disc_model.simulation.result.EVENT_KINDS``.
+# Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
 # Outcome of a transition.
 CONSISTENT, PARADOX = 0, 1

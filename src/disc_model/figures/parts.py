@@ -9,9 +9,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures.style import BLACK, SEPARATED, VERMILION
-from disc_model.simulation.result import PHASES
 
 SEPARATION = PHASES.index("separation")
 SYMBOLS = {

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
@@ -19,7 +20,7 @@ from disc_model.simulation.bridge import read_state, write_state
 from disc_model.simulation.checkpoint import Checkpoint, Contents, faults, identity
 from disc_model.simulation.collector import Collector
 from disc_model.simulation.record import Record
-from disc_model.simulation.result import PHASES, Result, State
+from disc_model.simulation.result import Result, State
 from disc_model.simulation.tolerance import series_order, series_tolerance
 from disc_model.status import Status
 

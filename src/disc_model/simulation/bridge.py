@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from disc_model.data.variables import PHASES
 from disc_model.engine import layout
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.simulation.result import PHASES, State
+from disc_model.simulation.result import State
 
 
 def read_state(p: Parameters, model: layout.Model, state: layout.State) -> State:

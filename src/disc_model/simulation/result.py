@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model import errors
+from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.parameters import Parameters
 from disc_model.simulation.record import Record
 from disc_model.status import Status
@@ -21,10 +22,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-PHASES = ("stick", "slip", "separation")
-EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
 EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
-"""Columns of `Result.event_rows`, as the engine writes them; kind and phase by their places in the tuples above."""
+"""Columns of `Result.event_rows`, as the engine writes them; phase by its place in `PHASES`, kind in `EVENT_KINDS`."""
 
 
 _ERRORS: dict[Status, type[errors.SimulationError]] = {
@@ -119,11 +118,59 @@ class Result:
         named = {"time": columns["time"], "kind": words("kind", EVENT_KINDS), "phase": words("phase", PHASES)}
         return pd.DataFrame(named | {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")})
 
-    def to_dataset(self) -> xr.Dataset:
-        """All of it as one dataset with CF attributes; see `disc_model.data.dataset`."""
-        from disc_model.data.dataset import result_to_dataset
+    def to_tree(self, names: Sequence[str] | None = None) -> xr.DataTree:
+        """All of it in the layout of files, with CF attributes; see `disc_model.data.dataset`.
 
-        return result_to_dataset(self)
+        Parameters
+        ----------
+        names : of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
+        """
+        from disc_model.data.dataset import to_tree
+
+        return to_tree(self._groups(names))
+
+    def to_dataset(self, group: str = "") -> xr.Dataset:
+        """One group of `to_tree`.
+
+        Parameters
+        ----------
+        group : "" for the scalars, "events" (along `event`), "sample_0", ... or "poincare" (along `time`)
+
+        Raises
+        ------
+        ParameterError
+            If there is no such group.
+        """
+        groups = self._groups()
+        if group not in groups:
+            raise errors.ParameterError(f"group={group!r}: must be one of {', '.join(map(repr, groups))}")
+        return groups[group]
+
+    def _groups(self, names: Sequence[str] | None = None) -> dict[str, xr.Dataset]:
+        """Datasets by group: "" for the scalars, "events", one per window, "poincare"."""
+        from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset
+
+        scalars = scalars_dataset(self.parameters, self._scalars(), self.status.value, self.message)
+        groups = {"": scalars, "events": events_dataset(self.events)}
+        names = [f"sample_{i}" for i in range(len(self.samples))] if names is None else names
+        for name, window, data in zip(names, self.record.windows, self.samples, strict=True):
+            groups[name] = samples_dataset(data, window.theta)
+        if self.poincare is not None and self.record.poincare is not None:
+            groups["poincare"] = samples_dataset(self.poincare, self.record.poincare.theta)
+        return groups
+
+    def _scalars(self) -> dict[str, float]:
+        """Values of `disc_model.data.variables.SCALARS`."""
+        values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
+        values |= {name: self.statistics[key] for name, key in COUNTS.items()}
+        return values | {
+            "status": STATUSES.index(self.status.value),
+            "first_separation": self.first_separation,
+            "t_end": self.t_end,
+            "time_reached": self.final_state.time,
+            "tol": self.tol,
+            "u_0": self.u_0,
+        }
 
     def raise_for_status(self) -> Result:
         """Return self, or raise the `SimulationError` of an incomplete run."""

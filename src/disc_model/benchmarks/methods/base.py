@@ -80,7 +80,7 @@ class MethodResult:
     Attributes
     ----------
     times : s, shape (n_events,)
-    kinds : n_events words of `disc_model.simulation.result.EVENT_KINDS`
+    kinds : n_events words of `disc_model.data.variables.EVENT_KINDS`
     final : state at t_end, or where the method stopped
     seconds : wall time of the integration
     work : right-hand sides evaluated, or steps for methods that work with series

@@ -11,7 +11,7 @@ from disc_model.benchmarks.methods.base import Meter, Method, MethodResult, Prob
 from disc_model.benchmarks.methods.phases import GUARD, Ended, IntegrationFailed, Phase, run_phases, switch_kinds
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
-from disc_model.simulation.result import PHASES
+from disc_model.data.variables import PHASES
 
 MAX_STEPS = 10_000_000
 ROOT_FOUND = 2

@@ -14,7 +14,7 @@ import numpy as np
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import BudgetExceeded, Meter, MethodResult, Outcome, Problem
 from disc_model.benchmarks.methods.physics import Array, Physics
-from disc_model.simulation.result import EVENT_KINDS, PHASES
+from disc_model.data.variables import EVENT_KINDS, PHASES
 
 CROWD = 50
 """More events than this at one instant: the method is stuck."""

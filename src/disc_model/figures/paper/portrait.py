@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from disc_model.data.variables import PHASES
 from disc_model.figures.paper.sections import MARKS
 from disc_model.figures.style import COLUMN, new_figure, styled
-from disc_model.simulation.result import PHASES
 
 NAMES = {"stick": "early", "slip": "later", "separation": "separated"}
 """Colour by phase, those of the Poincare sections."""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.data.dataset import failed_groups, json_attribute, result_groups, to_tree
+from disc_model.data.dataset import failed_groups, json_attribute, to_tree
 from disc_model.data.provenance import SIMULATION, git_commit, source_hash, versions
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import simulate
@@ -26,13 +26,13 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
         result = simulate(p, spec.t_end, tol=spec.tol, record=spec.record, stop_at=spec.stop_at, checkpoint=checkpoint)
     except DiscModelError as error:
         log.error("no result: %s", error)
-        groups = failed_groups(p, spec.t_end, spec.tol, f"{type(error).__name__}: {error}")
+        tree = to_tree(failed_groups(p, spec.t_end, spec.tol, f"{type(error).__name__}: {error}"))
     else:
         log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
-        groups = result_groups(result, [name for name, _ in spec.windows])
-        groups["events"] = _kept_events(groups["events"], spec.events)
-    groups[""].attrs |= provenance() | {"specification": spec.canonical, "specification_key": spec.key}
-    return to_tree(groups)
+        tree = result.to_tree([name for name, _ in spec.windows])
+        tree["events"].dataset = _kept_events(tree["events"].to_dataset(), spec.events)
+    tree.attrs |= provenance() | {"specification": spec.canonical, "specification_key": spec.key}
+    return tree
 
 
 def provenance() -> dict[str, str]:

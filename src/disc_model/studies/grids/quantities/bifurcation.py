@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import SCALARS, SERIES, Variable
+from disc_model.data.variables import PHASES, SCALARS, SERIES, Variable
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import PHASES
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
 from disc_model.studies.grids.quantities.preparation import prepared
 from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column
