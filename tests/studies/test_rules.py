@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 from disc_model.data.inputs import InputsError, each_intact
+from disc_model.figures.grids.kinds import PLOTS
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.studies.cases.merge import merge_cases
@@ -18,7 +19,6 @@ from disc_model.studies.cases.run import run_case
 from disc_model.studies.cases.schema import parse_study, study_from_config
 from disc_model.studies.cases.spec import CaseSpec
 from disc_model.studies.faults import StudyError, read_yaml
-from disc_model.studies.grids.figures import PLOTS
 from disc_model.studies.grids.merge import MergeError, failures, merge_batches
 from disc_model.studies.grids.quantities.preparation import prepared
 from disc_model.studies.grids.quantities.schema import QUANTITIES, SettlingOptions
@@ -160,7 +160,7 @@ def test_every_plot_knows_its_quantity_its_dimensions_and_who_draws_it() -> None
         assert made.quantity in QUANTITIES
         assert made.module.startswith("disc_model.figures.")
         assert set(made.dims) <= {*Parameters.model_fields}
-    from disc_model.studies.grids.figures import Plot
+    from disc_model.figures.grids.kinds import Plot
 
     bare = Plot(kind="none")
     assert bare.dims == ()

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from disc_model.data.inputs import load_inputs
 from disc_model.errors import exit_on_error
+from disc_model.figures.grids.kinds import PLOTS
 from disc_model.figures.style import save
-from disc_model.studies.grids.figures import PLOTS
 
 
 def main() -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from disc_model.studies.grids.figures import PLOTS, Plot
+from disc_model.figures.grids.kinds import PLOTS, Plot
 from disc_model.studies.grids.schema import load_grids
 
 CONFIG = Path(__file__).parents[3] / "config" / "studies"

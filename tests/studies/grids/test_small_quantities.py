@@ -16,12 +16,12 @@ from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids import critical_speed as curves
 from disc_model.figures.grids import stability_map as maps
 from disc_model.figures.grids import thresholds
+from disc_model.figures.grids.kinds import Bifurcation, CriticalSpeed, GrowthMap, Mark, StabilityMap, Thresholds
 from disc_model.figures.style import save
 from disc_model.parameters import Parameters
 from disc_model.stability import settling
 from disc_model.stability.settling import Late
 from disc_model.status import Status
-from disc_model.studies.grids.figures import Bifurcation, CriticalSpeed, GrowthMap, Mark, StabilityMap, Thresholds
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
 from disc_model.studies.grids.quantities.schema import (

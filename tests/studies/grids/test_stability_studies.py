@@ -11,11 +11,11 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids import thresholds
+from disc_model.figures.grids.kinds import Bifurcation, GrowthMap, Thresholds
 from disc_model.figures.style import save
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.studies.faults import StudyError
-from disc_model.studies.grids.figures import Bifurcation, GrowthMap, Thresholds
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.quantities.schema import BifurcationOptions
 from disc_model.studies.grids.run import run_batch

@@ -8,8 +8,8 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
+from disc_model.figures.grids.kinds import Bifurcation
 from disc_model.figures.grids.stability import bifurcation_diagram
-from disc_model.studies.grids.figures import Bifurcation
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:

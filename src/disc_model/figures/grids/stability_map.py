@@ -20,8 +20,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
+from disc_model.figures.grids.kinds import StabilityMap
 from disc_model.figures.style import BLACK, PAGE, new_figure, styled
-from disc_model.studies.grids.figures import StabilityMap
 
 
 class Look(NamedTuple):

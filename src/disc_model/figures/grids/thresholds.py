@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
+from disc_model.figures.grids.kinds import GrowthMap, Thresholds
 from disc_model.figures.grids.stability import Curve, growth_map, threshold_chart
 from disc_model.stability.tongue import Tongue
-from disc_model.studies.grids.figures import GrowthMap, Thresholds
 
 NEAR = 3.0
 """Hz; a resonance further off than this is not named."""

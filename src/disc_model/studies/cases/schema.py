@@ -16,6 +16,7 @@ from pydantic import Field, StringConstraints, model_validator
 
 from disc_model.data.variables import SCALARS
 from disc_model.errors import ParameterError
+from disc_model.figures.paper.catalogue import CATALOGUE
 from disc_model.parameters import Parameters, Real
 from disc_model.simulation.record import Poincare, Window
 from disc_model.studies.cases.spec import CaseSpec
@@ -251,8 +252,6 @@ def _resolve_events(case: Case, place: Origin, faults: Faults) -> tuple[float, f
 
 def _check_figures(raw: Mapping[str, Any], specs: Mapping[str, CaseSpec], faults: Faults) -> None:
     """Figures must exist and find their cases and windows in the study."""
-    from disc_model.figures.paper.catalogue import CATALOGUE
-
     listed = raw.get("figures") or ()
     if isinstance(listed, str) or not isinstance(listed, Iterable):
         return

@@ -20,6 +20,7 @@ from pydantic import Field
 
 from disc_model.data.provenance import source_hash
 from disc_model.errors import ParameterError
+from disc_model.figures.grids.kinds import PLOTS, Plot, Values
 from disc_model.parameters import AUTO, TRUNCATION_TOLERANCE, Count, Parameters, truncation_tolerance
 from disc_model.studies.cases.schema import Name
 from disc_model.studies.cases.spec import canonical_json
@@ -35,7 +36,6 @@ from disc_model.studies.faults import (
     validated,
 )
 from disc_model.studies.grids.axes import Blocks, Value, parse_blocks, without_repeats
-from disc_model.studies.grids.figures import PLOTS, Plot, Values
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
 
 VARIED = (

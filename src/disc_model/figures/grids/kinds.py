@@ -1,4 +1,4 @@
-"""What a grid study may say about its figures. Imports nothing heavy: studies are checked against it."""
+"""The kinds of figures of grid studies, and what a study file may say of each. Imports nothing heavy."""
 
 from __future__ import annotations
 
