@@ -1,4 +1,4 @@
-"""Energy balances of a step (model, Section 3), by Gauss-Legendre quadrature of the dense output.
+"""Energy balances of a step (docs/model.md, Energy), by Gauss-Legendre quadrature of the dense output.
 
 d/dt (disc + vertical slider) = P f B - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
 d/dt (in-plane)               = Omega r_0^2 F - mu_k r_0 P |f| - c_p r_0^2 (Omega - f)^2

@@ -1,4 +1,4 @@
-"""What happens at a switch: contact force, plastic impact, and which phase comes next (model, Section 4)."""
+"""What happens at a switch: contact force, impact, and which phase comes next (docs/model.md, Contact and switches)."""
 
 from __future__ import annotations
 

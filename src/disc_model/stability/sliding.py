@@ -1,6 +1,6 @@
 """Steady sliding: the slider rests in space, f = Omega, and the disc stands still in the slider's frame.
 
-The equilibrium of the equations of slip (model, Section 3) and its stability.  With d = 2 xi omega the disc's
+The equilibrium of the equations of slip (docs/model.md, Slip) and its stability.  With d = 2 xi omega the disc's
 response to the force P that rotates over it is
 
     b_l = d l Omega a_l / (l^2 Omega^2 - omega^2),
