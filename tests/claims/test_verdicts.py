@@ -59,7 +59,7 @@ def view(tree: xr.DataTree, name: str) -> CaseView:
 def test_evidence_that_is_not_there_is_named(told: xr.DataTree) -> None:
     case = view(told, "F11")
     with pytest.raises(Missing, match="did not record zoom"):
-        case.group("zoom")
+        case.samples("zoom")
     with pytest.raises(Missing, match="no history from 300 to 310"):
         measures.range_within(case, "P", 300, 310)
     with pytest.raises(Missing, match="no history from 300 to 310"):

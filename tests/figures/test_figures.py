@@ -16,6 +16,7 @@ from disc_model import Parameters, Poincare, Window
 from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, module_of, number_of
 from disc_model.figures.style import COLUMN, PAGE, save
+from tests.claims.damaged import DAMAGES, damaged
 
 
 def made_up_case(*, separates: bool = True) -> xr.DataTree:
@@ -98,7 +99,7 @@ def test_figures_name_their_quantities_and_units(name: str, separates: bool) -> 
     figure = draw(name, separates=separates)
     assert figure.get_figwidth() in (COLUMN, PAGE)
     for ax in figure.axes:
-        if ax.get_label() in UNLABELLED:
+        if ax.get_label() in UNLABELLED or not ax.axison:  # an empty panel says why
             continue
         assert ax.get_ylabel().endswith(")"), "a unit in brackets"
         assert ax.has_data() or not separates
@@ -204,3 +205,21 @@ def test_every_figure_has_its_place() -> None:
     assert sorted(["fig10", "fig02", "fig29"], key=label) == ["fig02", "fig10", "fig29"]
     shown = {*range(2, 30)} - {15}  # 1 is a sketch, 15 belongs to a study of its own
     assert set(CATALOGUE) == {f"fig{n:02d}" for n in shown} | {"figA1", "figA2"}
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("name", {module_of(name): name for name in CATALOGUE}.values())
+def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
+    """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""
+    cases = {case: damaged(made_up_case(), DAMAGES[damage]) for case in CATALOGUE[name].cases}
+    figure = importlib.import_module(module_of(name)).draw(cases, **OPTIONS.get(name, CATALOGUE[name].options))
+    figure.draw_without_rendering()
+    said = [text.get_text().replace("\n", " ") for text in figure.findobj(mpl.text.Text)]
+    reasons = [text for text in said if text.startswith("not shown: the case ")]
+    if damage in ("failed", "nothing recorded"):
+        assert len(reasons) == len([ax for ax in figure.axes if not ax.has_data()])
+        assert set(reasons) <= {
+            f"not shown: the case {'failed' if damage == 'failed' else f'did not record {window}'}"
+            for window in ("history", "zoom", "orbit", "poincare", *(f"spectrum_{letter}" for letter in "abcd"))
+        }

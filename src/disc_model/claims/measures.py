@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, closure, irregularity, motion_of, shortest_period
 from disc_model.claims.model import CaseView, Missing
 from disc_model.data.variables import EVENT_KINDS, PHASES
@@ -15,6 +16,13 @@ from disc_model.data.variables import EVENT_KINDS, PHASES
 __all__ = ["closure", "irregularity", "shortest_period"]  # beside what is defined here
 Array = NDArray[np.float64]
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
+
+
+def ratio(part: float, whole: float, what: str) -> float:
+    """One number over another; raises `Missing` where the other, which is `what`, is nothing."""
+    if not whole > 0:
+        raise Missing(f"{what} is {whole:g}")
+    return part / whole
 
 
 class Range(NamedTuple):
@@ -42,7 +50,7 @@ def is_kind(events: xr.Dataset, kind: str) -> NDArray[np.bool_]:
 
 def release_intervals(case: CaseView) -> Array:
     """Times between successive releases of stick in the events kept, s."""
-    intervals = np.diff(times_of(case.group("events"), "stick_to_slip"))
+    intervals = np.diff(times_of(case.events, "stick_to_slip"))
     if intervals.size < FEWEST:
         raise Missing(f"case {case.name} keeps fewer than {FEWEST} stick-slip cycles")
     return intervals
@@ -56,18 +64,18 @@ def late_motion(case: CaseView, tolerance: float = 1e-6) -> Motion:
 def rate_of(case: CaseView, kind: str) -> float:
     """Events of one kind per second within the events kept, 1/s."""
     start, stop = kept_span(case)
-    return times_of(case.group("events"), kind).size / (stop - start)
+    return times_of(case.events, kind).size / (stop - start)
 
 
 def kept_span(case: CaseView) -> Range:
     """Stretch of time of which a case keeps its events, s."""
-    attrs = case.group("events").attrs
+    attrs = case.events.attrs
     return Range(float(attrs["kept_from"]), min(float(attrs["kept_until"]), case["time_reached"]))
 
 
 def separation_durations(case: CaseView) -> Array:
     """Durations of the separations that begin and end within the events kept, s."""
-    events = case.group("events")
+    events = case.events
     apart, together = times_of(events, "separation"), times_of(events, "reattachment")
     apart = apart[: np.searchsorted(apart, together[-1])] if together.size else apart[:0]
     if not apart.size:
@@ -77,7 +85,7 @@ def separation_durations(case: CaseView) -> Array:
 
 def phase_share(case: CaseView, phase: str, start: float = -np.inf) -> float:
     """Share of time spent in a phase after `start`, within the events kept."""
-    events = case.group("events")
+    events = case.events
     _, stop = kept_span(case)
     time = np.append(events["time"].values, stop)
     kept = time[:-1] >= start
@@ -90,7 +98,7 @@ def phase_share(case: CaseView, phase: str, start: float = -np.inf) -> float:
 
 def range_within(case: CaseView, name: str, start: float, stop: float) -> Range:
     """Range of a variable from the whole bins of the window `history` between two times."""
-    history = case.group("history")
+    history = case.ranges("history")
     time = history["time"].values
     half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # a single bin does not say how long it is
     inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
@@ -112,18 +120,35 @@ def early_range(case: CaseView, name: str, first: float = 20.0) -> Range:
 
 def stretch(case: CaseView, window: str, start: float = -np.inf, stop: float = np.inf) -> xr.Dataset:
     """The samples of a window between two times; raises `Missing` if there are none."""
-    samples = case.group(window)
+    samples = case.samples(window)
     found = samples.sel(time=slice(start, stop))
     if found.sizes["time"] < 100:
         raise Missing(f"case {case.name} has no samples in {window} from {start:g} to {stop:g} s")
     return found
 
 
+def found_lines(found: list[spectra.Line], case: CaseView, window: str) -> list[spectra.Line]:
+    """Lines of a spectrum, unless there are none."""
+    if not found:
+        raise Missing(f"case {case.name} has no line in the spectrum of {window}")
+    return found
+
+
+def strongest(case: CaseView, samples: xr.Dataset, name: str, near: float, within: float) -> spectra.Line:
+    """The strongest line of a variable no further than `within` Hz from a frequency; raises `Missing`."""
+    try:
+        return spectra.strongest(samples["time"].values, samples[name].values, near, within)
+    except ValueError as error:
+        raise Missing(f"case {case.name}: {error} in {name}") from None
+
+
 def slope(case: CaseView, name: str, start: float, stop: float) -> float:
     """Mean rate at which the logarithm of a variable's range grows between two times, 1/s."""
-    history = case.group("history")
+    history = case.ranges("history")
     part = history.sel(time=slice(start, stop))
     if part.sizes["time"] < 4:
         raise Missing(f"case {case.name} has no history from {start:g} to {stop:g} s")
     width = part[f"{name}_max"].values - part[f"{name}_min"].values
+    if not width.min() > 0:
+        raise Missing(f"case {case.name} has no vibration in {name} from {start:g} to {stop:g} s")
     return float(np.polyfit(part["time"].values, np.log(width), 1)[0])

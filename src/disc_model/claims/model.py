@@ -8,17 +8,17 @@ from typing import Any
 
 import xarray as xr
 
+from disc_model.data import held
+from disc_model.data.held import Missing
 from disc_model.data.variables import STATUSES
 from disc_model.parameters import Parameters
+
+__all__ = ["Missing"]  # beside what is defined here
 
 HOLDS = "holds"
 REMARK = "holds with a remark"
 FAILS = "does not hold"
 NOT_COMPUTED = "not computed"
-
-
-class Missing(Exception):
-    """Evidence that a study does not hold; the text says what."""
 
 
 @dataclass(frozen=True)
@@ -70,11 +70,24 @@ class CaseView:
         """Whether contact was ever lost."""
         return self["n_separations"] > 0
 
-    def group(self, name: str) -> xr.Dataset:
-        """Events, a window or the Poincare samples."""
-        if name not in self.node.children:
-            raise Missing(f"case {self.name} did not record {name}")
-        return self.node.children[name].to_dataset(inherit=False)
+    @property
+    def events(self) -> xr.Dataset:
+        """Switches kept; raises `Missing` if the case keeps none."""
+        return self._held(held.events)
+
+    def samples(self, window: str, at_least: int = 2) -> xr.Dataset:
+        """Samples of a window, or of the section ``poincare``; raises `Missing`."""
+        return self._held(held.samples, window, at_least)
+
+    def ranges(self, window: str) -> xr.Dataset:
+        """Least and greatest values within the bins of a window; raises `Missing`."""
+        return self._held(held.ranges, window)
+
+    def _held(self, ask: Callable[..., xr.Dataset], *args: Any) -> xr.Dataset:
+        try:
+            return ask(self.node, *args)
+        except Missing as reason:
+            raise Missing(f"case {self.name} {reason}") from None
 
 
 Cases = Mapping[str, CaseView]

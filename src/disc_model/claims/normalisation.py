@@ -46,8 +46,9 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
         {name: CaseView(name, node) for name, node in tree.children.items()} for tree in (published, orthonormal)
     )
     shared = [name for name in old if name in new]
-    lost = [name for name in shared if old[name].separates and not new[name].separates]
-    gained = [name for name in shared if new[name].separates and not old[name].separates]
+    failed = [name for name in shared if "failed" in (old[name].status, new[name].status)]
+    lost = [name for name in shared if name not in failed and old[name].separates and not new[name].separates]
+    gained = [name for name in shared if name not in failed and new[name].separates and not old[name].separates]
     both = [name for name in shared if new[name].separates and old[name].separates]
     text = (
         f"Of {len(shared)} cases of the paper, {len(lost) + len(both)} separate with the modes as published and "
@@ -55,6 +56,8 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
         f"{_listed(both)}. Only now: {_listed(gained)}. Growth is that of the stick-slip cycle; a dash means that "
         "no such cycle was found near the published start, or that nothing was recorded."
     )
+    if failed:
+        text += f" Without a result: {_listed(failed)}."
     only = [name for name in new if name not in old]
     sections = [
         ("The modes", _MODES_TEXT, _modes()),
@@ -155,6 +158,8 @@ def _said(p: Parameters) -> str:
 
 def _first(case: CaseView) -> str:
     time = case["first_separation"]
+    if case.status == "failed":
+        return "failed"
     if case.parameters.contact == "bonded":
         return "ignored"
     return f"none in {case['time_reached']:g} s" if math.isnan(time) else f"{time:.2f} s"

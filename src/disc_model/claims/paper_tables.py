@@ -64,9 +64,8 @@ def table_2(case: CaseView) -> pd.DataFrame:
         combination), paper_says
     """
     window = measures.stretch(case, "spectrum_a", 0, 10)
-    time, values = window["time"].values, window["w_point"].values
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
-    found = [spectra.strongest(time, values, paper, 2.0 if paper > 10 else 0.5) for paper in LISTED]
+    found = [measures.strongest(case, window, "w_point", paper, 2.0 if paper > 10 else 0.5) for paper in LISTED]
     names = [spectra.identify(line.frequency, rate, drive) for line in found]
     return pd.DataFrame(
         {
@@ -84,7 +83,7 @@ def table_2(case: CaseView) -> pd.DataFrame:
 def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
     """Rate of stick and slip, Hz: the strongest line of psi, which is seen in the slider's own frame."""
     part = measures.stretch(case, window, start, stop)
-    found = spectra.lines(part["time"].values, part["psi"].values, above=20.0)
+    found = measures.found_lines(spectra.lines(part["time"].values, part["psi"].values, above=20.0), case, window)
     return max(found, key=lambda line: line.amplitude).frequency
 
 

@@ -31,7 +31,7 @@ def _grows_to_zero(cases: Cases, claim: Claim) -> Finding:
 
 def _repeated(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
-    window = case.group("zoom")
+    window = case.samples("zoom")
     apart = window["phase"].values == measures.SEPARATION
     count = int(np.sum(np.diff(apart.astype(int)) == 1))
     force = float(np.abs(window["P"].values[apart]).max(initial=0.0))
@@ -43,7 +43,7 @@ def _repeated(cases: Cases, claim: Claim) -> Finding:
 
 def _upward(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
-    events = case.group("events")
+    events = case.events
     at = measures.is_kind(events, "separation")
     velocity, height = events["u_velocity"].values[at], events["u"].values[at] - case["u_0"]
     share = float(np.mean(velocity > 0))
@@ -107,7 +107,7 @@ def _smaller_range(cases: Cases, claim: Claim) -> Finding:
     ratios, said = [], []
     for name, ignored in (("F02", "F04"), ("F07", "F06"), ("F09", "F08")):
         free, bonded = (measures.late_range(cases[each], "w_point").width for each in (name, ignored))
-        ratios.append(free / bonded)
+        ratios.append(measures.ratio(free, bonded, f"the range of the disc in case {ignored}"))
         said.append(f"{1e3 * free:.1f} mm with separation, {1e3 * bonded:.1f} mm without")
     return finding("; ".join(said), max(ratios) < claim.bound)
 
@@ -125,13 +125,13 @@ def _more_frequencies(cases: Cases, claim: Claim) -> Finding:
 
 
 def _late_lines(case: CaseView, floor: float) -> list[spectra.Line]:
-    window = case.group("late")
+    window = case.samples("late")
     return spectra.lines(window["time"].values, window["w_point"].values, above=1.0, floor=floor)
 
 
 def _late_points(case: CaseView, last: int = 150) -> int:
     """Different Poincare points of the disc among the last ones."""
-    samples = case.group("poincare").isel(time=slice(-last, None))
+    samples = case.samples("poincare").isel(time=slice(-last, None))
     return distinct_points(np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values]))
 
 
@@ -139,14 +139,18 @@ def _trajectory_changes(cases: Cases, claim: Claim) -> Finding:
     said, different = [], []
     for name in ("F02", "F07", "F09"):
         case = cases[name]
-        samples, first = case.group("poincare"), case["first_separation"]
+        samples, first = case.samples("poincare"), case["first_separation"]
         time, psi = samples["time"].values, samples["psi"].values
-        widths = [float(np.ptp(psi[inside])) for inside in (time < first, time > case["time_reached"] - 20)]
+        stages = (time < first, time > case["time_reached"] - 20)
+        if not all(inside.any() for inside in stages):
+            raise Missing(f"case {name} has no section before or none long after its first separation")
+        widths = [float(np.ptp(psi[inside])) for inside in stages]
         shares = [case["time_stick"] / case["time_reached"], measures.phase_share(case, "stick")]
         said.append(
             f"{name}: ψ spans {widths[0]:.3f} rad before, {widths[1]:.3f} after, sticks {100 * shares[1]:.1f} %"
         )
-        different.append(abs(widths[1] / widths[0] - 1) > claim.bound or shares[1] < claim.bound * shares[0])
+        wider = measures.ratio(widths[1], widths[0], f"the width of the section of case {name} before separation")
+        different.append(abs(wider - 1) > claim.bound or shares[1] < claim.bound * shares[0])
     return finding("; ".join(said), all(different))
 
 
@@ -154,12 +158,13 @@ def _closes(name: str, closes: bool) -> Check:
     """Whether the slider's orbit in the phase plane returns to itself at each release."""
 
     def check(cases: Cases, claim: Claim) -> Finding:
-        events = cases[name].group("events")
+        events = cases[name].events
         psi = events["psi"].values[measures.is_kind(events, "stick_to_slip")]
-        orbit = cases[name].group("orbit")["psi"].values
+        orbit = cases[name].samples("orbit")["psi"].values
         if psi.size < 20:
             raise Missing(f"case {name} keeps fewer than 20 releases")
-        apart = min(float(np.max(np.abs(psi[n:] - psi[:-n]))) for n in range(1, 9)) / float(np.ptp(orbit))
+        apart = min(float(np.max(np.abs(psi[n:] - psi[:-n]))) for n in range(1, 9))
+        apart = measures.ratio(apart, float(np.ptp(orbit)), f"the width of the orbit of case {name}")
         ours = f"releases of up to 8 cycles apart differ by {apart:.1e} of the orbit's width"
         return finding(ours, (apart <= claim.bound) == closes)
 
@@ -176,7 +181,7 @@ def _bonded_always_sticks(cases: Cases, claim: Claim) -> Finding:
 def _stick_on_a_line(cases: Cases, claim: Claim) -> Finding:
     worst, count = 0.0, 0
     for name in ("F02", "F04"):
-        samples = cases[name].group("poincare")
+        samples = cases[name].samples("poincare")
         stuck = samples["phase"].values == measures.STICK
         count += int(stuck.sum())
         deviation = np.abs(samples["psi_velocity"].values[stuck] - cases[name]["Omega"])

@@ -113,7 +113,7 @@ def _normal_stiffness(cases: Cases, claim: Claim) -> Finding:
 
 def _soft_inplane(cases: Cases, claim: Claim) -> Finding:
     case = cases["F22"]
-    releases = measures.times_of(case.group("events"), "stick_to_slip")
+    releases = measures.times_of(case.events, "stick_to_slip")
     ours = first_separation(case)
     if releases.size < 20:
         raise Missing(f"case {case.name} keeps fewer than 20 stick-slip cycles")
@@ -137,7 +137,7 @@ def _inplane_stiffness(cases: Cases, claim: Claim) -> Finding:
 
 def _lowest_position(cases: Cases, claim: Claim) -> Finding:
     case = cases["F23"]
-    window = case.group("zoom")
+    window = case.samples("zoom")
     time, height = window["time"].values, window["u"].values - case["u_0"]
     starts = np.flatnonzero(np.diff((window["phase"].values == measures.SEPARATION).astype(int)) == 1) + 1
     if not starts.size:
@@ -184,7 +184,10 @@ def _no_preload(cases: Cases, claim: Claim) -> Finding:
 def _huge_preload(cases: Cases, claim: Claim) -> Finding:
     stuck, large = cases["S43Ninf"], cases["S43N3e3"]
     p = large.parameters
-    released = float(large.group("events")["time"].values[0])
+    times = large.events["time"].values
+    if not times.size:
+        raise Missing(f"case {large.name} keeps no event")
+    released = float(times[0])
     expected = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
     needed = p.r_0 * p.k_p * p.Omega / p.mu_s
     late = measures.late_range(large, "P")

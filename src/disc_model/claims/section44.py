@@ -6,7 +6,7 @@ import numpy as np
 
 from disc_model.analysis import spectra
 from disc_model.claims import measures
-from disc_model.claims.model import Cases, CaseView, Check, Claim, Finding, Needed
+from disc_model.claims.model import Cases, CaseView, Check, Claim, Finding, Missing, Needed
 from disc_model.claims.paper_tables import LISTED, TABLE_2, mixing, stick_slip_rate, table_2
 from disc_model.claims.section41 import not_periodic
 from disc_model.claims.wording import finding, first_separation, many
@@ -38,8 +38,9 @@ def _drive(cases: Cases, claim: Claim) -> Finding:
     window = measures.stretch(cases["F13"], "spectrum_a", 0, 10)
     drive = cases["F13"]["Omega"] / (2 * np.pi)
     time, values = window["time"].values, window["w_point"].values
-    found = [spectra.strongest(time, values, n * drive, 0.4 * drive) for n in (1, 2, 3)]
-    every = max(spectra.lines(time, values, above=0.5 * drive), key=lambda line: line.amplitude)
+    lines = measures.found_lines(spectra.lines(time, values, above=0.5 * drive), cases["F13"], "spectrum_a")
+    found = [measures.strongest(cases["F13"], window, "w_point", n * drive, 0.4 * drive) for n in (1, 2, 3)]
+    every = max(lines, key=lambda line: line.amplitude)
     level = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
     ours = ", ".join(f"{line.frequency:.2f} Hz at {x:.0f} dB" for line, x in zip(found, level, strict=True))
     near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))
@@ -72,9 +73,7 @@ def _inplane_line(cases: Cases, claim: Claim) -> Finding:
     rate = stick_slip_rate(case)
     window = measures.stretch(case, "spectrum_a", 0, 10)
     drive = case["Omega"] / (2 * np.pi)
-    pair = [
-        spectra.strongest(window["time"].values, window["w_point"].values, rate + side * drive, 0.5) for side in (-1, 1)
-    ]
+    pair = [measures.strongest(case, window, "w_point", rate + side * drive, 0.5) for side in (-1, 1)]
     free = float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
     ours = f"ψ at {rate:.2f} Hz; the disc's point at {pair[0].frequency:.2f} and {pair[1].frequency:.2f} Hz"
     remark = (
@@ -119,6 +118,7 @@ def _steady_lines(cases: Cases, claim: Claim) -> Finding:
     fuzz = [_fuzziness(case, "spectrum_b", 38, 48), _fuzziness(case, "spectrum_d", 100, 110)]
     halves = [measures.stretch(case, "spectrum_d", *span) for span in ((100, 105), (105, 110))]
     found = [spectra.lines(x["time"].values, x["w_point"].values, above=LOW, floor=1e-2) for x in halves]
+    found = [measures.found_lines(each, case, "spectrum_d") for each in found]
     drift = max(min(abs(a.frequency - b.frequency) for b in found[1]) for a in found[0])
     ours = (
         f"lines fill {100 * fuzz[1]:.1f} % of 20..300 Hz ({100 * fuzz[0]:.1f} % in 38..48 s); from 100..105 to "
@@ -140,6 +140,8 @@ def _slider_settles(cases: Cases, claim: Claim) -> Finding:
 def _growth_stages(cases: Cases, claim: Claim) -> Finding:
     case = cases["F07"]
     first, end = case["first_separation"], case["time_reached"]
+    if not 20 <= first <= end - 20:
+        raise Missing(f"case {case.name} does not run for 20 s both before and after its first separation")
     starts = np.arange(5.0, first - 5, 2.5)
     rates = np.array([measures.slope(case, "w_point", t, t + 5) for t in starts])
     peak = int(np.argmax(rates))
@@ -156,7 +158,7 @@ def _natural_lines(cases: Cases, claim: Claim) -> Finding:
     case = cases["F07"]
     window = measures.stretch(case, "spectrum_d", 143, 153)
     found = spectra.lines(window["time"].values, window["w_point"].values, above=LOW, floor=1e-3)
-    strongest = sorted(found, key=lambda line: -line.amplitude)[:4]
+    strongest = sorted(measures.found_lines(found, case, "spectrum_d"), key=lambda line: -line.amplitude)[:4]
     natural = _natural(case)
     drive = case["Omega"] / (2 * np.pi)
     power = sum(line.amplitude**2 for line in strongest)
@@ -185,8 +187,7 @@ def _no_high_line(cases: Cases, claim: Claim) -> Finding:
     case = cases["F21"]
     omega = float(plate_modes(case.parameters)["omega"].max())
     base = float(plate_modes(case.parameters.replace(E=150e9))["omega"].max())
-    window = measures.stretch(case, "spectrum_d", 465, 475)
-    share = spectra.power_share(window["time"].values, window["w_point"].values, omega / (2 * np.pi), LOW)
+    share = _power_share(case, "spectrum_d", 465, 475, omega / (2 * np.pi))
     ours = f"share of power above {omega:.1f} rad/s, of that above {LOW:g} Hz: {share:.0e}"
     remark = f"at 100 GPa the highest natural frequency is {omega:.1f} rad/s; {base:.2f} rad/s belongs to 150 GPa"
     return finding(ours, share < claim.bound, remark)
@@ -216,8 +217,15 @@ def _fuzziness(case: CaseView, window: str, start: float, stop: float, name: str
 
 
 def _high_share(case: CaseView, window: str, start: float, stop: float) -> float:
+    return _power_share(case, window, start, stop, HIGH)
+
+
+def _power_share(case: CaseView, window: str, start: float, stop: float, above: float) -> float:
+    """Share of the power above a frequency in Hz in that above `LOW`."""
     part = measures.stretch(case, window, start, stop)
-    return spectra.power_share(part["time"].values, part["w_point"].values, HIGH, LOW)
+    time, values = part["time"].values, part["w_point"].values
+    measures.found_lines(spectra.lines(time, values, above=LOW), case, window)
+    return spectra.power_share(time, values, above, LOW)
 
 
 def _first(name: str, paper: float) -> Check:

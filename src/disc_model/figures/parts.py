@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from textwrap import fill
 from typing import Literal
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from disc_model.analysis.spectra import TimeFrequency, time_frequency
+from disc_model.data import held
+from disc_model.data.held import Missing
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures.style import BLACK, SEPARATED, VERMILION
 
@@ -37,6 +43,36 @@ MOTION = {
     "w_point": "Disc",
 }
 """What is sampled of a motion."""
+
+
+@contextmanager
+def or_say_why(*axes: Axes) -> Iterator[None]:
+    """Where a case does not hold what the panels show, they stay empty but for the reason."""
+    try:
+        yield
+    except Missing as reason:
+        for ax in axes:
+            ax.cla()
+            ax.set_axis_off()
+            said = fill(f"not shown: the case {reason}", 24)
+            ax.text(0.5, 0.5, said, ha="center", va="center", transform=ax.transAxes, in_layout=False)
+
+
+def history(case: xr.DataTree) -> xr.Dataset:
+    """Ranges over the whole run; two bins say how long one is."""
+    return held.ranges(case, "history", at_least=2)
+
+
+def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: float) -> TimeFrequency:
+    """Short-time Fourier transform of a window's variable, see `disc_model.analysis.spectra`."""
+    samples = held.samples(case, window)
+    try:
+        found = time_frequency(samples["time"].values, samples[variable].values, **options)
+    except ValueError as error:
+        raise Missing(f"recorded too little in {window}: {error}") from None
+    if not found.power.any():
+        raise Missing(f"did not vibrate in {window}")
+    return found
 
 
 def axis_of(name: str) -> tuple[str, float]:
@@ -70,8 +106,9 @@ def disc_label(*windows: xr.Dataset) -> str:
 
 
 def mark_first_separation(ax: Axes, time: float) -> None:
-    """A line at the first separation, with its time above it; nothing if there was none."""
-    if not np.isfinite(time):
+    """A line at the first separation, with its time above it; nothing if there was none in the time shown."""
+    low, high = ax.get_xlim()
+    if not low <= time <= high:
         return
     ax.axvline(time, color=VERMILION, linewidth=0.8, linestyle=(0, (4, 2)))
     ax.annotate(

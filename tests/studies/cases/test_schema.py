@@ -145,6 +145,33 @@ def test_every_fault_is_listed_with_its_path() -> None:
         assert wanted in listed
 
 
+def test_what_a_figure_needs_of_a_window_is_checked_with_the_study() -> None:
+    """A window that a figure could not be drawn from used to pass, and to end the figure hours later."""
+    windows = {
+        "history": {"start": 0, "rate": 100},
+        "spectrum_a": {"start": 0, "stop": 1, "rate": 4000},
+        "spectrum_b": {"start": 1, "stop": 5, "rate": 1999},
+        "spectrum_c": {"start": 53, "stop": 55, "rate": 4000, "envelope": 5},
+        "spectrum_d": {"start": 100, "stop": 110, "rate": 4000},
+    }
+    case = {"title": "", "parameters": {"N": 385, "Omega": 15.1}, "t_end": 120, "record": {"windows": windows}}
+    raw = {"study": "x", "cases": {"F13": case}, "figures": ["fig13", "fig25", "fig26"]}
+    place = "cases.F13.record.windows"
+    assert set(faults_of(raw)) == {
+        f"figures.0 = 'fig13': {place}.history needs an envelope",
+        f"figures.1 = 'fig25': {place}.spectrum_a must be 1.1 s long or more",
+        f"figures.1 = 'fig25': {place}.spectrum_b needs a rate of 2000 Hz or more",
+        f"figures.1 = 'fig25': {place}.spectrum_c must have no envelope",
+        f"figures.2 = 'fig26': {place}.history needs an envelope",
+        f"figures.2 = 'fig26': {place}.spectrum_c must have no envelope",
+        f"figures.2 = 'fig26': {place}.spectrum_c must contain 52 to 52.2 s",
+    }
+    windows["history"]["envelope"] = 6000
+    assert f"figures.0 = 'fig13': {place}.history must be two envelopes long or more" not in faults_of(raw)
+    windows["history"]["envelope"] = 6001
+    assert f"figures.0 = 'fig13': {place}.history must be two envelopes long or more" in faults_of(raw)
+
+
 def test_window_outside_the_run() -> None:
     raw = raw_study()
     raw["cases"]["A"]["record"] = {"windows": {"zoom": {"start": 11, "rate": 10}}}

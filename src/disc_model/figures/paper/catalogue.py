@@ -193,6 +193,34 @@ CATALOGUE: Mapping[str, Entry] = {
 }
 
 
+RANGES = ("history",)
+"""Windows that are drawn as ranges and need an envelope; all others are drawn as samples and must have none."""
+SHORTEST_SPECTRUM = 1.1
+"""Length in s that a window needs for a spectrum in time: one window of the transform and two steps."""
+HIGHEST = 1000.0
+"""Highest frequency of a spectrum in time, Hz."""
+ZOOM = 0.2
+"""Length of a closer look, s."""
+
+
+def faults_of(figure: str, name: str, window: Window) -> list[str]:
+    """What keeps a window from being drawn in a figure, each as the end of a sentence; nothing if it can be."""
+    if name in RANGES:
+        if window.envelope is None:
+            return ["needs an envelope"]
+        return [] if window.count >= 2 * window.envelope else ["must be two envelopes long or more"]
+    faults = [] if window.envelope is None else ["must have no envelope"]
+    if name.startswith("spectrum"):
+        if window.stop - window.start < SHORTEST_SPECTRUM:
+            faults.append(f"must be {SHORTEST_SPECTRUM:g} s long or more")
+        if window.rate < 2 * HIGHEST:
+            faults.append(f"needs a rate of {2 * HIGHEST:g} Hz or more")
+    for zoomed, start in CATALOGUE[figure].options.get("zooms", ()):
+        if zoomed == name and not (window.start <= start and start + ZOOM <= window.stop):
+            faults.append(f"must contain {start:g} to {start + ZOOM:g} s")
+    return faults
+
+
 def module_of(name: str) -> str:
     """Module that draws a figure: ``draw(cases, **options)`` takes trees of `disc_model.data.dataset.load` by case."""
     return f"disc_model.figures.paper.{CATALOGUE[name].module or name}"

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from disc_model.data import held
 from disc_model.figures import parts
 from disc_model.figures.style import PAGE, SEPARABLE, new_figure, styled
 
@@ -19,14 +20,16 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     case = cases["F02"]
     figure = new_figure(PAGE, 2.3)
     whole, zoom = figure.subplots(1, 2)
-    _whole(whole, case)
-    _zoom(zoom, case)
+    with parts.or_say_why(whole):
+        _whole(whole, case)
+    with parts.or_say_why(zoom):
+        _zoom(zoom, case)
     return figure
 
 
 def _whole(ax: Axes, case: xr.DataTree) -> None:
     parts.letter(ax, "a")
-    parts.envelope(ax, case["history"].to_dataset(), "P", color=SEPARABLE)
+    parts.envelope(ax, parts.history(case), "P", color=SEPARABLE)
     _show_zero(ax, case)
     parts.mark_first_separation(ax, float(case["first_separation"]))
     ax.set(xlabel="Time (s)", ylabel="Contact force (N)")
@@ -39,7 +42,7 @@ def _show_zero(ax: Axes, case: xr.DataTree) -> None:
 
 
 def _zoom(ax: Axes, case: xr.DataTree) -> None:
-    window = case["zoom"].to_dataset()
+    window = held.samples(case, "zoom")
     parts.letter(ax, "b")
     time = window["time"].values
     start = float(time[0])

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from disc_model.data import held
+from disc_model.data.held import Missing
 from disc_model.figures import parts
 from disc_model.figures.style import BLACK, BLUE, COLUMN, GREEN, new_figure, styled
 
@@ -23,15 +26,17 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     case = cases["F02"]
     figure = new_figure(COLUMN, 3.2)
     both, gap = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
-    parts.letter(both, "a")
-    parts.letter(gap, "b")
-    both.set(ylabel="From equilibrium (mm)")
-    gap.set(ylabel="Gap (μm)")
-    window = case["zoom"].to_dataset()
+    with parts.or_say_why(both, gap):
+        _around_a_separation(both, gap, case)
+    figure.align_ylabels()
+    return figure
+
+
+def _around_a_separation(both: Axes, gap: Axes, case: xr.DataTree) -> None:
+    window = held.samples(case, "zoom")
     found = parts.complete_separations(window)
     if not found:
-        both.text(0.5, 0.5, "no complete separation in this window", ha="center", transform=both.transAxes)
-        return figure
+        raise Missing("has no complete separation in zoom")
     start, stop = found[0]
     margin = MARGIN * (stop - start)
     part = window.sel(time=slice(start - margin, stop + margin))
@@ -42,7 +47,8 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     both.plot(time, (w - rest) * 1e3, color=BLUE, label="disc")
     both.plot(time, (u - rest) * 1e3, color=GREEN, linestyle=(0, (4, 1.5)), label="slider")
     gap.plot(time, (u - w) * 1e6, color=BLACK)
-    gap.set_xlabel(f"Time after {start:.5f} s (ms)")
+    both.set(ylabel="From equilibrium (mm)")
+    gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
+    parts.letter(both, "a")
+    parts.letter(gap, "b")
     parts.legend_above(both)
-    figure.align_ylabels()
-    return figure

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from disc_model.data import held
 from disc_model.figures import parts
 from disc_model.figures.style import BLUE, COLUMN, GREEN, VERMILION, new_figure, styled
 
@@ -18,8 +20,15 @@ SHOWN = 0.025
 @styled
 def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Slider and disc from static equilibrium; losses of contact are marked."""
-    case = cases["F23"]
-    window = case["zoom"].to_dataset()
+    figure = new_figure(COLUMN, 2.5)
+    ax = figure.subplots()
+    with parts.or_say_why(ax):
+        _motion(ax, cases["F23"])
+    return figure
+
+
+def _motion(ax: Axes, case: xr.DataTree) -> None:
+    window = held.samples(case, "zoom")
     start = float(window["time"][0])
     found = parts.complete_separations(window)
     if found:
@@ -27,8 +36,6 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     part = window.sel(time=slice(start, start + SHOWN))
     time = (part["time"].values - start) * 1e3
     rest = float(case["u_0"])
-    figure = new_figure(COLUMN, 2.5)
-    ax = figure.subplots()
     parts.shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in parts.separations(part)], "separation")
     ax.plot(time, (part["w"].values - rest) * 1e3, color=BLUE, label="disc")
     ax.plot(time, (part["u"].values - rest) * 1e3, color=GREEN, linestyle=(0, (4, 1.5)), label="slider")
@@ -40,4 +47,3 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
         )
     ax.set(xlabel=f"Time after {start:.4f} s (ms)", ylabel="From equilibrium (mm)")
     parts.legend_above(ax)
-    return figure

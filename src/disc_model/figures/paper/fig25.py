@@ -8,14 +8,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.analysis.spectra import time_frequency
+from disc_model.analysis.spectra import TimeFrequency
 from disc_model.figures import parts
+from disc_model.figures.paper.catalogue import HIGHEST
 from disc_model.figures.paper.fig24 import WINDOWS
 from disc_model.figures.paper.spectrograms import colour_bar, mark_time, spectrogram
 from disc_model.figures.style import PAGE, new_figure, styled
 
-HIGHEST = 1000.0
-"""Highest frequency shown, Hz."""
 TABLE_2 = (2.4, 65.5, 70, 133, 138, 200, 206, 269, 273)
 """Frequencies that the paper lists, Hz."""
 
@@ -26,21 +25,26 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     case = cases["F13"]
     figure = new_figure(PAGE, 4.6)
     axes = figure.subplots(2, 2, sharey=True)
-    windows = [case[name].to_dataset() for name in WINDOWS]
-    found = [time_frequency(window["time"].values, window["w_point"].values) for window in windows]
-    reference = max(float(each.power.max()) for each in found)
-    for ax, each, name in zip(axes.flat, found, WINDOWS, strict=True):
-        mesh = spectrogram(ax, each, reference, HIGHEST)
-        mark_time(ax, float(case["first_separation"]))
-        parts.letter(ax, name[-1])
+    panels = dict(zip(WINDOWS, axes.flat, strict=True))
+    found: dict[str, TimeFrequency] = {}
+    for name, ax in panels.items():
+        with parts.or_say_why(ax):
+            found[name] = parts.spectrum_in_time(case, name, "w_point")
+    reference = max((float(each.power.max()) for each in found.values()), default=1.0)
+    for name, each in found.items():
+        mesh = spectrogram(panels[name], each, reference, HIGHEST)
+        mark_time(panels[name], float(case["first_separation"]))
+        parts.letter(panels[name], name[-1])
     for ax in axes[:, 0]:
         ax.set_ylabel("Frequency (Hz)")
     for ax in axes[:, 1]:
         ax.set_label("shares the axis to its left")
     for ax in axes[1]:
         ax.set_xlabel("Time (s)")
-    _ticks_of_the_table(axes[0, 0])
-    colour_bar(figure, mesh, list(axes.flat))
+    if WINDOWS[0] in found:
+        _ticks_of_the_table(panels[WINDOWS[0]])
+    if found:
+        colour_bar(figure, mesh, list(axes.flat))
     return figure
 
 

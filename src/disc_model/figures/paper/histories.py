@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
@@ -13,7 +14,14 @@ def force_and_disc(case: xr.DataTree) -> Figure:
     """(a) contact force, (b) disc at r_0 and a fixed angle, as ranges, with the first separation marked."""
     figure = new_figure(COLUMN, 3.4)
     force, disc = figure.subplots(2, 1, sharex=True)
-    history = case["history"].to_dataset()
+    with parts.or_say_why(force, disc):
+        _ranges(force, disc, case)
+    figure.align_ylabels()
+    return figure
+
+
+def _ranges(force: Axes, disc: Axes, case: xr.DataTree) -> None:
+    history = parts.history(case)
     first = float(case["first_separation"])
     parts.envelope(force, history, "P", color=SEPARABLE)
     parts.envelope(disc, history, "w_point", scale=1e3, color=GREEN)
@@ -23,5 +31,3 @@ def force_and_disc(case: xr.DataTree) -> Figure:
     disc.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
     parts.letter(force, "a")
     parts.letter(disc, "b")
-    figure.align_ylabels()
-    return figure

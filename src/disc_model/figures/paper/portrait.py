@@ -6,9 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from disc_model.data import held
 from disc_model.data.variables import PHASES
+from disc_model.figures import parts
 from disc_model.figures.paper.sections import MARKS
 from disc_model.figures.style import COLUMN, new_figure, styled
 
@@ -20,10 +23,15 @@ NAMES = {"stick": "early", "slip": "later", "separation": "separated"}
 def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     """psi' over psi in the window `orbit`, coloured by phase."""
     (case,) = cases.values()
-    window = case["orbit"].to_dataset()
-    psi, velocity, phase = (window[name].values for name in ("psi", "psi_velocity", "phase"))
     figure = new_figure(COLUMN, 2.7)
     ax = figure.subplots()
+    with parts.or_say_why(ax):
+        _orbit(ax, held.samples(case, "orbit"))
+    return figure
+
+
+def _orbit(ax: Axes, window: xr.Dataset) -> None:
+    psi, velocity, phase = (window[name].values for name in ("psi", "psi_velocity", "phase"))
     for i, name in enumerate(PHASES):
         inside = phase == i
         if not inside.any():
@@ -36,4 +44,3 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     ax.margins(0.04)
     ax.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, ncols=3)
-    return figure

@@ -12,18 +12,17 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from disc_model.analysis.spectra import TimeFrequency, time_frequency
+from disc_model.analysis.spectra import TimeFrequency
+from disc_model.data import held
+from disc_model.data.held import Missing
 from disc_model.figures import parts
+from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
 from disc_model.figures.paper.spectrograms import colour_bar, mark_time, spectrogram, stretch
 from disc_model.figures.style import BLUE, GREEN, PAGE, SKY, new_figure, styled
 
 SCALES = {"psi": 1.0, "w_point": 1e3}
 """From SI to what the axes show."""
 COLOURS = {"psi": BLUE, "w_point": GREEN}
-HIGHEST = 1000.0
-"""Highest frequency shown, Hz."""
-ZOOM = 0.2
-"""Length of a closer look, s."""
 
 
 @styled
@@ -48,18 +47,24 @@ def draw(
     layout = [["whole"] * max(len(zooms), 1)] + ([[f"zoom{i}" for i in range(len(zooms))]] if zooms else [])
     left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
     panels = left.subplot_mosaic(layout)
-    window = tree[spectrum].to_dataset()
-    found = time_frequency(window["time"].values, window[variable].values * SCALES[variable])
-    _whole(panels["whole"], tree, variable, stretch(found))
+    shown = right.subplots()
+    marked = None
+    with parts.or_say_why(shown):
+        found = parts.spectrum_in_time(tree, spectrum, variable)
+        marked = stretch(found)
+        _spectrum(right, shown, tree, found, highest)
+    with parts.or_say_why(panels["whole"]):
+        _whole(panels["whole"], tree, variable, marked)
     for i, (name, start) in enumerate(zooms):
-        _closer(panels[f"zoom{i}"], tree[name].to_dataset(), variable, start, first=i == 0)
-    _spectrum(right, tree, found, highest)
+        with parts.or_say_why(panels[f"zoom{i}"]):
+            _closer(panels[f"zoom{i}"], held.samples(tree, name), variable, start, first=i == 0)
     return figure
 
 
-def _whole(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, float]) -> None:
-    history = tree["history"].to_dataset()
-    ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
+def _whole(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, float] | None) -> None:
+    history = parts.history(tree)
+    if marked is not None:
+        ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
     parts.envelope(ax, history, variable, scale=SCALES[variable], color=COLOURS[variable])
     parts.mark_first_separation(ax, float(tree["first_separation"]))
     ax.set(xlabel="Time (s)", ylabel=_label(variable, history))
@@ -72,6 +77,8 @@ def _label(variable: str, window: xr.Dataset) -> str:
 
 def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first: bool) -> None:
     part = window.sel(time=slice(start, start + ZOOM))
+    if part.sizes["time"] < 2:
+        raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
     ax.plot(
         (part["time"].values - start) * 1e3,
         part[variable].values * SCALES[variable],
@@ -86,8 +93,7 @@ def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first:
         ax.set_label("shares the axis to its left")
 
 
-def _spectrum(figure: SubFigure, tree: xr.DataTree, found: TimeFrequency, highest: bool) -> None:
-    ax = figure.subplots()
+def _spectrum(figure: SubFigure, ax: Axes, tree: xr.DataTree, found: TimeFrequency, highest: bool) -> None:
     mesh = spectrogram(ax, found, float(found.power.max()), HIGHEST)
     mark_time(ax, float(tree["first_separation"]))
     if highest:

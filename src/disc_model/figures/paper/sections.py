@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.analysis.poincare import Stages, stages
+from disc_model.data import held
 from disc_model.figures import parts
 from disc_model.figures.style import BLUE, GREEN, PAGE, VERMILION, new_figure, styled
 
@@ -31,15 +32,21 @@ BY_HALVES = {"early": "first half", "later": "second half", "separated": "separa
 def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle."""
     (case,) = cases.values()
-    samples = case["poincare"].to_dataset()
+    figure = new_figure(PAGE, 2.75)
+    slider, disc = figure.subplots(1, 2)
+    with parts.or_say_why(slider, disc):
+        _sections(figure, slider, disc, case)
+    return figure
+
+
+def _sections(figure: Figure, slider: Axes, disc: Axes, case: xr.DataTree) -> None:
+    samples = held.samples(case, "poincare", at_least=1)
     found = stages(
         samples["time"].values,
         samples["phase"].values,
         float(case["first_separation"]),
         float(case["time_reached"]),
     )
-    figure = new_figure(PAGE, 2.75)
-    slider, disc = figure.subplots(1, 2)
     _scatter(slider, samples["psi"].values, samples["psi_velocity"].values, found)
     _scatter(disc, samples["w_point"].values * 1e3, samples["w_point_velocity"].values, found)
     slider.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
@@ -47,7 +54,6 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     parts.letter(slider, "a")
     parts.letter(disc, "b")
     _legend(figure, disc, found, float(case["first_separation"]))
-    return figure
 
 
 def _scatter(ax: Axes, x: np.ndarray, y: np.ndarray, found: Stages) -> None:

@@ -16,7 +16,7 @@ from pydantic import Field, StringConstraints, model_validator
 
 from disc_model.data.variables import SCALARS
 from disc_model.errors import ParameterError
-from disc_model.figures.paper.catalogue import CATALOGUE
+from disc_model.figures.paper.catalogue import CATALOGUE, faults_of
 from disc_model.parameters import Parameters, Real
 from disc_model.simulation.record import Poincare, Window
 from disc_model.studies.cases.spec import CaseSpec
@@ -265,9 +265,13 @@ def _check_figures(raw: Mapping[str, Any], specs: Mapping[str, CaseSpec], faults
             if case not in known:
                 faults.add(path, name, f"needs a case {case}")
             elif case in specs:
-                missing = [window for window in windows if window not in dict(specs[case].windows)]
-                for window in missing:
-                    faults.add(path, name, f"needs a window {window} in cases.{case}.record.windows")
+                recorded = dict(specs[case].windows)
+                for window in windows:
+                    if window not in recorded:
+                        faults.add(path, name, f"needs a window {window} in cases.{case}.record.windows")
+                        continue
+                    for fault in faults_of(name, window, recorded[window]):
+                        faults.add(path, name, f"cases.{case}.record.windows.{window} {fault}")
                 if not windows and specs[case].poincare is None:
                     faults.add(path, name, f"needs cases.{case}.record.poincare")
 

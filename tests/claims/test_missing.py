@@ -1,0 +1,83 @@
+"""What a study does not hold ends no table: the rows that need it say so, the others are judged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model import Parameters
+from disc_model.claims import growth, normalisation, section43
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim
+from disc_model.claims.table import CLAIMS
+from tests.claims import made_up
+from tests.claims.damaged import DAMAGES, damaged
+
+
+@pytest.fixture(scope="module")
+def told() -> xr.DataTree:
+    return made_up.made_up(made_up.as_told())
+
+
+@pytest.fixture(autouse=True)
+def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(growth, "cycle_of", made_up.cycle_as_told)
+    monkeypatch.setattr(section43, "cycle_of", made_up.cycle_as_told)
+
+
+NOT_HELD = {
+    "failed": "failed (case ",
+    "nothing recorded": "did not record",
+    "no events": "keeps no events",
+    "no envelopes": "as samples, not as ranges",
+    "only envelopes": "as ranges, not as samples",
+    "empty windows": "at least",
+    "single samples": "at least",
+}
+"""Words of the reason by damage. The others may leave a claim decided."""
+
+
+def verdicts_of(cases: dict[str, CaseView], claims: Iterable[Claim]) -> list[str]:
+    found = [claim.evaluate(cases).verdict for claim in claims]
+    assert all(verdict in (HOLDS, REMARK, FAILS) or verdict.startswith(f"{NOT_COMPUTED}: ") for verdict in found)
+    return found
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_damage_ends_no_claim(damage: str, told: xr.DataTree) -> None:
+    """This used to end the whole table with a KeyError, IndexError, ValueError or ZeroDivisionError."""
+    cases = {name: CaseView(name, damaged(node, DAMAGES[damage])) for name, node in told.children.items()}
+    said = verdicts_of(cases, CLAIMS)
+    if damage in NOT_HELD:
+        assert any(NOT_HELD[damage] in verdict and "case " in verdict for verdict in said)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_case_among_whole_ones_ends_no_claim(damage: str, told: xr.DataTree) -> None:
+    """One at a time: what is missing first may hide what is missing next."""
+    cases = {name: CaseView(name, node) for name, node in told.children.items()}
+    for name, view in cases.items():
+        hurt = cases | {name: CaseView(name, damaged(view.node, DAMAGES[damage]))}
+        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.needs])
+
+
+def test_a_failed_case_counts_for_neither_normalisation(told: xr.DataTree) -> None:
+    """It used to be listed among those that no longer separate."""
+    other = {}
+    for name, node in told.children.items():
+        p = Parameters.model_validate_json(node.attrs["parameters"]).replace(normalization="orthonormal")
+        other[f"/{name}"] = node.to_dataset().assign_attrs(node.attrs | {"parameters": p.canonical_json})
+    tree = xr.DataTree.from_dict(other)
+    tree["F17"] = damaged(tree["F17"], DAMAGES["failed"])
+    tree["F17"].attrs["parameters"] = other["/F17"].attrs["parameters"]
+    found = normalisation.compare(told, tree)
+    text, table = found.sections[1][1:]
+    assert "No longer: none." in text
+    assert text.endswith("Without a result: F17.")
+    assert table.set_index("Case").loc["F17", "First separation, Eq. (17)"] == "failed"
+    assert not np.any(table.map(lambda cell: "nan" in str(cell)))
