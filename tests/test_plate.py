@@ -11,6 +11,7 @@ from scipy import special
 
 from disc_model import ModeError, Parameters, plate_modes, slider_at_rest_frequencies
 from disc_model import plate as plate_module
+from disc_model.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays
 from tests.ritz import ritz_lambdas
 
 P = Parameters(N=385, Omega=15.1)
@@ -51,6 +52,43 @@ def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:
 def test_slider_at_rest_with_orthonormal_modes() -> None:
     own = [1178.65, 1500.28, 1723.08, 2575.73, 4111.83]
     assert_allclose(slider_at_rest_frequencies(ORTHONORMAL)[[0, 1, 3, 5, 7]], own, rtol=0, atol=5.1e-3)
+
+
+def coupled(p: Parameters) -> np.ndarray:
+    """Frequencies that the slider takes part in, rad/s, ascending."""
+    modes = mode_arrays(p)
+    return coupled_frequencies(modes.omega, modes.psi, p.m, p.k)
+
+
+@pytest.mark.parametrize(("p", "lowest"), [(P, 850.864), (ORTHONORMAL, 1178.65)])
+def test_coupled_frequencies_are_the_shifted_ones(p: Parameters, lowest: float) -> None:
+    mine = coupled(p)
+    assert mine[0] == pytest.approx(lowest, abs=0.01)
+    partners = plate_modes(p).query("diameters > 0")["omega"]
+    assert_allclose(np.sort([*mine, *partners]), slider_at_rest_frequencies(p), rtol=1e-12)
+
+
+def test_more_modes_lower_every_frequency() -> None:
+    """Rayleigh: a larger space of displacements can only lower them."""
+    few, more = coupled(P), coupled(P.replace(n_diameters=8, n_circles=1))
+    assert (more[: few.size] < few).all()
+
+
+def test_coupled_shapes_solve_the_equations_of_motion() -> None:
+    modes = mode_arrays(P)
+    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, P.m, P.k)
+    assert_allclose(frequencies[::-1], coupled(P), rtol=1e-12)
+    v = shapes / modes.omega[:, None]
+    pull = np.outer(modes.psi, modes.psi)
+    stiff, inert = np.diag(modes.omega**2) + P.k * pull, np.eye(modes.omega.size) + P.m * pull
+    # rounding of a problem whose condition is (highest frequency / lowest)^2, about 30
+    assert_allclose(stiff @ v, inert @ v * frequencies**2, atol=1e-12 * np.abs(stiff @ v).max())
+
+
+def test_modal_damping_is_twice_the_share_of_critical_damping_times_the_frequency() -> None:
+    # 2 xi omega of the lowest mode: 1e-5 N m s over D = 104.66 N m times (1491.927 rad/s)^2
+    assert modal_damping(P)[0] == pytest.approx(0.212676, rel=1e-5)
+    assert_allclose(modal_damping(P.replace(D_star=0)), 0)
 
 
 def test_slider_at_rest_solves_the_secular_equation() -> None:

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Record, Window, cli, simulate, truncation
+from disc_model import ParameterError, Parameters, Poincare, Record, Window, cli, simulate
 from disc_model.errors import DiscModelError, StepLimit
 from disc_model.figures.quicklook import quicklook
 
@@ -284,32 +284,6 @@ def test_quicklook_marks_the_separation_and_draws_bands():
     plt.close(figure)
     with pytest.raises(ValueError, match="no window"):
         quicklook(simulate(P, 1e-3))
-
-
-# ------------------------------------------------------------------------------------- how many modes
-def test_the_study_of_truncation_is_made_of_its_parts(monkeypatch, tmp_path):
-    from disc_model.figures import benchmark
-    from disc_model.figures.style import save
-
-    quick = {"N": 385.0, "Omega": 0.01}
-    apart = {"N": 700.0, "Omega": 50.0, "k": 0.0, "mu_s": 1.4, "mu_k": 0.2}
-    cases = {"growth": {"N": 200.0, "Omega": 20.0}, "range": quick, "separation": apart}
-    monkeypatch.setattr(truncation, "CASES", {"as_published": cases, "orthonormal": cases | {"separation": quick}})
-    monkeypatch.setattr(truncation, "WINDOW", (0.01, 0.03))
-    monkeypatch.setattr(truncation, "AFTER", 0.02)
-    monkeypatch.setattr(truncation, "RICH", (3, 1))
-    found = truncation.truncation_study((1,), (0,), horizon=1.0)
-    one = found.squeeze()
-    assert one["modes"].values.tolist() == [3, 3]
-    published = one.sel(normalization="as_published")
-    p = Parameters(**apart, n_diameters=1)
-    assert published["first_separation"] == simulate(p, 1.0, stop_at="first_separation").first_separation
-    assert published["impact_share"] == pytest.approx(1 / (1 + p.m * float(published["compliance"])))
-    assert published["separations"] >= 1 / 0.02
-    assert published["growth_rate"] == pytest.approx(0.018, abs=1e-3)
-    assert published["force_min"] == pytest.approx(385, abs=1e-6)  # at rest
-    assert np.isnan(one["first_separation"].sel(normalization="orthonormal"))
-    save(benchmark.truncation(found), tmp_path / "truncation.png")
 
 
 # ------------------------------------------------------------------------------------- the rest of the command line

@@ -3,40 +3,19 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
-import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, plate_modes, simulate, slider_at_rest_frequencies
+from disc_model import ParameterError, Parameters, choose_modes, truncation
 from disc_model.errors import DiscModelError
-from disc_model.figures.benchmark import truncation as draw
 from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases.schema import parse_study
 from disc_model.studies.cases.spec import CaseSpec
-from disc_model.truncation import (
-    RICH,
-    choose_truncation,
-    coupled_frequencies,
-    frequency_error,
-    truncation_choice,
-    truncation_study,
-)
+from disc_model.studies.faults import StudyError
+from disc_model.truncation import RICH, frequency_error, read_parameters
 
 P = Parameters(N=385.0, Omega=15.1)
-
-
-def test_coupled_frequencies_are_the_shifted_ones():
-    for normalization, lowest in (("as_published", 850.864), ("orthonormal", 1178.65)):
-        p = P.replace(normalization=normalization)
-        mine, every = coupled_frequencies(p), slider_at_rest_frequencies(p)
-        assert mine[0] == pytest.approx(lowest, abs=0.01)
-        partners = plate_modes(p).query("diameters > 0")["omega"]
-        np.testing.assert_allclose(np.sort([*mine, *partners]), every, rtol=1e-12)
-
-
-def test_more_modes_lower_every_frequency():
-    """Rayleigh: a larger space of displacements can only lower them."""
-    few, more = coupled_frequencies(P), coupled_frequencies(P.replace(n_diameters=8, n_circles=1))
-    assert (more[: few.size] < few).all()
 
 
 def test_nine_modes_against_the_converged_disc():
@@ -58,7 +37,7 @@ def test_nine_modes_against_the_converged_disc():
 )
 def test_choice_meets_the_tolerance_with_the_fewest_modes(normalization, tolerance, size):
     p = P.replace(normalization=normalization)
-    choice = truncation_choice(p, tolerance)
+    choice = choose_modes(p, tolerance)
     chosen = choice.parameters
     assert (chosen.n_diameters, chosen.n_circles) == size
     assert choice.error <= tolerance
@@ -69,7 +48,7 @@ def test_choice_meets_the_tolerance_with_the_fewest_modes(normalization, toleran
 
 
 def test_the_choice_is_recorded_and_does_not_depend_on_the_given_size():
-    choice = truncation_choice(P, 1e-3)
+    choice = choose_modes(P, 1e-3)
     assert json.loads(choice.to_json()) == {
         "band": 2.0,
         "compared_with": list(RICH),
@@ -79,84 +58,85 @@ def test_the_choice_is_recorded_and_does_not_depend_on_the_given_size():
         "n_diameters": 3,
         "tolerance": 1e-3,
     }
-    assert choose_truncation(P.replace(n_diameters=7, n_circles=1)) == choose_truncation(P) == choice.parameters
+    assert choose_modes(P.replace(n_diameters=7, n_circles=1)) == choice
 
 
 def test_bad_tolerances_are_named():
-    with pytest.raises(ParameterError, match=r"tolerance=1e-09: must be a number >= 0\.0001.*band=0"):
-        truncation_choice(P, 1e-9, band=0)
+    with pytest.raises(ParameterError, match=r"tolerance=1e-09: must be finite and >= 0\.0001; band=0"):
+        choose_modes(P, 1e-9, band=0)
     with pytest.raises(DiscModelError, match="enlarge rich"):
-        truncation_choice(P, 1e-4, rich=(1, 0))
+        choose_modes(P, 1e-4, rich=(1, 0))
 
 
-def _compliance(n_diameters, n_circles, normalization="orthonormal"):
-    p = P.replace(n_diameters=n_diameters, n_circles=n_circles, normalization=normalization)
-    return float((plate_modes(p)["psi"] ** 2).sum())
-
-
-def test_compliance_against_an_impulse_has_no_limit():
-    """S2 grows on and on if circles are added too, and stays bounded without circles."""
-    square = [_compliance(4 * n, n) for n in (1, 2, 3, 4)]
-    growth = np.diff(square)
-    assert (growth > 0).all()
-    assert growth.min() > 0.5 * growth.max()
-    without = [_compliance(n, 0) for n in (10, 20, 30, 40)]
-    assert np.diff(without)[2] < 0.5 * np.diff(without)[1]
-
-
-def test_study_and_its_figure(tmp_path):
-    from disc_model.figures.style import save
-
-    study = truncation_study((4, 6), (0, 1), ("as_published",), horizon=60.0, growth=False)
-    first = study["first_separation"].sel(normalization="as_published", circles=0)
-    assert float(first.sel(diameters=4)) == pytest.approx(54.4189, abs=1e-3)
-    assert float(first.sel(diameters=6)) == pytest.approx(53.51, abs=0.01)
-    assert (study["impact_share"].diff("diameters") < 0).all()
-    assert np.isnan(study["growth_rate"]).all()
-    save(draw(study), tmp_path / "truncation.png")
-    assert (tmp_path / "truncation.png").stat().st_size > 5000
-
-
-@pytest.mark.slow
-def test_growth_rate_converges_but_impacts_do_not():
-    study = truncation_study((4, 8, 12), (0, 1), ("orthonormal",), horizon=60.0).isel(normalization=0)
-    growth = study["growth_rate"].values
-    assert abs(growth[0, 2] - growth[0, 1]) < 0.5 * abs(growth[0, 1] - growth[0, 0])
-    impacts = study["separations"].values
-    assert impacts[0, 2] > 1.5 * impacts[0, 0]
-    assert np.isfinite(impacts).all()
-
-
-def test_auto_picks_the_smallest_model_and_records_its_choice() -> None:
-    p = Parameters(N=385, Omega=15.1, n_diameters="auto", truncation_tolerance=1e-3)
-    chosen = truncation_choice(Parameters(N=385, Omega=15.1), 1e-3)
-    assert (p.n_diameters, p.n_circles) == (chosen.parameters.n_diameters, chosen.parameters.n_circles)
-    assert json.loads(p.truncation)["tolerance"] == 1e-3
-    explicit = Parameters(N=385, Omega=15.1, n_diameters=p.n_diameters, n_circles=p.n_circles)
-    assert p.key == explicit.key
-    assert explicit.truncation == ""
-    assert simulate(p, 0.01).to_dataset().attrs["truncation"] == p.truncation
-
-
-def test_auto_reports_faults_like_any_other_value() -> None:
+def test_a_mapping_is_as_good_as_parameters() -> None:
+    values = {"N": "385", "Omega": 15.1, "normalization": "orthonormal", "n_diameters": "auto"}
+    assert choose_modes(values, "1e-2") == choose_modes(P.replace(normalization="orthonormal"), 1e-2)
     with pytest.raises(ParameterError, match=r"N=-1\.0"):
-        Parameters(N=-1, Omega=15.1, n_diameters="auto")
-    with pytest.raises(ParameterError, match="tolerance=1e-09"):
-        Parameters(N=1, Omega=15.1, n_diameters="auto", truncation_tolerance=1e-9)
-    with pytest.raises(ParameterError, match=r"truncation_tolerance=0\.001: is used with n_diameters='auto' only"):
-        Parameters(N=1, Omega=15.1, n_diameters=4, truncation_tolerance=1e-3)
-    with pytest.raises(ParameterError, match="truncation_tolerance='fine': must be a number"):
-        Parameters(N=1, Omega=15.1, n_diameters="auto", truncation_tolerance="fine")
-    # YAML reads 1e-3 as text
-    spelt = Parameters(N=385, Omega=15.1, n_diameters="auto", truncation_tolerance="1e-3")
-    assert spelt == Parameters(N=385, Omega=15.1, n_diameters="auto")
+        choose_modes({**values, "N": -1})
+
+
+def test_files_and_command_lines_may_leave_the_choice() -> None:
+    values = {"N": 385, "Omega": 15.1}
+    p, record = read_parameters({**values, "n_diameters": "auto", "truncation_tolerance": "1e-2"})
+    choice = choose_modes(P, 1e-2)
+    assert (p, record) == (choice.parameters, choice.to_json())
+    assert p == Parameters(**values, n_diameters=p.n_diameters, n_circles=p.n_circles)
+    assert read_parameters({**values, "n_diameters": "auto"})[0] == choose_modes(P, 1e-3).parameters
+    assert read_parameters({**values, "n_diameters": 5}) == (Parameters(**values, n_diameters=5), "")
+
+
+def test_chosen_parameters_are_those_given_outright() -> None:
+    """They were unequal, although key and hash agreed, and a copy lost the record of the choice."""
+    chosen = choose_modes(P, 1e-3).parameters
+    assert chosen == Parameters(N=385, Omega=15.1, n_diameters=3)
+    assert chosen.model_copy() == chosen
+
+
+def test_a_plain_value_leaves_no_choice() -> None:
+    with pytest.raises(ParameterError, match=r"n_diameters='auto': must be a whole number; disc_model\.choose_modes"):
+        Parameters(N=385, Omega=15.1, n_diameters="auto")
+
+
+@pytest.mark.parametrize(
+    ("values", "faults"),
+    [
+        ({"N": -1, "n_diameters": "auto"}, ("N=-1.0: must be >= 0",)),
+        (
+            {"N": -1, "n_diameters": "auto", "truncation_tolerance": 1e-9},
+            ("N=-1.0: must be >= 0", "truncation_tolerance=1e-09: must be finite and >= 0.0001"),
+        ),
+        ({"n_diameters": "auto", "truncation_tolerance": "fine"}, ("truncation_tolerance='fine': must be a number",)),
+        (
+            {"n_diameters": 4, "truncation_tolerance": 1e-3},
+            ("truncation_tolerance=0.001: is used with n_diameters='auto' only",),
+        ),
+    ],
+)
+def test_faults_of_the_choice_come_with_the_others(values: dict[str, Any], faults: tuple[str, ...]) -> None:
+    with pytest.raises(ParameterError) as caught:
+        read_parameters({"N": 385, "Omega": 15.1, **values})
+    assert caught.value.faults == faults
 
 
 def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
-    p = Parameters(N=385, Omega=15.1, n_diameters="auto")
-    spec = CaseSpec(p, 0.01, 1e-10, None, (), None, None, False)
-    read = CaseSpec.from_canonical(spec.canonical)
-    assert read == spec
-    assert read.parameters.truncation == p.truncation
-    assert run_case(read).attrs["truncation"] == p.truncation
-    assert "truncation" not in CaseSpec(p.replace(), 0.01, 1e-10, None, (), None, None, False).canonical
+    raw = {"study": "s", "base": {"Omega": 15.1}, "cases": {}}
+    raw["cases"]["A"] = {"title": "A", "t_end": 0.01, "parameters": {"N": 385, "n_diameters": "auto"}}
+    raw["cases"]["B"] = {"title": "A", "t_end": 0.01, "parameters": {"N": 385, "n_diameters": 3}}
+    automatic, given = parse_study(raw).specs.values()
+    record = choose_modes(P).to_json()
+    assert automatic.parameters == given.parameters
+    assert (automatic.truncation, given.truncation) == (record, "")
+    read = CaseSpec.from_canonical(automatic.canonical)
+    assert read == automatic
+    assert run_case(read).attrs["truncation"] == record
+    assert "truncation" not in run_case(given).attrs
+    assert "truncation" not in given.canonical
+
+
+def test_a_case_for_which_no_number_of_modes_does_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(truncation, "real_modes", lambda diameters, circles: diameters)
+    monkeypatch.setattr(truncation, "_worst", lambda *_: 1.0)
+    raw = {"study": "s", "base": {"Omega": 15.1, "n_diameters": "auto"}}
+    raw["cases"] = {"A": {"title": "A", "t_end": 0.01, "parameters": {"N": 385}}}
+    with pytest.raises(StudyError, match=r"base\.n_diameters = 'auto': tolerance=0\.001: no model up to"):
+        parse_study(raw)

@@ -19,6 +19,7 @@ _HOMES = {
     "Parameters": "parameters",
     "plate_modes": "plate",
     "slider_at_rest_frequencies": "plate",
+    "choose_modes": "truncation",
     "simulate": "simulation.api",
     "floquet": "stability.cycle",
     "steady_sliding": "stability.sliding",
@@ -59,6 +60,7 @@ if TYPE_CHECKING:
     from disc_model.stability.cycle import floquet
     from disc_model.stability.sliding import steady_sliding
     from disc_model.status import Status
+    from disc_model.truncation import choose_modes
 
 
 def __getattr__(name: str) -> Any:

@@ -118,7 +118,7 @@ def run(
     case: dict[str, str],
 ) -> None:
     """Simulate one case from static equilibrium and print what happened."""
-    parameters, end, tolerance = _checked(case, t_end, tol, stop_at, plot, checkpoint)
+    parameters, choice, end, tolerance = _checked(case, t_end, tol, stop_at, plot, checkpoint)
     from disc_model.simulation.api import simulate
 
     record = _plot_record(end) if plot is not None else None
@@ -129,7 +129,7 @@ def run(
         result = simulate(
             parameters, end, tol=tolerance, record=record, stop_at=stop_at, progress=progress, checkpoint=checkpoint
         )
-    _print_summary(result)
+    _print_summary(result, choice)
     complete = result.status.complete
     if plot is not None:
         reached = float(result.final_state.time)
@@ -145,8 +145,9 @@ def run(
 def modes(*, case: dict[str, str]) -> None:
     """Print the disc's modes and the frequencies of disc and slider with the slider at rest."""
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
+    from disc_model.truncation import read_parameters
 
-    parameters = Parameters(**case)
+    parameters, _ = read_parameters(case)
     table = Table(title=f"Modes of the disc ({parameters.normalization})")
     for heading in ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)"):
         table.add_column(heading, justify="right")
@@ -181,11 +182,13 @@ def _checked(
     stop_at: str | None,
     plot: Path | None,
     checkpoint: Path | None,
-) -> tuple[Parameters, float, float]:
-    """Parameters, t_end and tol; refuses all that is bad in one error, before the kernels are loaded."""
+) -> tuple[Parameters, str, float, float]:
+    """Parameters, how their modes were chosen, t_end, tol; refuses all that is bad at once, before kernels load."""
+    from disc_model.truncation import read_parameters
+
     faults: list[str] = []
     try:
-        parameters = Parameters(**case)
+        parameters, choice = read_parameters(case)
     except ParameterError as error:
         faults += error.faults
     end = _number("t_end", t_end, lambda x: 0 < x < math.inf, "must be finite and > 0", faults)
@@ -198,7 +201,7 @@ def _checked(
         faults += _checkpoint_faults(checkpoint)
     if faults:
         raise ParameterError(*faults)
-    return parameters, end, tolerance
+    return parameters, choice, end, tolerance
 
 
 def _number(name: str, text: str | None, holds: Callable[[float], bool], rule: str, faults: list[str]) -> float:
@@ -270,12 +273,13 @@ def _progress(t_end: float) -> Iterator[Callable[[float], None] | None]:
         yield lambda time: bar.update(task, completed=min(float(time), t_end))
 
 
-def _print_summary(result: Result) -> None:
-    """Status, switches, time in each phase and effort of one run, a line each."""
+def _print_summary(result: Result, choice: str) -> None:
+    """Modes if they were chosen, status, switches, time in each phase and effort of one run, a line each."""
     p, s = result.parameters, result.statistics
     reached = float(result.final_state.time)
     lines = [
         ("case", f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {p.normalization}, {p.contact} (key {p.key})"),
+        *([("modes chosen", choice)] if choice else []),
         ("status", result.message or result.status.value),
         ("time reached", f"{reached:.9g} s of {result.t_end:g} s"),
         (

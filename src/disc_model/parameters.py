@@ -4,50 +4,22 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-import importlib
 import json
 import math
-import numbers
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from disc_model.errors import ParameterError
+from disc_model.schema import Count, Real, number, shown
 
 
-def _number(value: Any) -> Any:
-    """Turn what stands for a number into a float; leave the rest for pydantic to refuse.
-
-    Strings are accepted because YAML reads ``1e-3`` as one. A bool is no number here, although Python says
-    so.
-    """
-    if isinstance(value, str):
-        return float(value)
-    if isinstance(value, bool) or not isinstance(value, int | float | numbers.Real):
-        raise ValueError("must be a number")
-    try:
-        return float(value) + 0.0  # adding zero turns -0.0 into 0.0
-    except OverflowError:  # a whole number beyond the range of floats
-        return math.inf if str(value)[0] != "-" else -math.inf
-
-
-def _whole(value: Any) -> Any:
-    """Like `_number`, for counts: 4, 4.0 and "4" are the same, 4.5 is refused."""
-    if isinstance(value, int) and not isinstance(value, bool):
-        return value
-    number = _number(value)
-    if not number.is_integer():
-        raise ValueError("must be a whole number")
-    return int(number)
-
-
-AUTO = "auto"
-"""As ``n_diameters``: the fewest modes that meet the tolerance."""
-TRUNCATION_TOLERANCE = 1e-3
-
-Real = Annotated[float, BeforeValidator(_number)]
-Count = Annotated[int, BeforeValidator(_whole)]
+def _diameters(value: Any) -> Any:
+    """Refuse a word that only files and command lines understand, and say who does."""
+    if value == "auto":
+        raise ValueError("must be a whole number; disc_model.choose_modes finds one")
+    return value
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
@@ -66,8 +38,7 @@ def _choice(default: str, description: str) -> Any:
 class Parameters(BaseModel):
     """One case of the disc and slider. Base values are the paper's Table 1; `N` and `Omega` have none.
 
-    ``n_diameters="auto"`` chooses the fewest modes whose coupled frequencies are right to ``truncation_tolerance``
-    (relative, 1e-3 if not given; see `disc_model.truncation`); `truncation` then says what was chosen and why.
+    A plain value. `disc_model.choose_modes` finds how many modes a tolerance asks for.
 
     Raises
     ------
@@ -94,23 +65,15 @@ class Parameters(BaseModel):
     h: Real = _field(0.002, "m", "thickness of the disc", gt=0)
     nu: Real = _field(0.211, "1", "Poisson's ratio of the disc", gt=-1, lt=0.5)
     rho: Real = _field(7200.0, "kg/m^3", "density of the disc", gt=0)
-    n_diameters: Count = _count(4, 60, "highest number of nodal diameters")
+    n_diameters: Annotated[Count, BeforeValidator(_diameters)] = _count(4, 60, "highest number of nodal diameters")
     n_circles: Count = _count(0, 20, "highest number of nodal circles")
     normalization: Literal["as_published", "orthonormal"] = _choice(
         "as_published", "scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17)"
     )
     contact: Literal["separable", "bonded"] = _choice("separable", "whether the slider may leave the disc")
 
-    _truncation: str = PrivateAttr("")
-
     def __init__(self, /, **data: Any) -> None:
         faults: list[str] = []
-        truncation = ""
-        if data.get("n_diameters") == AUTO:
-            data, truncation = _automatic(type(self), data)
-        elif "truncation_tolerance" in data:
-            tolerance = data.pop("truncation_tolerance")
-            faults.append(f"truncation_tolerance={_shown(tolerance)}: is used with n_diameters={AUTO!r} only")
         try:
             super().__init__(**data)
         except ValidationError as error:
@@ -118,7 +81,6 @@ class Parameters(BaseModel):
         faults += _cross_faults(type(self), data)
         if faults:
             raise ParameterError(*faults) from None
-        self._truncation = truncation
 
     @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
@@ -141,24 +103,13 @@ class Parameters(BaseModel):
         return self.replace(**(update or {}))
 
     def replace(self, **changes: Any) -> Self:
-        """A validated copy with some values changed.  The number of modes is kept, the record of its choice is not."""
+        """A validated copy with some values changed."""
         return type(self)(**{**self.model_dump(), **changes})
-
-    def with_truncation(self, record: str) -> Self:
-        """A copy that says how its number of modes was chosen; see `truncation`."""
-        copy = self.replace()
-        copy._truncation = record
-        return copy
 
     @property
     def D(self) -> float:
         """Flexural rigidity E h^3/12/(1 - nu^2), N m."""
         return _rigidity(self.E, self.h, self.nu)
-
-    @property
-    def truncation(self) -> str:
-        """How the number of modes was chosen, as JSON; "" if it was given."""
-        return self._truncation
 
     @property
     def canonical_json(self) -> str:
@@ -177,50 +128,18 @@ class Parameters(BaseModel):
         return str(extra["unit"]) if isinstance(extra, dict) else ""
 
 
-def _automatic(model: type[Parameters], data: dict[str, Any]) -> tuple[dict[str, Any], str]:
-    """Values with the number of modes chosen, and the record of the choice."""
-    values = {name: value for name, value in data.items() if name not in ("n_diameters", "truncation_tolerance")}
-    tolerance = truncation_tolerance(data.get("truncation_tolerance", TRUNCATION_TOLERANCE))
-    case = model(**{**values, "n_diameters": 0, "n_circles": 0})
-    chosen = _truncation().truncation_choice(case, tolerance)
-    counts = {"n_diameters": chosen.parameters.n_diameters, "n_circles": chosen.parameters.n_circles}
-    return {**values, **counts}, chosen.to_json()
-
-
-def truncation_tolerance(value: Any) -> float:
-    """A tolerance for the choice of modes; raises `ParameterError` if it is none."""
-    try:
-        number, least = _number(value), float(_truncation().TRUSTED)
-    except ValueError:
-        raise ParameterError(f"truncation_tolerance={_shown(value)}: must be a number") from None
-    if not least <= number < math.inf:
-        raise ParameterError(f"truncation_tolerance={number!r}: must be finite and >= {least:g}")
-    return number
-
-
-def _truncation() -> Any:
-    """The module that chooses.  By name: what a simulation depends on is the choice, and not how it was made."""
-    return importlib.import_module("disc_model.truncation")
-
-
 def _rigidity(E: float, h: float, nu: float) -> float:
     return E * h**3 / 12 / (1 - nu**2)
-
-
-def _shown(value: Any) -> str:
-    """A value as messages show it: as written, but short."""
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _shown_field(model: type[BaseModel], name: str, value: Any) -> str:
     """Numbers as the float they stand for, so that a message does not depend on the spelling."""
     if model.model_fields[name].annotation is float:
         try:
-            return repr(_number(value))
+            return repr(number(value))
         except ValueError:
             pass
-    return _shown(value)
+    return shown(value)
 
 
 _RULES: dict[str, Callable[[dict[str, Any]], str]] = {
@@ -239,12 +158,12 @@ def _fault(model: type[BaseModel], item: Any) -> str:
     if kind == "missing":
         return f"{name}: is required"
     if kind == "extra_forbidden":
-        return f"{name}={_shown(item['input'])}: unknown parameter{_suggestion(name, model)}"
-    shown = _shown_field(model, name, item["input"])
+        return f"{name}={shown(item['input'])}: unknown parameter{_suggestion(name, model)}"
+    value = _shown_field(model, name, item["input"])
     if kind in _RULES:
-        return f"{name}={shown}: {_RULES[kind](item.get('ctx', {}))}"
+        return f"{name}={value}: {_RULES[kind](item.get('ctx', {}))}"
     reason = str(item.get("ctx", {}).get("error", item["msg"]))
-    return f"{name}={shown}: {reason if reason.startswith('must') else 'must be a number'}"
+    return f"{name}={value}: {reason if reason.startswith('must') else 'must be a number'}"
 
 
 def _suggestion(name: str, model: type[BaseModel]) -> str:
@@ -259,11 +178,11 @@ def _cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     values: dict[str, float] = {}
     for name in ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu"):
         try:
-            number = _number(data.get(name, model.model_fields[name].default))
+            value = number(data.get(name, model.model_fields[name].default))
         except ValueError:
             continue
-        if math.isfinite(number):
-            values[name] = number
+        if math.isfinite(value):
+            values[name] = value
     faults = []
 
     def require(low: str, high: str, holds: Callable[[float, float], bool], rule: str) -> None:

@@ -97,13 +97,43 @@ def slider_at_rest_frequencies(p: Parameters) -> Array:
     (number of real modes,).
     """
     modes = mode_arrays(p)
-    omega, psi = modes.omega, modes.psi
-    # Dividing by the frequencies keeps the lowest ones accurate beside the highest: solve for 1/lambda^2.
+    coupled = coupled_frequencies(modes.omega, modes.psi, p.m, p.k)
+    return np.sort(np.concatenate([coupled, modes.omega[modes.diameters > 0]]))
+
+
+def coupled_frequencies(omega: Array, psi: Array, m: float, k: float) -> Array:
+    """Frequencies of disc and attached slider at rest that the slider takes part in, rad/s, ascending, (n,).
+
+    Parameters
+    ----------
+    omega, psi : rad/s and kg^-1/2, shape (n,), as in `plate_modes`
+    m, k : kg and N/m, of the slider
+    """
+    inverse_squares = linalg.eigh(*_coupling(omega, psi, m, k), eigvals_only=True)
+    return np.sort(1 / np.sqrt(inverse_squares))
+
+
+def coupled_shapes(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Array]:
+    """As `coupled_frequencies`, but descending, and the shapes: columns (n, n), each mode times its own frequency."""
+    inverse_squares, shapes = linalg.eigh(*_coupling(omega, psi, m, k))
+    return 1 / np.sqrt(inverse_squares), shapes
+
+
+def _coupling(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Array]:
+    """Both matrices of M y = lambda^-2 K y: the problem of `slider_at_rest_frequencies` with y = omega v.
+
+    Dividing by the frequencies keeps the lowest ones accurate beside the highest.
+    """
     phi = psi / omega
-    mass = np.diag(omega**-2) + p.m * np.outer(phi, phi)
-    stiffness = np.eye(omega.size) + p.k * np.outer(phi, phi)
-    coupled = 1 / np.sqrt(linalg.eigh(mass, stiffness, eigvals_only=True))
-    return np.sort(np.concatenate([coupled, omega[modes.diameters > 0]]))
+    mass = np.diag(omega**-2) + m * np.outer(phi, phi)
+    stiffness = np.eye(omega.size) + k * np.outer(phi, phi)
+    return mass, stiffness
+
+
+def modal_damping(p: Parameters) -> Array:
+    """Kelvin-Voigt damping 2 xi omega = (D*/D) omega^2 of every mode, 1/s, in the order of `plate_modes`."""
+    damping: Array = p.D_star / p.D * mode_arrays(p).omega ** 2
+    return damping
 
 
 @lru_cache(maxsize=1024)

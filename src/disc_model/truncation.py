@@ -1,138 +1,39 @@
-"""How many modes a study needs: the error in what it asks for against nodal diameters and circles.
+"""How many modes a case needs: the fewest whose coupled frequencies meet a tolerance.
 
-`truncation_study` measures, for both normalisations, coupled frequencies, the growth rate of the stick-slip cycle, the
-first separation, the range of the contact force and what a plastic impact does, with the cost beside them.
-`choose_truncation` picks the smallest model that meets a tolerance on the coupled frequencies.
-
-What `truncation_study` found:
-
-- With modes as published, nine modes have the coupled frequencies right to 7e-4 and the growth rate at N = 300 N,
-  Omega = 20 rad/s right to 1 % (0.0464 against 0.0460 1/s).  With orthonormal ones it is 5e-3 and 12 % (0.0024 against
-  0.0027 1/s).  Both converge like the static compliance of a point, slowly: the error falls about as one over the
-  number of modes, and frequencies right to 1e-4 take 44 and 148 modes.
-- The first separation at N = 385 N, Omega = 15.1 rad/s moves from 54.42 s to 53.35 s with 12 diameters and to 51.65 s
-  with 12 diameters and 2 circles.  The paper's "nine modes are good enough" holds for frequencies and stability to
-  about a percent, not for this time nor for what follows it.
-- S2 = sum psi^2, the compliance against an impulse, grows with every mode.  The eigenfunctions of a plate are complete,
-  so with orthonormal modes the sum over all of them is the delta function at its own place: it grows without bound,
-  about linearly in the number of modes.  The impulse of a plastic impact, (w' - u')/(S2 + 1/m), its energy loss and the
-  change of the slider's velocity therefore go to zero: the point of the disc that is hit becomes massless.  The impact
-  law has no limit of many modes other than "no impact at all".  The number of separations in the second after the
-  first one follows suit: orthonormal 28, 62, 113, 209 (4 and 12 diameters; then 1, 2 circles), as published 134, 136,
-  136, 339.  The truncation is part of the impact law and has to be stated with every result that separates.  With
-  circles = 0 alone S2 stays bounded, because modes of many diameters live at the rim and pass r_0 by: only there do the
-  numbers settle.
-- As published, amplitudes are scaled by the coefficient of J_l, which means nothing physical: with 2 circles the modes
-  of 1 and of 4 diameters add more to S2 than all the others, and the results jump.
+Study files and the command line may say ``n_diameters: auto``; `read_parameters` makes `Parameters` of that.
+`disc_model.benchmarks.truncation` measures what the choice does to everything else.
 """
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import xarray as xr
-from scipy import linalg
 
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
+from disc_model.plate import coupled_frequencies, mode_arrays
+from disc_model.schema import number, shown
 
-DIAMETERS = (1, 2, 3, 4, 6, 8, 12)
-CIRCLES = (0, 1, 2)
+AUTO = "auto"
+"""What a file gives as ``n_diameters`` to have the modes chosen."""
+TOLERANCE = 1e-3
+"""Relative; taken where none is given."""
 RICH = (20, 6)
 """Diameters and circles of the model that frequencies are compared with."""
 TRUSTED = 1e-4
 """Relative; how much the coupled frequencies of `RICH` change with still more modes (5e-5 as published, 2e-4
 orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only."""
-NORMALIZATIONS = ("as_published", "orthonormal")
-CASES: dict[str, dict[str, dict[str, Any]]] = {
-    "as_published": {
-        "growth": {"N": 300.0, "Omega": 20.0},
-        "range": {"N": 385.0, "Omega": 15.0},
-        "separation": {"N": 385.0, "Omega": 15.1},
-    },
-    "orthonormal": {
-        "growth": {"N": 300.0, "Omega": 20.0},
-        "range": {"N": 385.0, "Omega": 15.0},
-        "separation": {"N": 600.0, "Omega": 30.0},
-    },
-}
-"""Cases by normalisation: an unstable cycle, a motion in contact, and one that separates within a minute."""
-HORIZON = 120.0
-"""s in which separation is waited for."""
-AFTER = 1.0
-"""s after the first separation over which impacts are counted."""
-WINDOW = (5.0, 7.0)
-"""s over which the range of the contact force in contact is taken."""
 BAND = 2.0
 """Frequencies up to so many times the lowest one of the disc are what a study of this motion asks for."""
 
-VARIABLES = {
-    "modes": ("1", "number of real modes"),
-    "omega_max": ("rad s-1", "highest natural frequency of the disc"),
-    "compliance": ("kg-1", "S2, sum of psi^2: compliance against an impulse"),
-    "lowest_coupled": ("rad s-1", "lowest frequency of disc and slider at rest"),
-    "frequency_error": ("1", "largest relative error of the coupled frequencies in the band"),
-    "growth_rate": ("s-1", "growth rate of the stick-slip cycle"),
-    "first_separation": ("s", "first separation"),
-    "force_min": ("N", "least contact force in contact"),
-    "force_max": ("N", "greatest contact force in contact"),
-    "separations": ("s-1", "separations per second in the second after the first one"),
-    "separated_share": ("1", "share of that second spent separated"),
-    "force_max_separating": ("N", "greatest contact force in that second"),
-    "impact_share": (
-        "1",
-        "change of the slider's velocity at a plastic impact over the closing velocity, 1/(1 + m S2)",
-    ),
-    "cost": ("1", "wall time per simulated second, motion in contact"),
-}
-
-
-def frequency_error(p: Parameters, rich: Parameters, band: float = BAND) -> float:
-    """Largest relative error of the coupled frequencies of ``p`` within the band, ``rich`` taken as right.
-
-    The band reaches up to ``band`` times the disc's lowest frequency.  A frequency of ``rich`` that ``p`` lacks counts
-    as an error of 1.
-    """
-    modes = mode_arrays(rich)
-    return _worst(coupled_frequencies(p), coupled_frequencies(rich), band * float(modes.omega.min()))
-
-
-def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:
-    right = right[right <= top]
-    if mine.size < right.size:
-        return 1.0
-    return min(1.0, float(np.max(np.abs(mine[: right.size] / right - 1.0), initial=0.0)))
-
-
-def coupled_frequencies(p: Parameters) -> np.ndarray:
-    """Frequencies (rad/s, ascending) of disc and attached slider at rest, one per row of `plate_modes`.
-
-    As `disc_model.slider_at_rest_frequencies`, without the partners of diametral pairs that the slider does not shift.
-    """
-    modes = mode_arrays(p)
-    return _coupled(p, modes.omega, modes.psi)
-
-
-def _coupled(p: Parameters, omega: np.ndarray, psi: np.ndarray) -> np.ndarray:
-    """(diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v; 1/lambda^2 keeps the low ones accurate."""
-    phi = psi / omega
-    mass = np.diag(omega**-2) + p.m * np.outer(phi, phi)
-    stiffness = np.eye(omega.size) + p.k * np.outer(phi, phi)
-    return np.sort(1.0 / np.sqrt(linalg.eigh(mass, stiffness, eigvals_only=True)))
-
-
-# ----------------------------------------------------------------------------------------------------
-# The choice
-
 
 @dataclass(frozen=True)
-class TruncationChoice:
+class ModeChoice:
     """The smallest model that meets a tolerance, and what it was chosen from.
 
     Attributes
@@ -158,23 +59,21 @@ class TruncationChoice:
         return json.dumps(chosen | record | {"compared_with": list(self.rich)}, sort_keys=True)
 
 
-def choose_truncation(p: Parameters, tolerance: float = 1e-3, **options: Any) -> Parameters:
-    """``p`` with the fewest modes whose coupled frequencies meet ``tolerance``; see `truncation_choice`."""
-    return truncation_choice(p, tolerance, **options).parameters
-
-
-def truncation_choice(
-    p: Parameters,
-    tolerance: float = 1e-3,
+def choose_modes(
+    case: Parameters | Mapping[str, Any],
+    tolerance: float = TOLERANCE,
     *,
     band: float = BAND,
     rich: tuple[int, int] = RICH,
-) -> TruncationChoice:
+) -> ModeChoice:
     """Find the model with the fewest real modes whose coupled frequencies in the band are right to ``tolerance``.
+
+        >>> disc_model.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
+        3
 
     Parameters
     ----------
-    p : the case; its own n_diameters and n_circles are ignored
+    case : `Parameters`, or values to make them of; their n_diameters and n_circles are ignored
     tolerance : relative, at least `TRUSTED`
     band : the frequencies asked for reach up to ``band`` times the lowest one of the disc
     rich : highest diameters and circles of the model taken as right, and the largest candidate
@@ -182,121 +81,107 @@ def truncation_choice(
     Raises
     ------
     ParameterError
-        If the tolerance is below `TRUSTED`, or the band not above 0.
+        If a value of the case breaks a rule, the tolerance is below `TRUSTED`, or the band not above 0.
     DiscModelError
         If no smaller model meets the tolerance.
     """
-    faults = [
-        f"{name}={value!r}: must be a number {rule}"
-        for name, value, rule, least in (
-            ("tolerance", tolerance, f">= {TRUSTED:g}", TRUSTED),
-            ("band", band, "> 0", math.ulp(0.0)),
-        )
-        if not (isinstance(value, int | float) and math.isfinite(value) and value >= least)
-    ]
+    tolerance, faults = _checked("tolerance", tolerance)
+    if not (isinstance(band, int | float) and 0 < band < math.inf):
+        faults.append(f"band={band!r}: must be finite and > 0")
     if faults:
         raise ParameterError(*faults)
-    modes = mode_arrays(p.replace(n_diameters=rich[0], n_circles=rich[1]))
-    right, top = _coupled(p, modes.omega, modes.psi), band * float(modes.omega.min())
-    candidates = sorted((_real_modes(d, c), c, d) for d in range(rich[0] + 1) for c in range(rich[1] + 1))
+    size = {"n_diameters": rich[0], "n_circles": rich[1]}
+    p = case.replace(**size) if isinstance(case, Parameters) else Parameters.model_validate({**case, **size})
+    modes = mode_arrays(p)
+    right, top = coupled_frequencies(modes.omega, modes.psi, p.m, p.k), band * float(modes.omega.min())
+    candidates = sorted((real_modes(d, c), c, d) for d in range(rich[0] + 1) for c in range(rich[1] + 1))
     for count, circles, diameters in candidates[:-1]:
         kept = (modes.circles <= circles) & (modes.diameters <= diameters)
-        error = _worst(_coupled(p, modes.omega[kept], modes.psi[kept]), right, top)
+        error = _worst(coupled_frequencies(modes.omega[kept], modes.psi[kept], p.m, p.k), right, top)
         if error <= tolerance:
             chosen = p.replace(n_diameters=diameters, n_circles=circles)
-            return TruncationChoice(chosen, tolerance, error, count, rich, band)
+            return ModeChoice(chosen, tolerance, error, count, rich, band)
     raise DiscModelError(f"tolerance={tolerance:g}: no model up to {rich} (diameters, circles) meets it; enlarge rich")
 
 
-def _real_modes(diameters: int, circles: int) -> int:
+def read_parameters(values: Mapping[str, Any]) -> tuple[Parameters, str]:
+    """Parameters as files and command lines give them, and how their modes were chosen, as JSON.
+
+    With ``n_diameters="auto"`` the modes are chosen by ``truncation_tolerance`` (`TOLERANCE` if not given). The text is
+    empty where the number of modes is given.
+
+    Raises
+    ------
+    ParameterError
+        Listing every fault.
+    DiscModelError
+        If no model meets the tolerance.
+    """
+    rest, tolerance, faults = asked_modes(values)
+    if tolerance is None:
+        return _with_faults(rest, faults), ""
+    choice = choose_modes(_with_faults({**rest, "n_circles": 0}, faults), tolerance)
+    return choice.parameters, choice.to_json()
+
+
+def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], float | None, list[str]]:
+    """What files and command lines say of the choice of modes.
+
+    Returns
+    -------
+    values : without what asks for a choice
+    tolerance : by which to choose; None if the number of modes is given, or the tolerance is none
+    faults : in what asks for a choice
+    """
+    rest = {name: value for name, value in values.items() if name != "truncation_tolerance"}
+    given = values.get("truncation_tolerance", TOLERANCE)
+    if rest.get("n_diameters") != AUTO:
+        fault = f"truncation_tolerance={shown(given)}: is used with n_diameters={AUTO!r} only"
+        return rest, None, [fault] if "truncation_tolerance" in values else []
+    del rest["n_diameters"]
+    tolerance, faults = _checked("truncation_tolerance", given)
+    return rest, None if faults else tolerance, faults
+
+
+def _checked(name: str, value: Any) -> tuple[float, list[str]]:
+    """A tolerance as a number, and what is wrong with it."""
+    try:
+        tolerance = float(number(value))
+    except ValueError:
+        return math.nan, [f"{name}={shown(value)}: must be a number"]
+    if not TRUSTED <= tolerance < math.inf:
+        return math.nan, [f"{name}={tolerance!r}: must be finite and >= {TRUSTED:g}"]
+    return tolerance, []
+
+
+def _with_faults(values: Mapping[str, Any], faults: list[str]) -> Parameters:
+    """Parameters, unless there are faults, found before or now."""
+    try:
+        p = Parameters.model_validate(values)
+    except ParameterError as error:
+        raise ParameterError(*error.faults, *faults) from None
+    if faults:
+        raise ParameterError(*faults)
+    return p
+
+
+def frequency_error(p: Parameters, rich: Parameters, band: float = BAND) -> float:
+    """Largest relative error of the coupled frequencies of ``p`` within the band, ``rich`` taken as right.
+
+    The band reaches up to ``band`` times the disc's lowest frequency.  A frequency of ``rich`` that ``p`` lacks counts
+    as an error of 1.
+    """
+    mine, right = (coupled_frequencies(modes.omega, modes.psi, p.m, p.k) for modes in map(mode_arrays, (p, rich)))
+    return _worst(mine, right, band * float(mode_arrays(rich).omega.min()))
+
+
+def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:
+    right = right[right <= top]
+    if mine.size < right.size:
+        return 1.0
+    return min(1.0, float(np.max(np.abs(mine[: right.size] / right - 1.0), initial=0.0)))
+
+
+def real_modes(diameters: int, circles: int) -> int:
+    """Number of real modes of a model: pairs count as two."""
     return (circles + 1) * (2 * diameters + 1)
-
-
-# ----------------------------------------------------------------------------------------------------
-# The study
-
-
-def truncation_study(
-    diameters: Sequence[int] = DIAMETERS,
-    circles: Sequence[int] = CIRCLES,
-    normalizations: Sequence[str] = NORMALIZATIONS,
-    *,
-    horizon: float = HORIZON,
-    growth: bool = True,
-) -> xr.Dataset:
-    """Measure everything of `VARIABLES` along (normalization, circles, diameters); nan where there is none."""
-    shape = (len(normalizations), len(circles), len(diameters))
-    data = {name: np.full(shape, math.nan) for name in VARIABLES}
-    for i, normalization in enumerate(normalizations):
-        for j, n_circles in enumerate(circles):
-            for k, n_diameters in enumerate(diameters):
-                row = _measure(normalization, n_diameters, n_circles, horizon, growth)
-                for name, value in row.items():
-                    data[name][i, j, k] = value
-    dims = ("normalization", "circles", "diameters")
-    return xr.Dataset(
-        {name: (dims, data[name], {"units": unit, "long_name": text}) for name, (unit, text) in VARIABLES.items()},
-        coords={"normalization": list(normalizations), "circles": list(circles), "diameters": list(diameters)},
-        attrs={
-            "Conventions": "CF-1.11",
-            "title": "What a study needs of the modes",
-            "cases": json.dumps({name: CASES[name] for name in normalizations}, sort_keys=True),
-            "compared_with": json.dumps(RICH),
-            "band": BAND,
-        },
-    )
-
-
-def _measure(normalization: str, diameters: int, circles: int, horizon: float, growth: bool) -> dict[str, float]:
-    size: dict[str, Any] = {"n_diameters": diameters, "n_circles": circles, "normalization": normalization}
-    cases = {name: Parameters(**case, **size) for name, case in CASES[normalization].items()}
-    p = cases["separation"]
-    modes = mode_arrays(p)
-    compliance = float(np.sum(modes.psi**2))
-    row = {
-        "modes": float(_real_modes(diameters, circles)),
-        "omega_max": float(modes.omega.max()),
-        "compliance": compliance,
-        "lowest_coupled": float(coupled_frequencies(p)[0]),
-        "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
-        "impact_share": 1.0 / (1.0 + p.m * compliance),
-        "growth_rate": _growth_rate(cases["growth"]) if growth else math.nan,
-    }
-    return row | _contact_range(cases["range"]) | _separating(p, horizon)
-
-
-def _growth_rate(p: Parameters) -> float:
-    """Growth rate of the stick-slip cycle, 1/s; nan if there is no cycle."""
-    from disc_model.stability.cycle import floquet
-
-    return float(floquet(p).growth_rate)
-
-
-def _contact_range(p: Parameters) -> dict[str, float]:
-    """Range of the contact force in the window, and the cost of a simulated second."""
-    from disc_model.simulation.api import simulate
-    from disc_model.simulation.record import Record, Window
-
-    record = Record(windows=(Window(start=WINDOW[0], stop=WINDOW[1], rate=20_000.0, envelope=100),))
-    window = simulate(p, WINDOW[1], record=record).samples[0]
-    cost = float(np.median([simulate(p, 1.0).statistics["wall_time"] for _ in range(11)]))
-    return {"force_min": float(window["P_min"].min()), "force_max": float(window["P_max"].max()), "cost": cost}
-
-
-def _separating(p: Parameters, horizon: float) -> dict[str, float]:
-    """First separation, and what the second after it is like."""
-    from disc_model.simulation.api import simulate
-    from disc_model.simulation.record import Record, Window
-
-    first = simulate(p, horizon, stop_at="first_separation")
-    if not math.isfinite(first.first_separation):
-        return {}
-    start = first.final_state
-    record = Record(windows=(Window(start=start.time, stop=start.time + AFTER, rate=20_000.0, envelope=100),))
-    after = simulate(p, start.time + AFTER, initial_state=start, record=record)
-    return {
-        "first_separation": first.first_separation,
-        "separations": (1 + after.statistics["separations"]) / AFTER,
-        "separated_share": after.statistics["time_separation"] / AFTER,
-        "force_max_separating": float(after.samples[0]["P_max"].max()),
-    }

@@ -105,7 +105,7 @@ rule study_truncation:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("study_truncation.py", "disc_model.truncation"),
+        sources=sources_of("study_truncation.py", "disc_model.benchmarks.truncation"),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/study_truncation.py {output} > {log} 2>&1"
 

@@ -6,8 +6,8 @@ import argparse
 
 import xarray as xr
 
+from disc_model.benchmarks.truncation import truncation_study
 from disc_model.data.dataset import save
-from disc_model.truncation import truncation_study
 
 
 def main() -> None:

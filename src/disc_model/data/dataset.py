@@ -80,8 +80,6 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
         "status": status,
         "message": message,
     }
-    if p.truncation:
-        attrs["truncation"] = p.truncation
     return xr.Dataset(data, attrs=attrs)
 
 

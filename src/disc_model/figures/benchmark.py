@@ -1,6 +1,6 @@
 """Speed against accuracy, where methods fail, and how much model a study needs.
 
-Pure functions of the datasets of `disc_model.benchmarks` and `disc_model.truncation`.
+Pure functions of the datasets of `disc_model.benchmarks`.
 """
 
 from __future__ import annotations

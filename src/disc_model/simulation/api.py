@@ -15,7 +15,7 @@ from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
+from disc_model.plate import modal_damping, mode_arrays
 from disc_model.simulation.bridge import read_state, write_state
 from disc_model.simulation.checkpoint import Checkpoint, Contents, faults, identity
 from disc_model.simulation.collector import Collector
@@ -212,7 +212,7 @@ def build_model(p: Parameters) -> layout.Model:
         modes.diameters,
         modes.omega,
         modes.psi,
-        p.D_star / p.D * modes.omega**2,
+        modal_damping(p),
         N=p.N,
         Omega=p.Omega,
         k=p.k,

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from disc_model.errors import ParameterError
-from disc_model.parameters import Real
+from disc_model.schema import Real
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False)]
 

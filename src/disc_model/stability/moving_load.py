@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
+from disc_model.plate import modal_damping, mode_arrays
 from disc_model.stability.sliding import _jacobian
 
 Array = NDArray[np.float64]
@@ -69,7 +69,7 @@ def rotating_oscillator_eigenvalues(p: Parameters, Omega: float) -> NDArray[np.c
     complex, 1/s, largest real part first; (4 per pair of modes + 2 per axisymmetric mode,)
     """
     modes = mode_arrays(p)
-    damping = p.D_star / p.D * modes.omega**2
+    damping = modal_damping(p)
     nothing = np.zeros(len(modes.omega))
     # mass ratio only: friction is zero, and the state about which f would vary does not matter
     frictionless = p.replace(mu_s=0.0, mu_k=0.0, Omega=Omega)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
+from disc_model.plate import coupled_shapes, mode_arrays
 from disc_model.stability.tongue import Tongue
 
 Array = NDArray[np.float64]
@@ -125,16 +125,11 @@ def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
     A coupled mode takes the diameters of the disc's mode that has most of its energy; its partner, which the slider
     leaves alone, keeps its own.
     """
-    from scipy import linalg
-
     modes = mode_arrays(p)
-    phi = modes.psi / modes.omega
-    mass = np.diag(modes.omega**-2) + p.m * np.outer(phi, phi)
-    stiffness = np.eye(modes.omega.size) + p.k * np.outer(phi, phi)
-    inverse_squares, shapes = linalg.eigh(mass, stiffness)
+    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, p.m, p.k)
     coupled = [
-        (float(1 / math.sqrt(value)) / (2 * math.pi), int(modes.diameters[np.argmax(np.abs(shape))]), True)
-        for value, shape in zip(inverse_squares, shapes.T, strict=True)
+        (float(frequency) / (2 * math.pi), int(modes.diameters[np.argmax(np.abs(shape))]), True)
+        for frequency, shape in zip(frequencies, shapes.T, strict=True)
     ]
     alone = [
         (float(omega) / (2 * math.pi), int(l), False)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import Modes, mode_arrays
+from disc_model.plate import Modes, modal_damping, mode_arrays
 
 Array = NDArray[np.float64]
 
@@ -95,7 +95,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     if p.k_p == 0 and p.mu_k > 0:
         return _absent(SlidingStatus.NO_SPRING)
     modes = mode_arrays(p)
-    damping = p.D_star / p.D * modes.omega**2
+    damping = modal_damping(p)
     a, b, force = _equilibrium(p, modes, damping)
     if not (math.isfinite(force) and force > 0) and p.contact != "bonded":
         return _absent(SlidingStatus.NO_CONTACT)

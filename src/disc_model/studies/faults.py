@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from disc_model.errors import DiscModelError, ParameterError
+from disc_model.errors import DiscModelError
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -94,9 +94,9 @@ def _add_pydantic(error: ValidationError, path: tuple[str, ...], faults: Faults,
             faults.add(where, value, _rule(item["msg"]))
 
 
-def add_parameter_faults(error: ParameterError, place: Callable[[str], tuple[str, ...]], faults: Faults) -> None:
-    """Take over the faults of `disc_model.Parameters`; `place` tells where the file gives a parameter."""
-    for fault in error.faults:
+def add_parameter_faults(found: Iterable[str], place: Callable[[str], tuple[str, ...]], faults: Faults) -> None:
+    """Take over the faults of a `ParameterError`; `place` tells where the file gives a parameter."""
+    for fault in found:
         name = fault.partition("=")[0].partition(":")[0]
         rest = fault.removeprefix(name)
         if rest.startswith("="):

@@ -242,7 +242,7 @@ def test_the_modes_are_chosen_for_each_point() -> None:
     [text] = grid.batches.values()
     done = run_batch(text)
     for i, normalization in enumerate(axes["normalization"]):
-        own = Parameters(N=300, Omega=20, normalization=normalization, **AUTOMATIC)
+        own, _ = truncation.read_parameters({"N": 300, "Omega": 20, "normalization": normalization, **AUTOMATIC})
         assert (done["n_diameters"][i], done["n_circles"][i]) == (own.n_diameters, own.n_circles)
         assert done["growth_rate"][i] == pytest.approx(floquet(own).growth_rate, abs=1e-9)
     assert done["n_diameters"][0] < done["n_diameters"][1]
@@ -252,14 +252,14 @@ def test_the_modes_are_chosen_for_each_point() -> None:
 
 
 def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    choose = truncation.truncation_choice
+    choose = truncation.choose_modes
 
-    def not_on_a_wall(p: Parameters, tolerance: float) -> truncation.TruncationChoice:
+    def not_on_a_wall(p: Parameters, tolerance: float) -> truncation.ModeChoice:
         if p.k > 1e6:
             raise DiscModelError("no model up to (20, 6) (diameters, circles) meets it")
         return choose(p, tolerance)
 
-    monkeypatch.setattr(truncation, "truncation_choice", not_on_a_wall)
+    monkeypatch.setattr(truncation, "choose_modes", not_on_a_wall)
     base = {"N": 300, "Omega": 20, **AUTOMATIC}
     grid = parse_grid(study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={}))
     [text] = grid.batches.values()

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
+from disc_model.plate import modal_damping, mode_arrays
 from disc_model.simulation.result import State
 
 Array = NDArray[np.float64]
@@ -31,7 +31,7 @@ class Physics:
         self.shape = modes.psi.copy()  # psi_l, kg^-1/2
         self.omega = modes.omega.copy()
         self.stiffness = modes.omega**2
-        self.damping = p.D_star / p.D * self.stiffness  # 2 xi omega, 1/s
+        self.damping = modal_damping(p)
         self.slope = self.l * self.shape
         self.bend = self.l * self.slope
         self.compliance = float(np.sum(self.shape**2))  # S2, 1/kg

@@ -31,6 +31,8 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
         log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
         tree = result.to_tree([name for name, _ in spec.windows])
         tree["events"].dataset = _kept_events(tree["events"].to_dataset(), spec.events)
+    if spec.truncation:
+        tree.attrs["truncation"] = spec.truncation
     tree.attrs |= provenance() | {"specification": spec.canonical, "specification_key": spec.key}
     return tree
 

@@ -15,9 +15,10 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, StringConstraints, model_validator
 
 from disc_model.data.variables import SCALARS
-from disc_model.errors import ParameterError
+from disc_model.errors import DiscModelError, ParameterError
 from disc_model.figures.paper.catalogue import CATALOGUE, faults_of
-from disc_model.parameters import Parameters, Real
+from disc_model.parameters import Parameters
+from disc_model.schema import Real
 from disc_model.simulation.record import Poincare, Window
 from disc_model.studies.cases.spec import CaseSpec
 from disc_model.studies.faults import (
@@ -33,6 +34,7 @@ from disc_model.studies.faults import (
     shown_path,
     validated,
 )
+from disc_model.truncation import AUTO, read_parameters
 
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
@@ -197,13 +199,14 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
     whole = inherit(inherited, own)
     place = Origin(path, own, inherited)
     case = validated(Case, whole, path, faults, place)
-    parameters = _parse_parameters(whole.get("parameters", {}), place, faults)
+    read = _parse_parameters(whole.get("parameters", {}), place, faults)
     if case is None:
         return None, None
     windows = _resolve_windows(case, place, faults)
     events = _resolve_events(case, place, faults)
-    if parameters is None or windows is None:
+    if read is None or windows is None:
         return case, None
+    parameters, truncation = read
     spec = CaseSpec(
         parameters,
         case.t_end,
@@ -213,18 +216,22 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
         case.record.poincare,
         events,
         case.record.energy,
+        truncation,
     )
     return case, spec
 
 
-def _parse_parameters(values: Any, place: Origin, faults: Faults) -> Parameters | None:
+def _parse_parameters(values: Any, place: Origin, faults: Faults) -> tuple[Parameters, str] | None:
+    """Parameters, and how their modes were chosen."""
     if not isinstance(values, Mapping):
         return None  # already reported by the schema
     try:
-        return Parameters.model_validate(values)
+        return read_parameters(values)
     except ParameterError as error:
-        add_parameter_faults(error, lambda name: place.of(("parameters", name)), faults)
-        return None
+        add_parameter_faults(error.faults, lambda name: place.of(("parameters", name)), faults)
+    except DiscModelError as error:  # no number of modes meets the tolerance
+        faults.add(place.of(("parameters", "n_diameters")), AUTO, str(error))
+    return None
 
 
 def _resolve_windows(case: Case, place: Origin, faults: Faults) -> tuple[tuple[str, Window], ...] | None:

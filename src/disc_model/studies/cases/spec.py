@@ -25,6 +25,8 @@ class CaseSpec:
     poincare: Poincare | None
     events: tuple[float, float] | None
     energy: bool
+    truncation: str = ""
+    """How the number of modes was chosen, as JSON; empty if it was given."""
 
     @property
     def record(self) -> Record:
@@ -44,7 +46,6 @@ class CaseSpec:
     @property
     def canonical(self) -> str:
         """JSON text, equal for equal cases however they were written; `from_canonical` reads it."""
-        truncation = self.parameters.truncation
         return canonical_json(
             {
                 "parameters": self.parameters.model_dump(),
@@ -56,7 +57,7 @@ class CaseSpec:
                 "events": self.events,
                 "energy": self.energy,
             }
-            | ({"truncation": truncation} if truncation else {})
+            | ({"truncation": self.truncation} if self.truncation else {})
         )
 
     @property
@@ -68,7 +69,7 @@ class CaseSpec:
     def from_canonical(cls, text: str) -> CaseSpec:
         data = json.loads(text)
         return cls(
-            parameters=Parameters(**data["parameters"]).with_truncation(data.get("truncation", "")),
+            parameters=Parameters(**data["parameters"]),
             t_end=data["t_end"],
             tol=data["tol"],
             stop_at=data["stop_at"],
@@ -76,6 +77,7 @@ class CaseSpec:
             poincare=data["poincare"] and Poincare(**data["poincare"]),
             events=data["events"] and tuple(data["events"]),
             energy=data["energy"],
+            truncation=data.get("truncation", ""),
         )
 
 

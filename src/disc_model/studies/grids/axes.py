@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from disc_model.parameters import Count, Real
+from disc_model.schema import Count, Real
 from disc_model.studies.faults import Faults, Strict, validated
 
 Value = float | int | str

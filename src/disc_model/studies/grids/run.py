@@ -16,8 +16,9 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, Variable, attributes
 from disc_model.errors import DiscModelError
-from disc_model.parameters import AUTO, Parameters
+from disc_model.parameters import Parameters
 from disc_model.studies.grids.quantities.table import Column, Quantity, compute
+from disc_model.truncation import AUTO, read_parameters
 
 log = logging.getLogger(__name__)
 POINT = "point"
@@ -60,7 +61,7 @@ def run_batch(text: str) -> xr.Dataset:
 def _made(values: Mapping[str, Any]) -> Parameters | DiscModelError:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
     try:
-        return Parameters(**values)
+        return read_parameters(values)[0]
     except DiscModelError as error:
         return error
 

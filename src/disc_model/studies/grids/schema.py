@@ -21,7 +21,8 @@ from pydantic import Field
 from disc_model.data.provenance import source_hash
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, Plot, Values
-from disc_model.parameters import AUTO, TRUNCATION_TOLERANCE, Count, Parameters, truncation_tolerance
+from disc_model.parameters import Parameters
+from disc_model.schema import Count
 from disc_model.studies.cases.schema import Name
 from disc_model.studies.cases.spec import canonical_json
 from disc_model.studies.faults import (
@@ -37,6 +38,7 @@ from disc_model.studies.faults import (
 )
 from disc_model.studies.grids.axes import Blocks, Value, parse_blocks, without_repeats
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
+from disc_model.truncation import AUTO, asked_modes
 
 VARIED = (
     "N", "Omega", "D_star", "c", "c_p", "k", "k_p", "E", "m",
@@ -263,17 +265,14 @@ def _quantity(raw: Mapping[str, Any], faults: Faults) -> Quantity | None:
 
 def _base(values: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Any], dict[str, Any]]:
     """The base values that are right, N and Omega need not be among them; and what leaves the modes to each point."""
-    automatic: dict[str, Any] = {}
-    fixed = dict(values)
+    fixed, tolerance, more = asked_modes(values)
+    automatic = {} if tolerance is None else {"n_diameters": AUTO, "truncation_tolerance": tolerance}
+    add_parameter_faults(more, lambda name: ("base", name), faults)
     try:
-        if values.get("n_diameters") == AUTO:
-            del fixed["n_diameters"]
-            tolerance = truncation_tolerance(fixed.pop("truncation_tolerance", TRUNCATION_TOLERANCE))
-            automatic = {"n_diameters": AUTO, "truncation_tolerance": tolerance}
         checked = Parameters(**{**ANY, **fixed}).model_dump()
         return {name: checked[name] for name in fixed}, automatic
     except ParameterError as error:
-        add_parameter_faults(error, lambda name: ("base", name), faults)
+        add_parameter_faults(error.faults, lambda name: ("base", name), faults)
         return {}, automatic
 
 
@@ -367,7 +366,7 @@ def _checked(
                 result[-1].append(getattr(Parameters(**{**ANY, **base, name: value}), name))
             except ParameterError as error:
                 good = False
-                add_parameter_faults(error, lambda _: path, faults)
+                add_parameter_faults(error.faults, lambda _: path, faults)
     return result if good else None
 
 
@@ -425,14 +424,12 @@ def _plots(raw: Mapping[Any, Any], quantity: Any, values: Values, faults: Faults
 def _batches(
     header: _Header, dims: Sequence[Dimension], quantity: Quantity, options: Strict, base: Mapping[str, Any]
 ) -> dict[str, str]:
-    # a job that chooses modes depends on how, which `Parameters` imports by name only
-    choice = ("disc_model.truncation",) if base.get("n_diameters") == AUTO else ()
     shared = {
         "quantity": header.quantity,
         "options": options.model_dump(),
         "base": base,
         "names": [name for dim in dims for name in dim.names],
-        "sources": source_hash(module_of(header.quantity), RUNNER, *choice),
+        "sources": source_hash(module_of(header.quantity), RUNNER),
     }
     texts = (canonical_json({**shared, "points": points}) for points in _chunks(dims, header.batch))
     return {_short_hash(text): text for text in texts}

@@ -11,7 +11,8 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import AfterValidator, Field, create_model, field_validator, model_validator
 
-from disc_model.parameters import Count, Parameters, Real
+from disc_model.parameters import Parameters
+from disc_model.schema import Count, Real
 from disc_model.studies.faults import Strict
 from disc_model.studies.grids.axes import MOST, Finite, Range
 

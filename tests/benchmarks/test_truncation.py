@@ -1,0 +1,72 @@
+"""What truncating the modes does to what a study asks for."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, plate_modes, simulate
+from disc_model.benchmarks import truncation
+from disc_model.benchmarks.truncation import truncation_study
+from disc_model.figures import benchmark as figures
+from disc_model.figures.style import save
+
+P = Parameters(N=385.0, Omega=15.1)
+
+
+def _compliance(n_diameters, n_circles, normalization="orthonormal"):
+    p = P.replace(n_diameters=n_diameters, n_circles=n_circles, normalization=normalization)
+    return float((plate_modes(p)["psi"] ** 2).sum())
+
+
+def test_compliance_against_an_impulse_has_no_limit():
+    """S2 grows on and on if circles are added too, and stays bounded without circles."""
+    square = [_compliance(4 * n, n) for n in (1, 2, 3, 4)]
+    growth = np.diff(square)
+    assert (growth > 0).all()
+    assert growth.min() > 0.5 * growth.max()
+    without = [_compliance(n, 0) for n in (10, 20, 30, 40)]
+    assert np.diff(without)[2] < 0.5 * np.diff(without)[1]
+
+
+def test_study_and_its_figure(tmp_path):
+    study = truncation_study((4, 6), (0, 1), ("as_published",), horizon=60.0, growth=False)
+    first = study["first_separation"].sel(normalization="as_published", circles=0)
+    assert float(first.sel(diameters=4)) == pytest.approx(54.4189, abs=1e-3)
+    assert float(first.sel(diameters=6)) == pytest.approx(53.51, abs=0.01)
+    assert (study["impact_share"].diff("diameters") < 0).all()
+    assert np.isnan(study["growth_rate"]).all()
+    save(figures.truncation(study), tmp_path / "truncation.png")
+    assert (tmp_path / "truncation.png").stat().st_size > 5000
+
+
+@pytest.mark.slow
+def test_growth_rate_converges_but_impacts_do_not():
+    study = truncation_study((4, 8, 12), (0, 1), ("orthonormal",), horizon=60.0).isel(normalization=0)
+    growth = study["growth_rate"].values
+    assert abs(growth[0, 2] - growth[0, 1]) < 0.5 * abs(growth[0, 1] - growth[0, 0])
+    impacts = study["separations"].values
+    assert impacts[0, 2] > 1.5 * impacts[0, 0]
+    assert np.isfinite(impacts).all()
+
+
+def test_the_study_of_truncation_is_made_of_its_parts(monkeypatch, tmp_path):
+    quick = {"N": 385.0, "Omega": 0.01}
+    apart = {"N": 700.0, "Omega": 50.0, "k": 0.0, "mu_s": 1.4, "mu_k": 0.2}
+    cases = {"growth": {"N": 200.0, "Omega": 20.0}, "range": quick, "separation": apart}
+    monkeypatch.setattr(truncation, "CASES", {"as_published": cases, "orthonormal": cases | {"separation": quick}})
+    monkeypatch.setattr(truncation, "WINDOW", (0.01, 0.03))
+    monkeypatch.setattr(truncation, "AFTER", 0.02)
+    monkeypatch.setattr(truncation, "RICH", (3, 1))
+    found = truncation_study((1,), (0,), horizon=1.0)
+    one = found.squeeze()
+    assert one["modes"].values.tolist() == [3, 3]
+    published = one.sel(normalization="as_published")
+    p = Parameters(**apart, n_diameters=1)
+    assert published["first_separation"] == simulate(p, 1.0, stop_at="first_separation").first_separation
+    assert published["impact_share"] == pytest.approx(1 / (1 + p.m * float(published["compliance"])))
+    assert published["separations"] >= 1 / 0.02
+    assert published["growth_rate"] == pytest.approx(0.018, abs=1e-3)
+    assert published["force_min"] == pytest.approx(385, abs=1e-6)  # at rest
+    assert np.isnan(one["first_separation"].sel(normalization="orthonormal"))
+    save(figures.truncation(found), tmp_path / "truncation.png")
