@@ -1,4 +1,4 @@
-"""What all schemas of this package share: the kinds of numbers."""
+"""What all schemas of this package share: the kinds of numbers, and the base of what files say."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 import numbers
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator
+from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 
 def number(value: Any) -> Any:
@@ -37,6 +37,12 @@ def whole(value: Any) -> Any:
 
 Real = Annotated[float, BeforeValidator(number)]
 Count = Annotated[int, BeforeValidator(whole)]
+
+
+class Strict(BaseModel):
+    """What a file says: immutable, unknown keys refused."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
 
 def shown(value: Any) -> str:

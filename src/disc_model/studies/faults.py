@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import yaml
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ValidationError
 
 from disc_model.errors import DiscModelError
 
@@ -30,12 +30,6 @@ class StudyError(DiscModelError, ValueError):
 
 def _rebuild_error(faults: tuple[str, ...], source: str) -> StudyError:
     return StudyError(*faults, source=source)
-
-
-class Strict(BaseModel):
-    """What a file says: immutable, unknown keys refused."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
 
 class Faults(list[str]):

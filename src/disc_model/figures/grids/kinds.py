@@ -8,8 +8,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Protocol
 from pydantic import Field
 
 from disc_model.parameters import Parameters
-from disc_model.schema import Real
-from disc_model.studies.faults import Strict
+from disc_model.schema import Real, Strict
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
 Values = Mapping[str, Sequence[tuple[Any, ...]]]

@@ -18,13 +18,12 @@ from disc_model.data.variables import SCALARS
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.figures.paper.catalogue import CATALOGUE, faults_of
 from disc_model.parameters import Parameters
-from disc_model.schema import Real
+from disc_model.schema import Real, Strict
 from disc_model.simulation.record import Poincare, Window
 from disc_model.studies.cases.spec import CaseSpec
 from disc_model.studies.faults import (
     Faults,
     Origin,
-    Strict,
     StudyError,
     add_parameter_faults,
     inherit,

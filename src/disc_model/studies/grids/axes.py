@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from disc_model.schema import Count, Real
-from disc_model.studies.faults import Faults, Strict, validated
+from disc_model.schema import Count, Real, Strict
+from disc_model.studies.faults import Faults, validated
 
 Value = float | int | str
 Blocks = tuple[tuple[Value, ...], ...]

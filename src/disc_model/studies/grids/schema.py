@@ -22,12 +22,11 @@ from disc_model.data.provenance import source_hash
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, Plot, Values
 from disc_model.parameters import Parameters
-from disc_model.schema import Count
+from disc_model.schema import Count, Strict
 from disc_model.studies.cases.schema import Name
 from disc_model.studies.cases.spec import canonical_json
 from disc_model.studies.faults import (
     Faults,
-    Strict,
     StudyError,
     add_parameter_faults,
     inherit,

@@ -12,8 +12,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 from pydantic import AfterValidator, Field, create_model, field_validator, model_validator
 
 from disc_model.parameters import Parameters
-from disc_model.schema import Count, Real
-from disc_model.studies.faults import Strict
+from disc_model.schema import Count, Real, Strict
 from disc_model.studies.grids.axes import MOST, Finite, Range
 
 Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False)]
