@@ -31,7 +31,8 @@ class Collector:
         self.samplers: Array = np.array([(*grid, t_end) for grid in grids], dtype=float).reshape(-1, 5)
         self.sampled = np.zeros(len(grids), np.int64)
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
-        per_step = sum(1 + math.ceil(min(longest_step / grid[1], grid[2])) for grid in grids)
+        longest = longest_step + sampling.SAME_INSTANT * t_end
+        per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
         self.capacity = BUFFER if grids else 0
         self.rows = np.zeros((self.capacity + per_step if grids else 0, len(sampling.ROW)))
         self.event_rows = np.zeros((BUFFER, len(machine.EVENT_ROW)))

@@ -34,6 +34,10 @@ def _fault(item: Any) -> str:
 class Window(_Spec):
     """Uniform samples at ``rate`` in [start, stop].
 
+    What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
+    before.  So it is 6e-14 of the time later, because the time of a switch is rounded.  A sample at the start of a run
+    shows the state from which the run starts.
+
     Parameters
     ----------
     start, stop : s, absolute times

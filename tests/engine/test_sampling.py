@@ -1,0 +1,63 @@
+"""Samples at the very instant of a switch: the side before it, whichever way the switch is reached."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, Record, Window, simulate
+from disc_model.engine import layout, sampling, stick_modes
+from disc_model.simulation.result import EVENT_KINDS, PHASES
+from tests.references import printed
+
+ULP = 2.0**-52
+#: Lands, sticks, is released and lets go again within 0.02 s.
+P = printed.P.model_copy(update={"N": 100.0})
+
+
+def _window(start: float) -> Window:
+    """One sample, at ``start``."""
+    return Window(start=start, stop=start + 1e-3, rate=999.0)
+
+
+def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
+    """Moved by less than rounding moves a switch it still does; moved by more it shows the side after."""
+    start = printed.lively("separation", p=P)
+    events = simulate(P, 0.02, initial_state=start).events
+    before = [start.phase, *events["phase"].iloc[:-1]]
+    apart = np.diff(events["time"], prepend=0.0, append=1.0) > 1e-6
+    seen = set()
+    for i in np.flatnonzero(apart[1:] & apart[:-1]):
+        t, kind, after = events["time"].iloc[i], events["kind"].iloc[i], events["phase"].iloc[i]
+        if after == before[i]:
+            continue
+        seen.add(kind)
+        offsets = (-1e-10, *(ULP * t * np.array([-200, -1, 0, 1, 200])), 1e-10)
+        windows = tuple(_window(t + offset) for offset in offsets)
+        samples = simulate(P, t + 2e-3, initial_state=start, record=Record(windows=windows)).samples
+        phases = [PHASES[int(sample["phase"][0])] for sample in samples]
+        assert phases == [before[i]] * 6 + [after], kind
+        # what is continuous on either side changes by its rate times 1e-10 s: P by less than 1e7 N/s
+        forces = [sample["P"][0] for sample in samples]
+        np.testing.assert_allclose(forces[1:6], forces[0], rtol=0, atol=1e-3)
+    assert seen == set(EVENT_KINDS) - {"slip_reversal"}, "a kind of switch that changes the phase is missing"
+
+
+@pytest.mark.parametrize("tol", [1e-10, 1e-14])
+@pytest.mark.parametrize("Omega", [0.5, 1.0, 2.0, 5.0])
+@pytest.mark.parametrize("variant", [{}, {"c": 1.0, "D_star": 1e-3}, {"n_diameters": 7, "n_circles": 1}], ids=str)
+def test_both_ways_through_stick_agree_on_the_release(
+    variant: dict[str, float], Omega: float, tol: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """From rest stick ends at mu_s N / (r_0 k_p Omega), 0.077 s at 1 rad/s, whatever the disc; both ways round it."""
+    p = Parameters(N=385, Omega=Omega, **variant)
+    release = p.mu_s * p.N / (p.r_0 * p.k_p * Omega)
+    record = Record(windows=(_window(release), _window(release * (1 + 1e-9))))
+    for way in ("coast", "series"):
+        if way == "series":
+            monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+        result = simulate(p, release + 2e-3, tol=tol, record=record)
+        # or the samples would show nothing
+        assert abs(result.events["time"].iloc[0] - release) < sampling.SAME_INSTANT * release
+        on, behind = (PHASES[int(samples["phase"][0])] for samples in result.samples)
+        assert (on, behind) == ("stick", "slip"), way
