@@ -1,0 +1,499 @@
+"""Reference runs of every contact law, in long double: a Taylor integrator with an event search of its own.
+
+Nothing here is shared with the engine.  The equations stand as in the model's text: rigid contact or a contact of
+compliance ``C`` (m/N), contact force ``vertical`` or ``normal``; quotients are quotients of series.  A switch is looked
+for by exclusion: on an interval of middle m and half width r a polynomial has no root if |p(m)| > sum |p_j(m)| r^j, and
+at most one if the same holds for its derivative; else the interval is halved.
+
+Regenerate the stored data (about ten minutes)::
+
+    python -m tests.references.taylor
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from math import comb
+
+import numpy as np
+
+from tests.references.stored import BASE, DATA, State, load
+
+LONG = np.longdouble
+ORDER = 32
+#: Size of the last terms of a step, relative to the motion: below the rounding of 64 bits.
+TRUNCATION = 1e-21
+
+
+@dataclass(frozen=True)
+class Law:
+    """Compliance of the contact, m/N (0: rigid), and the direction of its force."""
+
+    C: float = 0.0
+    force: str = "vertical"
+
+
+class Problem:
+    """A case's numbers in long double.  ``base`` has the names of `stored.BASE`; modes are l = 0, 1, ... in order."""
+
+    def __init__(self, N, Omega, omega, psi, law, base=BASE):
+        q = {name: LONG(value) for name, value in base.items()}
+        self.N, self.Omega, self.C, self.normal = LONG(N), LONG(Omega), LONG(law.C), law.force == "normal"
+        self.rigid = law.C == 0
+        for name in ("m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
+            setattr(self, name, q[name])
+        w = np.array([LONG(x) for x in omega])
+        self.s, self.l = np.array([LONG(x) for x in psi]), np.arange(len(w)).astype(LONG)
+        self.w2 = w * w
+        self.d = q["D_star"] / (q["E"] * q["h"] ** 3 / 12 / (1 - q["nu"] ** 2)) * self.w2
+        self.S2 = (self.s**2).sum()
+        self.w_0 = -self.N * (self.s**2 / self.w2).sum()
+        self.u_0 = self.w_0 - self.C * self.N
+
+    def equilibrium(self):
+        """The published start."""
+        zero = np.zeros(len(self.s), LONG)
+        o = LONG(0)
+        return State(o, "stick", 0, o, o, self.u_0, o, -self.N * self.s / self.w2, zero, zero, zero)
+
+
+# ------------------------------------------------------------------------------------- series
+def product(x, y, k):
+    """Coefficient k of the product of two series; y may have columns."""
+    return x[k::-1] @ y[: k + 1]
+
+
+class Step:
+    """Series of all quantities about one instant.
+
+    a, b, alpha, beta: (ORDER + 1, n); the others (ORDER + 1,): psi, f, u, v, and in contact V (vertical force on slider
+    and disc), R (normal force), B (slope); V and R are known up to ORDER - 1.
+    """
+
+    def __init__(self, q, phase, direction, state, order=ORDER):
+        n, K = len(q.s), order
+        self.q, self.phase, self.direction = q, phase, direction
+        for name in ("a", "b", "alpha", "beta"):
+            setattr(self, name, np.zeros((K + 1, n), LONG))
+            getattr(self, name)[0] = getattr(state, name)
+        for name in ("psi", "f", "u", "v", "V", "R", "T", "B", "F"):
+            setattr(self, name, np.zeros(K + 1, LONG))
+        self.fa, self.below = np.zeros((K + 1, n), LONG), np.zeros(K + 1, LONG)
+        self.psi[0], self.f[0] = state.psi, state.f
+        self.u[0], self.v[0] = state.u, state.u_velocity
+        for k in range(K):
+            self._order(k)
+        self._slider(K, None)
+
+    def _slider(self, k, fb):
+        """u, v and the slope of order k where they follow from the disc."""
+        q = self.q
+        self.B[k] = (q.l * q.s * self.b[k]).sum()
+        if q.rigid and self.phase != "separation":
+            fb = product(self.f, self.b, k) if fb is None else fb
+            self.u[k] = (q.s * self.a[k]).sum()
+            self.v[k] = (q.s * (self.alpha[k] + q.l * fb)).sum()
+
+    def _order(self, k):
+        q, f = self.q, self.f
+        fa, fb, fp, fq = (product(f, x, k) for x in (self.a, self.b, self.alpha, self.beta))
+        self.fa[k] = fa
+        self._slider(k, fb)
+        self.F[k] = q.k_p * self.psi[k] - q.c_p * f[k] + (q.c_p * q.Omega if k == 0 else 0)
+        free = -q.d * self.alpha[k] - q.w2 * self.a[k]
+        height = q.k * self.u[k] + q.c * self.v[k] + (q.N - q.k * q.u_0 if k == 0 else 0)
+        self._forces(k, free, fq, height)
+        j = k + 1
+        self.a[j] = (self.alpha[k] + q.l * fb) / j
+        self.b[j] = (self.beta[k] - q.l * fa) / j
+        self.alpha[j] = (free + q.l * fq - q.s * self.V[k]) / j
+        self.beta[j] = (-q.d * self.beta[k] - q.w2 * self.b[k] - q.l * fp) / j
+        self.psi[j] = ((q.Omega if k == 0 else 0) - f[k]) / j
+        if self.phase != "stick":
+            dragged = self.T[k] + (product(self.R, self.B, k) / q.r_0 if q.normal else 0)
+            f[j] = (self.F[k] - dragged / q.r_0) / q.m / j
+        if not q.rigid or self.phase == "separation":
+            self.u[j], self.v[j] = self.v[k] / j, (self.V[k] - height) / q.m / j
+
+    def _forces(self, k, free, fq, height):
+        """V, R and T of order k."""
+        q, s = self.q, self.direction
+        if self.phase == "separation":
+            return
+        if q.rigid:
+            A = (q.s * (free + 2 * q.l * fq - q.l**2 * product(self.f, self.fa, k))).sum()
+            top = height + q.m * A
+        else:
+            self.V[k] = ((q.s * self.a[k]).sum() - self.u[k]) / q.C
+        if self.phase == "stick":
+            if q.rigid:
+                self.V[k] = top / (1 + q.m * q.S2)
+            self._held(k)
+        elif q.normal:
+            slope = s * q.mu_k / q.r_0
+            if q.rigid:
+                # D R = top + B F
+                self.below[k] = product(self.B, self.B, k) / q.r_0**2 - slope * q.m * q.S2 * self.B[k]
+                self.below[k] += 1 + q.m * q.S2 if k == 0 else 0
+                top += product(self.B, self.F, k)
+            else:
+                self.below[k], top = -slope * self.B[k] + (1 if k == 0 else 0), self.V[k]
+            self._divide(k, top)
+            if q.rigid:
+                self.V[k] = self.R[k] - slope * product(self.R, self.B, k)
+            self.T[k] = s * q.mu_k * self.R[k]
+        else:
+            if q.rigid:
+                self.below[k] = s * q.mu_k / q.r_0 * self.B[k] + (1 + q.m * q.S2 if k == 0 else 0)
+                self._divide(k, top + product(self.B, self.F, k))
+                self.V[k] = self.R[k]
+            self.R[k], self.T[k] = self.V[k], s * q.mu_k * self.V[k]
+
+    def _divide(self, k, top):
+        """R of order k from (below R)_k = top; R_k is still zero."""
+        self.R[k] = (top - product(self.below, self.R, k)) / self.below[0]
+
+    def _held(self, k):
+        """R and T of stick."""
+        q = self.q
+        if not q.normal:
+            self.R[k], self.T[k] = self.V[k], q.r_0 * self.F[k]
+            return
+        self.below[k] = product(self.B, self.B, k) / q.r_0**2 + (1 if k == 0 else 0)
+        self._divide(k, self.V[k] + product(self.F, self.B, k))
+        self.T[k] = q.r_0 * self.F[k] - product(self.R, self.B, k) / q.r_0
+
+    # -- what a run needs
+    def length(self, truncation):
+        """Step at which the last terms are below ``truncation`` of the motion."""
+        q, h = self.q, LONG(np.inf)
+        groups = [(self.alpha, 0), (self.beta, 0), (self.f, abs(q.Omega)), (self.a, 0), (self.b, 0), (self.R, q.N)]
+        if not q.rigid or self.phase == "separation":
+            groups.append((self.v, 0))
+        modal = max(abs(x[0]).max() for x in (self.alpha, self.beta)) + q.N * (q.s / np.sqrt(q.w2)).max()
+        for x, usual in groups:
+            last = len(x) - (2 if x is self.R else 1)
+            scale = max(abs(x[0]).max(), usual)
+            if x is self.alpha or x is self.beta:
+                scale = modal
+            elif x is self.v:
+                scale = max(scale, q.N * (q.s**2 / np.sqrt(q.w2)).sum())
+            elif x is self.a or x is self.b:
+                scale = modal / np.sqrt(q.w2.max())
+            for k in (last, last - 1):
+                size = abs(x[k]).max()
+                if size > 0:
+                    h = min(h, (LONG(truncation) * scale / size) ** (LONG(1) / k))
+        return h
+
+    def at(self, h):
+        """State values at h as a dict."""
+        names = ["a", "b", "alpha", "beta", "psi", "f", "u", "v"]
+        return {name: horner(getattr(self, name), h) for name in names}
+
+    def energy_defects(self, h):
+        """Largest coefficient of both energy balances over the step, relative to the energy at its start.
+
+        Transverse: d/dt (disc + slider + C V^2/2) = V f B - dampings; in the plane: d/dt = Omega r_0^2 F - r_0 f (T + R
+        B / r_0) - c_p r_0^2 (Omega - f)^2.  Both hold as identities between series.
+        """
+        q, K = self.q, ORDER
+
+        def times(x, y):
+            return np.array([(x[k::-1] * y[: k + 1]).sum() for k in range(K)])
+
+        def square(x):
+            return sum((times(x[:, i], x[:, i]) for i in range(x.shape[1])), np.zeros(K, LONG))
+
+        def shifted(x, by):
+            out = x.copy()
+            out[0] -= by
+            return out
+
+        modal = [(self.alpha, self.beta), (self.a, self.b)]
+        kinetic = sum((square(x) for x in modal[0]), np.zeros(K, LONG)) / 2
+        elastic = sum((square(x * np.sqrt(q.w2)) for x in modal[1]), np.zeros(K, LONG)) / 2
+        height = shifted(self.u, q.u_0)
+        slider = (q.m * times(self.v, self.v) + q.k * times(height, height)) / 2 + q.N * height[:K]
+        stored = q.C * times(self.V, self.V) / 2
+        lost = sum((square(x * np.sqrt(q.d)) for x in modal[0]), np.zeros(K, LONG)) + q.c * times(self.v, self.v)
+        fB = times(self.f, self.B)
+        power = times(np.append(self.V[:K], 0), np.append(fB, 0)) - lost
+        transverse = kinetic + elastic + slider + stored
+        turning = shifted(-self.f, -q.Omega)
+        plane = q.r_0**2 * (q.m * times(self.f, self.f) + q.k_p * times(self.psi, self.psi)) / 2
+        supplied = q.Omega * q.r_0**2 * self.F[:K] - q.c_p * q.r_0**2 * times(turning, turning)
+        if self.phase == "slip":
+            dragged = np.append(self.T[:K], 0)
+            if q.normal:
+                dragged[:K] += times(self.R, self.B) / q.r_0
+            supplied = supplied - q.r_0 * times(self.f, dragged)
+        powers, k = h ** np.arange(1, K), np.arange(1, K).astype(LONG)
+        worst = []
+        for energy, gain in ((transverse, power), (plane, supplied)):
+            defect = abs(energy[1:] - gain[: K - 1] / k) * powers
+            worst.append(float(defect[: K - 2].max() / (abs(energy[0]) + q.N**2 * (q.s**2 / q.w2).sum())))
+        return worst
+
+
+def horner(c, t):
+    """Polynomial with coefficients along the first axis."""
+    value = c[-1]
+    for j in range(len(c) - 2, -1, -1):
+        value = value * t + c[j]
+    return value
+
+
+# ------------------------------------------------------------------------------------- roots
+@cache
+def _pascal(n):
+    return np.array([[LONG(comb(j, i)) if j >= i else LONG(0) for j in range(n)] for i in range(n)])
+
+
+def _about(c, m):
+    """Coefficients about m."""
+    powers = m ** np.arange(len(c))
+    with np.errstate(divide="ignore"):
+        return (_pascal(len(c)) @ (c * powers)) / powers
+
+
+def first_zero(c, h):
+    """Smallest t in (0, h] where the polynomial falls below zero, or None; it has to be positive just after 0."""
+    c = c * h ** np.arange(len(c))
+    if c[0] > abs(c[1:]).sum():
+        return None
+    if c[0] <= 0:
+        return LONG(0)
+    found = _search(c, LONG(0), LONG(1), 0)
+    return None if found is None else found * h
+
+
+def _search(c, left, right, depth):
+    m, r = (left + right) / 2, (right - left) / 2
+    here = _about(c, m)
+    width = r ** np.arange(len(c))
+    if abs(here[0]) > (abs(here[1:]) * width[1:]).sum():
+        return None if here[0] > 0 else left
+    slope = here[1:] * np.arange(1, len(c))
+    single = abs(slope[0]) > (abs(slope[1:]) * width[1:-1]).sum()
+    if single:
+        if horner(c, left) <= 0:
+            return left
+        return None if horner(c, right) > 0 else _bisect(c, left, right)
+    if depth > 60:
+        return right if horner(c, right) <= 0 else None
+    found = _search(c, left, m, depth + 1)
+    return found if found is not None else _search(c, m, right, depth + 1)
+
+
+def _bisect(c, left, right):
+    while True:
+        m = (left + right) / 2
+        if m in (left, right):
+            return m
+        if horner(c, m) > 0:
+            left = m
+        else:
+            right = m
+
+
+# ------------------------------------------------------------------------------------- the run
+class Reference:
+    """Event-driven run of a `Problem` from a `State`.
+
+    ``defect`` is the worst of `Step.energy_defects` if ``audit``; ``impacts`` has for each impact the change of the
+    whole energy and what the model says of it, J.
+    """
+
+    def __init__(self, q, state, truncation=TRUNCATION, audit=False):
+        self.q, self.truncation, self.audit = q, truncation, audit
+        self.events, self.defect, self.impacts = [], 0.0, []
+        self.phase, self.direction, self.start, self.local = (
+            state.phase,
+            int(state.direction),
+            LONG(state.time),
+            LONG(0),
+        )
+        for name in ("a", "b", "alpha", "beta"):
+            setattr(self, name, np.array([LONG(x) for x in getattr(state, name)]))
+        self.psi, self.f = LONG(state.psi), LONG(state.f)
+        self.u, self.v = LONG(state.u), LONG(state.u_velocity)
+        self.divide = {"f": 0, "gap": 0, "R": 0}
+
+    @property
+    def time(self):
+        return self.start + self.local
+
+    def state(self):
+        modal = [list(x) for x in (self.a, self.b, self.alpha, self.beta)]
+        return State(self.time, self.phase, self.direction, self.psi, self.f, self.u, self.v, *modal)
+
+    def disc(self):
+        """w, w' and the slope under the slider."""
+        q = self.q
+        B = (q.l * q.s * self.b).sum()
+        return (q.s * self.a).sum(), (q.s * self.alpha).sum() + self.f * B, B
+
+    def forces(self, phase, direction=0):
+        """R and T if the phase were this one."""
+        step = Step(self.q, phase, direction, self.state(), order=1)
+        return step.R[0], step.T[0]
+
+    def run(self, t_end):
+        """Advance to the absolute time `t_end`.  Returns self."""
+        end = LONG(t_end) - self.start
+        while self.local < end:
+            step = Step(self.q, self.phase, self.direction, self.state())
+            h = min(step.length(self.truncation), end - self.local)
+            found = [(t, kind) for kind, c in self._switches(step) if (t := first_zero(c, h)) is not None]
+            t, kind = min(found) if found else (h, None)
+            if self.audit and t > 0:
+                self.defect = max(self.defect, *step.energy_defects(t))
+            for name, value in step.at(t).items():
+                setattr(self, name, value)
+            self.local += t
+            self.divide = {"f": 0, "gap": 0, "R": 0}
+            if kind:
+                self._switch(kind)
+        return self
+
+    def _switches(self, step):
+        K = ORDER
+        if self.phase == "separation":
+            gap = step.u - step.a @ self.q.s
+            return [("reattachment", gap[self.divide["gap"] :])]
+        R = step.R[self.divide["R"] : K]
+        if self.phase == "slip":
+            return [("separation", R), ("rest", self.direction * step.f[self.divide["f"] :])]
+        held = [("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)]
+        return [*held, ("separation", R)]
+
+    # -- switching
+    def _enter(self, kind, phase, direction, **divide):
+        self.phase, self.direction = phase, direction
+        self.divide = {"f": 0, "gap": 0, "R": 0} | divide
+        P = LONG(0) if phase == "separation" else self.forces(phase, direction)[0]
+        self.events.append({"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P})
+
+    def _switch(self, kind):
+        if kind in ("stick_to_slip", "rest"):
+            self.f = LONG(0)
+            R, T = self.forces("stick")
+            if kind == "rest" and abs(T) < self.q.mu_s * R:
+                self._enter("slip_to_stick", "stick", 0)
+            else:
+                kind = "slip_reversal" if kind == "rest" else kind
+                self._enter(kind, "slip", 1 if T > 0 else -1, f=1)
+        elif kind == "separation":
+            self._separate(3 if self.q.rigid else 1)
+        else:
+            self._reattach()
+
+    def _separate(self, order):
+        if self.q.rigid:
+            self.u, self.v, _ = self.disc()
+        self._enter("separation", "separation", 0, gap=order)
+
+    def energy(self):
+        """Energy outside contact, J."""
+        q = self.q
+        disc = sum((x**2).sum() for x in (self.alpha, self.beta)) + sum((q.w2 * x**2).sum() for x in (self.a, self.b))
+        height = self.u - q.u_0
+        slider = q.m * self.v**2 + q.k * height**2 + 2 * q.N * height
+        return (disc + slider + q.r_0**2 * (q.m * self.f**2 + q.k_p * self.psi**2)) / 2
+
+    def _reattach(self):
+        q = self.q
+        if not q.rigid:
+            self._enter("reattachment", "slip", 1 if self.f > 0 else -1, R=1)
+            return
+        before, f = self.energy(), self.f
+        _, velocity, B = self.disc()
+        p = (velocity - self.v) / (q.S2 + 1 / q.m + (B**2 / (q.m * q.r_0**2) if q.normal else 0))
+        self.alpha = self.alpha - q.s * p
+        if q.normal:
+            self.f = self.f - p * B / (q.m * q.r_0**2)
+        self.u, self.v, _ = self.disc()
+        lost = -p * p / 2 * (q.S2 + 1 / q.m + (B**2 / (q.m * q.r_0**2) if q.normal else 0))
+        self.impacts.append((self.energy() - before, lost if q.normal else lost + p * f * B))
+        if self.f == 0:
+            raise RuntimeError("impact at rest: not met in the stored cases")
+        self._enter("reattachment", "slip", 1 if self.f > 0 else -1)
+        if self.events[-1]["P"] < 0:
+            self._separate(2)
+
+
+# ------------------------------------------------------------------------------------- stored data
+LAWS = {"compliant": ("vertical", True), "normal": ("normal", False), "compliant_normal": ("normal", True)}
+#: m/N; about the residual flexibility of the nine published modes.
+COMPLIANCE = 2.656e-7
+#: s; violent motion is chaotic (neighbours part by a factor of e in 3 ms): it is stored in pieces, each from the
+#: state, rounded to doubles, in which the one before ended.
+PIECE = 0.01
+
+
+def problem(name, N=385.0, Omega=15.1):
+    """The published nine modes under one of `LAWS`."""
+    force, compliant = LAWS[name]
+    modes = load("C")["modes"]
+    return Problem(N, Omega, modes["omega"], modes["psi"], Law(COMPLIANCE if compliant else 0.0, force))
+
+
+def violent_start(scale):
+    """The stored state C, its distance from equilibrium times ``scale``, the slider 10 micrometres above the disc."""
+    given, modes = load("C")["start"], load("C")["modes"]
+    s = np.array(modes["psi"])
+    rest = -385.0 * s / np.array(modes["omega"]) ** 2
+    a, b, alpha, beta = (scale * np.array(getattr(given, name)) for name in ("a", "b", "alpha", "beta"))
+    a, f = a + (1 - scale) * rest, float(given.f)
+    velocity = float(s @ alpha + f * (np.arange(len(s)) * s) @ b)
+    modal = [x.tolist() for x in (a, b, alpha, beta)]
+    return State(0.0, "separation", 0, float(given.psi), f, float(s @ a) + 1e-5, velocity, *modal)
+
+
+def _rounded(state):
+    """The state with every number a double."""
+    values = {k: [float(x) for x in v] if isinstance(v, list) else v for k, v in vars(state).items()}
+    return State(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
+
+
+def _stored_run(q, start, t_end):
+    """A run as it is stored, and its last state."""
+    run = Reference(q, start or q.equilibrium(), audit=True).run(t_end)
+    check = Reference(q, start or q.equilibrium(), truncation=TRUNCATION / 1e3).run(t_end)
+    kinds = [e["kind"] for e in run.events]
+    if kinds != [e["kind"] for e in check.events]:
+        raise RuntimeError("two long-double runs disagree")
+    differences = [abs(x["time"] - y["time"]) for x, y in zip(run.events, check.events, strict=True)]
+    data = {
+        "start": None if start is None else vars(start),
+        "t_end": t_end,
+        "largest_difference_to_check_run": float(max(differences, default=0)),
+        "largest_energy_defect": run.defect,
+        "kinds": kinds,
+        "P": [float(e["P"]) for e in run.events],
+        "times": [np.format_float_positional(e["time"], precision=20, unique=False) for e in run.events],
+    }
+    return data, _rounded(run.state())
+
+
+def regenerate():
+    """Compute and store data/contact_<law>.json: a first second and half a second of violent motion of each law."""
+    for name in LAWS:
+        q = problem(name)
+        parameters = {"N": float(q.N), "Omega": float(q.Omega)} | BASE
+        parameters |= {"contact_compliance": float(q.C), "contact_force": LAWS[name][0]}
+        runs = [_stored_run(q, None, 1.0)[0]]
+        start = violent_start(1.0 if q.C else 1.3)
+        for i in range(round(0.5 / PIECE)):
+            run, start = _stored_run(q, start, (i + 1) * PIECE)
+            runs.append(run)
+        (DATA / f"contact_{name}.json").write_text(json.dumps({"parameters": parameters, "runs": runs}) + "\n")
+        worst = [max(run[f"largest_{x}"] for run in runs) for x in ("difference_to_check_run", "energy_defect")]
+        print(name, [sum(len(r["kinds"]) for r in runs[i:j]) for i, j in ((0, 1), (1, None))], *worst, flush=True)
+
+
+if __name__ == "__main__":
+    regenerate()
