@@ -20,6 +20,7 @@ _HOMES = {
     "plate_modes": "plate",
     "slider_at_rest_frequencies": "plate",
     "choose_modes": "truncation",
+    "residual_flexibility": "flexibility",
     "simulate": "simulation.api",
     "floquet": "stability.cycle",
     "steady_sliding": "stability.sliding",
@@ -52,6 +53,7 @@ if TYPE_CHECKING:
         Stalled,
         StepLimit,
     )
+    from disc_model.flexibility import residual_flexibility
     from disc_model.parameters import Parameters
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
     from disc_model.simulation.api import simulate

@@ -143,7 +143,8 @@ def run(
 @app.command()
 @_with_case_options(N="0", Omega="0")
 def modes(*, case: dict[str, str]) -> None:
-    """Print the disc's modes and the frequencies of disc and slider with the slider at rest."""
+    """Print the disc's modes, its give under the slider, and the frequencies of both with the slider at rest."""
+    from disc_model.flexibility import residual_flexibility
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
     from disc_model.truncation import read_parameters
 
@@ -155,6 +156,14 @@ def modes(*, case: dict[str, str]) -> None:
         omega, psi = float(row.omega), float(row.psi)  # type: ignore[arg-type]
         numbers = (f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6g}")
         table.add_row(str(row.circles), str(row.diameters), *numbers)
+    flexibility = residual_flexibility(parameters)
+    give = Table(title="Static give of the disc under the slider")
+    for heading in ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)"):
+        give.add_column(heading, justify="right")
+    give.add_row(
+        f"{flexibility.total:.7g}", f"{flexibility.remainder:.1e}", f"{flexibility.kept:.7g}",
+        f"{flexibility.residual:.7g}",
+    )  # fmt: skip
     shifted = Table(title="Disc and slider at rest")
     for heading in ("lambda (rad/s)", "f (Hz)"):
         shifted.add_column(heading, justify="right")
@@ -162,6 +171,7 @@ def modes(*, case: dict[str, str]) -> None:
         shifted.add_row(f"{value:.3f}", f"{value / math.tau:.3f}")
     console = Console()
     console.print(table)
+    console.print(give)
     console.print(shifted)
 
 

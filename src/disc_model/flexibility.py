@@ -1,0 +1,194 @@
+"""Static give of the disc under the slider: of the whole plate, of the modes kept, and of those left out.
+
+Under a unit point load at r_0 the clamped-free plate gives way by the sum of psi^2 / omega^2 over all its modes.  That
+is a static problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L = d^2/dr^2 + 1/r d/dr - l^2/r^2, solved in
+closed form here.  What the modes kept do not give is the residual flexibility: ``contact_compliance="residual"`` puts
+it back.
+
+For l >= 2 a harmonic is the one of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)), and what the two edges add: four
+functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is largest.  Lengths are in outer radii.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.plate import mode_arrays
+
+if TYPE_CHECKING:
+    from disc_model.parameters import Parameters
+
+Array = NDArray[np.float64]
+
+HIGHEST_HARMONIC = 4096
+"""Harmonics summed one by one; those beyond are as in the unbounded plate unless the slider runs on the very edge."""
+
+ROUNDING = 1e-13
+"""How good the harmonics' closed forms are, relative: their functions are alike at large l."""
+
+MODAL_SUM = (60, 20)
+"""Diameters and circles of the modal sum that stands for all modes where the modes are ``as_published``."""
+
+
+@dataclass(frozen=True)
+class Flexibility:
+    """Static give of the disc's point under the slider, m/N.
+
+    total : of all modes
+    kept : of the modes of the case
+    remainder : how far ``total`` may be off: a bound for ``orthonormal``, for ``as_published`` an estimate
+    """
+
+    total: float
+    kept: float
+    remainder: float
+
+    @property
+    def residual(self) -> float:
+        """Of the modes left out, total - kept, m/N."""
+        return self.total - self.kept
+
+
+def residual_flexibility(p: Parameters) -> Flexibility:
+    """Static give of all modes and of those kept; what is left is ``contact_compliance="residual"``.
+
+    For ``orthonormal`` modes all of them together are the static deflection of the plate under a point load: exact.
+    Modes ``as_published`` are no expansion of a load, so that only their sum up to `MODAL_SUM` can be taken; its
+    remainder is a third of what the upper half of the sum gives, because terms fall at least as the third power.
+
+    Raises
+    ------
+    ModeError
+        If the modes cannot be computed.
+    """
+    kept = _modal_sum(p)
+    if p.normalization == "orthonormal":
+        value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)
+        return Flexibility(value * p.b**2 / p.D, kept, bound * p.b**2 / p.D)
+    diameters, circles = MODAL_SUM
+    whole = _modal_sum(p.replace(n_diameters=diameters, n_circles=circles))
+    half = _modal_sum(p.replace(n_diameters=diameters // 2, n_circles=circles // 2))
+    return Flexibility(whole, kept, (whole - half) / 3)
+
+
+def _modal_sum(p: Parameters) -> float:
+    """Sum of psi^2 / omega^2 over the modes of a case, m/N."""
+    modes = mode_arrays(p)
+    return float(np.sum((modes.psi / modes.omega) ** 2))
+
+
+def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
+    """Deflection at the load of the harmonics `l`, in units of b^2 / D: radii `inner` and 1, load at `x`.
+
+    The plate's point gives way by the harmonic l = 0 over 2 pi plus the sum of the others over pi.  Shape of `l`.
+    """
+    value = np.empty(l.shape)
+    for order, particular in ((0, _axisymmetric), (1, _first)):
+        value[l == order] = _with_edges(order, particular(x), inner, x, nu)
+    high = l[l >= 2]
+    value[l >= 2] = _high_harmonics(high, inner, x, nu) if high.size else 0.0
+    return value
+
+
+@lru_cache(maxsize=256)
+def _point_load(inner: float, x: float, nu: float) -> tuple[float, float]:
+    """Deflection under a point load in units of b^2 / D, and a bound on what is neglected."""
+    last = HIGHEST_HARMONIC
+    harmonics = harmonic_flexibility(np.arange(last + 1), inner, x, nu)
+    # sum of 1/(l (l^2 - 1)) over l > L is 1/(2 L (L + 1))
+    tail = x**2 / (8 * last * (last + 1))
+    # the edge acts on the last harmonic by this factor, and on higher ones by less
+    factor = harmonics[-1] / (x**2 / (4 * last * (last**2 - 1.0)))
+    total = harmonics[0] / 2 + np.sum(harmonics[:0:-1]) + factor * tail
+    return float(total / np.pi), float(abs(factor - 1) * tail / np.pi + ROUNDING * total)
+
+
+def _moment(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
+    """Radial moment at r = 1 of functions with the derivatives `w` (4, ...) there."""
+    return w[2] + nu * (w[1] - np.square(l) * w[0])
+
+
+def _shear(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
+    """Kirchhoff shear at r = 1, likewise."""
+    square = np.square(l)
+    return w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
+
+
+def _power(n: Array, r: float) -> Array:
+    """Derivatives 0 to 3 of r^n over r^n: (4, ...)."""
+    return np.stack([np.ones_like(n), n / r, n * (n - 1) / r**2, n * (n - 1) * (n - 2) / r**3])
+
+
+def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
+    """Harmonics l >= 2 (n,): the unbounded plate's, and what the edges add."""
+    n = l.astype(float)
+    powers = np.stack([n, n + 2, -n, 2 - n])  # (4, n)
+    # r^n over its value at the edge where it is largest: 1 for the first two, inner for the others
+    largest = np.array([1.0, 1.0, inner, inner])[:, None]
+    clamped, free, here = ((r / largest) ** powers for r in (inner, 1.0, x))
+    at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
+    matrix = np.stack(
+        [
+            clamped * at_inner[0],
+            clamped * at_inner[1] * inner / n,
+            free * _moment(l, nu, at_outer) / n**2,
+            free * _shear(l, nu, at_outer) / n**3,
+        ]
+    )
+    # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside r and s change places
+    near, far = (inner / x) ** n / (8 * n), x**n / (8 * n)
+    inside = [near * x**2 / (n - 1), -near * inner**2 / (n + 1)]
+    outside = [far / (n - 1), -far * x**2 / (n + 1)]
+    right = np.stack(
+        [
+            inside[0] + inside[1],
+            (inside[0] * n + inside[1] * (n + 2)) / n,
+            (outside[0] * _moment(l, nu, _power(2 - n, 1.0)) + outside[1] * _moment(l, nu, _power(-n, 1.0))) / n**2,
+            (outside[0] * _shear(l, nu, _power(2 - n, 1.0)) + outside[1] * _shear(l, nu, _power(-n, 1.0))) / n**3,
+        ]
+    )
+    edges = np.linalg.solve(np.moveaxis(matrix, -1, 0), -right.T[..., None])[..., 0]
+    return x**2 / (4 * n * (n**2 - 1)) + np.sum(edges.T * here, axis=0)
+
+
+def _axisymmetric(s: float) -> Array:
+    """Derivatives 0 to 3 at r = 1 of [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, which is flat up to the load: l = 0."""
+    log = -np.log(s)
+    values = (1 + s**2) * log - 1 + s**2, 2 * log + (1 + s**2) - 2, 2 * log + 3 - s**2 - 2, 2 + 2 * s**2
+    return np.array(values) / 4
+
+
+def _first(s: float) -> Array:
+    """As `_axisymmetric` for l = 1: r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
+    log = -np.log(s)
+    return np.array(
+        [
+            1 / (16 * s) - s * log / 4 - s**3 / 16,
+            3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16,
+            6 / (16 * s) - s / 4 - 2 * s**3 / 16,
+            6 / (16 * s) + s / 4 + 6 * s**3 / 16,
+        ]
+    )
+
+
+def _logarithmic(l: int, r: float) -> Array:
+    """Functions of l = 0 (1, ln r, r^2, r^2 ln r) or l = 1 (r, 1/r, r^3, r ln r), derivatives 0 to 3 at r: (4, 4)."""
+    log = np.log(r)
+    if l == 0:
+        last = [r**2 * log, 2 * r * log + r, 2 * log + 3, 2 / r]
+        return np.array([[1, 0, 0, 0], [log, 1 / r, -1 / r**2, 2 / r**3], [r**2, 2 * r, 2, 0], last]).T
+    last = [r * log, log + 1, 1 / r, -1 / r**2]
+    return np.array([[r, 1, 0, 0], [1 / r, -1 / r**2, 2 / r**3, -6 / r**4], [r**3, 3 * r**2, 6 * r, 6], last]).T
+
+
+def _with_edges(l: int, particular: Array, inner: float, x: float, nu: float) -> float:
+    """Harmonic l = 0 or 1 at the load, where the particular solution is zero; `particular` is at r = 1."""
+    clamped, free = _logarithmic(l, inner), _logarithmic(l, 1.0)
+    matrix = np.array([clamped[0], clamped[1], _moment(l, nu, free), _shear(l, nu, free)])
+    right = -np.array([0.0, 0.0, _moment(l, nu, particular), _shear(l, nu, particular)])
+    return float(np.linalg.solve(matrix, right) @ _logarithmic(l, x)[0])

@@ -1,0 +1,121 @@
+"""Residual flexibility against modal sums and against collocation, which shares neither code nor functions with it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.polynomial import chebyshev
+
+from disc_model import Parameters, plate_modes
+from disc_model import flexibility as module
+from disc_model.flexibility import harmonic_flexibility, residual_flexibility
+
+P = Parameters(N=385, Omega=15.1, normalization="orthonormal")
+
+
+def modal_sum(p: Parameters) -> float:
+    modes = plate_modes(p)
+    return float(((modes.psi / modes.omega) ** 2).sum())
+
+
+@pytest.mark.parametrize(
+    ("diameters", "circles", "known"),
+    [(20, 5, 5.5833e-6), (40, 10, 5.5927e-6), pytest.param(60, 20, 5.5945e-6, marks=pytest.mark.slow)],
+)
+def test_modal_sums_approach_the_total_from_below(diameters: int, circles: int, known: float) -> None:
+    p = P.replace(n_diameters=diameters, n_circles=circles)
+    value, flexibility = modal_sum(p), residual_flexibility(p)
+    assert value == pytest.approx(known, abs=5.1e-11)
+    assert flexibility.kept == pytest.approx(value, rel=1e-14)
+    assert 0 < flexibility.residual < 0.003 * flexibility.total
+
+
+def test_each_harmonic_is_the_sum_over_its_circles() -> None:
+    """A sum up to c circles leaves a rest of c^-3, extrapolated here from 10 and 20 circles."""
+    l, sums = np.arange(5), []
+    for circles in (10, 20):
+        modes = plate_modes(P.replace(n_circles=circles))
+        sums.append(((modes.psi / modes.omega) ** 2).groupby(modes.diameters).sum().to_numpy())
+    limit = sums[1] + (sums[1] - sums[0]) / (2**3 - 1)
+    own = harmonic_flexibility(l, P.a / P.b, P.r_0 / P.b, P.nu) * P.b**2 / P.D / np.where(l == 0, 2 * np.pi, np.pi)
+    # the terms of the sum swing with the mode's amplitude at r_0: the extrapolation wins one digit, not more
+    np.testing.assert_allclose(own, limit, rtol=1e-5)
+
+
+def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -> float:
+    """Deflection of the harmonic at a unit load by Chebyshev collocation on both sides of it, in units of b^2 / D."""
+    matrix, right, size = [], [], degree + 1
+
+    def derivatives(low: float, high: float, r: np.ndarray) -> np.ndarray:
+        """(5, len(r), size): the polynomials' derivatives 0 to 4 on [low, high] at r."""
+        basis, out = np.eye(size), []
+        for k in range(5):
+            columns = chebyshev.chebder(basis, k) if k else basis
+            out.append(chebyshev.chebval((2 * r - low - high) / (high - low), columns).T * (2 / (high - low)) ** k)
+        return np.array(out)
+
+    def add(sides: list, value: float) -> None:
+        matrix.append(np.concatenate(sides))
+        right.append(value)
+
+    zero = np.zeros(size)
+    for i, (low, high) in enumerate(((inner, load), (load, 1.0))):
+        nodes = (low + high) / 2 + (high - low) / 2 * np.cos(np.pi * (np.arange(size - 4) + 0.5) / (size - 4))
+        d, r = derivatives(low, high, nodes), nodes[:, None]
+        plate = d[4] + 2 / r * d[3] - (1 + 2 * l**2) / r**2 * d[2] + (1 + 2 * l**2) / r**3 * d[1]
+        plate += (l**4 - 4 * l**2) / r**4 * d[0]
+        for row in plate:
+            add([row, zero] if i == 0 else [zero, row], 0.0)
+    clamp, free = derivatives(inner, load, np.array([inner]))[:, 0], derivatives(load, 1.0, np.array([1.0]))[:, 0]
+    left, after = (derivatives(*ends, np.array([load]))[:, 0] for ends in ((inner, load), (load, 1.0)))
+    add([clamp[0], zero], 0.0)
+    add([clamp[1], zero], 0.0)
+    add([zero, free[2] + nu * (free[1] - l**2 * free[0])], 0.0)
+    slope_of_laplacian = free[3] + free[2] - (1 + l**2) * free[1] + 2 * l**2 * free[0]
+    add([zero, slope_of_laplacian - (1 - nu) * l**2 * (free[1] - free[0])], 0.0)
+    for k in range(3):
+        add([-left[k], after[k]], 0.0)
+    add([-left[3], after[3]], 1 / load)
+    scale = np.abs(matrix).max(axis=1)
+    solution = np.linalg.solve(np.array(matrix) / scale[:, None], np.array(right) / scale)
+    return float(after[0] @ solution[size:])
+
+
+@pytest.mark.parametrize("l", [0, 1, 2, 3, 7, 12])
+@pytest.mark.parametrize(
+    ("inner", "load", "nu"), [(0.044 / 0.12, 0.1 / 0.12, 0.211), (0.2, 0.97, -0.4), (0.6, 0.7, 0.45)]
+)
+def test_harmonics_against_collocation(l: int, inner: float, load: float, nu: float) -> None:
+    # fourth derivatives of degree 36: about 36^4 roundings
+    own = harmonic_flexibility(np.array([l]), inner, load, nu)[0]
+    assert own == pytest.approx(collocated(l, inner, load, nu), rel=1e-9)
+
+
+@pytest.mark.parametrize("r_0", [0.0441, 0.1, 0.119, 0.12])
+def test_the_remainder_bounds_what_more_harmonics_change(r_0: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On the very edge higher harmonics differ from the unbounded plate's by a factor: the hardest place."""
+    p = P.replace(r_0=r_0)
+    values = {}
+    for last in (256, 8192):
+        monkeypatch.setattr(module, "HIGHEST_HARMONIC", last)
+        module._point_load.cache_clear()
+        values[last] = residual_flexibility(p)
+    module._point_load.cache_clear()
+    assert abs(values[256].total - values[8192].total) <= values[256].remainder
+    assert values[8192].remainder < 1e-6 * values[8192].total
+
+
+@pytest.mark.slow
+def test_published_modes_have_a_modal_sum() -> None:
+    p = P.replace(normalization="as_published")
+    flexibility = residual_flexibility(p)
+    assert flexibility.total == pytest.approx(3.0996e-5, abs=5.1e-10)
+    assert flexibility.residual == pytest.approx(2.658e-7, abs=5.1e-11)
+    assert 0 < flexibility.remainder < 0.05 * flexibility.residual
+    assert residual_flexibility(p.replace(n_diameters=60, n_circles=20)).residual == 0
+
+
+def test_residual_flexibility_of_published_modes_falls_as_modes_are_added() -> None:
+    p = P.replace(normalization="as_published")
+    rests = [residual_flexibility(p.replace(n_diameters=n)).residual for n in (2, 4, 8)]
+    assert rests[0] > rests[1] > rests[2] > 0
