@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
 
-.PHONY: report orthonormal gallery env reproduce gc test test-long coverage test-study lint format bench lock clean
+.PHONY: report orthonormal gallery docs linkcheck drawings env reproduce gc test test-long coverage test-study lint format bench lock clean
 
 env: $(STAMP)
 
@@ -37,6 +37,22 @@ orthonormal: reproduce
 # The small pictures of docs/ and of the README, from finished figures.
 gallery: env
 	$(BIN)/python workflow/scripts/make_gallery.py
+
+$(VENV)/.docs: requirements-docs.lock $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-docs.lock
+	touch $@
+
+# The pages of docs/ and the reference as a site, in docs/_build/html; a warning, as of a link that leads nowhere, ends it.
+docs: $(VENV)/.docs
+	$(BIN)/sphinx-build -q -W --keep-going -b html docs docs/_build/html
+
+# Links to the outside, which need the network.
+linkcheck: $(VENV)/.docs
+	$(BIN)/sphinx-build -q -W --keep-going -b linkcheck docs docs/_build/linkcheck
+
+# The pictures that docs/ draws by itself.
+drawings: env
+	for script in docs/drawings/*.py; do $(BIN)/python $$script || exit 1; done
 
 test: env
 	$(BIN)/pytest -m "not slow and not workflow"
@@ -82,8 +98,9 @@ LOCK := $(BIN)/uv pip compile --quiet --upgrade --universal --fork-strategy fewe
 lock: env
 	$(LOCK) --output-file requirements.lock requirements.in
 	$(LOCK) --output-file requirements-bench.lock requirements-bench.in
+	$(LOCK) --output-file requirements-docs.lock requirements-docs.in
 
 # Results stay, and so does .snakemake, the record of how they were made.
 clean:
-	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks build dist
+	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks build dist docs/_build
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -42,13 +42,15 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
 
     Returns
     -------
-    DataFrame, a fresh one at every call, with a row for each (circles, diameters), ordered by circles, then
-    diameters:
-        circles, diameters : int, number of nodal circles and nodal diameters
-        omega : rad/s, natural frequency
-        psi : kg^-1/2, Psi = R(r_0)/sqrt(rho h b^2), times sqrt(2) if diameters >= 1 (a pair of modes then has
-        it)
+    DataFrame
+        A fresh one at every call, with a row for each (circles, diameters), ordered by circles, then diameters:
 
+        - circles, diameters : int, number of nodal circles and nodal diameters
+        - omega : rad/s, natural frequency
+        - psi : kg^-1/2, Psi = R(r_0)/sqrt(rho h b^2), times sqrt(2) if diameters >= 1 (a pair of modes then has it)
+
+    Notes
+    -----
     R is scaled as `p.normalization` says: `as_published` gives the coefficient of J_l the value 1;
     `orthonormal` is Eq. (17), (2 pi/b^2) * integral of R^2 r dr from a to b = 1.
 

@@ -1,0 +1,99 @@
+"""How the pages of docs/ become a site: `make docs`."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import shutil
+from pathlib import Path
+
+from pydantic import BaseModel
+
+import disc_model
+
+project = "disc_model"
+author = "The disc_model authors"
+copyright = author
+release = disc_model.__version__
+
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "numpydoc"]
+exclude_patterns = ["_build", "drawings/*.py", "jupyter_execute"]
+root_doc = "index"
+
+# ---- pages
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 3
+nb_execution_mode = "cache"
+nb_execution_timeout = 120
+nb_execution_raise_on_error = True
+nb_execution_show_tb = True
+
+# ---- docstrings: a single backtick links where there is something to link to
+default_role = "py:obj"
+autodoc_typehints_format = "short"
+autodoc_member_order = "bysource"
+numpydoc_show_class_members = False
+numpydoc_attributes_as_param_list = True
+python_maximum_signature_line_length = 80
+
+# ---- the look
+html_theme = "furo"
+html_title = f"disc_model {release}"
+html_show_sphinx = False
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_theme_options = {"navigation_with_keys": True}
+# formulas are set by a MathJax of the site's own: it works without a network
+mathjax_path = "mathjax/tex-chtml.js"
+
+# ---- `make linkcheck`
+linkcheck_timeout = 20
+linkcheck_ignore = [r"https?://(dx\.)?doi\.org/"]  # publishers turn away what is no browser
+
+
+def short_signature(app, what, name, thing, options, signature, returns):
+    """Of a pydantic model: names and defaults; its rules stand in the list of parameters."""
+    if what == "class" and issubclass(thing, BaseModel):
+        fields = thing.model_fields.items()
+        return f"({', '.join(n if f.is_required() else f'{n}={f.default!r}' for n, f in fields)})", returns
+    return None
+
+
+def words_below_names(app, what, name, thing, options, lines):
+    """Docstrings say "name : what it is", where numpydoc expects a type: put the words below the name."""
+    lines[:] = "\n".join(re.sub(r"^(\w[\w, ]*) : (.*)$", r"\1\n    \2", line) for line in lines).split("\n")
+
+
+def fields_as_parameters(app, what, name, thing, options, lines):
+    """List the fields of `Parameters`, whose words stand beside the fields, under Parameters."""
+    if thing is disc_model.Parameters:
+        lines.append("")
+        for field, info in thing.model_fields.items():
+            unit = thing.unit(field)
+            limits = [
+                f"{sign} {getattr(rule, key):g}" for rule in info.metadata for key, sign in SIGNS if hasattr(rule, key)
+            ]
+            words = [info.description, unit if unit not in ("", "1") else "", *limits]
+            lines += [f":param {field}: {', '.join(word for word in words if word)}"]
+
+
+SIGNS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
+
+
+def copy_mathjax(app, error):
+    """Put what pages load of MathJax into the finished site."""
+    if error is None and app.builder.format == "html":
+        source = Path(importlib.util.find_spec("sphinx-mathjax-offline").origin).parent / "static" / "mathjax"
+        target = Path(app.outdir) / "_static" / "mathjax"
+        target.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(source / "tex-chtml.js", target)
+        shutil.copytree(
+            source / "output" / "chtml" / "fonts", target / "output" / "chtml" / "fonts", dirs_exist_ok=True
+        )
+
+
+def setup(app):
+    app.connect("autodoc-process-signature", short_signature)
+    app.connect("autodoc-process-docstring", words_below_names, priority=400)  # before numpydoc
+    app.connect("autodoc-process-docstring", fields_as_parameters)
+    app.connect("build-finished", copy_mathjax)

@@ -1,0 +1,44 @@
+"""The examples of docs/ and of the README do what they say, and everything public has one."""
+
+from __future__ import annotations
+
+import doctest
+import re
+from pathlib import Path
+
+import pytest
+
+import disc_model
+
+ROOT = Path(__file__).parents[2]
+PAGES = sorted({*(ROOT / "docs").glob("*.md"), ROOT / "README.md"})
+BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
+WITH_EXAMPLES = [page for page in PAGES if ">>>" in page.read_text(encoding="utf-8")]
+
+
+def blocks(page):
+    return BLOCK.findall(page.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("page", WITH_EXAMPLES, ids=lambda page: page.name)
+def test_examples_print_what_they_say(page):
+    """A page is one session."""
+    test = doctest.DocTestParser().get_doctest("\n".join(blocks(page)), {}, page.name, str(page), 0)
+    outcome = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE).run(test)
+    assert outcome.attempted > 0
+    assert outcome.failed == 0
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_example_is_in_a_block_that_is_run(page):
+    text = page.read_text(encoding="utf-8")
+    assert text.count(">>> ") == sum(block.count(">>> ") for block in blocks(page))
+
+
+def test_everything_public_is_in_the_reference_with_an_example():
+    text = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"^\.\. auto\w+:: disc_model\.(\w+)$", text, re.M))
+    assert listed == set(disc_model.__all__) - {"__version__"}
+    # each section, whatever it lists, shows its use
+    for section in text.split("\n## ")[1:]:
+        assert ">>> " in section
