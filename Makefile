@@ -62,9 +62,9 @@ test-long: $(VENV)/.bench
 	$(BIN)/pytest
 
 # Lines and branches of everything, the engine included: without compilation its kernels are Python, a thousand times
-# slower, so that tests/uncompiled.txt says which tests can be afforded.
+# slower, so that tests marked `compiled` are left out.
 coverage: env
-	NUMBA_DISABLE_JIT=1 $(BIN)/pytest @tests/uncompiled.txt -m "not slow and not workflow" --cov --cov-fail-under=95 \
+	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -m "not slow and not workflow and not compiled" --cov --cov-fail-under=95 \
 	  --durations=5
 
 # The whole pipeline on a study of a few seconds.

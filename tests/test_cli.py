@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import io
 import os
 import pty
 import subprocess
 import sys
 from pathlib import Path
 
+import matplotlib.pyplot as plt
+import numpy as np
 import pytest
 
-from disc_model import Parameters, cli
+from disc_model import Parameters, cli, simulate
+from disc_model.errors import DiscModelError
 
 BASE = ("--N", "385", "--Omega", "15.1")
+SMALL = Parameters(N=200, Omega=50, n_diameters=1)
+SMALL_BASE = ("--N", "200", "--Omega", "50", "--n-diameters", "1")
 
 
 def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
@@ -104,6 +110,7 @@ def test_modes_prints_the_papers_frequencies(capsys: pytest.CaptureFixture[str])
         assert number in out
 
 
+@pytest.mark.compiled
 def test_run_prints_a_summary(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "run", *BASE, "--t-end", "0.5")
     assert (code, err) == (0, "")
@@ -127,6 +134,7 @@ def test_run_agrees_with_simulate(capsys: pytest.CaptureFixture[str]) -> None:
     assert f"key {result.parameters.key}" in out
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("t_end", ["0.1", "0.4", "5"])
 def test_plot_is_written(capsys: pytest.CaptureFixture[str], tmp_path: Path, t_end: str) -> None:
     path = tmp_path / "run.png"
@@ -142,6 +150,7 @@ def test_plot_record_does_not_grow_with_time() -> None:
         assert sum(window.count // (window.envelope or 1) for window in windows) <= 6100
 
 
+@pytest.mark.compiled
 def test_plot_of_a_run_stopped_early(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """The last window may then be empty."""
     path = tmp_path / "run.svg"
@@ -185,3 +194,103 @@ def test_warm_says_that_it_is_done(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "warm")
     assert code == 0
     assert "cached" in out
+
+
+def test_a_run_is_summarised_and_drawn(capsys, tmp_path):
+    path = tmp_path / "run.png"
+    code, out, _ = call(capsys, "run", *SMALL_BASE, "--t-end", "0.05", "--tol", "1e-8", "--plot", str(path))
+    assert code == 0
+    events = simulate(SMALL, 0.05, tol=1e-8).statistics["events"]
+    assert str(events) in out
+    assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_run_that_ends_early_is_drawn_to_its_end(capsys, monkeypatch, tmp_path):
+    drawn = []
+    monkeypatch.setattr("disc_model.figures.quicklook.quicklook", lambda result: drawn.append(result) or plt.figure())
+    command = ("run", *SMALL_BASE, "--t-end", "3", "--stop-at", "first_separation", "--tol", "1e-8")
+    kicked = simulate(SMALL, 1e-6).final_state
+    start = kicked.replace(alpha=kicked.alpha + np.array([0.0, 20.0]), time=0.0)
+    real = sys.modules["disc_model.simulation.api"].simulate
+    kick = {"initial_state": start}
+    monkeypatch.setattr(
+        sys.modules["disc_model.simulation.api"], "simulate", lambda *args, **how: real(*args, **kick, **how)
+    )
+    code, out, _ = call(capsys, *command, "--plot", str(tmp_path / "run.png"))
+    assert code == 0
+    assert "stopped" in out
+    [shown] = drawn
+    reached = shown.t_end
+    assert reached < 0.1
+    assert shown.samples[-1]["time"][-1] == pytest.approx(reached, abs=1e-3)
+
+
+def test_a_run_that_cannot_go_on_has_exit_code_1(capsys, monkeypatch):
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "_step_limit", lambda model, duration: 3)
+    code, out, err = call(capsys, "run", *SMALL_BASE, "--t-end", "0.05")
+    assert code == 1
+    assert "step_limit" in out + err
+
+
+@pytest.mark.parametrize(
+    ("error", "exit_code", "said"),
+    [(DiscModelError("told"), 2, "error: told\n"), (KeyboardInterrupt(), 130, "error: interrupted\n")],
+)
+def test_errors_end_in_one_line(capsys, monkeypatch, error, exit_code, said):
+    def fail(*_, **__):
+        raise error
+
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "simulate", fail)
+    code, _, err = call(capsys, "run", *SMALL_BASE, "--t-end", "0.05")
+    assert code == exit_code
+    assert err == said
+
+
+def test_what_is_nobodys_fault_is_not_hidden(monkeypatch):
+    def fail(*_, **__):
+        raise RuntimeError("unforeseen")
+
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "simulate", fail)
+    with pytest.raises(RuntimeError, match="unforeseen"):
+        cli.main(["run", *SMALL_BASE, "--t-end", "0.05"])
+
+
+def test_a_checkpoint_may_be_named(capsys, tmp_path):
+    code, _, err = call(capsys, "run", *SMALL_BASE, "--t-end", "0.01", "--checkpoint", str(tmp_path / "no" / "such"))
+    assert code == 2
+    assert "must be a file in a folder that exists" in err
+    file = tmp_path / "run"
+    code, out, _ = call(capsys, "run", *SMALL_BASE, "--t-end", "0.01", "--checkpoint", str(file))
+    assert code == 0
+    assert "ok" in out
+    assert not file.exists()
+
+
+def test_a_plot_that_cannot_be_written_is_bad_input(capsys, tmp_path, monkeypatch):
+    from matplotlib.figure import Figure
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Figure, "savefig", full)
+    code, _, err = call(capsys, "run", *SMALL_BASE, "--t-end", "0.01", "--plot", str(tmp_path / "x.png"))
+    assert code == 2
+    assert "cannot be written (No space left on device)" in err
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_progress_is_shown_on_a_terminal(monkeypatch):
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    with cli._progress(4.0) as progress:
+        progress(1.0)
+        progress(9.0)
+    assert "simulating" in terminal.getvalue()
+    assert "4.00 of 4 s" in terminal.getvalue()  # no further than the end
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    with cli._progress(4.0) as progress:
+        assert progress is None

@@ -12,7 +12,7 @@ from scipy import special
 from disc_model import ModeError, Parameters, plate_modes, slider_at_rest_frequencies
 from disc_model import plate as plate_module
 from disc_model.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays
-from tests.ritz import ritz_lambdas
+from tests.references.ritz import ritz_lambdas
 
 P = Parameters(N=385, Omega=15.1)
 ORTHONORMAL = P.replace(normalization="orthonormal")

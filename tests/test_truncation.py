@@ -118,6 +118,7 @@ def test_faults_of_the_choice_come_with_the_others(values: dict[str, Any], fault
     assert caught.value.faults == faults
 
 
+@pytest.mark.compiled
 def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
     raw = {"study": "s", "base": {"Omega": 15.1}, "cases": {}}
     raw["cases"]["A"] = {"title": "A", "t_end": 0.01, "parameters": {"N": 385, "n_diameters": "auto"}}

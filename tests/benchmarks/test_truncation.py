@@ -29,6 +29,7 @@ def test_compliance_against_an_impulse_has_no_limit():
     assert np.diff(without)[2] < 0.5 * np.diff(without)[1]
 
 
+@pytest.mark.compiled
 def test_study_and_its_figure(tmp_path):
     study = truncation_study((4, 6), (0, 1), ("as_published",), horizon=60.0, growth=False)
     first = study["first_separation"].sel(normalization="as_published", circles=0)

@@ -38,12 +38,14 @@ def table() -> pd.DataFrame:
     ).set_index("id")
 
 
+@pytest.mark.compiled
 def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
     assert [*table.reset_index().columns] == list(COLUMNS)
     assert list(table.index) == [claim.id for claim in CLAIMS]
     assert table.index.is_unique
 
 
+@pytest.mark.compiled
 def test_verdicts_are_from_the_list(table: pd.DataFrame) -> None:
     assert all(
         verdict in (HOLDS, REMARK, FAILS) or verdict.startswith(f"{NOT_COMPUTED}: ") for verdict in table["verdict"]
@@ -54,6 +56,7 @@ def test_verdicts_are_from_the_list(table: pd.DataFrame) -> None:
     assert table["remark"][table["verdict"] == REMARK].str.len().gt(0).all()
 
 
+@pytest.mark.compiled
 def test_claims_about_the_disc_need_no_simulation(table: pd.DataFrame) -> None:
     verdicts = table["verdict"].to_dict()
     assert {name: verdicts[name] for name in ("P01", "P02", "P04", "P05", "P06", "P07")} == {
@@ -70,11 +73,13 @@ def test_claims_about_the_disc_need_no_simulation(table: pd.DataFrame) -> None:
     assert "607.96" in table.loc["P07", "remark"]
 
 
+@pytest.mark.compiled
 def test_first_separation_is_found(table: pd.DataFrame) -> None:
     assert table.loc["F13", "ours"] == "first separation at 54.42 s"
     assert table.loc["F13", "verdict"] == HOLDS
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize(
     ("claim", "reason"),
     [
@@ -106,6 +111,7 @@ def test_no_result_is_typed_in() -> None:
     assert not re.search(r"1178\.65|911\.94|607\.96|24\.2", source)
 
 
+@pytest.mark.compiled
 def test_markdown_is_a_table(table: pd.DataFrame) -> None:
     lines = to_markdown(table.reset_index()).splitlines()
     rows = [line for line in lines if line.startswith("|")]

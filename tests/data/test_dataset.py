@@ -90,6 +90,7 @@ def test_default_record_gives_events_and_scalars_alone() -> None:
     assert tree["events"].sizes == {"event": 0}
 
 
+@pytest.mark.compiled
 def test_every_variable_has_a_unit_and_a_name(tree: xr.DataTree) -> None:
     for node in tree.subtree:
         for name, variable in node.to_dataset(inherit=False).variables.items():
@@ -115,6 +116,7 @@ def test_file_gives_back_what_was_saved(tree: xr.DataTree, tmp_path: Path) -> No
     history.close()
 
 
+@pytest.mark.compiled
 def test_equal_runs_give_equal_bytes(tmp_path: Path) -> None:
     for name in ("a.nc", "b.nc"):
         case = run_case(spec_of())
@@ -131,6 +133,7 @@ def test_only_events_asked_for_are_kept(tree: xr.DataTree) -> None:
     assert run_case(spec_of(events=None))["events"].sizes["event"] == 0
 
 
+@pytest.mark.compiled
 def test_merged_file_is_a_table_with_a_group_per_case(tree: xr.DataTree, tmp_path: Path) -> None:
     other = run_case(spec_of(P.replace(N=200)))
     labels = {"A": {"title": "first", "reference": "Fig. 1"}, "B": {"title": "zweite, größer"}}

@@ -84,6 +84,7 @@ def test_flush_forgets_this_kernel_only(files: KernelFiles, tmp_path: Path) -> N
     assert other.load("a") == 2
 
 
+@pytest.mark.compiled
 def test_a_damaged_kernel_is_compiled_again(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text(textwrap.dedent(KERNEL))
@@ -102,6 +103,7 @@ def test_a_damaged_kernel_is_compiled_again(tmp_path: Path) -> None:
     assert path.stat().st_size == len(whole)
 
 
+@pytest.mark.compiled
 def test_a_full_disk_costs_time_not_the_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")

@@ -84,7 +84,10 @@ def test_coasts_compose() -> None:
     np.testing.assert_allclose(twice.disc, once.disc, rtol=0, atol=1e-13 * np.abs(once.disc).max())
 
 
-@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize(
+    "variant",
+    [pytest.param(name, marks=[pytest.mark.compiled] if name == "more blocks" else []) for name in VARIANTS],
+)
 @pytest.mark.parametrize("seed", range(4))
 def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed: int) -> None:
     p = Parameters(N=385, Omega=5.0, **VARIANTS[variant])
@@ -135,6 +138,7 @@ def test_events_are_those_of_the_series(monkeypatch: pytest.MonkeyPatch) -> None
     np.testing.assert_allclose(closed.events["time"], stepped.events["time"], atol=1e-12, rtol=0)
 
 
+@pytest.mark.compiled
 def test_samples_and_audit_within_a_coast(monkeypatch: pytest.MonkeyPatch) -> None:
     """Samples that fall into a coast, and its energy balance, are as good as those of steps."""
     p = Parameters(N=385, Omega=1.0, c=1.0, D_star=1e-3)
@@ -152,6 +156,7 @@ def test_samples_and_audit_within_a_coast(monkeypatch: pytest.MonkeyPatch) -> No
     assert closed.statistics["energy_inplane"] < 1e-13
 
 
+@pytest.mark.compiled
 def test_samples_of_a_coast_fit_their_buffer() -> None:
     """The engine writes a whole coast before it pauses; numba would not say if it wrote beyond the end."""
     window = Window(start=0.0, stop=0.5, rate=200_000.0)

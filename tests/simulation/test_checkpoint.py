@@ -36,6 +36,7 @@ from tests.workflow.conftest import Project, copy_repository
 ROOT = Path(__file__).parents[2]
 SIMULATE = importlib.import_module("disc_model.simulation.api")
 P = Parameters(N=385, Omega=15.1)
+SMALL = Parameters(N=200, Omega=50, n_diameters=1)
 # the last window of ALL is beyond the end of every run
 pytestmark = pytest.mark.filterwarnings("ignore:windows:UserWarning")
 
@@ -112,6 +113,7 @@ RUNS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 }
 
 
+@pytest.mark.compiled
 class TestGoingOn:
     @pytest.mark.parametrize("pauses", [(0,), (1, 1, 0, 2)], ids=["once", "several times"])
     @pytest.mark.parametrize("name", RUNS)
@@ -201,6 +203,7 @@ OTHERS: dict[str, tuple[Parameters, float, dict[str, Any]]] = {
 }
 
 
+@pytest.mark.compiled
 class TestNotTrusted:
     @pytest.mark.parametrize("name", OTHERS)
     def test_the_checkpoint_of_another_run(
@@ -298,6 +301,7 @@ class TestArguments:
         with pytest.raises(ParameterError, match=r"^checkpoint_every=.*: must be finite and >= 0$"):
             simulate(P, 1, checkpoint_every=every)
 
+    @pytest.mark.compiled
     def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(
         self, separating: State, tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
     ) -> None:
@@ -319,6 +323,7 @@ class TestArguments:
         assert len(calls) == 10
         same(simulate(P, 55.6, **options), simulate(P, 55.6, initial_state=separating, record=ALL))
 
+    @pytest.mark.compiled
     def test_the_file_is_removed_by_someone(self, separating: State, tmp_path: Path) -> None:
         options = {"initial_state": separating, "record": ALL}
         pauses = iter(range(100))
@@ -335,6 +340,7 @@ class TestArguments:
         same(simulate(P, 55.6, **options, checkpoint=tmp_path / "x"), simulate(P, 55.6, **options))
 
 
+@pytest.mark.compiled
 class TestCommands:
     def test_run(self, tmp_path: Path, capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture) -> None:
         file = tmp_path / "x"
@@ -522,6 +528,7 @@ def test_a_workflow_that_is_killed(tmp_path: Path) -> None:
     assert (cases / "A.nc").read_bytes() == (undisturbed.folder / "results/long/cases/A.nc").read_bytes()
 
 
+@pytest.mark.compiled
 def test_progress_goes_on_as_before(caplog: pytest.LogCaptureFixture) -> None:
     """Without a checkpoint nothing is written or said."""
     caplog.set_level(logging.INFO)
@@ -530,3 +537,50 @@ def test_progress_goes_on_as_before(caplog: pytest.LogCaptureFixture) -> None:
     assert times == sorted(times)
     assert times[-1] == 1
     assert not caplog.records
+
+
+def test_an_interrupted_run_goes_on_from_its_checkpoint(tmp_path, monkeypatch, caplog):
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 5)
+    record = Record(windows=(Window(start=0, stop=0.1, rate=2000),), poincare=Poincare())
+    whole = simulate(SMALL, 0.1, tol=1e-9, record=record)
+    file, pauses = tmp_path / "run", []
+
+    def stop(time):
+        pauses.append(time)
+        if len(pauses) % 4 == 0:
+            raise Interrupted
+
+    options = {"tol": 1e-9, "record": record, "checkpoint": file, "checkpoint_every": 0}
+    for _ in range(2):
+        with pytest.raises(Interrupted):
+            simulate(SMALL, 0.1, **options, progress=stop)
+    assert pauses == sorted(pauses)
+    # what was cut off is not used
+    file.write_bytes(file.read_bytes()[:-3])
+    again = simulate(SMALL, 0.1, **options)
+    assert "cut off" in caplog.text
+    np.testing.assert_array_equal(again.events["time"], whole.events["time"])
+    for name, values in whole.samples[0].items():
+        np.testing.assert_array_equal(again.samples[0][name], values)
+    assert not file.exists()
+
+
+@pytest.mark.parametrize("content", [b"", b"x" * 4000])
+def test_what_is_no_checkpoint_is_left_out(tmp_path, content, caplog):
+    file = tmp_path / "run"
+    file.write_bytes(content)
+    result = simulate(SMALL, 0.02, tol=1e-9, checkpoint=file, checkpoint_every=3600)
+    assert result.status == "ok"
+    assert ("ignored: not a checkpoint" in caplog.text) == bool(content)
+
+
+def test_the_checkpoint_of_another_run_is_left_out(tmp_path, monkeypatch, caplog):
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 5)
+
+    def stop(time):
+        raise Interrupted
+
+    with pytest.raises(Interrupted):
+        simulate(SMALL, 0.05, tol=1e-9, checkpoint=tmp_path / "run", checkpoint_every=0, progress=stop)
+    simulate(SMALL, 0.04, tol=1e-9, checkpoint=tmp_path / "run", checkpoint_every=3600)
+    assert "of another run (other t_end" in caplog.text

@@ -1,101 +1,53 @@
-"""The stick-slip cycle: return map, Jacobian, statuses, steady sliding."""
+"""The stick-slip cycle: its multipliers, its status, what is stable."""
 
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, floquet, simulate, steady_sliding
-from disc_model.engine import layout, machine, saltation, tangent, variational
+from disc_model import ParameterError, Parameters, Result, floquet, simulate, steady_sliding
+from disc_model.engine import layout, saltation, variational
 from disc_model.errors import DiscModelError
-from disc_model.simulation.api import build_model
-from disc_model.simulation.bridge import write_state
-from disc_model.simulation.result import State
-from disc_model.simulation.tolerance import series_order
-from disc_model.stability import curves
-from disc_model.stability.cycle import CycleError, CycleStatus, find_cycle
-from disc_model.stability.floquet_batch import STATUS_NAMES, solve
-from disc_model.stability.return_map import PARAMETERS, RETURNED, ReturnMap
-from disc_model.stability.sliding import SlidingStatus
-from tests.stability.test_small_cycles import assert_closed
+from disc_model.stability import return_map as return_map_module
+from disc_model.stability.cycle import (
+    CycleError,
+    CycleStatus,
+    FloquetResult,
+    find_cycle,
+    find_cycle_near,
+    growth_rate,
+    kind_of,
+)
+from disc_model.stability.return_map import Flight, ReturnMap
+from tests.stability.full_system import Full
+from tests.stability.test_return_map import central_differences
+
+P = Parameters(N=200, Omega=20, n_diameters=1)
+
 
 BASE = Parameters(N=200, Omega=20)
+
+
 DAMPED = Parameters(N=200, Omega=20, c=0.05, c_p=0.02)
 
 
-def central_differences(map_: ReturnMap, x: np.ndarray, **how) -> np.ndarray:
-    """Jacobian of the map by central differences of fourth order."""
-    h = 3e-5 * np.linalg.norm(x)
-    columns = []
-    for unit in np.eye(map_.size):
-        ends = [map_.evaluate(x + s * h * unit, tangent=False, **how)[1] for s in (-2, -1, 1, 2)]
-        columns.append((ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * h))
-    return np.array(columns).T
+def test_multipliers_agree_with_differences_of_the_return_map():
+    result, cycle = floquet(P), find_cycle(P)
+    x, h = cycle.solution.x, 3e-5 * np.linalg.norm(cycle.solution.x)
+
+    def end(change):
+        return cycle.map.evaluate(x + change, tangent=False)[1]
+
+    columns = [(8 * (end(h * e) - end(-h * e)) - end(2 * h * e) + end(-2 * h * e)) / (12 * h) for e in np.eye(6)]
+    expected = np.linalg.eigvals(np.array(columns).T)
+    assert np.max(np.min(np.abs(result.multipliers[:, None] - expected[None, :]), axis=1)) < 1e-6
+    assert result.growth_rate == pytest.approx(math.log(np.max(np.abs(expected))) / result.period, abs=1e-4)
 
 
-def after_separation(p: Parameters, t_end: float) -> tuple[ReturnMap, np.ndarray]:
-    """A point of the section on the motion after contact was first lost."""
-    late = simulate(p, t_end).final_state
-    map_ = ReturnMap(p)
-    outcome, x = map_.next_release(late)
-    assert outcome == RETURNED
-    return map_, x
-
-
-class Full:
-    """The engine with a column for every coordinate of the full system: modal ones, psi, f."""
-
-    def __init__(self, p: Parameters, start: State, tol: float = 1e-14):
-        self.model, self.order, self.tol = build_model(p), series_order(tol), tol
-        width, n0 = len(self.model.force), len(self.model.force0)
-        used, single = np.flatnonzero(self.model.shift), np.arange(n0)
-        psi = 2 * width + 2 * n0
-        self.rows = np.concatenate([used, width + used, 2 * width + single, 2 * width + n0 + single, [psi, psi + 1]])
-        self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
-        self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
-        self.n_rows = tangent.n_rows(self.model)
-        write_state(p, self.model, start, self.state)
-        self.set_columns(np.eye(len(self.rows)))
-
-    def set_columns(self, columns):
-        now = np.zeros((self.n_rows, self.tangent.columns))
-        now[self.rows, : columns.shape[1]] = columns
-        self.tangent.now[:] = now.reshape(self.n_rows, -1, 8).transpose(1, 0, 2).ravel()
-
-    @property
-    def columns(self):
-        now = self.tangent.now.reshape(-1, self.n_rows, 8).transpose(1, 0, 2).reshape(self.n_rows, -1)
-        return now[self.rows, : len(self.rows)]
-
-    @property
-    def coordinates(self):
-        s = self.state
-        return np.concatenate([s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.SPEED + 1]])[self.rows]
-
-    @property
-    def rates(self):
-        out = np.zeros(self.n_rows * 8)
-        saltation.rates(self.model, self.state, out)
-        return out[::8][self.rows]
-
-    def release(self):
-        log = np.zeros(tangent.LOG_SIZE)
-        variational.change_phase(self.model, self.state, machine.RELEASE_FORWARD, False, log)
-
-    def fly(self, duration, tangent=True):
-        return variational.fly(
-            self.model, self.series, self.state, self.tangent, self.order, self.tol, 2.0, duration, 0, True, tangent
-        )
-
-    def release_change(self, vector):
-        """Gradient of the release condition times a vector of coordinates, f's left out."""
-        self.set_columns(np.where(np.arange(len(vector)) < len(vector) - 1, vector, 0)[:, None])
-        saltation.switch_times(self.model, self.state, self.tangent, machine.RELEASE_FORWARD)
-        return -self.tangent.tau[0]
-
-
+@pytest.mark.compiled
 @pytest.mark.parametrize(
     "p",
     [
@@ -120,41 +72,24 @@ def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     assert np.max(np.abs(expected - cycle.solution.jacobian)) < 1e-7
 
 
-@pytest.mark.parametrize("releases", [1, 2])
-def test_jacobian_through_separation_and_impact(releases):
-    map_, x = after_separation(Parameters(N=385, Omega=15.1), 60.0)
-    flight, _, jacobian, _ = map_.evaluate(x, releases=releases, may_separate=True)
-    assert flight.outcome == RETURNED
-    assert flight.separations > 0
-    expected = central_differences(map_, x, releases=releases, may_separate=True)
-    assert np.max(np.abs(jacobian - expected)) < 1e-6 * np.max(np.abs(expected))
+def assert_closed(result: FloquetResult) -> Result:
+    """A simulation over the period ends where it began; returns it."""
+    run = simulate(result.parameters, result.period, initial_state=result.state, tol=1e-13)
+    for name in ("a", "b", "alpha", "beta"):
+        scale = np.max(np.abs(getattr(result.state, name)))
+        assert np.allclose(getattr(run.final_state, name), getattr(result.state, name), atol=1e-9 * scale, rtol=0)
+    assert run.final_state.psi == pytest.approx(result.state.psi, rel=1e-10)
+    return run
 
 
-@pytest.mark.parametrize("name", PARAMETERS)
-@pytest.mark.parametrize("where", ["cycle", "separation"])
-def test_derivatives_by_parameters_agree_with_central_differences(name, where):
-    p = DAMPED if where == "cycle" else Parameters(N=385, Omega=15.1, c=0.01, c_p=0.01)
-    map_, x = (ReturnMap(p), None) if where == "cycle" else after_separation(p, 60.0)
-    x = map_.static if x is None else x
-    how = {"may_separate": True}
-    _, _, _, by = ReturnMap(p, parameters=(name,)).evaluate(x, **how)
-    value = getattr(p, name)
-    h = (1e-2 if name in ("c", "c_p") else 1e-4) * value
-    ends = []
-    for change in (-2 * h, -h, h, 2 * h):
-        other = ReturnMap(p.replace(**{name: value + change}))
-        end = other.evaluate(x / map_.scale * other.scale, tangent=False, **how)[1]
-        ends.append(end / other.scale * map_.scale)
-    expected = (ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * h)
-    assert np.linalg.norm(by[:, 0] - expected) < 1e-5 * np.linalg.norm(expected)
-
-
+@pytest.mark.compiled
 def test_the_cycle_closes_in_a_simulation():
     result = floquet(BASE)
     run = assert_closed(result)
     assert result.stick_fraction == pytest.approx(run.statistics["time_stick"] / result.period, abs=1e-9)
 
 
+@pytest.mark.compiled
 def test_result_is_complete_and_consistent():
     result = floquet(BASE)
     assert result.status is CycleStatus.OK
@@ -173,6 +108,31 @@ def test_result_is_complete_and_consistent():
         result.multipliers[0] = 0
 
 
+def test_the_cycle_closes_in_a_simulation_and_is_found_again_from_there():
+    result = floquet(P)
+    assert_closed(result)
+    later = simulate(P, 0.5 * result.period, initial_state=result.state, tol=1e-12).final_state
+    again = find_cycle_near(P, later, releases=1)
+    assert again.status is CycleStatus.OK
+    assert again.message.endswith("with 1 release")
+    np.testing.assert_allclose(again.solution.x, find_cycle(P).solution.x, atol=1e-9 * np.linalg.norm(again.solution.x))
+    # run through twice it is the same cycle
+    twice = find_cycle_near(P, later, releases=2)
+    assert twice.solution.flight.period == pytest.approx(2 * result.period, rel=1e-9)
+    assert twice.message.endswith("with 2 releases")
+
+
+def test_no_cycle_near_a_state_is_said():
+    state = simulate(P, 0.01, tol=1e-8).final_state
+    assert find_cycle_near(P.replace(Omega=0), state, 1).status is CycleStatus.AT_REST
+    slippery = P.replace(c_p=50.0)
+    slipping = simulate(slippery, 0.01, tol=1e-8).final_state
+    found = find_cycle_near(slippery, slipping, 1)
+    assert found.status is CycleStatus.NO_STICK_SLIP
+    assert re.fullmatch(r"the slider does not stick within 0\.0\d+ s of the given state", found.message)
+
+
+@pytest.mark.compiled
 @pytest.mark.parametrize(
     ("changes", "status"),
     [
@@ -198,13 +158,50 @@ def test_without_a_cycle_the_status_says_what_was_found(changes, status):
     assert issubclass(CycleError, DiscModelError)
 
 
-def test_bad_input_is_named_in_full():
-    with pytest.raises(ParameterError, match=r"p='x': must be Parameters; tol=0.5: must be within"):
-        floquet("x", tol=0.5)
-    with pytest.raises(ParameterError, match="must be Parameters"):
-        steady_sliding(3)
+#: What the second look says of a transient that ended so: (outcome of the map, status, words of the message).
+ENDS = [
+    ("time_over", CycleStatus.NO_STICK_SLIP, "slips on for 1 s"),
+    ("lost_contact", CycleStatus.SEPARATES, "contact is lost"),
+    ("off_section", CycleStatus.SEPARATES, "contact is lost"),
+    ("non_finite", CycleStatus.NON_FINITE, "overflows"),
+    ("stalled", CycleStatus.NO_CYCLE, "without the clock moving"),
+    ("paradox", CycleStatus.PARADOX, "Painleve"),
+]
 
 
+@pytest.mark.parametrize(("outcome", "status", "words"), ENDS)
+def test_what_the_transient_did_is_reported(monkeypatch, outcome, status, words):
+    code = next(code for code, name in return_map_module.OUTCOMES.items() if name == outcome)
+    flight = Flight(code, 1.0, 0.0, 1.0, 0.0, 0, 0, 0, 0, 0)
+
+    def evaluate(self, x, **_):
+        return flight, x, np.eye(self.size), np.zeros((self.size, 0))
+
+    monkeypatch.setattr(ReturnMap, "evaluate", evaluate)
+    result = floquet(P)
+    assert result.status is status
+    assert words in result.message
+    with pytest.raises(CycleError, match=words):
+        result.raise_for_status()
+    started = simulate(P, 0.001, tol=1e-8).final_state
+    monkeypatch.setattr(ReturnMap, "next_release", lambda self, start, **_: (code, self.static))
+    assert (find_cycle_near(P, started, 1).status is CycleStatus.NO_STICK_SLIP) == (outcome == "time_over")
+
+
+def test_from_a_given_point_no_other_cycle_is_taken():
+    far = 3 * ReturnMap(P).static
+    assert find_cycle(P).status is CycleStatus.OK
+    found = find_cycle(P, start=far)
+    assert found.status is CycleStatus.NO_CYCLE
+    assert found.message == "no cycle near the given point of the section"
+
+
+def test_a_multiplier_tells_the_bifurcation():
+    assert [kind_of(mu) for mu in (1.1 + 0j, -1.1 + 0j, 0.8 + 0.8j)] == ["fold", "period_doubling", "neimark_sacker"]
+    assert growth_rate(0j, 0.01) == -math.inf
+
+
+@pytest.mark.compiled
 def test_product_of_multipliers_is_that_of_divergence_and_saltation():
     """det of the return map from Liouville's formula.
 
@@ -249,58 +246,22 @@ def test_product_of_multipliers_is_that_of_divergence_and_saltation():
     assert product.real == pytest.approx(expected, rel=1e-8)
 
 
-def test_batch_equals_the_single_results():
-    cases = [BASE, Parameters(N=385, Omega=15.1), Parameters(N=50, Omega=15), BASE.replace(Omega=0)]
-    batch = solve(cases)
-    singles = [floquet(p) for p in cases]
-    assert [STATUS_NAMES[code] for code in batch["status"]] == [single.status.value for single in singles]
-    for name in ("growth_rate", "period", "stick_fraction"):
-        assert np.array_equal(batch[name], [getattr(s, name) for s in singles], equal_nan=True)
-    assert np.array_equal(batch["sliding_growth_rate"], [s.sliding.growth_rate for s in singles], equal_nan=True)
-    assert batch["multiplier_re"][0] == singles[0].multipliers[0].real
-    assert batch["multiplier_im"][0] == singles[0].multipliers[0].imag
-    assert all(array.shape == (len(cases),) for array in batch.values())
-
-
-@pytest.mark.parametrize(
-    "p", [BASE, Parameters(N=300, Omega=50, c_p=0.7, c=0.3), Parameters(N=100, Omega=40, normalization="orthonormal")]
-)
-def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
-    sliding = steady_sliding(p)
-    assert sliding.status is SlidingStatus.OK
-    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
-    start = State(0.0, "slip", 1, sliding.psi, p.Omega, 0.0, 0.0, **modal)
-    run, duration = Full(p, start), 1e-3
-    before = run.coordinates
-    assert run.fly(duration) == variational.TIME_OVER
-    assert np.allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
-    flow = np.linalg.eigvals(run.columns)
-    expected = np.exp(sliding.eigenvalues * duration)
-    distance = np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)
-    assert np.max(distance) < 1e-10
-    assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
-
-
-def test_steady_sliding_without_drive():
-    sliding = steady_sliding(BASE.replace(Omega=0))
-    assert sliding.status is SlidingStatus.AT_REST
-    assert not sliding.stable
-
-
+@pytest.mark.compiled
 def test_attractors_name_what_is_stable():
     assert floquet(Parameters(N=50, Omega=15)).attractors[:1] == ("stick_slip",)
     both_gone = floquet(BASE)
     assert both_gone.attractors == ()
 
 
-def test_a_seed_met_on_the_way_to_another_modulus_is_a_cycle_there():
-    """E scales the coordinates of the section."""
-    seed = curves._first_event(Parameters(N=385, Omega=15), "E", 1.4e11, -1, 1e-12, [])
-    assert seed is not None
-    assert seed.kind == "fold"
-    # twice the stick-slip rate meets the mode's frequency, sqrt(E), at Omega = 15.0949 for 150 GPa
-    assert pytest.approx(149.42e9, rel=1e-4) == seed.case.E
-    map_ = ReturnMap(seed.case)
-    _, end, _, _ = map_.evaluate(seed.point)
-    # rounding, and what a corrector leaves; with the coordinates of 150 GPa it is 1e-4
-    assert np.linalg.norm(end - seed.point) < 1e-9 * np.linalg.norm(map_.static)
+def test_bad_input_is_named_in_full():
+    with pytest.raises(ParameterError, match=r"p='x': must be Parameters; tol=0.5: must be within"):
+        floquet("x", tol=0.5)
+    with pytest.raises(ParameterError, match="must be Parameters"):
+        steady_sliding(3)
+
+
+def test_attractors_are_those_that_are_stable():
+    quiet = floquet(P.replace(N=50, Omega=15))
+    assert quiet.attractors[0] == "stick_slip"
+    assert quiet.raise_for_status() is quiet
+    assert floquet(P.replace(N=300)).attractors == ()

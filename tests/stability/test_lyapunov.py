@@ -5,10 +5,59 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, floquet, simulate
+from disc_model import ParameterError, Parameters, floquet, plate_modes, simulate
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
+from tests.stability.test_settling import paradox
 
 
+def test_exponents_of_stick_are_those_of_the_coupled_mode():
+    """Stick is linear: the exponents are 0, of the spring that is wound up, and the decay rate of one coupled mode."""
+    p = Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0, D_star=2e-4)
+    omega, psi = (float(plate_modes(p)[name].iloc[0]) for name in ("omega", "psi"))
+    decay = (p.D_star / p.D * omega**2 + p.c * psi**2) / (2 * (1 + p.m * psi**2))
+    found = lyapunov_exponents(p, 0.1, count=3, interval=0.005)
+    assert found.status is LyapunovStatus.OK
+    assert found.duration == pytest.approx(0.1)
+    assert found.history.shape == (16, 3)
+    # the two of the pair take turns; their sum does not
+    assert found.exponents.sum() == pytest.approx(-2 * decay, rel=1e-6)
+    assert abs(found.exponents[0]) < decay
+    assert not found.chaotic
+    assert found.separations == 0
+    assert found.final_state.time == pytest.approx(0.125)
+
+
+def test_exponents_from_a_state_after_a_transient():
+    p = Parameters(N=200, Omega=20, n_diameters=1, c=5.0, D_star=1e-3)
+    start = simulate(p, 0.02, tol=1e-9).final_state
+    found = lyapunov_exponents(p, 0.05, transient=0.01, count=1, initial_state=start, tol=1e-9)
+    assert found.final_state.time == pytest.approx(0.02 + 0.01 + 0.05 * 1.25)
+    assert found.exponents[0] < 50
+    sliding = start.replace(phase="separation", direction=0, f=5.0, u=start.u + 1e-4)
+    through = lyapunov_exponents(p, 0.05, count=2, initial_state=sliding, tol=1e-9)
+    assert through.separations >= 0
+    assert np.all(np.isfinite(through.exponents))
+
+
+def test_a_motion_that_cannot_go_on_has_no_exponents():
+    p, start = paradox()
+    found = lyapunov_exponents(p, 0.1, initial_state=start)
+    assert found.status is LyapunovStatus.PARADOX
+    assert found.status.advice.startswith("Painleve")
+    assert np.isnan(found.exponents).all()
+    assert found.duration == 0
+    assert not found.chaotic
+
+
+def test_a_transient_that_cannot_be_finished_leaves_no_exponents():
+    p, start = paradox()
+    found = lyapunov_exponents(p, 0.1, transient=0.1, initial_state=start)
+    assert found.status is LyapunovStatus.PARADOX
+    assert np.isnan(found.exponents).all()
+    assert found.final_state.time < start.time + 0.1
+
+
+@pytest.mark.compiled
 def test_on_a_cycle_they_are_its_exponents_and_zero():
     p = Parameters(N=200, Omega=20, c=2.0, D_star=1e-3)
     cycle = floquet(p)
@@ -24,6 +73,7 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     assert np.mean(pair.exponents[1:]) == pytest.approx(np.mean(expected[1:3]), rel=0.02)
 
 
+@pytest.mark.compiled
 def test_an_unstable_cycle_grows_at_its_rate_while_near():
     """Started on the cycle, with columns that have turned into the leading pair before the motion has left it."""
     p = Parameters(N=600, Omega=50)
@@ -33,6 +83,7 @@ def test_an_unstable_cycle_grows_at_its_rate_while_near():
     assert np.mean(near.exponents) == pytest.approx(cycle.growth_rate, rel=0.1)
 
 
+@pytest.mark.compiled
 def test_through_separations_the_motion_itself_is_the_simulators():
     p = Parameters(N=385, Omega=15.1)
     start = simulate(p, 70.0).final_state

@@ -16,6 +16,8 @@ from disc_model.stability.moving_load import critical_speed, unstable_speeds
 from disc_model.stability.resonances import nearest_tongue, tongue_lines
 from disc_model.stability.return_map import ReturnMap
 
+pytestmark = pytest.mark.compiled
+
 GROWTH = [
     ({"N": 385, "Omega": 15}, -0.1055, 3e-4),
     ({"N": 300, "Omega": 20}, +0.0464, 3e-4),

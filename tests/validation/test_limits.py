@@ -15,6 +15,8 @@ from disc_model import Parameters, Record, Window, plate_modes, simulate
 from disc_model.simulation.result import State
 from tests.references import stored
 
+pytestmark = pytest.mark.compiled
+
 P_A = Parameters(N=385.0, Omega=15.1)
 
 

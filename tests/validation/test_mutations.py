@@ -34,7 +34,14 @@ CLOSED_FORM = (
     "tests/engine/test_coasting.py::test_events_are_those_of_the_series",
 )
 DERIVATIVES = ("tests/engine/test_variational.py",)
-METHODS = ("tests/benchmarks/test_small_methods.py", *EQUATIONS)
+METHODS = (
+    "tests/benchmarks/methods/test_kernels.py",
+    "tests/benchmarks/methods/test_short_motions.py",
+    "tests/benchmarks/methods/test_phases.py",
+    "tests/benchmarks/methods/test_regularised.py",
+    "tests/benchmarks/methods/test_rk4.py",
+    *EQUATIONS,
+)
 #: What notices mutations in a file, if it is not the tests of the equations.
 NOTICED_BY = {
     "engine/plain.py": TWINS[:1],
@@ -44,7 +51,7 @@ NOTICED_BY = {
     "engine/saltation.py": DERIVATIVES,
     "engine/tangent.py": DERIVATIVES,
     "engine/variational.py": DERIVATIVES,
-    "stability/return_map.py": ("tests/stability/test_small_cycles.py", *DERIVATIVES),
+    "stability/return_map.py": ("tests/stability/test_cycle.py", "tests/stability/test_return_map.py", *DERIVATIVES),
     "benchmarks/methods/phases.py": METHODS,
     "benchmarks/methods/kernels.py": METHODS,
     "benchmarks/methods/regularised.py": METHODS,
@@ -124,7 +131,17 @@ def _run(folder: Path, mutant: Mutant | None, tests: tuple[str, ...]) -> subproc
         **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
     }
     environment.pop("PYTEST_ADDOPTS", None)
-    arguments = [str(folder), *tests, "-x", "-q", "-p", "no:cacheprovider", "--tb=line", "-m", "not slow"]
+    arguments = [
+        str(folder),
+        *tests,
+        "-x",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "--tb=line",
+        "-m",
+        "not slow and not compiled",
+    ]
     try:
         return subprocess.run(
             [sys.executable, "-c", WITHOUT_COMPILATION, *arguments],

@@ -18,6 +18,8 @@ from disc_model import Parameters, Record, Window, plate_modes, simulate
 from tests.references import stored
 from tests.references.literal import from_slider_frame, literal_of
 
+pytestmark = pytest.mark.compiled
+
 TOLERANCES = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14)
 #: Largest event-time error over the stored second divided by tol: about 0.05 s in all the cases, with a
 #: margin of 20.

@@ -113,6 +113,7 @@ def check_ending(result: Result) -> None:
 ROBUST = settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
+@pytest.mark.compiled
 @ROBUST
 @given(parameters(), st.floats(10, 3000), magnitude(1e-14, 1e-4))
 def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: float, tol: float) -> None:
@@ -190,6 +191,7 @@ def check_motion(result: Result) -> None:
     assert not result.statistics["energy_residual"] > 1e3 * result.tol + 1e-9
 
 
+@pytest.mark.compiled
 @ROBUST
 @given(violent_starts(), st.sampled_from([1e-8, 1e-10, 1e-13]))
 def test_violent_starts_break_no_law(start: tuple[Parameters, dict[str, float | np.ndarray]], tol: float) -> None:
@@ -221,6 +223,7 @@ def usual_parameters(draw: st.DrawFn) -> Parameters:
     )
 
 
+@pytest.mark.compiled
 @settings(ROBUST, max_examples=40)
 @given(usual_parameters())
 def test_energy_is_balanced(p: Parameters) -> None:
@@ -358,6 +361,7 @@ class TestDegenerate:
         else:
             assert result.final_state.f > 10
 
+    @pytest.mark.compiled
     @pytest.mark.parametrize("phase", ["stick", "slip"])
     @pytest.mark.parametrize(("Omega", "mu"), [(0.0, 0.4), (0.0, 0.0), (1e-9, 0.4)])
     def test_a_start_that_pulls_at_the_slider_is_a_separation_that_has_begun(

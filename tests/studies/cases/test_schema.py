@@ -10,10 +10,14 @@ from typing import Any
 import pytest
 
 from disc_model import Parameters
-from disc_model.studies.cases.schema import Study, StudyError, load_study, parse_study, study_from_config
+from disc_model.studies.cases.schema import Study, load_study, parse_study, study_from_config
 from disc_model.studies.cases.spec import CaseSpec
+from disc_model.studies.faults import StudyError
+from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[3]
+
+
 CONFIGS = sorted((ROOT / "config").glob("*.yaml"))
 
 
@@ -27,12 +31,6 @@ def raw_study() -> dict[str, Any]:
             "B": {"title": "b", "parameters": {"Omega": 15.1, "N": 50}, "t_end": 1, "tol": "1e-8"},
         },
     }
-
-
-def faults_of(raw: Any) -> tuple[str, ...]:
-    with pytest.raises(StudyError) as caught:
-        parse_study(raw)
-    return caught.value.faults
 
 
 @pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
@@ -127,7 +125,7 @@ def test_every_fault_is_listed_with_its_path() -> None:
     raw["cases"]["1st"] = {"title": "no name", "t_end": 1, "parameters": {"Omega": 1}}
     raw["cases"]["N"] = {"title": "taken", "t_end": 1, "parameters": {"Omega": 1}}
     raw["figures"] = ["fig11", "fig99"]
-    listed = "\n".join(faults_of(raw))
+    listed = "\n".join(faults_of(parse_study, raw))
     for wanted in (
         "extra = 1: unknown key",
         "cases.A.parameters.N = -5.0: must be >= 0",
@@ -157,7 +155,7 @@ def test_what_a_figure_needs_of_a_window_is_checked_with_the_study() -> None:
     case = {"title": "", "parameters": {"N": 385, "Omega": 15.1}, "t_end": 120, "record": {"windows": windows}}
     raw = {"study": "x", "cases": {"F13": case}, "figures": ["fig13", "fig25", "fig26"]}
     place = "cases.F13.record.windows"
-    assert set(faults_of(raw)) == {
+    assert set(faults_of(parse_study, raw)) == {
         f"figures.0 = 'fig13': {place}.history needs an envelope",
         f"figures.1 = 'fig25': {place}.spectrum_a must be 1.1 s long or more",
         f"figures.1 = 'fig25': {place}.spectrum_b needs a rate of 2000 Hz or more",
@@ -167,15 +165,15 @@ def test_what_a_figure_needs_of_a_window_is_checked_with_the_study() -> None:
         f"figures.2 = 'fig26': {place}.spectrum_c must contain 52 to 52.2 s",
     }
     windows["history"]["envelope"] = 6000
-    assert f"figures.0 = 'fig13': {place}.history must be two envelopes long or more" not in faults_of(raw)
+    assert f"figures.0 = 'fig13': {place}.history must be two envelopes long or more" not in faults_of(parse_study, raw)
     windows["history"]["envelope"] = 6001
-    assert f"figures.0 = 'fig13': {place}.history must be two envelopes long or more" in faults_of(raw)
+    assert f"figures.0 = 'fig13': {place}.history must be two envelopes long or more" in faults_of(parse_study, raw)
 
 
 def test_window_outside_the_run() -> None:
     raw = raw_study()
     raw["cases"]["A"]["record"] = {"windows": {"zoom": {"start": 11, "rate": 10}}}
-    (fault,) = faults_of(raw)
+    (fault,) = faults_of(parse_study, raw)
     assert fault.startswith("cases.A.record.windows.zoom: must be within the run")
 
 
@@ -184,23 +182,23 @@ def test_inherited_faults_are_listed_once_and_where_they_stand() -> None:
     raw["base"]["m"] = 0
     raw["record"]["windows"]["history"]["rate"] = 0
     raw["tol"] = 1
-    assert faults_of(raw) == (
+    assert faults_of(parse_study, raw) == [
         "tol = 1: must be <= 0.01",
         "record.windows.history.rate = 0: must be > 0",
         "base.m = 0.0: must be > 0",
-    )
+    ]
 
 
 @pytest.mark.parametrize("raw", [None, [], "text", {}, {"study": "x", "cases": None}, {"study": "x", "cases": {}}])
 def test_what_is_no_study_at_all(raw: Any) -> None:
-    assert faults_of(raw)
+    assert faults_of(parse_study, raw)
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), True, None, "x", [1]])
 def test_bad_end_times(value: Any) -> None:
     raw = raw_study()
     raw["cases"]["A"]["t_end"] = value
-    assert any(fault.startswith("cases.A.t_end") for fault in faults_of(raw))
+    assert any(fault.startswith("cases.A.t_end") for fault in faults_of(parse_study, raw))
 
 
 def test_keys_given_twice(tmp_path: Path) -> None:
@@ -240,3 +238,38 @@ def test_error_survives_pickling() -> None:
     error = StudyError("a: b", "c: d", source="x.yaml")
     again = pickle.loads(pickle.dumps(error))
     assert (str(again), again.faults) == (str(error), error.faults)
+
+
+CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}
+
+
+def recording(**record: Any) -> dict[str, Any]:
+    return {"A": CASE | {"record": record}}
+
+
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        ({"cases": {"A": 3}}, "cases.A = 3: must be a mapping"),
+        ({"cases": {"A": CASE | {"parameters": 3}}}, "cases.A.parameters"),
+        ({"cases": recording(events={"last": 1, "start": 0})}, "must give either last, or start and stop"),
+        ({"cases": recording(events={"start": 2})}, "cases.A.record.events: must be within the run"),
+        ({"cases": recording(windows={"events": {"start": 0, "rate": 1}})}, "a window must not be called so"),
+        ({"cases": {"A": CASE}, "figures": 3}, "figures"),
+        ({"cases": {"F13": CASE}, "figures": ["fig13", "fig11", "fig99"]}, "figures.2 = 'fig99': unknown figure"),
+        ({"cases": {"F13": CASE}, "figures": ["fig13", "fig11"]}, "figures.1 = 'fig11': needs a case F11"),
+        ({"cases": {"F13": CASE}, "figures": ["fig13"]}, "figures.0 = 'fig13': needs a window"),
+        ({"cases": {"F04": CASE}, "figures": ["fig04"]}, "figures.0 = 'fig04': needs cases.F04.record.poincare"),
+        ({"cases": {"1A": CASE}}, "a case's name must be letters"),
+        ({"cases": {"status": CASE}}, "the name is taken by a variable"),
+    ],
+)  # fmt: skip
+def test_rules_of_studies_of_cases(changes: dict[str, Any], fault: str) -> None:
+    assert fault in "\n".join(faults_of(parse_study, {"study": "x"} | changes))
+
+
+def test_a_key_given_twice_is_found_behind_a_valid_study(tmp_path: Path) -> None:
+    file = tmp_path / "twice.yaml"
+    file.write_text("study: x\nstudy: x\n")
+    found = "\n".join(faults_of(study_from_config, {"study": "x", "cases": {"A": CASE}}, [file]))
+    assert "study: given twice" in found

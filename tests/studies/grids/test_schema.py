@@ -1,4 +1,4 @@
-"""Grid studies: what files may say, how grids become batches, and merging them."""
+"""Grid studies: what files may say, and how grids become batches."""
 
 from __future__ import annotations
 
@@ -8,16 +8,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from disc_model import Parameters, floquet, truncation
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
-from disc_model.figures.grids.stability_map import draw as draw_map
 from disc_model.studies.faults import StudyError
-from disc_model.studies.grids.merge import MergeError, failures, merge_batches
+from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import GridStudy, load_grid, load_grids, parse_grid
+from tests.studies.refused import faults_of
 
 STUDIES = sorted((Path(__file__).parents[3] / "config" / "studies").glob("*.yaml"))
 
@@ -36,15 +35,6 @@ def study(**changes: Any) -> dict[str, Any]:
 
 def points(grid: GridStudy) -> list[list[list[Any]]]:
     return [json.loads(text)["points"] for text in grid.batches.values()]
-
-
-def faults(raw: Any) -> list[str]:
-    with pytest.raises(StudyError) as error:
-        parse_grid(raw)
-    return list(error.value.faults)
-
-
-# ---- expansion
 
 
 def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
@@ -123,9 +113,6 @@ def test_the_key_tells_grids_apart_and_covers_the_sources() -> None:
     assert all("sources" in json.loads(text) for text in parse_grid(study()).batches.values())
 
 
-# ---- faults
-
-
 def test_every_fault_is_reported_with_its_path() -> None:
     raw = study(
         options={"horizon": 0, "late": 0.2, "speed": 1},
@@ -142,7 +129,7 @@ def test_every_fault_is_reported_with_its_path() -> None:
         figures={"map": {"kind": "chart"}},
         colour="red",
     )
-    found = "\n".join(faults(raw))
+    found = "\n".join(faults_of(parse_grid, raw))
     for fault in (
         "colour = 'red': unknown key",
         "batch.size = 0: must be >= 1",
@@ -184,7 +171,7 @@ def test_every_fault_is_reported_with_its_path() -> None:
     ],
 )
 def test_rules_between_parts(changes: dict[str, Any], fault: str) -> None:
-    assert fault in "\n".join(faults(study(**changes)))
+    assert fault in "\n".join(faults_of(parse_grid, study(**changes)))
 
 
 HUGE = {"start": 1, "stop": 2, "count": 10**9}
@@ -211,7 +198,7 @@ HUGE = {"start": 1, "stop": 2, "count": 10**9}
     ],
 )
 def test_what_is_too_large_is_refused_before_it_is_made(changes: dict[str, Any], fault: str) -> None:
-    assert fault in "\n".join(faults(study(**changes)))
+    assert fault in "\n".join(faults_of(parse_grid, study(**changes)))
 
 
 def test_a_resolution_that_makes_too_many_values_is_refused() -> None:
@@ -228,12 +215,10 @@ def test_resolution_divides_the_ranges_in_blocks_too() -> None:
     assert coarse.batches.keys() < fine.batches.keys()
 
 
-# ---- the number of modes, left to each point
-
-
 AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "2e-3"}
 
 
+@pytest.mark.compiled
 def test_the_modes_are_chosen_for_each_point() -> None:
     axes = {"normalization": ["as_published", "orthonormal"]}
     grid = parse_grid(
@@ -251,6 +236,7 @@ def test_the_modes_are_chosen_for_each_point() -> None:
     assert json.loads(merged.attrs["base"])["n_diameters"] == "auto"
 
 
+@pytest.mark.compiled
 def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     choose = truncation.choose_modes
 
@@ -287,18 +273,20 @@ def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pyte
 )
 def test_contradictions_about_the_modes_are_faults(base: dict[str, Any], axes: dict[str, Any], fault: str) -> None:
     raw = study(base={"m": 0.2, **base}, axes={"N": [1], "Omega": [1], **axes}, batch={})
-    assert fault in "\n".join(faults(raw))
+    assert fault in "\n".join(faults_of(parse_grid, raw))
 
 
 def test_the_only_fault_of_a_figure_is_the_one_that_matters() -> None:
     figure = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growht": "g"}}
     axes = {"N": [1], "Omega": [1], "k": [1, 2]}
-    assert faults(study(axes=axes, figures={"f": figure})) == [
+    assert faults_of(parse_grid, study(axes=axes, figures={"f": figure})) == [
         "figures.f.kind = 'stability_map': can show N, Omega, normalization, but not k as well",
         "figures.f.others.growht = 'g': unknown role (known: growth)",
     ]
     wrong = {"f": {"kind": "critical_speed", "others": {"growht": "g"}}}
-    assert faults(study(figures=wrong)) == ["figures.f.kind = 'critical_speed': needs the quantity critical_speed"]
+    assert faults_of(parse_grid, study(figures=wrong)) == [
+        "figures.f.kind = 'critical_speed': needs the quantity critical_speed"
+    ]
 
 
 def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
@@ -327,14 +315,16 @@ def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
 
 def test_a_bad_axis_is_the_only_fault_of_a_figure_over_it() -> None:
     figure = {"f": {"kind": "stability_map", "x": "N", "y": "Omega"}}
-    assert faults(study(axes={"N": [-1], "Omega": [1]}, figures=figure)) == ["axes.N = -1.0: must be >= 0"]
+    assert faults_of(parse_grid, study(axes={"N": [-1], "Omega": [1]}, figures=figure)) == [
+        "axes.N = -1.0: must be >= 0"
+    ]
     uneven = study(axes={"Omega": [1]}, zip={"N": [1, 2], "c": [0]}, batch={}, figures=figure)
-    assert faults(uneven) == ["zip: must have columns of equal length, not N: 2, c: 1"]
+    assert faults_of(parse_grid, uneven) == ["zip: must have columns of equal length, not N: 2, c: 1"]
 
 
 @pytest.mark.parametrize("raw", [None, [], "text", {"study": "x"}, {"axes": 3, "quantity": []}])
 def test_nonsense_is_refused_without_another_error(raw: Any) -> None:
-    assert faults(raw)
+    assert faults_of(parse_grid, raw)
 
 
 def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
@@ -367,75 +357,66 @@ def test_the_studies_of_the_repository_are_right() -> None:
         assert any("normalization" in dim.names for dim in grid.dims)
 
 
-# ---- batches and merging
+def grid(**changes: Any) -> dict[str, Any]:
+    return {"study": "x", "quantity": "outcome", "options": {"horizon": 2}, "axes": {"N": [1], "Omega": [1]}} | changes
 
 
-@pytest.fixture(scope="module")
-def batches() -> list[xr.Dataset]:
-    return [run_batch(text) for text in parse_grid(study()).batches.values()]
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        ({"axes": {"N": {"start": 1, "stop": 9, "step": 1, "scale": "log"}}}, "a logarithmic range must give count"),
+        ({"axes": {"N": {"start": 0, "stop": 9, "count": 3, "scale": "log"}}}, "a logarithmic range must give count"),
+        ({"axes": {"N": {"blocks": [[1]], "step": 2}}}, "axes.N.step = 2: unknown key"),
+        ({"axes": {"N": {"blocks": 3}}}, "axes.N.blocks = 3: must be a list of lists or ranges"),
+        ({"axes": {}}, "axes: is required: at least one axis or zip"),
+        ({"zip": {"rho": [1]}}, "zip.rho: cannot be an axis"),
+        ({"zip": {"c": "x"}}, "zip.c = 'x': must be a list of values"),
+        ({"zip": {"c": [-1]}}, "zip.c = -1.0: must be >= 0"),
+        ({"figures": {"f": {"kind": "critical_speed"}}}, "figures.f.kind = 'critical_speed': needs the quantity"),
+        ({"figures": {"f": {"kind": "stability_map", "y": "N"}}}, "figures.f.x"),
+        ({"options": {"horizon": 2, "late": 3}}, "late must be <= after_separation and <= horizon"),
+    ],
+)  # fmt: skip
+def test_rules_of_grids(changes: dict[str, Any], fault: str) -> None:
+    assert fault in "\n".join(faults_of(parse_grid, grid(**changes)))
 
 
-def test_merged_study_has_every_point_with_units(batches: list[xr.Dataset], tmp_path: Path) -> None:
-    grid = parse_grid(study())
-    merged = merge_batches(batches[::-1], grid.grid, {"title": "small"})
-    merged.to_netcdf(tmp_path / "small.nc")
-    with xr.open_dataset(tmp_path / "small.nc") as read:
-        assert dict(read["status"].sizes) == {"N": 3, "Omega": 3}
-        assert (read["status"] == 0).all()
-        assert read["Omega"].attrs["units"] == "rad s-1"
-        assert read["P_max"].attrs["units"] == "N"
-        assert (read["P_max"].diff("N") > 0).all()
-        assert json.loads(read.attrs["base"])["normalization"] == "as_published"
-    assert list(failures(merged)) == []
+def span(start: float, stop: float, count: int, **more: Any) -> dict[str, Any]:
+    return {"start": start, "stop": stop, "count": count, **more}
 
 
-def test_zips_and_two_normalizations_keep_their_order() -> None:
-    axes = {"normalization": ["orthonormal", "as_published"]}
-    zipped = {"N": [300, 100], "Omega": [20, 10]}
-    grid = parse_grid(study(quantity="floquet", options={}, axes=axes, zip=zipped, batch={}))
-    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {})
-    assert dict(merged["growth_rate"].sizes) == {"N_Omega": 2, "normalization": 2}
-    assert merged["N"].dims == ("N_Omega",)
-    alone = parse_grid(
-        study(quantity="floquet", options={}, base={"normalization": "orthonormal"}, axes={"N": [300], "Omega": [20]})
-    )
-    single = run_batch(next(iter(alone.batches.values())))
-    assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == single["growth_rate"].values[0]
+@pytest.mark.parametrize(
+    ("quantity", "options", "fault"),
+    [
+        ("critical_speed", {"horizons": [1], "scan": span(1, 9, 3, scale="log")}, "scan must be linear"),
+        ("critical_speed", {"horizons": [1], "scan": span(1, 2, 4)}, "must be a multiple of precision"),
+        ("hysteresis", {"scan": span(1, 2, 2), "dwell": 1, "late": 2}, "late must be <= dwell"),
+        ("stability_curves", {"x_range": [2, 1], "y_lines": span(1, 2, 2)}, "x_range must ascend"),
+    ],
+)
+def test_rules_of_options(quantity: str, options: dict[str, Any], fault: str) -> None:
+    axes = {"c": [0]} if quantity == "stability_curves" else {"N": [1]}
+    assert fault in "\n".join(faults_of(parse_grid, grid(quantity=quantity, options=options, axes=axes)))
 
 
-def test_merge_refuses_what_is_not_the_grid(batches: list[xr.Dataset]) -> None:
-    grid = parse_grid(study())
-    with pytest.raises(MergeError, match="missing"):
-        merge_batches(batches[1:], grid.grid, {})
-    with pytest.raises(MergeError, match="there twice"):
-        merge_batches([*batches, batches[0]], grid.grid, {})
-    fewer = parse_grid(study(axes={"N": [100, 200], "Omega": {"start": 10, "stop": 20, "count": 3}}))
-    with pytest.raises(MergeError, match="do not belong"):
-        merge_batches(batches, fewer.grid, {})
+@pytest.mark.parametrize("resolution", ["fine", 0, -2, 1.5])
+def test_a_resolution_is_a_whole_number(resolution: Any) -> None:
+    assert faults_of(parse_grid, grid(), resolution) == [f"resolution = {resolution!r}: must be a whole number >= 1"]
 
 
-def test_a_point_that_fails_has_a_status_and_a_line() -> None:
-    # in the last case rigid friction on the sloping disc has no solution
-    raw = study(
-        axes={"N": [300, 1e6], "Omega": [20]},
-        base={"k_p": 2e6, "mu_s": 3.0, "mu_k": 2.9, "E": 1e9},
-        batch={"over": ["N"]},
-    )
-    grid = parse_grid(raw)
-    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {})
-    lines = list(failures(merged))
-    bad = merged["status"].values != 0
-    assert bad.any()
-    assert len(lines) == bad.sum()
-    assert lines[-1].startswith("N = 1000000.0, Omega = 20.0: ")
-    assert np.isnan(merged["P_max"].values[bad]).all()
+def test_a_value_belongs_to_the_first_block_that_has_it() -> None:
+    repeated = parse_grid(grid(axes={"N": {"blocks": [[1, 2], [2, 1], [3]]}, "Omega": [1]}))
+    (dim,) = (dim for dim in repeated.dims if dim.names == ("N",))
+    assert [value for (value,) in dim.values] == [1.0, 2.0, 3.0]
 
 
-def test_maps_draw_failed_points_and_need_no_growth_rates(batches: list[xr.Dataset]) -> None:
-    figures = {"m": {"kind": "stability_map", "x": "Omega", "y": "N"}}
-    grid = parse_grid(study(figures=figures))
-    merged = merge_batches(batches, grid.grid, {}).assign_coords(normalization="as_published")
-    merged["outcome"].values[0, 0] = 0
-    figure = draw_map(merged, {}, grid.plots["m"])
-    assert figure.axes[0].get_xlabel() == "Speed Ω (rad/s)"
-    assert figure.axes[0].get_ylabel() == "Preload N (N)"
+def test_names_of_files_and_of_studies_agree(tmp_path: Path) -> None:
+    plot = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growth": "elsewhere"}}
+    for name, raw in (("one", grid(study="two")), ("three", grid(study="three", figures={"f": plot}))):
+        (tmp_path / f"{name}.yaml").write_text(json.dumps(raw))
+    with pytest.raises(StudyError) as error:
+        load_grids([tmp_path / "one.yaml", tmp_path / "three.yaml"], taken=["three"])
+    found = str(error.value)
+    assert "study = 'two': must be the name of the file" in found
+    assert "study = 'three': is the name of another folder of results" in found
+    assert "three: figures.f.others.growth = 'elsewhere': no such study" in found

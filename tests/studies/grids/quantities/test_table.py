@@ -12,7 +12,10 @@ import pytest
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
+from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
+from disc_model.studies.grids.quantities.schema import QUANTITIES
 from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column, compute
+from tests.studies.grids.conftest import SCAN
 
 P = Parameters(N=1, Omega=1)
 
@@ -56,3 +59,30 @@ def test_a_point_without_parameters_is_one_that_failed() -> None:
     table = compute(quantity(lambda *_: ({"status": "ok"}, "")), [DiscModelError("no modes")], None)
     assert table.messages == ["DiscModelError: no modes"]
     assert STATUSES[table.arrays["status"][0]] == "failed"
+
+
+class Unmade(DiscModelError):
+    """A point that could not be made."""
+
+
+@pytest.mark.parametrize(
+    ("quantity", "options", "statuses"),
+    [
+        (critical_speed, {"horizons": [900], "scan": SCAN}, {"status", "scan_status"}),
+        (hysteresis, {"scan": SCAN, "dwell": 60}, {"status", "sweep_status"}),
+        (outcome, {"horizon": 9}, {"status"}),
+    ],
+    ids=["critical_speed", "hysteresis", "outcome"],
+)
+def test_of_a_failed_point_nothing_is_known(quantity, options, statuses, fake_motions: None) -> None:
+    """Nor is anything computed for what stands in the place of parameters that could not be made."""
+    table = compute(
+        quantity, [Unmade("no modes")], QUANTITIES[quantity.__name__.rpartition(".")[2]].options.model_validate(options)
+    )
+    assert table.messages == ["Unmade: no modes"]
+    for name, array in table.arrays.items():
+        flags = quantity.COLUMNS[name].variable.flags
+        if flags:
+            assert {flags[i] for i in array.ravel()} == {"failed" if name in statuses else flags[0]}
+        elif array.dtype.kind == "f":
+            assert np.isnan(array).all()

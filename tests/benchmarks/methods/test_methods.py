@@ -8,21 +8,17 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import Parameters
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, MethodUnavailable, Outcome, kernels
+from disc_model.benchmarks.methods import METHODS, MethodUnavailable, Outcome
 from disc_model.benchmarks.methods.base import Method, Problem
 from disc_model.benchmarks.methods.cvode import Cvode
 from disc_model.benchmarks.methods.physics import Physics
-from disc_model.benchmarks.methods.regularised import Law, Regularised
-from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
 from disc_model.benchmarks.methods.solve_ivp import SolveIvp
 from disc_model.benchmarks.methods.taylor_heyoka import Heyoka
 from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
 from disc_model.benchmarks.work_precision import fitted_order
-from tests.references import stored
+from tests.benchmarks.methods.problems import BASE as P
 
-P = Parameters(N=385.0, Omega=15.1)
 INSTALLED = [name for name, method in METHODS.items() if not method.unavailable()]
 
 
@@ -46,45 +42,6 @@ def _smooth(duration=0.1):
     return task, exact.final
 
 
-# ------------------------------------------------------------------------------------- physics
-@pytest.mark.parametrize(("phase", "direction"), [("stick", 0), ("slip", 1), ("slip", -1), ("separation", 0)])
-def test_numpy_and_compiled_right_hand_sides_agree(phase, direction):
-    p = P.replace(n_circles=1, c=3.0, c_p=0.5)
-    physics = Physics(p)
-    y = np.random.default_rng(1).normal(size=4 * physics.n + 4) * 1e-3
-    y[physics.f] = 0.0 if phase == "stick" else 20.0 * (direction or 1)
-    modes, c = kernels.tables(physics)
-    rate = np.empty_like(y)
-    kernels.rate(modes, c, ("stick", "slip", "separation").index(phase), direction, y, rate)
-    np.testing.assert_allclose(rate, physics.rate(phase, direction, y), rtol=1e-11, atol=1e-9)
-
-
-def test_impact_is_plastic_and_the_same_in_both():
-    physics = Physics(P)
-    y = np.random.default_rng(2).normal(size=4 * physics.n + 4) * 1e-3
-    after = physics.impact(y)
-    assert physics.disc_point(after)[1] == pytest.approx(after[physics.v], rel=1e-12)
-    modes, c = kernels.tables(physics)
-    other = y.copy()
-    kernels.switch(modes, c, kernels.SEPARATION, 1, other, np.zeros(2, np.int64))
-    np.testing.assert_allclose(other[physics.alpha], after[physics.alpha], rtol=1e-12)
-
-
-def test_the_stored_start_is_that_of_the_references():
-    ours = scenes.separating_start(P)
-    theirs = stored.engine_state(stored.load("C")["start"], P)
-    assert Physics(P).distance(ours, theirs) < 1e-14
-
-
-@pytest.mark.parametrize(("scene", "name"), [("stick_slip", "A"), ("separating", "C")])
-def test_the_stored_answers_are_those_of_the_references(scene, name):
-    data = stored.load(name)
-    assert answer(scene).kinds == tuple(stored.kinds_of(data))
-    assert float(np.abs(answer(scene).times - stored.times_of(data)).max()) < 1e-15
-    assert answer(scene).error < 1e-15
-
-
-# ------------------------------------------------------------------------------------- order
 @pytest.mark.parametrize(
     ("name", "values", "order", "margin"),
     [
@@ -103,6 +60,7 @@ def test_theoretical_order_on_smooth_motion(name, values, order, margin):
     assert fitted_order(work, np.array(found)) == pytest.approx(order, abs=margin)
 
 
+@pytest.mark.compiled
 def test_the_series_engine_reaches_rounding():
     task, exact = _smooth()
     result = METHODS["series"].solve(task, 1e-13)
@@ -122,7 +80,7 @@ def test_methods_of_variable_order_follow_their_tolerance(name):
     assert errors_[2] < 1e-5
 
 
-# ------------------------------------------------------------------------------------- where they succeed
+@pytest.mark.compiled
 @pytest.mark.parametrize(
     ("name", "value", "allowed"),
     [
@@ -150,28 +108,6 @@ def test_rigid_cycle_is_met_by_an_implicit_method_at_once():
     assert found.event_time < 1e-7
 
 
-# ------------------------------------------------------------------------------------- where they fail
-def test_rk4_at_its_stability_limit():
-    """h omega_max = 2 sqrt(2) lies at 6.453e-4 s."""
-    limit = STABILITY_LIMIT / Physics(P).omega.max()
-    assert limit == pytest.approx(6.453e-4, rel=1e-3)
-    below, found = _judge("RK4", "stick_slip", 6.40e-4)
-    assert (len(below.kinds), below.separations) == (135, 0)
-    assert found.verdict is Verdict.INACCURATE
-    at, found = _judge("RK4", "stick_slip", 6.45e-4)
-    assert at.separations > 100  # there are none
-    assert found.verdict is Verdict.UNSTABLE
-    above, found = _judge("RK4", "stick_slip", 7e-4)
-    assert above.outcome is Outcome.NON_FINITE
-    assert found.verdict is Verdict.UNSTABLE
-
-
-def test_rk4_misses_separations_shorter_than_a_step():
-    result, found = _judge("RK4", "separating", 1e-4)
-    assert result.separations == 129  # of 131
-    assert found.verdict is Verdict.MISSED
-
-
 @pytest.mark.parametrize(("name", "most"), [("RK45", 100), ("DOP853", 60), ("LSODA", 20)])
 def test_default_steps_jump_over_losses_of_contact(name, most):
     result, found = _judge(name, "separating", 1e-3)  # scipy's default rtol
@@ -189,6 +125,7 @@ def test_a_tight_tolerance_does_not_help_dop853_but_short_steps_do():
     assert errors(problem("separating"), answer("separating"), short).event_time < 1e-9
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("tol", [1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14])
 def test_the_engine_misses_none(tol):
     result, found = _judge("series", "separating", tol)
@@ -205,36 +142,6 @@ def test_native_events_fail_on_the_triple_root_without_a_guard():
     assert found.verdict in (Verdict.MISSED, Verdict.GAVE_UP, Verdict.UNSTABLE)
 
 
-# ------------------------------------------------------------------------------------- the regularised model
-def test_the_regularised_law_has_the_static_friction_as_its_maximum():
-    law = Law(Physics(P), 0.1)
-    friction = [law.friction(f) for f in np.linspace(0.0, 10.0, 20_001)]
-    assert max(friction) == pytest.approx(P.mu_s, rel=1e-6)
-    assert friction[-1] == pytest.approx(P.mu_k, rel=1e-3)
-    assert law.friction(-1.0) == -law.friction(1.0)
-
-
-def test_the_regularised_model_is_of_order_two_thirds_in_eps():
-    """Stick breaks by slow passage through the maximum of the law, a fold: late by eps^(2/3)."""
-    task = Problem(P, scenes.static_start(P), 0.01)
-    first = answer("stick_slip").times[0]
-    eps = np.array([0.3, 0.1, 0.03])
-    results = [METHODS["regularised"].solve(task, value) for value in eps]
-    assert all(result.kinds == ("stick_to_slip",) for result in results)
-    late = np.array([float(result.times[0] - first) for result in results])
-    assert fitted_order(1.0 / eps, late) == pytest.approx(2 / 3, abs=0.12)
-
-
-def test_the_regularised_model_is_stiff_in_proportion_to_its_sharpness():
-    law = Law(Physics(P), 0.1)
-    assert Law(Physics(P), 0.01).stiffness(P.N) == pytest.approx(10.0 * law.stiffness(P.N))
-    assert law.stiffness(P.N) > 30.0 * Physics(P).omega.max()
-    task = Problem(P, scenes.static_start(P), 0.004)  # stick: nothing moves but the drive
-    coarse, fine = (Regularised("RK45").solve(task, eps).work for eps in (0.1, 0.01))
-    assert fine > 4 * coarse
-
-
-# ------------------------------------------------------------------------------------- the interface
 def test_a_method_out_of_time_says_so():
     result = METHODS["RK45"].solve(problem("many_modes"), 1e-6, budget=0.05)
     assert result.outcome is Outcome.TOO_SLOW

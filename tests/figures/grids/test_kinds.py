@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 
 from disc_model.figures.grids.kinds import PLOTS, Plot
+from disc_model.parameters import Parameters
+from disc_model.studies.grids.quantities.schema import QUANTITIES
 from disc_model.studies.grids.schema import load_grids
 
 CONFIG = Path(__file__).parents[3] / "config" / "studies"
@@ -161,3 +163,19 @@ def test_the_figures_of_the_repository_can_be_drawn(folder: Path) -> None:
 
 def _values(grid: Any) -> dict[str, list[Any]]:
     return {dim.name: list(dim.values) for dim in grid.dims}
+
+
+def test_every_plot_knows_its_quantity_its_dimensions_and_who_draws_it() -> None:
+    needed = {"stability_map": {"x": "N", "y": "Omega"}, "bifurcation": {"x": "Omega"}}
+    for kind, plot in PLOTS.items():
+        made = plot(kind=kind, **needed.get(kind, {}))
+        assert made.quantity in QUANTITIES
+        assert made.module.startswith("disc_model.figures.")
+        assert set(made.dims) <= {*Parameters.model_fields}
+    from disc_model.figures.grids.kinds import Plot
+
+    bare = Plot(kind="none")
+    assert bare.dims == ()
+    for name in ("quantity", "module"):
+        with pytest.raises(NotImplementedError):
+            getattr(bare, name)

@@ -1,25 +1,25 @@
-"""What grid studies compute: thresholds, hysteresis, and settling, which slow growth must not be taken for."""
+"""What becomes of a motion."""
 
 from __future__ import annotations
 
 import math
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
+from disc_model.stability import settling
 from disc_model.stability.settling import Settling, follow
-from disc_model.studies.grids.quantities import critical_speed, floquet, hysteresis, outcome
-from disc_model.studies.grids.quantities.schema import (
-    CriticalSpeedOptions,
-    FloquetOptions,
-    HysteresisOptions,
-    OutcomeOptions,
-)
+from disc_model.status import Status
+from disc_model.studies.grids.quantities import floquet, outcome
+from disc_model.studies.grids.quantities.schema import FloquetOptions, OutcomeOptions, SettlingOptions
 from disc_model.studies.grids.quantities.table import STATUSES, compute
+from tests.studies.grids.conftest import SMALL, computed
 
 
 def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.ndarray], list[str]]:
@@ -27,8 +27,6 @@ def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.nd
     words = outcome.COLUMNS["outcome"].variable.flags
     return table.arrays, [words[i] for i in table.arrays["outcome"]]
 
-
-# ---- settling
 
 SLOW_GROWTH = [
     {"N": 200, "Omega": 11},  # +0.0140/s, bounded in the end
@@ -76,6 +74,7 @@ def test_a_motion_left_early_would_have_stayed_quiet(case: dict[str, float]) -> 
     assert left["share_stick"][0] == pytest.approx(whole["share_stick"][0], abs=0.01)
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize(("N", "Omega"), [(385, 15), (50, 15)])
 def test_the_observed_rate_of_decay_is_that_of_the_multipliers(N: float, Omega: float) -> None:
     p = Parameters(N=N, Omega=Omega)
@@ -85,11 +84,13 @@ def test_the_observed_rate_of_decay_is_that_of_the_multipliers(N: float, Omega: 
     assert followed.settling.distance < 1e-3
 
 
+@pytest.mark.compiled
 def test_a_bond_that_holds_cannot_separate() -> None:
     _, words = outcomes([Parameters(N=385, Omega=15.1, contact="bonded")], horizon=60)
     assert words == ["unstable"]
 
 
+@pytest.mark.compiled
 def test_following_does_not_move_the_first_separation() -> None:
     p = Parameters(N=385, Omega=15.1)
     arrays, words = outcomes([p], horizon=100)
@@ -100,6 +101,7 @@ def test_following_does_not_move_the_first_separation() -> None:
     assert arrays["P_min"][0] == 0
 
 
+@pytest.mark.compiled
 def test_a_slider_that_never_sticks_is_followed_by_its_contact_force() -> None:
     arrays, words = outcomes([Parameters(N=100, Omega=10, mu_s=0, mu_k=0)], horizon=100)
     assert words == ["stable"]
@@ -116,72 +118,59 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
     assert STATUSES[arrays["status"][0]] == "step_limit"
 
 
-# ---- thresholds
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(settling, "FIRST_PROBE", 0.2)
 
 
-def speeds(
-    N: float, horizons: list[float], start: float, stop: float, step: float, precision: float
-) -> dict[str, np.ndarray]:
-    options = CriticalSpeedOptions.model_validate(
-        {"horizons": horizons, "scan": {"start": start, "stop": stop, "step": step}, "precision": precision}
-    )
-    return compute(critical_speed, [Parameters(N=N, Omega=0)], options).arrays
+@pytest.mark.usefixtures("impatient")
+def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
+    options = {"horizon": 3.0, "late": 0.05, "after_separation": 0.05, "tol": 1e-9}
+    damped = computed(
+        quantity="outcome", options=options, base=SMALL | {"c": 20.0, "D_star": 1e-3}, axes={"N": [200], "Omega": [20]}
+    ).squeeze()
+    assert flag_names(damped["outcome"]) == "stable"
+    assert damped["settled"] == damped["time_reached"] < 3.0
+    assert damped["distance"] < 1e-4
+    assert damped["difference_rate"] < 0
+    # the late stretch is the cycle itself
+    assert damped["share_stick"] + damped["share_slip"] == pytest.approx(1)
+    base = SMALL | {"mu_s": 1.4, "mu_k": 0.2, "k": 0}
+    apart = computed(quantity="outcome", options=options, base=base, axes={"N": [700], "Omega": [50]}).squeeze()
+    assert flag_names(apart["outcome"]) == "separation"
+    assert apart["time_reached"] == pytest.approx(float(apart["first_separation"]) + 0.05)
+    assert np.isnan(apart["settled"])
+    assert apart["P_min"] == 0
 
 
-@pytest.mark.slow
-def test_lowest_separating_speed_at_200_N_depends_on_the_horizon() -> None:
-    found = speeds(200, [1800, 800], 10, 13, 1, 0.1)
-    assert list(found["critical_speed"][0]) == [12.4, 12.0]
-    assert list(found["n_crossings"][0]) == [1, 1]
+def test_growth_without_separation_is_unstable(monkeypatch: pytest.MonkeyPatch) -> None:
+    def followed(status: Status, growing: bool) -> SimpleNamespace:
+        state = SimpleNamespace(time=7.0)
+        return SimpleNamespace(
+            result=SimpleNamespace(status=status, message="why", final_state=state),
+            settling=SimpleNamespace(growing=growing, rate=0.1, differences=[0.5]),
+            orbit=None, late=None, settled=False, first_separation=math.nan, simulated=7.0,
+        )  # fmt: skip
+
+    for status, growing, expected in (
+        (Status.OK, True, "unstable"),
+        (Status.OK, False, "stable"),
+        (Status.STEP_LIMIT, True, "unknown"),
+    ):
+        monkeypatch.setattr(outcome, "follow", lambda *_, s=status, g=growing, **__: followed(s, g))
+        table = compute(outcome, [Parameters(N=1, Omega=1)], OutcomeOptions(horizon=9))
+        assert outcome.OUTCOMES[table.arrays["outcome"][0]] == expected
+        assert table.arrays["difference"][0] == 0.5
+        assert list(table.messages) == ["why" if status is Status.STEP_LIMIT else ""]
 
 
-def test_385_N_turns_between_15_08_and_15_09() -> None:
-    """Below the fold of the quiet cycle at 15.0949: from the published start the separating motion is reached earlier.
-
-    At 15.085 rad/s contact is lost at 59.6101202 s, at 15.09 at 56.4006380 s, by the engine, by a long-order Taylor
-    integrator and by fixed-step Runge-Kutta alike; at 15.08 not within 300 s.
-    """
-    found = speeds(385, [200], 15, 15.2, 0.05, 0.01)
-    assert found["critical_speed"][0, 0] == 15.09
-    assert found["crossing"][0, 0, 0] == 15.09
-    kinds = critical_speed.COLUMNS["crossing_kind"].variable.flags
-    assert [kinds[i] for i in found["crossing_kind"][0, 0, :2]] == ["begins", "none"]
+def test_settling_options_have_the_defaults_of_following() -> None:
+    assert SettlingOptions().tol == 1e-10
 
 
-def test_all_crossings_are_found_where_separation_ends_again() -> None:
-    """First separations as at N = 200 N, where 14 rad/s is quicker than 14.5: one horizon has three crossings."""
-    times = {0: math.inf, 2: 700.0, 4: 588.0, 6: 876.0, 8: 480.0}
-    known = dict(times)
-    ask = lambda i: known.setdefault(i, (times[i - 1] + times[i + 1]) / 2)  # noqa: E731
-    critical_speed._bisect(known, ask, 800.0)
-    found = critical_speed._crossings(known, 800.0, lambda i: 10 + i / 10, 4)
-    assert found["n_crossings"] == 3
-    assert found["crossing_kind"] == ["begins", "ends", "begins", "none"]
-    assert found["critical_speed"] == 10.2
-    assert all(b - a == 1 for a, b in [(1, 2), (5, 6), (6, 7)] if a in known)
-
-
-def test_hysteresis_at_385_N() -> None:
-    """Separation begins beyond the fold at 15.09 rad/s and persists below it on the way down."""
-    options = HysteresisOptions.model_validate({"scan": {"start": 12, "stop": 16, "step": 0.5}, "dwell": 60, "late": 2})
-    found = compute(hysteresis, [Parameters(N=385, Omega=0)], options).arrays
-    assert found["onset"][0] == 15.5
-    assert found["persists_to"][0] < 15
-    assert found["separation_rate"].shape == (1, 2, 9)
-    assert (found["sweep_status"] == 0).all()
-
-
-def test_floquet_gives_a_status_where_there_is_no_cycle() -> None:
-    found = compute(floquet, [Parameters(N=385, Omega=15), Parameters(N=0, Omega=15)], FloquetOptions())
-    assert floquet.STATUSES[found.arrays["status"][0]] == "ok"
-    assert found.arrays["growth_rate"][0] == pytest.approx(-0.1055, abs=1e-3)
-    assert floquet.STATUSES[found.arrays["status"][1]] != "ok"
-    assert found.messages[1]
-
-
+@pytest.mark.compiled
 def test_flags_read_as_words() -> None:
     table = compute(outcome, [Parameters(N=385, Omega=15)], OutcomeOptions(horizon=1, late=0.5))
-    import xarray as xr
 
     attrs = {"flag_meanings": " ".join(outcome.OUTCOMES)}
     assert list(flag_names(xr.DataArray(table.arrays["outcome"], attrs=attrs))) == ["stable"]

@@ -26,7 +26,7 @@ from disc_model.studies.faults import StudyError, read_yaml
 from disc_model.studies.grids.schema import parse_grid
 from tests.tally import tried
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 NAMES = [*Parameters.model_fields, "n", "Ω", "", "__class__", "N ", "omega"]
 HOSTILE = [
     math.nan,

@@ -1,0 +1,60 @@
+"""Methods whose errors and costs are laid down, and what a benchmark makes of them."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import xarray as xr
+
+from disc_model.benchmarks import scenes, work_precision
+from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.methods.base import Method, MethodResult
+from disc_model.benchmarks.scenes import answer
+
+
+class Known(Method):
+    """A method whose error is ``error`` (value) seconds at every event, and which takes ``cost`` (value) seconds."""
+
+    def __init__(self, like: str, error, cost, outcome=Outcome.FINISHED) -> None:
+        own = METHODS[like]
+        self.name, self.label, self.setting, self.order = own.name, own.label, own.setting, own.order
+        self.error, self.cost, self.outcome = error, cost, outcome
+        self.tried: list[float] = []
+
+    def unavailable(self) -> str:
+        return ""
+
+    def _solve(self, problem, value, budget):
+        self.tried.append(value)
+        name = next(name for name in scenes.SCENES if scenes.problem(name) is problem)
+        right, off = answer(name), self.error(value)
+        kinds = right.kinds if off < 1e-2 else ("slip_reversal",) * len(right.kinds)
+        times = (right.times[: len(kinds)] + off).astype(float)
+        final = right.final.replace(psi=right.final.psi * (1 + off), f=right.final.f * (1 + off))
+        work = round(1 / value) if self.setting == "step" else 1000
+        return MethodResult(times, kinds, final, self.cost(value), work, self.outcome)
+
+
+@pytest.fixture
+def known(monkeypatch: pytest.MonkeyPatch) -> dict[str, Known]:
+    methods = {
+        "series": Known("series", lambda tol: 0.5 * tol, lambda tol: 1e-3 - 1e-5 * math.log10(tol)),
+        "RK4": Known("RK4", lambda h: 1e8 * h**4, lambda h: 1e-5 / h),
+        "Radau": Known("Radau", lambda tol: 1.0, lambda tol: 0.2),
+        "regularised": Known("regularised", lambda e: 1e-4, lambda e: 100.0, Outcome.TOO_SLOW),
+    }
+    for name, method in methods.items():
+        monkeypatch.setitem(METHODS, name, method)
+    return methods
+
+
+SETTINGS = {
+    "stick_slip": {"series": (1e-6, 1e-8, 1e-10), "RK4": (4e-4, 2e-4, 1e-4, 2e-5), "Radau": (1e-3,)},
+    "separating": {"series": (1e-6, 1e-8), "RK4": (2e-4,), "regularised": (1.0, 0.1)},
+}
+
+
+@pytest.fixture
+def dataset(known: dict[str, Known]) -> xr.Dataset:
+    return work_precision.work_precision(SETTINGS, rounds=2)

@@ -1,0 +1,68 @@
+"""What ends a run of phases."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.methods import regularised as regularised_module
+from disc_model.benchmarks.methods import solve_ivp as solve_ivp_module
+from disc_model.benchmarks.methods.base import Meter
+from disc_model.benchmarks.methods.phases import Ended, IntegrationFailed, run_phases
+from disc_model.benchmarks.methods.physics import Physics
+from tests.benchmarks.methods.problems import task
+from tests.references.printed import P
+
+
+@pytest.mark.parametrize(
+    ("what", "outcome", "words"),
+    [
+        ("fails", Outcome.FAILED, "gave up"),
+        ("overflows", Outcome.NON_FINITE, "no longer finite"),
+        ("crowds", Outcome.STALLED, "more than 50 events at one instant"),
+    ],
+)
+def test_what_ends_a_run_of_phases(what, outcome, words):
+    problem = task()
+
+    def advance(phase, t, y, t_end):
+        if what == "fails":
+            raise IntegrationFailed("gave up")
+        if what == "overflows":
+            return Ended(None, t, y * math.nan)
+        return Ended(1 if phase.name == "slip" else 0, t, y)  # one switch after the other, at once
+
+    result = run_phases(problem, Physics(P), advance, Meter(math.inf))
+    assert result.outcome is outcome
+    assert words in result.message
+
+
+def test_an_integrator_that_gives_up_is_reported(monkeypatch):
+    def failing(function, span, y, **_):
+        return SimpleNamespace(
+            t=np.array([0.0]), y=y[:, None], status=-1, message="step too small", t_events=([], []), y_events=([], [])
+        )
+
+    monkeypatch.setattr(solve_ivp_module, "solve_ivp", failing)
+    result = METHODS["RK45"].solve(task(), 1e-6)
+    assert (result.outcome, result.message) == (Outcome.FAILED, "step too small")
+    monkeypatch.setattr(regularised_module, "solve_ivp", failing)
+    result = METHODS["regularised"].solve(task(), 1.0)
+    assert (result.outcome, result.message) == (Outcome.FAILED, "step too small")
+
+    def overflowing(function, span, y, **_):
+        return SimpleNamespace(
+            t=np.array([0.0, 1.0]),
+            y=np.full((len(y), 2), np.nan),
+            status=0,
+            message="",
+            t_events=([], []),
+            y_events=([], []),
+        )
+
+    monkeypatch.setattr(regularised_module, "solve_ivp", overflowing)
+    assert METHODS["regularised"].solve(task(), 1.0).outcome is Outcome.NON_FINITE

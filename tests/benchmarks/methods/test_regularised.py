@@ -1,0 +1,84 @@
+"""The regularised model: its law, its contact, its order, its stiffness."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.methods import regularised as regularised_module
+from disc_model.benchmarks.methods.base import Problem
+from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.methods.regularised import Law, Regularised
+from disc_model.benchmarks.scenes import answer
+from disc_model.benchmarks.work_precision import fitted_order
+from tests.benchmarks.methods.problems import BASE, task
+from tests.references.printed import P, Printed, lively
+
+
+def test_the_penalty_force_is_the_contact_force_at_the_start():
+    problem = task()
+    law = Law(Physics(P), 0.1)
+    y = Regularised._start(problem, law.physics, law)
+    assert law.force(y) == pytest.approx(Printed(P, problem.start).force(), rel=1e-9)
+    flying = task("separation", 0)
+    np.testing.assert_array_equal(Regularised._start(flying, law.physics, law), law.physics.pack(flying.start))
+    assert law.force(law.physics.pack(flying.start)) < 0
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_the_penalty_acts_on_disc_and_slider_alike(direction):
+    """What the contact adds to the free motion: on the disc down, on the slider up, friction against the slip."""
+    law = Law(Physics(P), 0.1)
+    y = Regularised._start(task("slip", direction), law.physics, law)
+    added, physics = law.rate(y) - law.physics.rate("separation", 0, y), law.physics
+    force = law.force(y)
+    np.testing.assert_allclose(added[physics.alpha], -physics.shape * force, rtol=1e-9)
+    assert added[physics.v] == pytest.approx(force / P.m, rel=1e-9)
+    assert added[physics.f] == pytest.approx(-direction * P.mu_k * force / (P.m * P.r_0), rel=1e-3)
+    assert law.stiffness(force) == pytest.approx(P.mu_s * force / (P.m * P.r_0 * 0.1))
+
+
+def test_crossings_are_read_as_switches():
+    law = Law(Physics(P), 0.1)
+    physics = law.physics
+    y = Regularised._start(task(), physics, law)
+    sticking, flying = y.copy(), physics.pack(lively("separation"))
+    sticking[physics.f] = 0.0
+    assert regularised_module._state(law, 0.0, y).phase == "slip"
+    assert regularised_module._state(law, 0.0, sticking).phase == "stick"
+    assert regularised_module._state(law, 0.0, flying).phase == "separation"
+    times, kinds = regularised_module._read_off(law, [np.array([1.0, 2.0]), np.empty(0)], [np.array([y, flying]), []])
+    assert times.tolist() == [1.0]  # in flight f may cross zero: no switch
+    assert kinds[0] in ("stick_to_slip", "slip_to_stick")
+    passing = [(1.0, "slip_to_stick"), (1.0 + 5e-7, "stick_to_slip"), (2.0, "separation")]
+    assert regularised_module._without_reversals(passing) == [(1.0, "slip_reversal"), (2.0, "separation")]
+
+
+def test_the_regularised_law_has_the_static_friction_as_its_maximum():
+    law = Law(Physics(BASE), 0.1)
+    friction = [law.friction(f) for f in np.linspace(0.0, 10.0, 20_001)]
+    assert max(friction) == pytest.approx(BASE.mu_s, rel=1e-6)
+    assert friction[-1] == pytest.approx(BASE.mu_k, rel=1e-3)
+    assert law.friction(-1.0) == -law.friction(1.0)
+
+
+def test_the_regularised_model_is_of_order_two_thirds_in_eps():
+    """Stick breaks by slow passage through the maximum of the law, a fold: late by eps^(2/3)."""
+    task = Problem(BASE, scenes.static_start(BASE), 0.01)
+    first = answer("stick_slip").times[0]
+    eps = np.array([0.3, 0.1, 0.03])
+    results = [METHODS["regularised"].solve(task, value) for value in eps]
+    assert all(result.kinds == ("stick_to_slip",) for result in results)
+    late = np.array([float(result.times[0] - first) for result in results])
+    assert fitted_order(1.0 / eps, late) == pytest.approx(2 / 3, abs=0.12)
+
+
+def test_the_regularised_model_is_stiff_in_proportion_to_its_sharpness():
+    law = Law(Physics(BASE), 0.1)
+    assert Law(Physics(BASE), 0.01).stiffness(BASE.N) == pytest.approx(10.0 * law.stiffness(BASE.N))
+    assert law.stiffness(BASE.N) > 30.0 * Physics(BASE).omega.max()
+    task = Problem(BASE, scenes.static_start(BASE), 0.004)  # stick: nothing moves but the drive
+    coarse, fine = (Regularised("RK45").solve(task, eps).work for eps in (0.1, 0.01))
+    assert fine > 4 * coarse

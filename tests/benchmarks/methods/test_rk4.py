@@ -1,0 +1,55 @@
+"""Fixed steps: how they end, where they blow up, what they miss."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model.benchmarks.methods import METHODS, Outcome, kernels
+from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
+from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
+from tests.benchmarks.methods.problems import BASE, vector
+from tests.references.printed import lively
+
+
+def test_fixed_steps_end_as_they_must():
+    _, y, modes, c = vector(lively("slip", 1))
+
+    def run(t_end, h, max_steps, room=4, y=y):
+        return kernels.rk4_run(
+            modes, c, kernels.SLIP, 1, y.copy(), t_end, h, max_steps, np.empty(room), np.empty(room, np.int64)
+        )
+
+    assert run(1e-4, 1e-5, 3)[0] == kernels.STEP_LIMIT
+    assert run(1e-4, 1e-5, 99)[0] == kernels.FINISHED
+    assert run(1.0, 0.5, 99)[0] == kernels.NON_FINITE
+    assert run(0.02, 1e-5, 9999, room=0)[0] == kernels.STALLED
+
+
+def _judge(name, scene, value, budget=30.0):
+    result = METHODS[name].solve(problem(scene), value, budget)
+    return result, errors(problem(scene), answer(scene), result)
+
+
+@pytest.mark.compiled
+def test_rk4_at_its_stability_limit():
+    """h omega_max = 2 sqrt(2) lies at 6.453e-4 s."""
+    limit = STABILITY_LIMIT / Physics(BASE).omega.max()
+    assert limit == pytest.approx(6.453e-4, rel=1e-3)
+    below, found = _judge("RK4", "stick_slip", 6.40e-4)
+    assert (len(below.kinds), below.separations) == (135, 0)
+    assert found.verdict is Verdict.INACCURATE
+    at, found = _judge("RK4", "stick_slip", 6.45e-4)
+    assert at.separations > 100  # there are none
+    assert found.verdict is Verdict.UNSTABLE
+    above, found = _judge("RK4", "stick_slip", 7e-4)
+    assert above.outcome is Outcome.NON_FINITE
+    assert found.verdict is Verdict.UNSTABLE
+
+
+@pytest.mark.compiled
+def test_rk4_misses_separations_shorter_than_a_step():
+    result, found = _judge("RK4", "separating", 1e-4)
+    assert result.separations == 129  # of 131
+    assert found.verdict is Verdict.MISSED

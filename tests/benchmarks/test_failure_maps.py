@@ -1,0 +1,98 @@
+"""Maps of where methods fail."""
+
+from __future__ import annotations
+
+import math
+import os
+
+import numpy as np
+import pytest
+
+from disc_model.benchmarks import failure_maps
+from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.methods.base import MethodResult
+from disc_model.benchmarks.scenes import Verdict
+from disc_model.figures import benchmark as figures
+from disc_model.figures.style import save
+
+
+def available() -> set[int]:
+    """Cores that this process may use."""
+    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
+
+
+CORES = available()
+
+
+@pytest.fixture
+def short(monkeypatch: pytest.MonkeyPatch):
+    """Maps of 20 ms of stick-slip and 10 ms of separations."""
+    monkeypatch.setattr(failure_maps, "SPANS", {"stick_slip": 0.02, "separating": 1e-2})
+    for cached in (failure_maps.short_problem, failure_maps.engine_answer):
+        cached.cache_clear()
+    yield
+    for cached in (failure_maps.short_problem, failure_maps.engine_answer):
+        cached.cache_clear()
+
+
+@pytest.mark.usefixtures("short")
+def test_maps_of_steps_and_of_tolerances(tmp_path) -> None:
+    found = failure_maps.failure_map("RK4", "separating", (1, 2), (1e-3, 2e-5))
+    assert found["modes"].values.tolist() == [3, 5]
+    assert found["step_limit"].values == pytest.approx(2 * math.sqrt(2) / found["omega_max"].values)
+    assert found["shortest_phase"].values.min() > 0
+    assert "observed_limit" not in found
+    assert available() == CORES  # it stayed on one of them
+    engine = failure_maps.failure_map("series", "separating", (1, 2), (1e-6, 1e-10))
+    assert (engine["verdict"].values == Verdict.CONVERGED).all()
+    adaptive = failure_maps.failure_map("RK45", "separating", (1,), (1e-2, 1e-5))
+    smooth = failure_maps.failure_map("regularised", "separating", (1,), (10.0, 1.0))
+    assert np.isfinite(adaptive["longest_step"]).all()
+    figure = figures.failure_maps([found, engine, adaptive, smooth, adaptive])
+    titles = [ax.get_title(loc="left") for ax in figure.axes if ax.get_title(loc="left")]
+    assert titles[0] == f"(a) {METHODS['RK4'].label}"
+    assert len(titles) == 5
+    save(figure, tmp_path / "maps.png")
+
+
+@pytest.mark.usefixtures("short")
+def test_the_observed_limit_is_where_the_bisection_puts_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    limit = 6.4e-4
+
+    class Breaking(failure_maps.FixedStep):
+        def solve(self, problem, value, budget=math.inf):
+            right = failure_maps.engine_answer("stick_slip", 2)
+            outcome = Outcome.NON_FINITE if value > limit else Outcome.FINISHED
+            return MethodResult(right.times.astype(float), right.kinds, right.final, 0.0, 1, outcome)
+
+    monkeypatch.setattr(failure_maps, "FixedStep", Breaking)
+    theory = float(failure_maps.failure_map("RK4", "separating", (2,), (1e-4,))["step_limit"][0])
+    limit = 1.1 * theory
+    assert failure_maps.observed_step_limit(2) == pytest.approx(limit, rel=3e-3)
+    contact = failure_maps.failure_map("RK4", "stick_slip", (2,), (1e-4, 2e-4))
+    assert float(contact["observed_limit"][0]) == pytest.approx(limit, rel=3e-3)
+    assert "contact" in figures.failure_maps([contact]).axes[0].get_title(loc="left")
+
+
+def test_heyoka_is_compiled_compactly_for_maps() -> None:
+    own = failure_maps._economical(METHODS["heyoka-unguarded"])
+    assert own.compact
+    assert own.guard == 0.0
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("diameters", [2, 4])
+def test_observed_stability_limit_is_the_linear_one(diameters):
+    """2 sqrt(2)/omega_max is exact for a linear undamped system; stick-slip and damping shift it by 3 % at most."""
+    theory = float(failure_maps.failure_map("RK4", "separating", (diameters,), (1e-3,))["step_limit"][0])
+    assert failure_maps.observed_step_limit(diameters) == pytest.approx(theory, rel=0.03)
+
+
+@pytest.mark.compiled
+def test_failure_map():
+    found = failure_maps.failure_map("RK4", "stick_slip", (1, 4), (1e-3, 3e-4, 5e-5))
+    words = np.array(found["verdict"].attrs["flag_meanings"].split())[found["verdict"].values]
+    assert words.tolist() == [["inaccurate", "inaccurate", "converged"], ["unstable", "inaccurate", "converged"]]
+    assert found["modes"].values.tolist() == [3, 9]
+    engine = failure_maps.failure_map("series", "separating", (1, 4), (1e-6, 1e-10))
+    assert (engine["verdict"].values == Verdict.CONVERGED).all()

@@ -1,0 +1,123 @@
+"""The scenes' right answers, errors against them, and verdicts."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import METHODS, MethodResult, Outcome
+from disc_model.benchmarks.methods.base import Problem
+from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.scenes import Verdict, answer, errors, event_time_error, problem
+from tests.references import stored
+from tests.references.printed import P as LIVELY
+from tests.references.printed import lively
+
+P = Parameters(N=385.0, Omega=15.1)
+
+
+def test_the_stored_start_is_that_of_the_references():
+    ours = scenes.separating_start(P)
+    theirs = stored.engine_state(stored.load("C")["start"], P)
+    assert Physics(P).distance(ours, theirs) < 1e-14
+
+
+@pytest.mark.parametrize(("scene", "name"), [("stick_slip", "A"), ("separating", "C")])
+def test_the_stored_answers_are_those_of_the_references(scene, name):
+    data = stored.load(name)
+    assert answer(scene).kinds == tuple(stored.kinds_of(data))
+    assert float(np.abs(answer(scene).times - stored.times_of(data)).max()) < 1e-15
+    assert answer(scene).error < 1e-15
+
+
+def _result(scene, times, kinds, outcome=Outcome.FINISHED, final=None):
+    right = answer(scene)
+    return MethodResult(np.asarray(times, float), tuple(kinds), final or right.final, 0.1, 1, outcome)
+
+
+def test_the_right_answer_has_no_error():
+    right = answer("stick_slip")
+    found = errors(problem("stick_slip"), right, _result("stick_slip", right.times, right.kinds))
+    assert (found.state, found.verdict) == (0.0, Verdict.CONVERGED)
+    assert found.event_time < 1e-15
+
+
+def test_an_event_too_few_is_wrong_unless_it_is_late():
+    right, t_end = answer("stick_slip"), problem("stick_slip").t_end
+    times = right.times.astype(float)
+    missing = _result("stick_slip", np.delete(times, 7), np.delete(right.kinds, 7))
+    assert math.isnan(event_time_error(right, missing, t_end))
+    short = _result("stick_slip", times[:-1], right.kinds[:-1])
+    assert math.isnan(event_time_error(right, short, t_end))
+    late = t_end - times[-1]
+    delayed = _result("stick_slip", times[:-1] + late, right.kinds[:-1])
+    assert event_time_error(right, delayed, t_end) == pytest.approx(late)
+
+
+def test_verdicts():
+    task, right = problem("stick_slip"), answer("stick_slip")
+
+    def verdict(**changes):
+        return errors(
+            task, right, _result("stick_slip", **({"times": right.times, "kinds": right.kinds} | changes))
+        ).verdict
+
+    assert verdict(times=right.times + 1e-4) is Verdict.INACCURATE
+    assert verdict(kinds=("separation",) * 135) is Verdict.MISSED
+    assert verdict(outcome=Outcome.NON_FINITE) is Verdict.UNSTABLE
+    assert verdict(outcome=Outcome.TOO_SLOW) is Verdict.GAVE_UP
+    assert verdict(outcome=Outcome.STALLED) is Verdict.GAVE_UP
+    assert verdict(final=right.final.replace(alpha=right.final.alpha + 100.0)) is Verdict.UNSTABLE
+
+
+@pytest.mark.compiled
+def test_rigid_cycle():
+    task, right = problem("rigid"), answer("rigid")
+    p = task.parameters
+    assert right.kinds == ("stick_to_slip", "slip_to_stick", "stick_to_slip")
+    assert float(right.times[0]) == pytest.approx(p.mu_s * p.N / (p.k_p * p.r_0) / p.Omega, rel=1e-15)
+    result = METHODS["RK4"].solve(task, 6e-8)
+    assert errors(task, right, result).event_time < 1e-10
+
+
+def test_the_rigid_cycle_goes_through_all_its_phases(monkeypatch):
+    """In stick and in slip at the end: against the single degree of freedom, integrated."""
+    whole = scenes.problem("rigid")
+    p = whole.parameters
+    w = math.sqrt(p.k_p / p.m)
+    for t_end in (0.004, 0.012, whole.t_end):
+        answer = scenes.rigid_cycle(Problem(p, whole.start, t_end))
+        final = answer.final
+        assert final.time == t_end
+        if final.phase == "stick":
+            assert final.f == 0
+            continue
+        # energy of the oscillation about sliding at the drive's speed
+        kinetic = p.mu_k * p.N / (p.k_p * p.r_0)
+        released = p.mu_s * p.N / (p.k_p * p.r_0)
+        now = (w * (final.psi - kinetic)) ** 2 + (p.Omega - final.f) ** 2
+        assert now == pytest.approx((w * (released - kinetic)) ** 2 + p.Omega**2, rel=1e-9)
+    assert {scenes.rigid_cycle(Problem(p, whole.start, t)).final.phase for t in np.linspace(1e-3, 0.02, 20)} == {
+        "stick",
+        "slip",
+    }
+
+
+def test_scenes_that_are_not_there():
+    with pytest.raises(KeyError):
+        scenes.problem("nowhere")
+
+
+def test_a_result_without_events_has_no_event_time_error():
+    right, problem = scenes.answer("rigid"), scenes.problem("rigid")
+    nothing = METHODS["series"].solve(Problem(LIVELY, lively("slip", 1), 1e-5), 1e-9)
+    assert math.isnan(scenes.event_time_error(right, nothing, problem.t_end))
+    off = SimpleNamespace(
+        final=right.final.replace(f=1e9), times=right.times.astype(float), kinds=right.kinds, outcome=Outcome.FINISHED
+    )
+    assert errors(problem, right, off).verdict is Verdict.UNSTABLE

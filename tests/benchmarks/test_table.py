@@ -1,0 +1,52 @@
+"""The measured points as a table, and in a few words."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.benchmarks import table
+from disc_model.benchmarks.scenes import Verdict
+from disc_model.benchmarks.table import headline
+
+
+def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
+    frame = table.table(dataset)
+    row = frame[(frame["scene"] == "stick_slip") & (frame["setting"] == "step=0.0001")].iloc[0]
+    # 1e8 h^4 = 1e-8 s: half the tolerance is the series' error, so that it reaches that at 1e-8
+    assert row["event_time_error"] == pytest.approx(1e-8, rel=1e-6)
+    assert row["times_series"] == pytest.approx((1e-5 / 1e-4) / (1e-3 + 8e-5), rel=0.03)
+    coarse = frame[(frame["scene"] == "stick_slip") & (frame["setting"] == "step=0.0004")].iloc[0]
+    assert coarse["times_series"] == pytest.approx((1e-5 / 4e-4) / (1e-3 + 6e-5), rel=1e-6)
+    assert math.isnan(frame[frame["method"] == "Radau"]["times_series"].iloc[0])
+    text = table.to_markdown(dataset)
+    assert "4.0 (4)" in text
+    assert "tol^1.00" in text
+    assert "| - |" in text
+    # at its default the series takes 1.1 ms a second; RK4 is as accurate with steps of 2e-5 s, at 0.5 s
+    assert table.headline(dataset) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(0.5 / 1.1e-3)}}
+    assert "event-time error within\n1e-10 s: RK4, fixed step 455." in text
+    counted = dataset.assign(flops=("scene", [2.2e6, np.nan]))
+    assert "2.2 MFlop in vectors per simulated second at tol=1e-10,\n2.0 GFlop/s." in table.to_markdown(counted)
+    without = table.table(dataset.sel(solver=["RK4"]))
+    assert without["times_series"].isna().all()
+
+
+def test_headline_compares_the_default_with_the_cheapest_right_setting(dataset):
+    """RK4 with 1e-5 s is the coarsest of the three that is right to 1e-10 s; the wrong ones do not count."""
+    cost = {"series": (2e-3, 5e-4), "RK4": (1e-3, 4e-3, 4e-2)}
+    error = {"series": (1e-7, 2e-12), "RK4": (1e-5, 1e-11, 1e-13)}
+    value = {"series": (1e-6, 1e-10), "RK4": (1e-4, 1e-5, 1e-6)}
+    grids = {name: np.full((1, 2, 3), np.nan) for name in ("cost", "event_error", "value")}
+    for i, method in enumerate(("series", "RK4")):
+        for name, given in (("cost", cost), ("event_error", error), ("value", value)):
+            grids[name][0, i, : len(given[method])] = given[method]
+    verdict = np.where(np.isfinite(grids["cost"]), int(Verdict.CONVERGED), int(Verdict.NOT_RUN))
+    made = xr.Dataset(
+        {name: (("scene", "solver", "point"), grid) for name, grid in (grids | {"verdict": verdict}).items()},
+        coords={"scene": ["stick_slip"], "solver": ["series", "RK4"]},
+    )
+    assert headline(made) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(8.0)}}

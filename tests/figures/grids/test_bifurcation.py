@@ -1,0 +1,44 @@
+"""Bifurcation diagrams with their exponents."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import flag_names
+from disc_model.figures.grids import bifurcation as attractors
+from disc_model.figures.grids.kinds import Bifurcation
+from disc_model.figures.style import save
+from tests.studies.grids.conftest import SMALL, computed, made_up_samples, with_failed
+
+
+def crosses(ax) -> list[list[float]]:
+    """Where points are marked as failed, along the axis."""
+    lines = [line for line in ax.lines if line.get_label() == "failed"]
+    return [
+        list(line.get_xdata() if line.get_transform() == ax.get_xaxis_transform() else line.get_ydata())
+        for line in lines
+    ]
+
+
+def test_diagrams_mark_points_that_failed() -> None:
+    samples, exponents = made_up_samples()
+    others = {"lyapunov": with_failed(exponents, N=3)}
+    above, below = attractors.draw(with_failed(samples, N=2), others, Bifurcation(x="N")).axes
+    assert [crosses(ax) for ax in (above, below)] == [[[2]], [[3]]]
+    assert above.lines[0].get_xdata().tolist() == [1, 1, 3, 3]
+    assert not crosses(attractors.draw(samples, {}, Bifurcation(x="N")).axes[0])
+
+
+def test_diagrams_show_samples_and_exponents(tmp_path) -> None:
+    options = {"transient": 0.1, "samples": 2, "tol": 1e-8}
+    samples = computed(quantity="bifurcation", options=options, base={"N": 200} | SMALL, axes={"Omega": [45, 50]})
+    assert flag_names(samples["phase"]).shape == (2, 2)
+    assert set(np.unique(flag_names(samples["phase"]))) <= {"stick", "slip", "separation"}
+    options = {"transient": 0.01, "duration": 0.04, "exponents": 2, "tol": 1e-8}
+    exponents = computed(quantity="lyapunov", options=options, base={"N": 200} | SMALL, axes={"Omega": [45, 50]})
+    assert exponents["exponent"].shape == (2, 2)
+    assert exponents["covered"].values == pytest.approx([0.04, 0.04])
+    figure = attractors.draw(samples, {"lyapunov": exponents}, Bifurcation(x="Omega"))
+    assert figure.axes[0].get_ylabel() == "Angle ψ (mrad)"
+    save(figure, tmp_path / "diagram.png")

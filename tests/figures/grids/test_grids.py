@@ -1,0 +1,58 @@
+"""Figures of grid studies: one normalization or two, points that failed, grids too narrow."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from disc_model.figures.grids import bifurcation as attractors
+from disc_model.figures.grids import critical_speed as curves
+from disc_model.figures.grids import thresholds
+from disc_model.figures.grids.kinds import Bifurcation, CriticalSpeed, GrowthMap, Thresholds
+from tests.studies.grids.conftest import growth_over, in_base, made_up_samples, with_failed
+
+
+def crosses(ax) -> list[list[float]]:
+    """Where points are marked as failed, along the axis."""
+    lines = [line for line in ax.lines if line.get_label() == "failed"]
+    return [
+        list(line.get_xdata() if line.get_transform() == ax.get_xaxis_transform() else line.get_ydata())
+        for line in lines
+    ]
+
+
+def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:
+    lost = with_failed(speeds, N=200)
+    both = curves.draw(lost, {"hysteresis": with_failed(sweep, N=400)}, CriticalSpeed())
+    assert [crosses(ax) for ax in both.axes] == [[[200]], [[400]]]
+    drawn = {line.get_label(): np.asarray(line.get_ydata()) for ax in both.axes for line in ax.lines}
+    for label in ("within 1000 s", "from rest, within 1000 s"):
+        assert np.isfinite(drawn[label]).tolist() == [False, True]
+    for label in ("sweep up: separation begins", "sweep down: persists to"):
+        assert np.isfinite(drawn[label]).tolist() == [True, False]
+    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    (ax,) = thresholds.draw(lost, {"curves": plane, "cycle": growth}, Thresholds()).axes
+    assert crosses(ax) == [[200]]
+    separation = next(line for line in ax.lines if line.get_label() == "separation within 1000 s")
+    assert separation.get_ydata().tolist() == [400]
+    # nothing is known of any
+    (ax,) = thresholds.draw(with_failed(lost, N=400), {"curves": plane, "cycle": growth}, Thresholds()).axes
+    assert crosses(ax) == [[200, 400]]
+
+
+def test_the_normalization_may_be_given_in_base(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:
+    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    both = xr.concat([growth, growth.assign_coords(normalization=["orthonormal"])], "normalization")
+    alone = in_base(speeds)
+    assert len(curves.draw(alone, {"hysteresis": in_base(sweep), "cycle": both}, CriticalSpeed()).axes) == 2
+    assert len(thresholds.draw(alone, {"curves": plane, "cycle": both}, Thresholds()).axes) == 1
+    assert len(thresholds.draw(in_base(growth), {"curves": plane}, GrowthMap()).axes) == 2  # and the colour bar
+    samples, exponents = made_up_samples("as_published")
+    exponents = exponents.expand_dims(normalization=["as_published"])
+    assert len(attractors.draw(samples, {"lyapunov": exponents}, Bifurcation(x="N")).axes) == 2
+
+
+def test_grids_too_narrow_for_contours_are_drawn_without(plane: xr.Dataset, speeds: xr.Dataset) -> None:
+    for growth in (growth_over([200.0], np.linspace(5, 18, 9)), growth_over([200.0, 400.0], [5.0, 9.0])):
+        assert curves.draw(speeds, {"cycle": growth}, CriticalSpeed()).axes
+        assert thresholds.draw(speeds, {"curves": plane, "cycle": growth}, Thresholds()).axes

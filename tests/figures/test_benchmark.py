@@ -1,0 +1,35 @@
+"""The benchmark's figures."""
+
+from __future__ import annotations
+
+import xarray as xr
+
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import METHODS
+from disc_model.figures import benchmark as figures
+from disc_model.figures.style import save
+from tests.benchmarks.conftest import dataset, known
+
+__all__ = ["dataset", "known"]
+
+
+def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
+    figure = figures.work_precision(dataset, "stick_slip")
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert set(labels) == {METHODS[name].label for name in ("series", "RK4", "Radau")}
+    texts = {text.get_text() for text in figure.axes[0].texts}
+    assert "4.0" in texts
+    assert "wrong\nevents" in texts
+    save(figure, tmp_path / "scene.png")
+    save(figures.overview(dataset), tmp_path / "overview.png")
+    assert figures._spread([(1e-8, 1.0, "a", "k"), (1e-8, 1.1, "b", "k"), (1e-3, 1.1, "c", "k")]) == [
+        (1e-8, 1.0, "a", "k"),
+        (1e-8, 1.5, "b", "k"),
+        (1e-3, 1.1, "c", "k"),
+    ]
+
+
+def test_every_method_has_a_look_and_every_scene_a_title():
+    assert set(METHODS) <= set(figures.LOOKS)
+    assert set(figures.TITLES) == set(scenes.SCENES)
+    assert figures.VERDICTS == scenes.VERDICT_WORDS

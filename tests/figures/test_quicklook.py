@@ -1,0 +1,31 @@
+"""A first look at a result."""
+
+from __future__ import annotations
+
+import math
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from disc_model import Parameters, Record, Window, simulate
+from disc_model.figures.quicklook import quicklook
+
+P = Parameters(N=200, Omega=50, n_diameters=1)
+
+
+def test_quicklook_marks_the_separation_and_draws_bands():
+    p = P.replace(N=60.0)
+    start = simulate(p, 1e-6).final_state
+    kicked = start.replace(alpha=start.alpha + np.array([0.0, 20.0]), time=0.0)
+    windows = (Window(start=0, stop=0.02, rate=2000, envelope=4), Window(start=0.0, stop=0.02, rate=2000))
+    result = simulate(p, 0.02, tol=1e-8, initial_state=kicked, record=Record(windows=windows))
+    assert math.isfinite(result.first_separation)
+    figure = quicklook(result)
+    assert len(figure.axes) == 4
+    assert "N = 60 N" in figure.get_suptitle()
+    marks = [line for line in figure.axes[1].lines if line.get_linestyle() == "--"]
+    assert marks[0].get_xdata()[0] == result.first_separation
+    plt.close(figure)
+    with pytest.raises(ValueError, match="no window"):
+        quicklook(simulate(P, 1e-3))

@@ -1,0 +1,84 @@
+"""How simulations end, and what they refuse to begin with."""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import numpy as np
+import pytest
+
+from disc_model import ParameterError, Parameters, Record, Window, simulate
+from disc_model.errors import StepLimit
+
+P = Parameters(N=200, Omega=50, n_diameters=1)
+
+
+def test_small_buffers_and_many_pauses_change_nothing(monkeypatch):
+    record = Record(windows=(Window(start=0, stop=0.05, rate=20_000),))
+    whole = simulate(P, 0.05, tol=1e-9, record=record)
+    monkeypatch.setattr("disc_model.simulation.collector.BUFFER", 16)
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 3)
+    seen = []
+    again = simulate(P, 0.05, tol=1e-9, record=record, progress=seen.append)
+    for name, values in whole.samples[0].items():
+        np.testing.assert_array_equal(again.samples[0][name], values, err_msg=name)
+    np.testing.assert_array_equal(again.events["time"], whole.events["time"])
+    assert seen == sorted(seen)
+    assert seen[-1] == 0.05
+    assert len(seen) > 3
+
+
+def test_steps_run_out():
+    result = simulate(P, 1.0, max_steps=3)
+    assert result.status == "step_limit"
+    assert not result.status.complete
+    assert result.statistics["steps"] == 3
+    with pytest.raises(StepLimit, match="raise max_steps"):
+        result.raise_for_status()
+
+
+def test_a_run_stops_at_its_first_separation():
+    p = P.replace(N=60.0)
+    start = simulate(p, 1e-6).final_state
+    kicked = start.replace(alpha=start.alpha + np.array([0.0, 20.0]))
+    result = simulate(p, 0.05, initial_state=kicked, stop_at="first_separation")
+    assert result.status == "stopped"
+    assert result.status.complete
+    assert result.first_separation == result.final_state.time == result.events["time"].iloc[-1]
+    assert result.final_state.phase == "separation"
+    assert result.raise_for_status() is result
+
+
+def test_a_state_that_overflows_is_named():
+    start = simulate(P, 1e-6).final_state
+    with np.errstate(all="ignore"):
+        result = simulate(P, 0.01, initial_state=start.replace(phase="slip", direction=1, f=1e308))
+    assert result.status == "non_finite"
+    assert result.message == "non_finite: at t = 1e-06 s in slip"
+
+
+def test_all_faults_of_the_arguments_come_at_once():
+    with pytest.raises(ParameterError) as error:
+        simulate(3, math.nan, tol=1, record="all", stop_at="never", max_steps=0)
+    names = [fault.partition("=")[0] for fault in error.value.faults]
+    assert names == ["p", "record", "t_end", "tol", "stop_at", "max_steps"]
+    state = simulate(P, 1e-3).final_state
+    wrong = state.replace(phase="slip", direction=1, f=-1.0, psi=math.inf, a=np.zeros(7))
+    with pytest.raises(ParameterError) as error:
+        simulate(P, 1.0, initial_state=wrong)
+    assert [fault.partition("=")[0].partition(":")[0] for fault in error.value.faults] == [
+        "initial_state.a",
+        "initial_state.psi",
+        "initial_state.f",
+    ]
+    for changes, fault in (
+        ({"phase": "flight"}, "must be one of stick, slip, separation"),
+        ({"phase": "stick", "f": 1.0}, "must be 0 in stick"),
+        ({"phase": "slip", "direction": 0}, "must be -1 or 1 in slip"),
+        ({"known": 4}, "known=4: must be 0, 1, 2 or 3"),
+        ({"time_low": math.nan}, "time_low=nan: must be less than the last digit of the time"),
+        ({"time_low": 1e-3}, "time_low=0.001: must be less than the last digit of the time"),
+    ):
+        with pytest.raises(ParameterError, match=fault):
+            simulate(P, 1.0, initial_state=state.replace(**changes))

@@ -1,0 +1,71 @@
+"""What a simulation keeps: windows, envelopes, samples by the drive; and which records are refused."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from disc_model import ParameterError, Parameters, Poincare, Record, Window, simulate
+
+P = Parameters(N=200, Omega=50, n_diameters=1)
+
+
+def test_envelopes_are_the_extremes_of_the_samples():
+    plain = Window(start=0.01, stop=0.03, rate=5000)
+    record = Record(windows=(plain, plain.model_copy(update={"envelope": 10})), poincare=Poincare())
+    result = simulate(P, 0.031, tol=1e-9, record=record)
+    samples, envelope = result.samples
+    assert len(samples["time"]) == 101
+    assert len(envelope["time"]) == 10
+    for name in ("P", "u", "psi"):
+        cells = samples[name][:100].reshape(10, 10)
+        np.testing.assert_array_equal(envelope[f"{name}_min"], cells.min(axis=1))
+        np.testing.assert_array_equal(envelope[f"{name}_max"], cells.max(axis=1))
+    np.testing.assert_allclose(envelope["time"], samples["time"][:100].reshape(10, 10).mean(axis=1))
+    assert result.poincare["time"].tolist() == [0.0]
+
+
+def test_nothing_is_kept_if_nothing_is_asked_for():
+    result = simulate(P, 0.03, tol=1e-9, record=Record(events=False))
+    assert len(result.events) == 0
+    assert result.statistics["events"] > 0
+    still = simulate(P.replace(Omega=0), 0.01, record=Record(poincare=Poincare()))
+    assert len(still.poincare["time"]) == 0
+
+
+@pytest.mark.parametrize(("t_end", "rate"), [(0.3, 10), (0.07, 300), (0.05, 700)])
+def test_the_sample_at_the_very_end_is_taken(t_end, rate):
+    """3 * 0.1 > 0.3: its time is rounded to behind the end."""
+    window = Window(start=0, stop=t_end, rate=rate)
+    time = simulate(P, t_end, tol=1e-9, record=Record(windows=(window,))).samples[0]["time"]
+    assert len(time) == window.count
+    assert time[-1] == pytest.approx(t_end, abs=1e-15)
+    assert time[-1] <= t_end
+
+
+def test_samples_by_the_drive_end_with_the_run():
+    turn = 2 * math.pi / P.Omega
+    for turns in range(1, 8):
+        taken = simulate(P, turns * turn, tol=1e-9, record=Record(poincare=Poincare())).poincare
+        assert len(taken["time"]) == turns + 1
+
+
+def test_windows_that_the_run_does_not_enter_are_warned_of():
+    windows = tuple(Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03, 0.5))
+    with pytest.warns(
+        UserWarning, match=r"windows\[2\] = \[0.5, 0.51\] s: stays empty, the run is from 0 to 0.04 s"
+    ) as seen:
+        result = simulate(P, 0.04, tol=1e-9, record=Record(windows=windows))
+    assert len(seen) == 1
+    assert seen[0].filename == __file__
+    assert [len(samples["time"]) for samples in result.samples] == [11, 11, 0]
+    with pytest.warns(UserWarning, match=r"windows\[0\] .* from 0.04 to 0.05 s"):
+        simulate(P, 0.05, tol=1e-9, initial_state=result.final_state, record=Record(windows=windows[:1]))
+
+
+@pytest.mark.parametrize("model", [Window, Poincare])
+def test_windows_in_the_wrong_order_are_refused(model):
+    with pytest.raises(ParameterError, match=r"start=2: must be < stop=1"):
+        model(start=2, stop=1, **({"rate": 10} if model is Window else {}))

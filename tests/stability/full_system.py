@@ -1,0 +1,64 @@
+"""The engine with a column for every coordinate of the full system."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from disc_model import Parameters
+from disc_model.engine import layout, machine, saltation, tangent, variational
+from disc_model.simulation.api import build_model
+from disc_model.simulation.bridge import write_state
+from disc_model.simulation.result import State
+from disc_model.simulation.tolerance import series_order
+
+
+class Full:
+    """The engine with a column for every coordinate of the full system: modal ones, psi, f."""
+
+    def __init__(self, p: Parameters, start: State, tol: float = 1e-14):
+        self.model, self.order, self.tol = build_model(p), series_order(tol), tol
+        width, n0 = len(self.model.force), len(self.model.force0)
+        used, single = np.flatnonzero(self.model.shift), np.arange(n0)
+        psi = 2 * width + 2 * n0
+        self.rows = np.concatenate([used, width + used, 2 * width + single, 2 * width + n0 + single, [psi, psi + 1]])
+        self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
+        self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
+        self.n_rows = tangent.n_rows(self.model)
+        write_state(p, self.model, start, self.state)
+        self.set_columns(np.eye(len(self.rows)))
+
+    def set_columns(self, columns):
+        now = np.zeros((self.n_rows, self.tangent.columns))
+        now[self.rows, : columns.shape[1]] = columns
+        self.tangent.now[:] = now.reshape(self.n_rows, -1, 8).transpose(1, 0, 2).ravel()
+
+    @property
+    def columns(self):
+        now = self.tangent.now.reshape(-1, self.n_rows, 8).transpose(1, 0, 2).reshape(self.n_rows, -1)
+        return now[self.rows, : len(self.rows)]
+
+    @property
+    def coordinates(self):
+        s = self.state
+        return np.concatenate([s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.SPEED + 1]])[self.rows]
+
+    @property
+    def rates(self):
+        out = np.zeros(self.n_rows * 8)
+        saltation.rates(self.model, self.state, out)
+        return out[::8][self.rows]
+
+    def release(self):
+        log = np.zeros(tangent.LOG_SIZE)
+        variational.change_phase(self.model, self.state, machine.RELEASE_FORWARD, False, log)
+
+    def fly(self, duration, tangent=True):
+        return variational.fly(
+            self.model, self.series, self.state, self.tangent, self.order, self.tol, 2.0, duration, 0, True, tangent
+        )
+
+    def release_change(self, vector):
+        """Gradient of the release condition times a vector of coordinates, f's left out."""
+        self.set_columns(np.where(np.arange(len(vector)) < len(vector) - 1, vector, 0)[:, None])
+        saltation.switch_times(self.model, self.state, self.tangent, machine.RELEASE_FORWARD)
+        return -self.tangent.tau[0]

@@ -1,0 +1,24 @@
+"""Seeds of curves of stability."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters
+from disc_model.stability import curves
+from disc_model.stability.return_map import ReturnMap
+
+
+@pytest.mark.compiled
+def test_a_seed_met_on_the_way_to_another_modulus_is_a_cycle_there():
+    """E scales the coordinates of the section."""
+    seed = curves._first_event(Parameters(N=385, Omega=15), "E", 1.4e11, -1, 1e-12, [])
+    assert seed is not None
+    assert seed.kind == "fold"
+    # twice the stick-slip rate meets the mode's frequency, sqrt(E), at Omega = 15.0949 for 150 GPa
+    assert pytest.approx(149.42e9, rel=1e-4) == seed.case.E
+    map_ = ReturnMap(seed.case)
+    _, end, _, _ = map_.evaluate(seed.point)
+    # rounding, and what a corrector leaves; with the coordinates of 150 GPa it is 1e-4
+    assert np.linalg.norm(end - seed.point) < 1e-9 * np.linalg.norm(map_.static)

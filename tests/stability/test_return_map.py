@@ -1,0 +1,136 @@
+"""The return map: its section, its derivatives, Newton on it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, simulate
+from disc_model.stability.return_map import PARAMETERS, RETURNED, Flight, ReturnMap, _solve, newton
+from tests.references.printed import Printed
+
+P = Parameters(N=200, Omega=20, n_diameters=1)
+
+
+BASE = Parameters(N=200, Omega=20)
+
+
+DAMPED = Parameters(N=200, Omega=20, c=0.05, c_p=0.02)
+
+
+def central_differences(map_: ReturnMap, x: np.ndarray, **how) -> np.ndarray:
+    """Jacobian of the map by central differences of fourth order."""
+    h = 3e-5 * np.linalg.norm(x)
+    columns = []
+    for unit in np.eye(map_.size):
+        ends = [map_.evaluate(x + s * h * unit, tangent=False, **how)[1] for s in (-2, -1, 1, 2)]
+        columns.append((ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * h))
+    return np.array(columns).T
+
+
+def after_separation(p: Parameters, t_end: float) -> tuple[ReturnMap, np.ndarray]:
+    """A point of the section on the motion after contact was first lost."""
+    late = simulate(p, t_end).final_state
+    map_ = ReturnMap(p)
+    outcome, x = map_.next_release(late)
+    assert outcome == RETURNED
+    return map_, x
+
+
+class Affine:
+    """A return map x -> A x + d with a fixed point, which may fail to return at chosen calls."""
+
+    def __init__(self, A, d, wrong=None, lost_at=()):
+        self.A, self.d, self.size = np.asarray(A, float), np.asarray(d, float), len(d)
+        self.static, self.scale, self.lost_at, self.calls = np.ones(self.size), np.ones(self.size), lost_at, 0
+        self.wrong = self.A if wrong is None else np.asarray(wrong, float)
+
+    def evaluate(self, x, **how):
+        self.calls += 1
+        code = RETURNED if self.calls not in self.lost_at else RETURNED + 1
+        flight = Flight(code, 1.0, 0.3, 0.7, 0.0, 1, 0, 0, 0, 1)
+        bent = self.A @ x + self.d + 0.01 * np.sin(x)
+        return flight, bent, self.wrong + 0.01 * np.diag(np.cos(x)), np.zeros((self.size, 0))
+
+
+def test_newton_finds_the_fixed_point():
+    map_ = Affine([[0.3, 0.2], [-0.4, 0.1]], [1.0, 2.0])
+    found = newton(map_, np.zeros(2))
+    assert found.converged
+    np.testing.assert_allclose(map_.evaluate(found.x)[1], found.x, rtol=1e-12)
+    assert found.residual < 1e-11
+
+
+@pytest.mark.parametrize(
+    "map_",
+    [
+        Affine(np.eye(2), [1.0, 2.0]),  # no fixed point nearby, and a singular matrix on the way
+        Affine([[0.3, 0.2], [-0.4, 0.1]], [1.0, 2.0], lost_at=(1,)),
+        Affine([[0.3, 0.2], [-0.4, 0.1]], [1.0, 2.0], wrong=[[9.0, 0.0], [0.0, -9.0]], lost_at=range(2, 99)),
+        Affine([[0.3, 0.2], [-0.4, 0.1]], [np.nan, 2.0]),
+    ],
+    ids=["singular", "lost at once", "lost on the way", "not finite"],
+)
+def test_newton_says_that_it_found_none(map_):
+    assert not newton(map_, np.zeros(2), jacobians=3).converged
+
+
+def test_the_section_is_where_stick_is_released():
+    """At a point of the section friction is at its limit, and the contact force is that of the motion from there."""
+    map_ = ReturnMap(P.replace(c=0.3, c_p=0.1))
+    p = map_.parameters
+    x = map_.static * 1.1 + 0.01 * np.arange(6)
+    state = map_.state(x)
+    assert state.phase == "stick"
+    force = map_.contact_force(x)
+    assert force == pytest.approx(Printed(p, state).force(), rel=1e-10)
+    assert p.r_0 * (p.k_p * state.psi + p.c_p * p.Omega) == pytest.approx(p.mu_s * force, rel=1e-12)
+    events = simulate(p, 1e-6, initial_state=state.replace(psi=state.psi * (1 - 1e-9))).events
+    assert events["kind"][0] == "stick_to_slip"
+    with pytest.raises(ValueError, match="must be one of Omega, N"):
+        ReturnMap(p, parameters=("rho",))
+
+
+def test_a_singular_step_is_the_shortest():
+    matrix = np.diag([2.0, 0.0])
+    np.testing.assert_allclose(_solve(matrix, np.array([4.0, 0.0])), [2.0, 0.0])
+
+
+def test_the_map_is_iterated_until_it_does_not_return(monkeypatch):
+    toy = Affine([[0.5, 0.0], [0.0, 0.5]], [1.0, 1.0], lost_at=(3,))
+    monkeypatch.setattr(ReturnMap, "evaluate", lambda self, x, **_: toy.evaluate(x))
+    flight, x = ReturnMap(P).iterate(np.zeros(2), 5)
+    assert flight.outcome != 0
+    assert toy.calls == 3
+    assert np.all(x > 1)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("releases", [1, 2])
+def test_jacobian_through_separation_and_impact(releases):
+    map_, x = after_separation(Parameters(N=385, Omega=15.1), 60.0)
+    flight, _, jacobian, _ = map_.evaluate(x, releases=releases, may_separate=True)
+    assert flight.outcome == RETURNED
+    assert flight.separations > 0
+    expected = central_differences(map_, x, releases=releases, may_separate=True)
+    assert np.max(np.abs(jacobian - expected)) < 1e-6 * np.max(np.abs(expected))
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("name", PARAMETERS)
+@pytest.mark.parametrize("where", ["cycle", "separation"])
+def test_derivatives_by_parameters_agree_with_central_differences(name, where):
+    p = DAMPED if where == "cycle" else Parameters(N=385, Omega=15.1, c=0.01, c_p=0.01)
+    map_, x = (ReturnMap(p), None) if where == "cycle" else after_separation(p, 60.0)
+    x = map_.static if x is None else x
+    how = {"may_separate": True}
+    _, _, _, by = ReturnMap(p, parameters=(name,)).evaluate(x, **how)
+    value = getattr(p, name)
+    h = (1e-2 if name in ("c", "c_p") else 1e-4) * value
+    ends = []
+    for change in (-2 * h, -h, h, 2 * h):
+        other = ReturnMap(p.replace(**{name: value + change}))
+        end = other.evaluate(x / map_.scale * other.scale, tangent=False, **how)[1]
+        ends.append(end / other.scale * map_.scale)
+    expected = (ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * h)
+    assert np.linalg.norm(by[:, 0] - expected) < 1e-5 * np.linalg.norm(expected)

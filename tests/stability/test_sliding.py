@@ -1,0 +1,64 @@
+"""Steady sliding: an equilibrium with the flow's eigenvalues, or why there is none."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, steady_sliding
+from disc_model.engine import variational
+from disc_model.simulation.result import State
+from disc_model.stability.sliding import SlidingStatus
+from tests.stability.full_system import Full
+
+P = Parameters(N=200, Omega=20, n_diameters=1)
+
+
+BASE = Parameters(N=200, Omega=20)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    "p", [BASE, Parameters(N=300, Omega=50, c_p=0.7, c=0.3), Parameters(N=100, Omega=40, normalization="orthonormal")]
+)
+def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
+    sliding = steady_sliding(p)
+    assert sliding.status is SlidingStatus.OK
+    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
+    start = State(0.0, "slip", 1, sliding.psi, p.Omega, 0.0, 0.0, **modal)
+    run, duration = Full(p, start), 1e-3
+    before = run.coordinates
+    assert run.fly(duration) == variational.TIME_OVER
+    assert np.allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
+    flow = np.linalg.eigvals(run.columns)
+    expected = np.exp(sliding.eigenvalues * duration)
+    distance = np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)
+    assert np.max(distance) < 1e-10
+    assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
+
+
+def test_steady_sliding_without_drive():
+    sliding = steady_sliding(BASE.replace(Omega=0))
+    assert sliding.status is SlidingStatus.AT_REST
+    assert not sliding.stable
+
+
+def test_steady_sliding_says_why_there_is_none():
+    assert steady_sliding(P.replace(Omega=0)).status is SlidingStatus.AT_REST
+    # above a resonance the disc yields upwards, and the slider's spring with it
+    assert steady_sliding(P.replace(Omega=1520.0)).status is SlidingStatus.NO_CONTACT
+    assert steady_sliding(P.replace(Omega=1520.0, contact="bonded")).status is SlidingStatus.OK
+    # a bond that pulls tilts the disc against the slip
+    steep = steady_sliding(P.replace(Omega=1520.0, contact="bonded", N=1e6, D_star=2e-4))
+    assert steep.status is SlidingStatus.PARADOX
+    assert steep.message == steep.status.advice
+    assert not steep.stable
+    assert math.isnan(steep.contact_force)
+    # the damper alone cannot balance friction at f = Omega, where it does nothing; without friction it need not
+    assert steady_sliding(P.replace(k_p=0, c_p=0.5)).status is SlidingStatus.NO_SPRING
+    assert steady_sliding(P.replace(k_p=0, c_p=0.5, mu_s=0, mu_k=0)).status is SlidingStatus.OK
+    fine = steady_sliding(P)
+    assert fine.status is SlidingStatus.OK
+    assert fine.stable == (fine.growth_rate < 0)

@@ -1,0 +1,114 @@
+"""Followed motions, sweeps and curves whose outcome is known, and what quantities make of them."""
+
+from __future__ import annotations
+
+import json
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.parameters import Parameters
+from disc_model.stability.settling import Late
+from disc_model.status import Status
+from disc_model.studies.grids.merge import merge_batches
+from disc_model.studies.grids.quantities import critical_speed, hysteresis
+from disc_model.studies.grids.quantities.table import STATUSES
+from disc_model.studies.grids.run import run_batch
+from disc_model.studies.grids.schema import parse_grid
+from tests.stability.toy_map import fold_at, outside, toy
+
+__all__ = ["toy"]
+SMALL = {"n_diameters": 1}
+
+
+def computed(**raw) -> xr.Dataset:
+    study = parse_grid({"study": "small", **raw})
+    return merge_batches([run_batch(text) for text in study.batches.values()], study.grid, {})
+
+
+def separates_at(p: Parameters) -> float:
+    """First separation, s: never below 12.35 rad/s nor from 14.15 to 14.45, sooner at higher speed and load."""
+    if p.Omega < 12.35 or 14.15 < p.Omega < 14.45:
+        return math.inf
+    return 2e5 / p.N - 50 * (p.Omega - 12)
+
+
+SCAN = {"start": 12, "stop": 15, "step": 0.5}
+
+
+@pytest.fixture
+def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
+    def follow(p, horizon, **_):
+        first = separates_at(p)
+        end = min(first, horizon)
+        status = Status.STOPPED if first <= horizon else Status.OK
+        return SimpleNamespace(
+            result=SimpleNamespace(status=status, message=""), simulated=end,
+            first_separation=first if first <= horizon else math.nan,
+        )  # fmt: skip
+
+    def late_stretch(p, state, duration, late, tol):
+        """Separation begins at 14 rad/s on the way up, and stays down to 13."""
+        apart = p.Omega >= 14 or (state is not None and state and p.Omega >= 13)
+        share = 0.25 if apart else 0.0
+        values = dict.fromkeys(Late.__dataclass_fields__, 0.0)
+        found = Late(**values | {"share_separation": share, "share_slip": 1 - share, "separation_rate": 40 * share})
+        return SimpleNamespace(final_state=apart, status=Status.OK, message=""), found
+
+    monkeypatch.setattr(critical_speed, "follow", follow)
+    monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
+
+
+@pytest.fixture
+def speeds(fake_motions: None) -> xr.Dataset:
+    options = {"horizons": [900, 1000], "scan": SCAN, "precision": 0.1}
+    return computed(
+        quantity="critical_speed", options=options, axes={"N": [200, 400], "normalization": ["as_published"]}
+    )
+
+
+@pytest.fixture
+def sweep(fake_motions: None) -> xr.Dataset:
+    options = {"scan": SCAN, "dwell": 60, "late": 2}
+    return computed(quantity="hysteresis", options=options, axes={"N": [200, 400], "normalization": ["as_published"]})
+
+
+@pytest.fixture
+def plane(toy: None) -> xr.Dataset:
+    options = {"x_range": [3, 18], "y_lines": {"start": 180, "stop": 420, "count": 3}, "points": 9, "max_points": 60}
+    return computed(quantity="stability_curves", options=options, axes={"normalization": ["as_published"]})
+
+
+def growth_over(N, Omega) -> xr.Dataset:
+    """Growth of the toy's cycle; nan beyond the fold."""
+    load, speed = np.meshgrid(N, Omega, indexing="ij")
+    rate = np.where(speed < fold_at(load), outside(speed, load), np.nan)[..., None]
+    axes = {"N": np.asarray(N, float), "Omega": np.asarray(Omega, float), "normalization": ["as_published"]}
+    return xr.Dataset({"growth_rate": (("N", "Omega", "normalization"), rate)}, axes)
+
+
+def with_failed(study: xr.Dataset, **place) -> xr.Dataset:
+    """The study with one point that failed; numbers that it has are not to be believed."""
+    study = study.copy(deep=True)
+    study["status"].loc[place] = STATUSES.index("failed")
+    return study
+
+
+def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.Dataset]:
+    """Samples and exponents over three loads, for base values with this normalization."""
+    status = ("N", np.zeros(3, np.int8), {"flag_meanings": " ".join(STATUSES)})
+    axes, attrs = {"N": ("N", [1.0, 2, 3], {"units": "N"})}, {"base": json.dumps({"normalization": normalization})}
+    samples = {"phase": (("N", "sample"), np.ones((3, 2), np.int8)), "psi": (("N", "sample"), np.ones((3, 2)))}
+    exponents = {name: (("N", "exponent_number"), np.ones((3, 1))) for name in ("exponent", "exponent_error")}
+    return xr.Dataset(samples | {"status": status}, axes, attrs), xr.Dataset(
+        exponents | {"status": status}, axes, attrs
+    )
+
+
+def in_base(study: xr.Dataset) -> xr.Dataset:
+    """The study as if its one normalization were given in base."""
+    attrs = {"base": json.dumps({"normalization": str(study["normalization"].item())})}
+    return study.squeeze("normalization", drop=True).assign_attrs(attrs)

@@ -1,0 +1,75 @@
+"""Sweeps up and down."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.parameters import Parameters
+from disc_model.stability.settling import Late
+from disc_model.status import Status
+from disc_model.studies.grids.quantities import hysteresis
+from disc_model.studies.grids.quantities.schema import HysteresisOptions
+from disc_model.studies.grids.quantities.table import compute
+from tests.studies.grids.conftest import SCAN
+
+
+def test_hysteresis_is_the_gap_between_the_ways(sweep: xr.Dataset) -> None:
+    one = sweep.squeeze("normalization").sel(N=200)
+    assert one["onset"] == 14.0
+    assert one["persists_to"] == 13.0
+    assert (one["separation_rate"].sel(direction="up") > 0).values.tolist() == [False] * 4 + [True] * 3
+    assert (one["separation_rate"].sel(direction="down") > 0).values.tolist() == [False] * 2 + [True] * 5
+
+
+def test_a_sweep_that_cannot_go_on_says_where(monkeypatch: pytest.MonkeyPatch) -> None:
+    def late_stretch(p, state, *_):
+        failed = p.Omega > 13
+        result = SimpleNamespace(status=Status.PARADOX if failed else Status.OK, message="why", final_state=state)
+        return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, 0)
+
+    monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
+    options = HysteresisOptions.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
+    table = compute(hysteresis, [Parameters(N=200, Omega=0)], options)
+    assert list(table.messages) == ["Omega=13.5: why"]
+    statuses = [[hysteresis.STATUSES[i] for i in row] for row in table.arrays["sweep_status"][0]]
+    assert statuses == [["ok", "ok", "ok", "paradox", "failed", "failed", "failed"], ["failed"] * 7]
+    assert np.isnan(table.arrays["P_min"][0, 0, 3:]).all()
+    assert np.isnan(table.arrays["onset"][0])
+
+
+@pytest.mark.parametrize(("breaks_at", "persists_to"), [(13.5, math.nan), (12.5, math.nan), (12.0, 13.0)])
+def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
+    breaks_at: float, persists_to: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Separation begins at 14 rad/s and persists to 13."""
+
+    def late_stretch(p, state, *_):
+        down = bool(state) and (state == "down" or p.Omega == 15)
+        failed = down and p.Omega == breaks_at
+        rate = float(p.Omega >= (13 if down else 14))
+        end = "down" if down or p.Omega == 15 else "up"
+        result = SimpleNamespace(status=Status.STALLED if failed else Status.OK, message="why", final_state=end)
+        return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, rate)
+
+    monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
+    options = HysteresisOptions.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
+    found = compute(hysteresis, [Parameters(N=200, Omega=0)], options).arrays
+    assert found["onset"][0] == 14.0
+    assert found["persists_to"][0] == pytest.approx(persists_to, nan_ok=True)
+    assert hysteresis.STATUSES[found["status"][0]] == "stalled"
+
+
+@pytest.mark.compiled
+def test_hysteresis_at_385_N() -> None:
+    """Separation begins beyond the fold at 15.09 rad/s and persists below it on the way down."""
+    options = HysteresisOptions.model_validate({"scan": {"start": 12, "stop": 16, "step": 0.5}, "dwell": 60, "late": 2})
+    found = compute(hysteresis, [Parameters(N=385, Omega=0)], options).arrays
+    assert found["onset"][0] == 15.5
+    assert found["persists_to"][0] < 15
+    assert found["separation_rate"].shape == (1, 2, 9)
+    assert (found["sweep_status"] == 0).all()

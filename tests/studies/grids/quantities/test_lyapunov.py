@@ -1,0 +1,23 @@
+"""Exponents as a quantity."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from tests.studies.grids.conftest import computed
+
+AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}, "transient": 1}
+
+
+@pytest.mark.compiled
+def test_exponents_are_stored_with_their_errors() -> None:
+    raw = {"study": "l", "quantity": "lyapunov", "base": {"N": 385}, "axes": {"Omega": [15]}}
+    found = computed(**(raw | {"options": AFTER | {"duration": 2, "exponents": 3}})).isel(Omega=0)
+    assert found["exponent"].shape == (3,)
+    assert np.all(np.isfinite(found["exponent"]))
+    assert np.all(found["exponent_error"] > 0)
+    assert float(found["covered"]) == pytest.approx(2)
+    assert json.loads(found.attrs["options"])["prepare"]["time"] == 56

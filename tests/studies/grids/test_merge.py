@@ -1,0 +1,114 @@
+"""Batches put together again: in the grid's order, whole, and with failures named."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.studies.grids.merge import MergeError, failures, merge_batches
+from disc_model.studies.grids.run import run_batch
+from disc_model.studies.grids.schema import parse_grid
+
+#: The slider stays where it is on the disc: nothing has to be computed.
+STILL = {"study": "still", "quantity": "floquet", "base": {"k_p": 0}, "axes": {"N": [100, 200], "Omega": [10, 20]}}
+
+
+@pytest.fixture
+def batches() -> list[xr.Dataset]:
+    return [run_batch(text) for text in parse_grid(STILL).batches.values()]
+
+
+def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset]) -> None:
+    study = parse_grid(STILL)
+    merged = merge_batches(batches[::-1], study.grid, {"title": "t"})
+    assert dict(merged["status"].sizes) == {"N": 2, "Omega": 2}
+    assert merged["N"].values.tolist() == [100, 200]
+    assert merged.attrs["title"] == "t"
+    lines = list(failures(merged))
+    assert len(lines) == 4
+    assert lines[0].startswith("N = 100.0, Omega = 10.0: at_rest: ")
+    # what raised an error stands before what was found not to be there
+    merged["status"].values[1, 0] = merged["status"].attrs["flag_meanings"].split().index("failed")
+    assert next(failures(merged)).startswith("N = 200.0, Omega = 10.0: failed")
+
+
+def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
+    study = parse_grid(STILL)
+    with pytest.raises(MergeError, match="missing: .* and 1 more" if len(batches) == 2 else "missing"):
+        merge_batches(batches[1:], study.grid, {})
+    with pytest.raises(MergeError, match="there twice"):
+        merge_batches([*batches, batches[0]], study.grid, {})
+    fewer = parse_grid(STILL | {"axes": {"N": [100], "Omega": [10, 20]}})
+    with pytest.raises(MergeError, match="do not belong to the grid"):
+        merge_batches(batches, fewer.grid, {})
+    odd = [batches[0].assign_coords(sample=("sample", [1, 2])), *batches[1:]]
+    odd[0]["extra"] = ("sample", [0.0, 1.0])
+    other = batches[-1].assign_coords(sample=("sample", [3, 4]))
+    other["extra"] = ("sample", [0.0, 1.0])
+    with pytest.raises(MergeError, match="do not fit together"):
+        merge_batches([odd[0], other], study.grid, {})
+
+
+def study(**changes: Any) -> dict[str, Any]:
+    """A small study, with some keys changed."""
+    raw = {
+        "study": "small",
+        "quantity": "outcome",
+        "options": {"horizon": 2, "late": 0.2, "after_separation": 0.2},
+        "axes": {"N": [100, 200, 300], "Omega": {"start": 10, "stop": 20, "count": 3}},
+        "batch": {"over": ["Omega"], "size": 2},
+    }
+    return {**raw, **changes}
+
+
+@pytest.mark.compiled
+def test_merged_study_has_every_point_with_units(tmp_path: Path) -> None:
+    grid = parse_grid(study())
+    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {"title": "small"})
+    merged.to_netcdf(tmp_path / "small.nc")
+    with xr.open_dataset(tmp_path / "small.nc") as read:
+        assert dict(read["status"].sizes) == {"N": 3, "Omega": 3}
+        assert (read["status"] == 0).all()
+        assert read["Omega"].attrs["units"] == "rad s-1"
+        assert read["P_max"].attrs["units"] == "N"
+        assert (read["P_max"].diff("N") > 0).all()
+        assert json.loads(read.attrs["base"])["normalization"] == "as_published"
+    assert list(failures(merged)) == []
+
+
+@pytest.mark.compiled
+def test_zips_and_two_normalizations_keep_their_order() -> None:
+    axes = {"normalization": ["orthonormal", "as_published"]}
+    zipped = {"N": [300, 100], "Omega": [20, 10]}
+    grid = parse_grid(study(quantity="floquet", options={}, axes=axes, zip=zipped, batch={}))
+    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {})
+    assert dict(merged["growth_rate"].sizes) == {"N_Omega": 2, "normalization": 2}
+    assert merged["N"].dims == ("N_Omega",)
+    alone = parse_grid(
+        study(quantity="floquet", options={}, base={"normalization": "orthonormal"}, axes={"N": [300], "Omega": [20]})
+    )
+    single = run_batch(next(iter(alone.batches.values())))
+    assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == single["growth_rate"].values[0]
+
+
+@pytest.mark.compiled
+def test_a_point_that_fails_has_a_status_and_a_line() -> None:
+    # in the last case rigid friction on the sloping disc has no solution
+    raw = study(
+        axes={"N": [300, 1e6], "Omega": [20]},
+        base={"k_p": 2e6, "mu_s": 3.0, "mu_k": 2.9, "E": 1e9},
+        batch={"over": ["N"]},
+    )
+    grid = parse_grid(raw)
+    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {})
+    lines = list(failures(merged))
+    bad = merged["status"].values != 0
+    assert bad.any()
+    assert len(lines) == bad.sum()
+    assert lines[-1].startswith("N = 1000000.0, Omega = 20.0: ")
+    assert np.isnan(merged["P_max"].values[bad]).all()
