@@ -9,9 +9,9 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims import growth, normalisation, section43
+from disc_model.claims import growth, normalisation
+from disc_model.claims.ledger import CLAIMS
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim
-from disc_model.claims.table import CLAIMS
 from tests.claims import made_up
 from tests.claims.damaged import DAMAGES, damaged
 
@@ -24,7 +24,6 @@ def told() -> xr.DataTree:
 @pytest.fixture(autouse=True)
 def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(growth, "cycle_of", made_up.cycle_as_told)
-    monkeypatch.setattr(section43, "cycle_of", made_up.cycle_as_told)
 
 
 NOT_HELD = {

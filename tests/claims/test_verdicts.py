@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims import check_claims, growth, measures, normalisation, section43, to_markdown
+from disc_model.claims import check_claims, growth, measures, normalisation, to_markdown
 from disc_model.claims.growth import cycle_of
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Missing
 from tests.claims import made_up
@@ -20,7 +20,6 @@ ALWAYS = {"P01", "P02", "P04", "P05", "P06", "F15b"}
 
 def verdicts(monkeypatch: pytest.MonkeyPatch, cycle, tree: xr.DataTree) -> pd.DataFrame:
     monkeypatch.setattr(growth, "cycle_of", cycle)
-    monkeypatch.setattr(section43, "cycle_of", cycle)
     return check_claims(tree).set_index("id")
 
 
@@ -100,11 +99,11 @@ def test_growth_is_that_of_the_cycle(told: xr.DataTree) -> None:
     found = cycle_of(p)
     assert found is cycle_of(p.replace())
     case = CaseView("X", xr.DataTree(xr.Dataset(attrs={"parameters": p.canonical_json})))
-    assert growth.growth(case) == f"growth {found.growth_rate:+.4f}/s"
+    assert growth.in_words(case) == f"growth {found.growth_rate:+.4f}/s"
     still = CaseView("Y", xr.DataTree(xr.Dataset(attrs={"parameters": p.replace(Omega=0).canonical_json})))
-    assert growth.growth(still) == "no stick-slip cycle"
+    assert growth.in_words(still) == "no stick-slip cycle"
     with pytest.raises(Missing, match="no stick-slip cycle: "):
-        growth.growth_rate(still)
+        growth.rate(still)
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:
@@ -127,7 +126,6 @@ def test_the_two_normalisations_side_by_side(
         return made_up.cycle_as_told(p)
 
     monkeypatch.setattr(growth, "cycle_of", cycle)
-    monkeypatch.setattr(section43, "cycle_of", cycle)
     found = normalisation.compare(told, orthonormal(contrary))
     modes, cases, instead, changed = (table for _, _, table in found.sections)
     ratios = modes["ratio"].astype(float)

@@ -22,7 +22,7 @@ rule check_claims:
     params:
         made_of=merged_cases_made_of(),
         sources=sources_of(
-            "check_claims.py", "disc_model.claims", "disc_model.claims.page"
+            "check_claims.py", "disc_model.claims", "disc_model.claims.pages"
         ),
     shell:
         "python workflow/scripts/check_claims.py {input.cases} --csv {output.csv} --md {output.md} --html {output.html}"
@@ -62,7 +62,9 @@ rule make_table:
     params:
         made_of=lambda wildcards: cases_made_of(["F13"]),
         sources=sources_of(
-            "make_table.py", "disc_model.claims.paper_tables", "disc_model.claims.page"
+            "make_table.py",
+            "disc_model.claims.paper_tables",
+            "disc_model.claims.pages",
         ),
     shell:
         "python workflow/scripts/make_table.py {wildcards.table} {input}"

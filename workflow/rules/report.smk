@@ -24,7 +24,7 @@ rule describe_study:
         made_of=merged_cases_made_of(),
         sources=sources_of(
             "describe_study.py",
-            "disc_model.claims.page",
+            "disc_model.claims.pages",
             "disc_model.figures.paper.catalogue",
         ),
     shell:
@@ -52,7 +52,7 @@ rule compare_normalisations:
         sources=sources_of(
             "compare_normalisations.py",
             "disc_model.claims.normalisation",
-            "disc_model.claims.page",
+            "disc_model.claims.pages",
         ),
     shell:
         "python workflow/scripts/compare_normalisations.py {input} --md {output.md} --html {output.html} > {log} 2>&1"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 import xarray as xr
 
-from disc_model.claims.page import page, table_html
+from disc_model.claims.pages import page, table_html
 from disc_model.data.inputs import load_inputs
 from disc_model.data.variables import STATUSES
 from disc_model.errors import exit_on_error

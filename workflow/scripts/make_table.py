@@ -8,8 +8,9 @@ from pathlib import Path
 import pandas as pd
 
 from disc_model.claims.model import CaseView
-from disc_model.claims.page import table_page
+from disc_model.claims.pages import table_page
 from disc_model.claims.paper_tables import table_1, table_2
+from disc_model.data import markdown
 from disc_model.data.inputs import load_inputs
 from disc_model.errors import exit_on_error
 
@@ -54,10 +55,9 @@ def main() -> None:
 
 def _markdown(name: str, table: pd.DataFrame) -> str:
     lines = [f"# {TITLES[name]}", "", NOTES[name], ""]
-    lines.append("| " + " | ".join(NAMES[str(column)] for column in table.columns) + " |")
-    lines.append("|" + " --- |" * table.shape[1])
-    for row in table.itertuples(index=False):
-        lines.append("| " + " | ".join(f"{x:g}" if isinstance(x, float) else str(x) for x in row) + " |")
+    head = [NAMES[str(column)] for column in table.columns]
+    rows = ([f"{x:g}" if isinstance(x, float) else x for x in row] for row in table.itertuples(index=False))
+    lines += markdown.table(head, rows)
     return "\n".join(lines) + "\n"
 
 

@@ -13,9 +13,21 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import VERDICT_WORDS, Verdict
+from disc_model.data import markdown
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) that the others have to reach as well."""
+HEAD = (
+    "method",
+    "setting",
+    "verdict",
+    "cost",
+    "event-time error (s)",
+    "state error",
+    "events",
+    "order",
+    "x series",
+)
 JUDGED = ("stick_slip", "separating")
 
 
@@ -123,24 +135,21 @@ def to_markdown(dataset: xr.Dataset) -> str:
     ]
     for scene in dict.fromkeys(frame["scene"]):
         text += [f"## {scenes.TITLES[scene]}", ""]
-        text += [
-            "| method | setting | verdict | cost | event-time error (s) | state error | events | order | x series |"
-        ]
-        text += ["|---|---|---|---|---|---|---|---|---|"]
-        for row in frame[frame["scene"] == scene].itertuples():
-            cells = (
+        rows = (
+            (
                 METHODS[row.method].label,
                 row.setting,
                 row.verdict.replace("_", " "),
                 _short(row.seconds_per_simulated_second),
                 _short(row.event_time_error),
                 _short(row.state_error),
-                f"{row.events}",
+                row.events,
                 _order_text(row.order_event, row.order_theory),
                 _short(row.times_series),
             )
-            text.append("| " + " | ".join(cells) + " |")
-        text.append("")
+            for row in frame[frame["scene"] == scene].itertuples()
+        )
+        text += [*markdown.table(HEAD, rows), ""]
     return "\n".join(text)
 
 

@@ -5,6 +5,7 @@ check computes everything it reports from the merged cases or from the disc's mo
 table.
 """
 
-from disc_model.claims.table import COLUMNS, check_claims, to_markdown
+from disc_model.claims.ledger import COLUMNS, check_claims
+from disc_model.claims.pages import to_markdown
 
 __all__ = ["COLUMNS", "check_claims", "to_markdown"]

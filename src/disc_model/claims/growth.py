@@ -23,14 +23,14 @@ def cycle_of(p: Parameters) -> FloquetResult:
     return found
 
 
-def growth_rate(case: CaseView) -> float:
+def rate(case: CaseView) -> float:
     """Largest growth rate of small disturbances of the case's stick-slip cycle, 1/s; raises `Missing`."""
     return cycle_of(case.parameters).growth_rate
 
 
-def growth(case: CaseView) -> str:
+def in_words(case: CaseView) -> str:
     """The same in words; that there is no cycle, if so."""
     try:
-        return f"growth {growth_rate(case):+.4f}/s"
+        return f"growth {rate(case):+.4f}/s"
     except Missing:
         return "no stick-slip cycle"

@@ -1,7 +1,9 @@
-"""Numbers that claims are about, from events and samples."""
+"""Numbers that claims are about, from events and samples, and how they are said."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +12,7 @@ from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, closure, irregularity, motion_of, shortest_period
-from disc_model.claims.model import CaseView, Missing
+from disc_model.claims.model import CaseView, Finding, Missing, finding
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
 __all__ = ["closure", "irregularity", "shortest_period"]  # beside what is defined here
@@ -23,6 +25,24 @@ def ratio(part: float, whole: float, what: str) -> float:
     if not whole > 0:
         raise Missing(f"{what} is {whole:g}")
     return part / whole
+
+
+def first_separation(case: CaseView) -> str:
+    """When a case first separates, in words."""
+    time = case["first_separation"]
+    if math.isnan(time):
+        return f"no separation in {case['time_reached']:g} s"
+    return f"first separation at {time:.2f} s"
+
+
+def separates_at(case: CaseView, paper: float, within: float) -> Finding:
+    """Whether a case first separates when the paper says, s."""
+    return finding(first_separation(case), bool(abs(case["first_separation"] - paper) <= within))
+
+
+def many(values: Iterable[float], digits: int = 2) -> str:
+    """Numbers in a row."""
+    return ", ".join(f"{value:.{digits}f}" for value in values)
 
 
 class Range(NamedTuple):

@@ -90,6 +90,13 @@ class CaseView:
             raise Missing(f"case {self.name} {reason}") from None
 
 
+def finding(ours: str, holds: bool, remark: str = "") -> Finding:
+    """What was found, with the verdict that follows: for a statement that holds or not, with or without a remark."""
+    if not holds:
+        return Finding(ours, FAILS, remark)
+    return Finding(ours, REMARK if remark else HOLDS, remark)
+
+
 Cases = Mapping[str, CaseView]
 Check = Callable[[Cases, "Claim"], Finding]
 
@@ -132,6 +139,25 @@ class Claim:
             return self.check(cases, self)
         except Missing as missing:
             return Finding("", f"{NOT_COMPUTED}: {missing}")
+
+
+def claim(
+    id: str,
+    location: str,
+    text: str,
+    *,
+    paper: str = "",
+    tolerance: str = "",
+    reason: str = "",
+    bound: float = 0.0,
+    needs: Mapping[str, Needed] | None = None,
+) -> Callable[[Check], Claim]:
+    """Make a check the claim that it decides: ``@claim(...)`` above it says all that `Claim` holds besides."""
+
+    def with_check(check: Check) -> Claim:
+        return Claim(id, location, text, paper, tolerance, reason, check, bound, needs or {})
+
+    return with_check
 
 
 def _require(cases: Cases, name: str, needed: Needed) -> None:

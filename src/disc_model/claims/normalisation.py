@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.claims import check_claims, measures
-from disc_model.claims.growth import growth_rate
+from disc_model.claims import check_claims, growth, measures
 from disc_model.claims.model import FAILS, CaseView, Missing
-from disc_model.claims.page import page, table_html
+from disc_model.claims.pages import page, table_html
+from disc_model.data import markdown
 from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
@@ -32,7 +32,7 @@ class Comparison:
     def markdown(self) -> str:
         lines = [f"# {self.title}", ""]
         for heading, text, table in self.sections:
-            lines += [f"## {heading}", "", text, "", *_markdown(table), ""]
+            lines += [f"## {heading}", "", text, "", *markdown.table(table.columns, table.itertuples(index=False)), ""]
         return "\n".join(lines)
 
     def html(self) -> str:
@@ -167,7 +167,7 @@ def _first(case: CaseView) -> str:
 
 def _growth(case: CaseView) -> str:
     try:
-        return f"{growth_rate(case):+.4f}"
+        return f"{growth.rate(case):+.4f}"
     except Missing:
         return "–"
 
@@ -178,8 +178,3 @@ def _late(case: CaseView) -> str:
     except Missing:
         return "–"
     return f"{late.low:.1f}..{late.high:.1f}"
-
-
-def _markdown(table: pd.DataFrame) -> list[str]:
-    lines = ["| " + " | ".join(map(str, table.columns)) + " |", "|" + " --- |" * table.shape[1]]
-    return lines + ["| " + " | ".join(map(str, row)) + " |" for row in table.itertuples(index=False)]

@@ -8,8 +8,8 @@ from disc_model.analysis import spectra
 from disc_model.analysis.classify import Kind, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
-from disc_model.claims.model import Cases, CaseView, Check, Claim, Finding, Missing, Needed
-from disc_model.claims.wording import finding, first_separation
+from disc_model.claims.measures import first_separation
+from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding
 
 F02 = Needed({"N": 200, "Omega": 20}, 600, separates=True)
 F04 = Needed({"N": 200, "Omega": 20, "contact": "bonded"}, 790)
@@ -17,9 +17,21 @@ F06 = Needed({"N": 300, "Omega": 20, "contact": "bonded"}, 200)
 F07 = Needed({"N": 300, "Omega": 20}, 190, separates=True)
 F08 = Needed({"N": 200, "Omega": 50, "contact": "bonded"}, 500)
 F09 = Needed({"N": 200, "Omega": 50}, 190, separates=True)
+PERIODIC = "a periodic motion repeats to rounding; 1e-6 leaves room for a slow approach to it"
+SHAPE = "the paper shows points, no number; a periodic motion would have 0"
+BONDED_REMARK = "locked to the coupled mode but slowly modulated: nearly periodic"
 
 
-def _grows_to_zero(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F02a",
+    "Sec. 4.1, Fig. 2a",
+    "N = 200 N, Omega = 20 rad/s: the contact force's range grows until contact is lost",
+    paper="shown",
+    tolerance="range at least doubles",
+    reason="the paper gives no time for it",
+    needs={"F02": F02},
+)
+def force_grows_to_zero(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
     early = measures.early_range(case, "P")
     before = case["first_separation"]
@@ -29,7 +41,16 @@ def _grows_to_zero(cases: Cases, claim: Claim) -> Finding:
     return finding(ours + first_separation(case), case.separates and grows)
 
 
-def _repeated(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F02b",
+    "Sec. 4.1, Fig. 2b",
+    "Separations repeat within 602.115..602.150 s, with no contact force in them",
+    paper="several",
+    tolerance="at least 2; P exactly 0",
+    reason="when the window begins within a cycle depends on the method's rounding",
+    needs={"F02": Needed(F02.parameters, 602.15, separates=True)},
+)
+def separations_repeat(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
     window = case.samples("zoom")
     apart = window["phase"].values == measures.SEPARATION
@@ -41,7 +62,17 @@ def _repeated(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, count >= 2 and force == 0.0)
 
 
-def _upward(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F03a",
+    "Sec. 4.1, Fig. 3",
+    "Contact is lost while the disc moves upward",
+    paper="upward",
+    tolerance="99 % of separations",
+    reason="a general statement; single exceptions would not refute it",
+    bound=0.99,
+    needs={"F02": F02},
+)
+def contact_is_lost_upward(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
     events = case.events
     at = measures.is_kind(events, "separation")
@@ -54,7 +85,17 @@ def _upward(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, share >= claim.bound)
 
 
-def _short(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F03b",
+    "Sec. 4.1, conclusion 1",
+    "Separations are very short and always end in contact",
+    paper="very short",
+    tolerance="each shorter than a quarter of the time between two",
+    reason="what 'short' may mean beside the vibration's period",
+    bound=0.25,
+    needs={"F02": F02},
+)
+def separations_are_short(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
     durations = measures.separation_durations(case)
     share = measures.phase_share(case, "separation")
@@ -66,35 +107,87 @@ def _short(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, bool(durations.max() < claim.bound * period))
 
 
-def _bonded(name: str, remark: str = "") -> Check:
-    def check(cases: Cases, claim: Claim) -> Finding:
-        intervals = measures.release_intervals(cases[name])
-        spread = measures.irregularity(intervals)
-        ours = f"one release per {1e3 * intervals.mean():.3f} ms, spread {spread:.1e}"
-        late = measures.late_range(cases[name], "P")
-        return finding(f"{ours}; P {late.low:.0f}..{late.high:.0f} N", spread <= claim.bound, remark)
-
-    return check
-
-
-def not_periodic(name: str) -> Check:
-    """That the in-plane motion does not repeat; whether it is quasi-periodic or irregular goes into the remark."""
-
-    def check(cases: Cases, claim: Claim) -> Finding:
-        intervals = measures.release_intervals(cases[name])
-        motion = measures.late_motion(cases[name])
-        ours = (
-            f"{motion}: {1 / intervals.mean():.1f} releases/s, spread {motion.spread:.2f}, 0-1 test {motion.chaos:.2f}"
-        )
-        remark = ""
-        if motion.kind is not Kind.PERIODIC and motion.kind is not Kind.QUASI_PERIODIC:
-            remark = f"does not repeat, but the 0-1 test finds it {motion.kind}, not quasi-periodic"
-        return finding(ours, motion.spread >= claim.bound and motion.period == 0, remark)
-
-    return check
+@claim(
+    "F04",
+    "Sec. 4.1, Figs. 4, A1",
+    "Separation ignored, N = 200 N, Omega = 20 rad/s: in-plane motion becomes periodic",
+    paper="periodic",
+    tolerance="spread of the release intervals 1e-6",
+    reason=PERIODIC,
+    bound=1e-6,
+    needs={"F04": F04},
+)
+def bonded_is_periodic(cases: Cases, claim: Claim) -> Finding:
+    return _bonded(cases, claim, "F04")
 
 
-def _stick_disappears(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F05",
+    "Sec. 4.1, Figs. 5, A2",
+    "With separation: in-plane motion does not repeat",
+    paper="quasi-periodic",
+    tolerance="spread of the release intervals above 0.3",
+    reason=SHAPE,
+    bound=0.3,
+    needs={"F02": F02},
+)
+def does_not_repeat(cases: Cases, claim: Claim) -> Finding:
+    return not_periodic(cases, claim, "F02")
+
+
+@claim(
+    "F06",
+    "Sec. 4.1, Fig. 6",
+    "Separation ignored, N = 300 N, Omega = 20 rad/s: periodic",
+    paper="periodic",
+    tolerance="spread of the release intervals 1e-6",
+    reason=PERIODIC,
+    bound=1e-6,
+    needs={"F06": F06},
+)
+def bonded_is_periodic_with_larger_preload(cases: Cases, claim: Claim) -> Finding:
+    return _bonded(cases, claim, "F06")
+
+
+@claim(
+    "F07",
+    "Sec. 4.1, Fig. 7; Sec. 4.4, Fig. 28",
+    "With separation, N = 300 N, Omega = 20 rad/s: in-plane motion does not repeat",
+    paper="quasi-periodic",
+    tolerance="spread of the release intervals above 0.3",
+    reason=SHAPE,
+    bound=0.3,
+    needs={"F07": F07},
+)
+def does_not_repeat_with_larger_preload(cases: Cases, claim: Claim) -> Finding:
+    return not_periodic(cases, claim, "F07")
+
+
+@claim(
+    "F08",
+    "Sec. 4.1, Fig. 8",
+    "Separation ignored, N = 200 N, Omega = 50 rad/s: a steady state of stick and slip",
+    paper="steady",
+    tolerance="spread of the release intervals 0.01",
+    reason="the text says steady here, periodic only of Figs. 4 and 6",
+    bound=0.01,
+    needs={"F08": F08},
+)
+def bonded_is_steady(cases: Cases, claim: Claim) -> Finding:
+    return _bonded(cases, claim, "F08", BONDED_REMARK)
+
+
+@claim(
+    "F09",
+    "Sec. 4.1, Fig. 9; conclusion 3",
+    "With separation, N = 200 N, Omega = 50 rad/s: the stick phase disappears",
+    paper="no stick",
+    tolerance="0.1 % of the time",
+    reason="a stray stick would not refute the statement",
+    bound=1e-3,
+    needs={"F09": F09},
+)
+def stick_is_gone(cases: Cases, claim: Claim) -> Finding:
     case = cases["F09"]
     whole = case["time_stick"] / case["time_reached"]
     late = measures.phase_share(case, "stick")
@@ -103,7 +196,17 @@ def _stick_disappears(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, case.separates and gone)
 
 
-def _smaller_range(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F10",
+    "Sec. 4.1, Fig. 10; conclusion 3",
+    "Separation keeps the disc's vibration in a much smaller range",
+    paper="much smaller",
+    tolerance="less than half",
+    reason="what 'much smaller' may mean; read off a figure without numbers in the text",
+    bound=0.5,
+    needs={"F02": F02, "F04": F04, "F06": F06, "F07": F07, "F08": F08, "F09": F09},
+)
+def smaller_range(cases: Cases, claim: Claim) -> Finding:
     ratios, said = [], []
     for name, ignored in (("F02", "F04"), ("F07", "F06"), ("F09", "F08")):
         free, bonded = (measures.late_range(cases[each], "w_point").width for each in (name, ignored))
@@ -112,7 +215,17 @@ def _smaller_range(cases: Cases, claim: Claim) -> Finding:
     return finding("; ".join(said), max(ratios) < claim.bound)
 
 
-def _more_frequencies(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "S41c",
+    "Sec. 4.1, Figs. 4 to 7",
+    "More frequencies take part in the disc's vibration with separation than without",
+    paper="more",
+    tolerance="lines above a thousandth of the strongest, below 2000 Hz",
+    reason="the paper counts points by eye; lines do not depend on how long one looks",
+    bound=1e-3,
+    needs={"F02": F02, "F04": F04, "F06": F06, "F07": F07},
+)
+def more_frequencies(cases: Cases, claim: Claim) -> Finding:
     said, more = [], []
     for name, ignored in (("F02", "F04"), ("F07", "F06")):
         lines = [len(_late_lines(cases[each], claim.bound)) for each in (name, ignored)]
@@ -135,7 +248,17 @@ def _late_points(case: CaseView, last: int = 150) -> int:
     return distinct_points(np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values]))
 
 
-def _trajectory_changes(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "S41d",
+    "Sec. 4.1, conclusion 3",
+    "After separation the slider's in-plane trajectory is another one",
+    paper="totally different",
+    tolerance="its width, or its share of stick, changes by a tenth at least",
+    reason="what 'different' may mean; sections are compared by eye in the paper",
+    bound=0.1,
+    needs={"F02": F02, "F07": F07, "F09": F09},
+)
+def trajectory_changes(cases: Cases, claim: Claim) -> Finding:
     said, different = [], []
     for name in ("F02", "F07", "F09"):
         case = cases[name]
@@ -154,31 +277,62 @@ def _trajectory_changes(cases: Cases, claim: Claim) -> Finding:
     return finding("; ".join(said), all(different))
 
 
-def _closes(name: str, closes: bool) -> Check:
-    """Whether the slider's orbit in the phase plane returns to itself at each release."""
-
-    def check(cases: Cases, claim: Claim) -> Finding:
-        events = cases[name].events
-        psi = events["psi"].values[measures.is_kind(events, "stick_to_slip")]
-        orbit = cases[name].samples("orbit")["psi"].values
-        if psi.size < 20:
-            raise Missing(f"case {name} keeps fewer than 20 releases")
-        apart = min(float(np.max(np.abs(psi[n:] - psi[:-n]))) for n in range(1, 9))
-        apart = measures.ratio(apart, float(np.ptp(orbit)), f"the width of the orbit of case {name}")
-        ours = f"releases of up to 8 cycles apart differ by {apart:.1e} of the orbit's width"
-        return finding(ours, (apart <= claim.bound) == closes)
-
-    return check
+@claim(
+    "A1",
+    "Appendix, Fig. A1",
+    "Separation ignored: the slider's orbit in the phase plane is a closed stick-slip cycle",
+    paper="closed",
+    tolerance="1e-6 of its width",
+    reason=PERIODIC,
+    bound=1e-6,
+    needs={"F04": F04},
+)
+def bonded_orbit_closes(cases: Cases, claim: Claim) -> Finding:
+    return _closes(cases, claim, "F04", True)
 
 
-def _bonded_always_sticks(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "A2",
+    "Appendix, Fig. A2",
+    "With separation: the orbit does not close",
+    paper="intricate",
+    tolerance="1 % of its width",
+    reason="far above what a slow approach to a cycle would leave",
+    bound=1e-2,
+    needs={"F02": F02},
+)
+def orbit_does_not_close(cases: Cases, claim: Claim) -> Finding:
+    return _closes(cases, claim, "F02", False)
+
+
+@claim(
+    "S41a",
+    "Sec. 4.1",
+    "Separation ignored: stick and slip go on whatever preload and speed",
+    paper="always",
+    tolerance="1 % of the time sticking",
+    reason="stick must not fade away",
+    bound=0.01,
+    needs={"F04": F04, "F06": F06, "F08": F08},
+)
+def bonded_always_sticks(cases: Cases, claim: Claim) -> Finding:
     rates = [measures.rate_of(cases[name], "stick_to_slip") for name in ("F04", "F06", "F08")]
     shares = [measures.phase_share(cases[name], "stick") for name in ("F04", "F06", "F08")]
     ours = ", ".join(f"{rate:.1f}/s ({100 * share:.0f} % stick)" for rate, share in zip(rates, shares, strict=True))
     return finding(ours, min(shares) > claim.bound)
 
 
-def _stick_on_a_line(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "S41b",
+    "Sec. 4.1",
+    "Poincare points of the stick phase lie on a horizontal line",
+    paper="horizontal",
+    tolerance="1e-12 rad/s",
+    reason="sticking fixes the relative velocity exactly",
+    bound=1e-12,
+    needs={"F02": Needed(F02.parameters), "F04": F04},
+)
+def stick_on_a_line(cases: Cases, claim: Claim) -> Finding:
     worst, count = 0.0, 0
     for name in ("F02", "F04"):
         samples = cases[name].samples("poincare")
@@ -189,194 +343,37 @@ def _stick_on_a_line(cases: Cases, claim: Claim) -> Finding:
     return finding(f"largest deviation from Omega {worst:g} rad/s at {count} stick points", worst <= claim.bound)
 
 
-PERIODIC = "a periodic motion repeats to rounding; 1e-6 leaves room for a slow approach to it"
-SHAPE = "the paper shows points, no number; a periodic motion would have 0"
-BONDED_REMARK = "locked to the coupled mode but slowly modulated: nearly periodic"
+# ----------------------------------------------------------------------------------------------------
+# What several checks use
 
-CLAIMS = (
-    Claim(
-        "F02a",
-        "Sec. 4.1, Fig. 2a",
-        "N = 200 N, Omega = 20 rad/s: the contact force's range grows until contact is lost",
-        "shown",
-        "range at least doubles",
-        "the paper gives no time for it",
-        _grows_to_zero,
-        needs={"F02": F02},
-    ),
-    Claim(
-        "F02b",
-        "Sec. 4.1, Fig. 2b",
-        "Separations repeat within 602.115..602.150 s, with no contact force in them",
-        "several",
-        "at least 2; P exactly 0",
-        "when the window begins within a cycle depends on the method's rounding",
-        _repeated,
-        needs={"F02": Needed(F02.parameters, 602.15, separates=True)},
-    ),
-    Claim(
-        "F03a",
-        "Sec. 4.1, Fig. 3",
-        "Contact is lost while the disc moves upward",
-        "upward",
-        "99 % of separations",
-        "a general statement; single exceptions would not refute it",
-        _upward,
-        0.99,
-        {"F02": F02},
-    ),
-    Claim(
-        "F03b",
-        "Sec. 4.1, conclusion 1",
-        "Separations are very short and always end in contact",
-        "very short",
-        "each shorter than a quarter of the time between two",
-        "what 'short' may mean beside the vibration's period",
-        _short,
-        0.25,
-        {"F02": F02},
-    ),
-    Claim(
-        "F04",
-        "Sec. 4.1, Figs. 4, A1",
-        "Separation ignored, N = 200 N, Omega = 20 rad/s: in-plane motion becomes periodic",
-        "periodic",
-        "spread of the release intervals 1e-6",
-        PERIODIC,
-        _bonded("F04"),
-        1e-6,
-        {"F04": F04},
-    ),
-    Claim(
-        "F05",
-        "Sec. 4.1, Figs. 5, A2",
-        "With separation: in-plane motion does not repeat",
-        "quasi-periodic",
-        "spread of the release intervals above 0.3",
-        SHAPE,
-        not_periodic("F02"),
-        0.3,
-        {"F02": F02},
-    ),
-    Claim(
-        "F06",
-        "Sec. 4.1, Fig. 6",
-        "Separation ignored, N = 300 N, Omega = 20 rad/s: periodic",
-        "periodic",
-        "spread of the release intervals 1e-6",
-        PERIODIC,
-        _bonded("F06"),
-        1e-6,
-        {"F06": F06},
-    ),
-    Claim(
-        "F07",
-        "Sec. 4.1, Fig. 7; Sec. 4.4, Fig. 28",
-        "With separation, N = 300 N, Omega = 20 rad/s: in-plane motion does not repeat",
-        "quasi-periodic",
-        "spread of the release intervals above 0.3",
-        SHAPE,
-        not_periodic("F07"),
-        0.3,
-        {"F07": F07},
-    ),
-    Claim(
-        "F08",
-        "Sec. 4.1, Fig. 8",
-        "Separation ignored, N = 200 N, Omega = 50 rad/s: a steady state of stick and slip",
-        "steady",
-        "spread of the release intervals 0.01",
-        "the text says steady here, periodic only of Figs. 4 and 6",
-        _bonded("F08", BONDED_REMARK),
-        0.01,
-        {"F08": F08},
-    ),
-    Claim(
-        "F09",
-        "Sec. 4.1, Fig. 9; conclusion 3",
-        "With separation, N = 200 N, Omega = 50 rad/s: the stick phase disappears",
-        "no stick",
-        "0.1 % of the time",
-        "a stray stick would not refute the statement",
-        _stick_disappears,
-        1e-3,
-        {"F09": F09},
-    ),
-    Claim(
-        "F10",
-        "Sec. 4.1, Fig. 10; conclusion 3",
-        "Separation keeps the disc's vibration in a much smaller range",
-        "much smaller",
-        "less than half",
-        "what 'much smaller' may mean; read off a figure without numbers in the text",
-        _smaller_range,
-        0.5,
-        {"F02": F02, "F04": F04, "F06": F06, "F07": F07, "F08": F08, "F09": F09},
-    ),
-    Claim(
-        "S41c",
-        "Sec. 4.1, Figs. 4 to 7",
-        "More frequencies take part in the disc's vibration with separation than without",
-        "more",
-        "lines above a thousandth of the strongest, below 2000 Hz",
-        "the paper counts points by eye; lines do not depend on how long one looks",
-        _more_frequencies,
-        1e-3,
-        {"F02": F02, "F04": F04, "F06": F06, "F07": F07},
-    ),
-    Claim(
-        "S41d",
-        "Sec. 4.1, conclusion 3",
-        "After separation the slider's in-plane trajectory is another one",
-        "totally different",
-        "its width, or its share of stick, changes by a tenth at least",
-        "what 'different' may mean; sections are compared by eye in the paper",
-        _trajectory_changes,
-        0.1,
-        {"F02": F02, "F07": F07, "F09": F09},
-    ),
-    Claim(
-        "A1",
-        "Appendix, Fig. A1",
-        "Separation ignored: the slider's orbit in the phase plane is a closed stick-slip cycle",
-        "closed",
-        "1e-6 of its width",
-        PERIODIC,
-        _closes("F04", True),
-        1e-6,
-        {"F04": F04},
-    ),
-    Claim(
-        "A2",
-        "Appendix, Fig. A2",
-        "With separation: the orbit does not close",
-        "intricate",
-        "1 % of its width",
-        "far above what a slow approach to a cycle would leave",
-        _closes("F02", False),
-        1e-2,
-        {"F02": F02},
-    ),
-    Claim(
-        "S41a",
-        "Sec. 4.1",
-        "Separation ignored: stick and slip go on whatever preload and speed",
-        "always",
-        "1 % of the time sticking",
-        "stick must not fade away",
-        _bonded_always_sticks,
-        0.01,
-        {"F04": F04, "F06": F06, "F08": F08},
-    ),
-    Claim(
-        "S41b",
-        "Sec. 4.1",
-        "Poincare points of the stick phase lie on a horizontal line",
-        "horizontal",
-        "1e-12 rad/s",
-        "sticking fixes the relative velocity exactly",
-        _stick_on_a_line,
-        1e-12,
-        {"F02": Needed(F02.parameters), "F04": F04},
-    ),
-)
+
+def _bonded(cases: Cases, claim: Claim, name: str, remark: str = "") -> Finding:
+    intervals = measures.release_intervals(cases[name])
+    spread = measures.irregularity(intervals)
+    ours = f"one release per {1e3 * intervals.mean():.3f} ms, spread {spread:.1e}"
+    late = measures.late_range(cases[name], "P")
+    return finding(f"{ours}; P {late.low:.0f}..{late.high:.0f} N", spread <= claim.bound, remark)
+
+
+def not_periodic(cases: Cases, claim: Claim, name: str) -> Finding:
+    """That the in-plane motion does not repeat; whether it is quasi-periodic or irregular goes into the remark."""
+    intervals = measures.release_intervals(cases[name])
+    motion = measures.late_motion(cases[name])
+    ours = f"{motion}: {1 / intervals.mean():.1f} releases/s, spread {motion.spread:.2f}, 0-1 test {motion.chaos:.2f}"
+    remark = ""
+    if motion.kind is not Kind.PERIODIC and motion.kind is not Kind.QUASI_PERIODIC:
+        remark = f"does not repeat, but the 0-1 test finds it {motion.kind}, not quasi-periodic"
+    return finding(ours, motion.spread >= claim.bound and motion.period == 0, remark)
+
+
+def _closes(cases: Cases, claim: Claim, name: str, closes: bool) -> Finding:
+    """Whether the slider's orbit in the phase plane returns to itself at each release."""
+    events = cases[name].events
+    psi = events["psi"].values[measures.is_kind(events, "stick_to_slip")]
+    orbit = cases[name].samples("orbit")["psi"].values
+    if psi.size < 20:
+        raise Missing(f"case {name} keeps fewer than 20 releases")
+    apart = min(float(np.max(np.abs(psi[n:] - psi[:-n]))) for n in range(1, 9))
+    apart = measures.ratio(apart, float(np.ptp(orbit)), f"the width of the orbit of case {name}")
+    ours = f"releases of up to 8 cycles apart differ by {apart:.1e} of the orbit's width"
+    return finding(ours, (apart <= claim.bound) == closes)

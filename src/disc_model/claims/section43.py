@@ -7,10 +7,9 @@ import math
 import numpy as np
 
 from disc_model.analysis.classify import separation_location
-from disc_model.claims import measures
-from disc_model.claims.growth import cycle_of, growth, growth_rate
-from disc_model.claims.model import Cases, Check, Claim, Finding, Missing, Needed
-from disc_model.claims.wording import finding, first_separation
+from disc_model.claims import growth, measures
+from disc_model.claims.measures import first_separation
+from disc_model.claims.model import Cases, Claim, Finding, Missing, Needed, claim, finding
 
 F11 = Needed({"N": 385, "Omega": 15}, 190)
 F16 = Needed({"N": 50, "Omega": 15}, 290)
@@ -20,152 +19,22 @@ F19 = Needed({"N": 385, "Omega": 15, "c_p": 0.5}, 100)
 KP2E3 = Needed({"N": 300, "Omega": 50, "k_p": 2e3}, 350)
 KP2E4 = Needed({"N": 300, "Omega": 50}, 100)
 KP2E5 = Needed({"N": 300, "Omega": 50, "k_p": 2e5}, 200)
+ORDER = "only the order is claimed"
+SEEN = "the paper shows or says that it happens, without a time"
+_SPEEDS = {"11": 11, "12": 12, "122": 12.2, "124": 12.4, "126": 12.6, "14": 14, "145": 14.5}
 
 
-def _grew(cases: Cases, name: str) -> bool:
-    """Whether the contact force ranges wider at the end than at first, by more than sampling can feign."""
-    early, late = (measures.early_range(cases[name], "P"), measures.late_range(cases[name], "P"))
-    return late.width > 1.02 * early.width + 1e-3 * cases[name]["N"]
-
-
-def _range(cases: Cases, name: str) -> str:
-    late = measures.late_range(cases[name], "P")
-    return f"P {late.low:.2f}..{late.high:.2f} N in the end"
-
-
-def _small_periodic(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F16"]
-    intervals = measures.release_intervals(case)
-    spread = measures.irregularity(intervals)
-    ours = f"{first_separation(case)}; {_range(cases, 'F16')}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
-    ours += f"; {growth(case)}"
-    return finding(ours, not case.separates and not _grew(cases, "F16") and spread <= claim.bound)
-
-
-def _separates(name: str) -> Check:
-    def check(cases: Cases, claim: Claim) -> Finding:
-        return finding(f"{first_separation(cases[name])}; {growth(cases[name])}", cases[name].separates)
-
-    return check
-
-
-def _preload(cases: Cases, claim: Claim) -> Finding:
-    found = {name: cases[name].separates for name in ("F16", "F17", "F11")}
-    ours = "; ".join(f"N = {cases[name]['N']:g} N: {first_separation(cases[name])}" for name in found)
-    return finding(ours, list(found.values()) == [False, True, False])
-
-
-def _disc_damping(cases: Cases, claim: Claim) -> Finding:
-    names = ("S43a126", "S43a10")
-    stable = [not cases[name].separates and not _grew(cases, name) for name in names]
-    ours = "; ".join(
-        f"{cases[name]['Omega']:g} rad/s: {first_separation(cases[name])}, {_range(cases, name)}, {growth(cases[name])}"
-        for name in names
-    )
-    remark = "the paper does not say at which speed"
-    if any(stable) and not all(stable):
-        bad = ", ".join(f"{cases[name]['Omega']:g}" for name, good in zip(names, stable, strict=True) if not good)
-        remark += f"; at {bad} rad/s the vibration still grows, slowly"
-    return finding(ours, any(stable), remark)
-
-
-def _inplane_damping(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F19"]
-    intervals = measures.release_intervals(case)
-    period = measures.shortest_period(intervals, claim.bound)
-    ours = f"c_p = 0: {first_separation(cases['F11'])}; c_p = 0.5: {first_separation(case)}, then "
-    ours += f"one release per {1e3 * intervals.mean():.3f} ms, " + (f"period {period}" if period else "no period")
-    return finding(ours, not cases["F11"].separates and case.separates and period > 0)
-
-
-def _normal_damping(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F20"]
-    intervals = measures.release_intervals(case)
-    spread = measures.irregularity(intervals)
-    ours = f"{first_separation(case)}; {_range(cases, 'F20')}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
-    ours += f"; {growth(case)}, {growth(cases['F02'])} without the damper"
-    return finding(ours, not case.separates and not _grew(cases, "F20") and spread <= claim.bound)
-
-
-def _soft_disc(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F21"]
-    end = case["time_reached"]
-    early = measures.early_range(case, "P")
-    third, last = (measures.range_within(case, "P", a * end, b * end) for a, b in ((0.5, 0.75), (0.75, 1.0)))
-    spread = measures.irregularity(measures.release_intervals(case))
-    ours = (
-        f"{first_separation(case)}; P {early.low:.1f}..{early.high:.1f} N grows to "
-        f"{last.low:.0f}..{last.high:.0f} N; spread of the release intervals {spread:.2f}"
-    )
-    bounded = max(third.width, last.width) < 1.5 * min(third.width, last.width)
-    return finding(ours, not case.separates and last.width > 2 * early.width and bounded and spread > claim.bound)
-
-
-def _normal_stiffness(cases: Cases, claim: Claim) -> Finding:
-    names = ("S43k2e4", "S43k3e4", "F02")
-    times = [cases[name]["first_separation"] for name in names]
-    stiff = cases["S43k2e5"]
-    ours = "; ".join(f"k = {cases[name]['k']:g} N/m: {first_separation(cases[name])}" for name in (*names, "S43k2e5"))
-    ours += f", {growth(stiff)}"
-    ordered = bool(np.all(np.diff(times) > 0)) and not any(map(math.isnan, times))
-    return finding(ours, ordered and not stiff.separates and not _grew(cases, "S43k2e5"))
-
-
-def _soft_inplane(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F22"]
-    releases = measures.times_of(case.events, "stick_to_slip")
-    ours = first_separation(case)
-    if releases.size < 20:
-        raise Missing(f"case {case.name} keeps fewer than 20 stick-slip cycles")
-    spread = measures.irregularity(np.diff(releases))
-    return finding(
-        f"{ours}; then spread of the release intervals {spread:.2f}", case.separates and spread > claim.bound
-    )
-
-
-def _inplane_stiffness(cases: Cases, claim: Claim) -> Finding:
-    soft, base, stiff = (cases[name] for name in ("F22", "S43kp2e4", "S43kp2e5"))
-    ours = "; ".join(
-        f"k_p = {case['k_p']:g} N/m: {first_separation(case)}, {growth(case)}" for case in (soft, base, stiff)
-    )
-    sooner = base.separates and base["first_separation"] < soft["first_separation"]
-    return finding(
-        f"{ours}, {_range(cases, 'S43kp2e5')}",
-        sooner and not stiff.separates and not _grew(cases, stiff.name),
-    )
-
-
-def _lowest_position(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F23"]
-    window = case.samples("zoom")
-    time, height = window["time"].values, window["u"].values - case["u_0"]
-    starts = np.flatnonzero(np.diff((window["phase"].values == measures.SEPARATION).astype(int)) == 1) + 1
-    if not starts.size:
-        raise Missing("no separation in the window of case F23")
-    found = separation_location(time, height, starts, claim.bound)
-    where = float(np.median(height[starts]))
-    ours = (
-        f"{first_separation(case)}; {found.kind}: {1e3 * where:.1f} mm from equilibrium, {100 * found.height:.0f} % of "
-        f"the swing above its lowest point, {found.velocity:+.2f} m/s"
-    )
-    remark = f"still falling: the lowest point is {100 * found.to_lowest:.0f} % of the swing further down"
-    return finding(ours, found.kind == "at the lowest position", remark if found.velocity < 0 else "")
-
-
-def _critical_speed(cases: Cases, claim: Claim) -> Finding:
-    scan = {case["Omega"]: case["first_separation"] for name, case in cases.items() if name.startswith("S43c")}
-    horizon = cases["F17"]["first_separation"]
-    times = ", ".join(f"{speed:g}: {'none' if math.isnan(t) else f'{t:.0f} s'}" for speed, t in sorted(scan.items()))
-    lower = [speed for speed, t in scan.items() if t <= horizon and speed < 12.6 - claim.bound]
-    latest = [speed for speed, t in scan.items() if not math.isnan(t)]
-    remark = (
-        f"it depends on how long one waits; within the {horizon:.0f} s that the paper's own case at 15 rad/s takes, "
-        f"{min(lower, default=math.nan):g} rad/s separates too; given 2000 s, {min(latest, default=math.nan):g} rad/s"
-    )
-    return finding(f"first separation by speed in rad/s: {times}", scan[12.6] <= horizon and not lower, remark)
-
-
-def _no_preload(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "S43N0",
+    "Sec. 4.3",
+    "Without preload the slider slides and the system is stable at low speed",
+    paper="stable at 15 rad/s, far below 608 rad/s",
+    tolerance="1 rad/s in the speed of onset",
+    reason="the step at which speeds are tried",
+    bound=1.0,
+    needs={"S43N0": Needed({"N": 1e-6, "Omega": 15}, 90)},
+)
+def no_preload(cases: Cases, claim: Claim) -> Finding:
     from disc_model.stability.sliding import steady_sliding
 
     case = cases["S43N0"]
@@ -181,7 +50,17 @@ def _no_preload(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, slides, "stable up to the moving load's true critical speed, not to 608 rad/s: see P07")
 
 
-def _huge_preload(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "S43Ninf",
+    "Sec. 4.3",
+    "With an extremely large preload the slider sticks as long as it is watched",
+    paper="sticks",
+    tolerance="1 % in the time of release",
+    reason="the contact force differs from N by little until then",
+    bound=0.01,
+    needs={"S43Ninf": Needed({"N": 8e4, "Omega": 15}, 0.9), "S43N3e3": Needed({"N": 3000, "Omega": 15}, 50)},
+)
+def huge_preload(cases: Cases, claim: Claim) -> Finding:
     stuck, large = cases["S43Ninf"], cases["S43N3e3"]
     p = large.parameters
     times = large.events["time"].values
@@ -199,40 +78,323 @@ def _huge_preload(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, holds, f"as a matter of time only: sticking for T seconds takes {needed:.0f} N times T")
 
 
-def _stick_longer(cases: Cases, claim: Claim) -> Finding:
-    small, large = (cycle_of(cases[name].parameters) for name in ("F16", "F17"))
+@claim(
+    "S43s",
+    "Sec. 4.3",
+    "The stick phase is longer at 200 N than at 50 N",
+    paper="longer",
+    tolerance="none",
+    reason="the periodic cycle, before its instability shows",
+    needs={"F16": F16, "F17": F17},
+)
+def stick_longer(cases: Cases, claim: Claim) -> Finding:
+    small, large = (growth.cycle_of(cases[name].parameters) for name in ("F16", "F17"))
     ours = (
         f"sticks {100 * small.stick_fraction:.1f} % of the cycle at 50 N, {100 * large.stick_fraction:.1f} % at 200 N"
     )
     return finding(ours, large.stick_fraction > small.stick_fraction)
 
 
-def _elasticity(cases: Cases, claim: Claim) -> Finding:
-    soft, base, stiff = (cases[name] for name in ("S43E100", "F02", "S43E200"))
-    rates = [growth_rate(case) for case in (soft, base, stiff)]
-    said = [
-        f"{case['E'] / 1e9:g} GPa: {first_separation(case)}, growth {rate:+.4f}/s"
-        for case, rate in zip((soft, base, stiff), rates, strict=True)
-    ]
-    low = cases["F21"]
-    low_rates = [growth_rate(low), cycle_of(low.parameters.replace(E=150e9)).growth_rate]
+@claim(
+    "S43c",
+    "Sec. 4.3",
+    "N = 200 N: the critical speed for separation is 12.6 rad/s",
+    paper="12.6 rad/s",
+    tolerance="0.05 rad/s",
+    reason="half a unit of the last digit printed",
+    bound=0.05,
+    needs={"F17": Needed(F17.parameters, 850, separates=True)}
+    | {f"S43c{name}": Needed({"N": 200, "Omega": speed}) for name, speed in _SPEEDS.items()},
+)
+def critical_speed(cases: Cases, claim: Claim) -> Finding:
+    scan = {case["Omega"]: case["first_separation"] for name, case in cases.items() if name.startswith("S43c")}
+    horizon = cases["F17"]["first_separation"]
+    times = ", ".join(f"{speed:g}: {'none' if math.isnan(t) else f'{t:.0f} s'}" for speed, t in sorted(scan.items()))
+    lower = [speed for speed, t in scan.items() if t <= horizon and speed < 12.6 - claim.bound]
+    latest = [speed for speed, t in scan.items() if not math.isnan(t)]
     remark = (
-        f"not monotonous: at 20 rad/s the soft disc is {'stable' if rates[0] < 0 else 'unstable'}; at 11 rad/s growth "
-        f"is {low_rates[0]:+.4f}/s for 100 GPa and {low_rates[1]:+.4f}/s for 150 GPa"
+        f"it depends on how long one waits; within the {horizon:.0f} s that the paper's own case at 15 rad/s takes, "
+        f"{min(lower, default=math.nan):g} rad/s separates too; given 2000 s, {min(latest, default=math.nan):g} rad/s"
     )
-    return finding("at 20 rad/s, " + "; ".join(said), rates[0] > rates[1] > rates[2] and rates[2] < 0, remark)
+    return finding(f"first separation by speed in rad/s: {times}", scan[12.6] <= horizon and not lower, remark)
 
 
-def _more_disc_damping(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "S43D",
+    "Conclusion 4",
+    "Disc damping stabilises",
+    paper="stabilises",
+    tolerance="none",
+    reason=ORDER,
+    needs={"F18": F18},
+)
+def more_disc_damping(cases: Cases, claim: Claim) -> Finding:
     p = cases["F18"].parameters
-    rates = [cycle_of(p.replace(D_star=value)).growth_rate for value in (0.0, 1e-5, 2e-5)]
+    rates = [growth.cycle_of(p.replace(D_star=value)).growth_rate for value in (0.0, 1e-5, 2e-5)]
     ours = ", ".join(f"{rate:+.4f}/s" for rate in rates)
     return finding(
         f"growth at N = 200 N, 10 rad/s for D* = 0, 1e-5, 2e-5 N m s: {ours}", rates[0] > rates[1] > rates[2]
     )
 
 
-def _inplane_damping_alone(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F16",
+    "Sec. 4.3, Fig. 16",
+    "N = 50 N, Omega = 15 rad/s: small periodic vibration, no separation",
+    paper="periodic, small",
+    tolerance="range not growing; spread of the release intervals 1e-4",
+    reason="the cycle attracts slowly: a tenth of the first deviation is left after 300 s",
+    bound=1e-4,
+    needs={"F16": F16},
+)
+def small_periodic(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F16"]
+    intervals = measures.release_intervals(case)
+    spread = measures.irregularity(intervals)
+    ours = f"{first_separation(case)}; {_range(cases, 'F16')}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
+    ours += f"; {growth.in_words(case)}"
+    return finding(ours, not case.separates and not _grew(cases, "F16") and spread <= claim.bound)
+
+
+@claim(
+    "F17",
+    "Sec. 4.3, Fig. 17",
+    "N = 200 N, Omega = 15 rad/s: unstable, separation occurs",
+    paper="separation",
+    tolerance="any time within the run",
+    reason=SEEN,
+    needs={"F17": F17},
+)
+def separates(cases: Cases, claim: Claim) -> Finding:
+    return _separates(cases, claim, "F17")
+
+
+@claim(
+    "S43N",
+    "Sec. 4.3, conclusion 4",
+    "Preload is not monotonous at 15 rad/s: 50 N stable, 200 N separates, 385 N stable",
+    paper="stable, separation, stable",
+    tolerance="none",
+    reason="three runs from the published start decide it",
+    needs={"F16": F16, "F17": F17, "F11": F11},
+)
+def preload(cases: Cases, claim: Claim) -> Finding:
+    found = {name: cases[name].separates for name in ("F16", "F17", "F11")}
+    ours = "; ".join(f"N = {cases[name]['N']:g} N: {first_separation(cases[name])}" for name in found)
+    return finding(ours, list(found.values()) == [False, True, False])
+
+
+@claim(
+    "F18",
+    "Sec. 4.3, Fig. 18",
+    "No damping of the disc, N = 200 N, Omega = 10 rad/s: unstable, separation occurs",
+    paper="separation",
+    tolerance="any time within the run",
+    reason=SEEN,
+    needs={"F18": F18},
+)
+def separates_undamped(cases: Cases, claim: Claim) -> Finding:
+    return _separates(cases, claim, "F18")
+
+
+@claim(
+    "S43d",
+    "Sec. 4.3",
+    "Disc damping of 2e-5 N m s makes both motions stable (speed not stated)",
+    paper="stable",
+    tolerance="contact force's range not growing by more than 2 %",
+    reason="a growth rate of 2e-5/s would show over the run",
+    needs={
+        "S43a126": Needed({"N": 200, "Omega": 12.6, "D_star": 2e-5}, 1000),
+        "S43a10": Needed({"N": 200, "Omega": 10, "D_star": 2e-5}, 1000),
+    },
+)
+def disc_damping(cases: Cases, claim: Claim) -> Finding:
+    names = ("S43a126", "S43a10")
+    stable = [not cases[name].separates and not _grew(cases, name) for name in names]
+    ours = "; ".join(
+        f"{case['Omega']:g} rad/s: {first_separation(case)}, {_range(cases, case.name)}, {growth.in_words(case)}"
+        for case in (cases[name] for name in names)
+    )
+    remark = "the paper does not say at which speed"
+    if any(stable) and not all(stable):
+        bad = ", ".join(f"{cases[name]['Omega']:g}" for name, good in zip(names, stable, strict=True) if not good)
+        remark += f"; at {bad} rad/s the vibration still grows, slowly"
+    return finding(ours, any(stable), remark)
+
+
+@claim(
+    "F19",
+    "Sec. 4.3, Fig. 19; conclusion 4",
+    "In-plane damping destabilises at N = 385 N, 15 rad/s: separation, then a periodic motion",
+    paper="separation, periodic",
+    tolerance="release intervals repeat to 1e-8 s",
+    reason=SEEN,
+    bound=1e-8,
+    needs={"F11": F11, "F19": F19},
+)
+def inplane_damping(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F19"]
+    intervals = measures.release_intervals(case)
+    period = measures.shortest_period(intervals, claim.bound)
+    ours = f"c_p = 0: {first_separation(cases['F11'])}; c_p = 0.5: {first_separation(case)}, then "
+    ours += f"one release per {1e3 * intervals.mean():.3f} ms, " + (f"period {period}" if period else "no period")
+    return finding(ours, not cases["F11"].separates and case.separates and period > 0)
+
+
+@claim(
+    "F20",
+    "Sec. 4.3, Fig. 20",
+    "Damping normal to the disc, c = 0.5: stable, periodic stick-slip in a small range",
+    paper="stable, periodic",
+    tolerance="range not growing; spread of the release intervals 1e-6",
+    reason="the cycle attracts fast enough to be reached to rounding",
+    bound=1e-6,
+    needs={"F20": Needed({"N": 200, "Omega": 20, "c": 0.5}, 300), "F02": Needed({"N": 200, "Omega": 20}, 500)},
+)
+def normal_damping(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F20"]
+    intervals = measures.release_intervals(case)
+    spread = measures.irregularity(intervals)
+    ours = f"{first_separation(case)}; {_range(cases, 'F20')}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
+    ours += f"; {growth.in_words(case)}, {growth.in_words(cases['F02'])} without the damper"
+    return finding(ours, not case.separates and not _grew(cases, "F20") and spread <= claim.bound)
+
+
+@claim(
+    "F21",
+    "Sec. 4.3, Fig. 21",
+    "E = 100 GPa, N = 200 N, Omega = 11 rad/s: unstable but bounded, irregular, no separation",
+    paper="no separation",
+    tolerance="range at least doubles, then stays within a factor of 1.5; spread of the intervals above 0.001",
+    reason="what 'unstable', 'bounded' and 'irregular' may mean; the amplitude wanders",
+    bound=1e-3,
+    needs={"F21": Needed({"N": 200, "Omega": 11, "E": 1e11}, 1000)},
+)
+def soft_disc(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F21"]
+    end = case["time_reached"]
+    early = measures.early_range(case, "P")
+    third, last = (measures.range_within(case, "P", a * end, b * end) for a, b in ((0.5, 0.75), (0.75, 1.0)))
+    spread = measures.irregularity(measures.release_intervals(case))
+    ours = (
+        f"{first_separation(case)}; P {early.low:.1f}..{early.high:.1f} N grows to "
+        f"{last.low:.0f}..{last.high:.0f} N; spread of the release intervals {spread:.2f}"
+    )
+    bounded = max(third.width, last.width) < 1.5 * min(third.width, last.width)
+    return finding(ours, not case.separates and last.width > 2 * early.width and bounded and spread > claim.bound)
+
+
+@claim(
+    "S43k",
+    "Sec. 4.3, conclusion 4",
+    "A softer spring normal to the disc separates sooner; 2e5 N/m is stable",
+    paper="sooner; stable",
+    tolerance="none",
+    reason=ORDER,
+    needs={
+        "S43k2e4": Needed({"N": 200, "Omega": 20, "k": 2e4}),
+        "S43k3e4": Needed({"N": 200, "Omega": 20, "k": 3e4}),
+        "F02": Needed({"N": 200, "Omega": 20}, 500),
+        "S43k2e5": Needed({"N": 200, "Omega": 20, "k": 2e5}, 500),
+    },
+)
+def normal_stiffness(cases: Cases, claim: Claim) -> Finding:
+    names = ("S43k2e4", "S43k3e4", "F02")
+    times = [cases[name]["first_separation"] for name in names]
+    stiff = cases["S43k2e5"]
+    ours = "; ".join(f"k = {cases[name]['k']:g} N/m: {first_separation(cases[name])}" for name in (*names, "S43k2e5"))
+    ours += f", {growth.in_words(stiff)}"
+    ordered = bool(np.all(np.diff(times) > 0)) and not any(map(math.isnan, times))
+    return finding(ours, ordered and not stiff.separates and not _grew(cases, "S43k2e5"))
+
+
+@claim(
+    "F22",
+    "Sec. 4.3, Fig. 22",
+    "k_p = 2e3 N/m, N = 300 N, Omega = 50 rad/s: separation, then an unpredictable wandering",
+    paper="separation, wandering",
+    tolerance="spread of the release intervals above 0.05",
+    reason=SEEN,
+    bound=0.05,
+    needs={"F22": KP2E3},
+)
+def soft_inplane(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F22"]
+    releases = measures.times_of(case.events, "stick_to_slip")
+    ours = first_separation(case)
+    if releases.size < 20:
+        raise Missing(f"case {case.name} keeps fewer than 20 stick-slip cycles")
+    spread = measures.irregularity(np.diff(releases))
+    return finding(
+        f"{ours}; then spread of the release intervals {spread:.2f}", case.separates and spread > claim.bound
+    )
+
+
+@claim(
+    "S43kp",
+    "Sec. 4.3, conclusion 4",
+    "k_p = 2e4 N/m separates sooner than 2e3 N/m; 2e5 N/m is stable",
+    paper="sooner; stable",
+    tolerance="none",
+    reason=ORDER,
+    needs={"F22": KP2E3, "S43kp2e4": KP2E4, "S43kp2e5": KP2E5},
+)
+def inplane_stiffness(cases: Cases, claim: Claim) -> Finding:
+    soft, base, stiff = (cases[name] for name in ("F22", "S43kp2e4", "S43kp2e5"))
+    ours = "; ".join(
+        f"k_p = {case['k_p']:g} N/m: {first_separation(case)}, {growth.in_words(case)}" for case in (soft, base, stiff)
+    )
+    sooner = base.separates and base["first_separation"] < soft["first_separation"]
+    return finding(
+        f"{ours}, {_range(cases, 'S43kp2e5')}",
+        sooner and not stiff.separates and not _grew(cases, stiff.name),
+    )
+
+
+@claim(
+    "F23",
+    "Sec. 4.3, Fig. 23; conclusion 4",
+    "m = 0.01 kg: separation when the slider is at its lowest",
+    paper="lowest position",
+    tolerance="within 10 % of the swing",
+    reason="read off a figure",
+    bound=0.1,
+    needs={"F23": Needed({"N": 200, "Omega": 20, "m": 0.01}, 250, separates=True)},
+)
+def lowest_position(cases: Cases, claim: Claim) -> Finding:
+    case = cases["F23"]
+    window = case.samples("zoom")
+    time, height = window["time"].values, window["u"].values - case["u_0"]
+    starts = np.flatnonzero(np.diff((window["phase"].values == measures.SEPARATION).astype(int)) == 1) + 1
+    if not starts.size:
+        raise Missing("no separation in the window of case F23")
+    found = separation_location(time, height, starts, claim.bound)
+    where = float(np.median(height[starts]))
+    ours = (
+        f"{first_separation(case)}; {found.kind}: {1e3 * where:.1f} mm from equilibrium, {100 * found.height:.0f} % of "
+        f"the swing above its lowest point, {found.velocity:+.2f} m/s"
+    )
+    remark = f"still falling: the lowest point is {100 * found.to_lowest:.0f} % of the swing further down"
+    return finding(ours, found.kind == "at the lowest position", remark if found.velocity < 0 else "")
+
+
+@claim(
+    "C4",
+    "Sec. 4.3, conclusion 4",
+    "In-plane damping destabilises at a large preload, though not in general",
+    paper="destabilises at 385 N",
+    tolerance="none",
+    reason="runs of 300 s from the published start decide it",
+    needs={
+        "F11": F11,
+        "F19": F19,
+        "C4cp01": Needed({"N": 385, "Omega": 15, "c_p": 0.1}, 290),
+        "C4cp1": Needed({"N": 385, "Omega": 15, "c_p": 1}, 290),
+        "C4cpN50": Needed({"N": 50, "Omega": 15, "c_p": 0.5}, 290),
+    },
+)
+def inplane_damping_alone(cases: Cases, claim: Claim) -> Finding:
     names = ("F11", "C4cp01", "F19", "C4cp1")
     said = [f"{cases[name]['c_p']:g}: {first_separation(cases[name])}" for name in names]
     small = cases["C4cpN50"]
@@ -243,14 +405,68 @@ def _inplane_damping_alone(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, not cases["F11"].separates and any(damped) and not small.separates, remark)
 
 
-def _quasi_periodic_at_first(cases: Cases, claim: Claim) -> Finding:
-    found = cycle_of(cases["F22"].parameters)
+@claim(
+    "S43E",
+    "Sec. 4.3",
+    "A stiffer disc is more stable, a softer one less",
+    paper="monotonous",
+    tolerance="none",
+    reason=ORDER,
+    needs={
+        "S43E100": Needed({"N": 200, "Omega": 20, "E": 1e11}, 590),
+        "F02": Needed({"N": 200, "Omega": 20}, 500),
+        "S43E200": Needed({"N": 200, "Omega": 20, "E": 2e11}, 1000),
+        "F21": Needed({"N": 200, "Omega": 11, "E": 1e11}, 1000),
+    },
+)
+def elasticity(cases: Cases, claim: Claim) -> Finding:
+    soft, base, stiff = (cases[name] for name in ("S43E100", "F02", "S43E200"))
+    rates = [growth.rate(case) for case in (soft, base, stiff)]
+    said = [
+        f"{case['E'] / 1e9:g} GPa: {first_separation(case)}, growth {rate:+.4f}/s"
+        for case, rate in zip((soft, base, stiff), rates, strict=True)
+    ]
+    low = cases["F21"]
+    low_rates = [growth.rate(low), growth.cycle_of(low.parameters.replace(E=150e9)).growth_rate]
+    remark = (
+        f"not monotonous: at 20 rad/s the soft disc is {'stable' if rates[0] < 0 else 'unstable'}; at 11 rad/s growth "
+        f"is {low_rates[0]:+.4f}/s for 100 GPa and {low_rates[1]:+.4f}/s for 150 GPa"
+    )
+    return finding("at 20 rad/s, " + "; ".join(said), rates[0] > rates[1] > rates[2] and rates[2] < 0, remark)
+
+
+@claim(
+    "F22a",
+    "Sec. 4.3, Fig. 22",
+    "k_p = 2e3 N/m: at first the disc vibrates quasi-periodically",
+    paper="quasi-periodic",
+    tolerance="none",
+    reason="a complex pair of multipliers outside the unit circle brings a second frequency",
+    needs={"F22": KP2E3},
+)
+def quasi_periodic_at_first(cases: Cases, claim: Claim) -> Finding:
+    found = growth.cycle_of(cases["F22"].parameters)
     leading = found.multipliers[0]
     ours = f"leading multiplier {leading.real:+.3f} ± {abs(leading.imag):.3f}i, growth {found.growth_rate:+.4f}/s"
     return finding(ours, found.kind == "neimark_sacker" and found.growth_rate > 0)
 
 
-def _bounded(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "S43b",
+    "Sec. 4.1, 4.3; conclusion 3",
+    "After separation the disc's vibration is bounded",
+    paper="bounded",
+    tolerance="range of the last quarter no more than 1.1 times that of the last half after the first separation",
+    reason="the amplitude wanders a little",
+    bound=1.1,
+    needs={
+        "F02": Needed({"N": 200, "Omega": 20}, 600, separates=True),
+        "F07": Needed({"N": 300, "Omega": 20}, 190, separates=True),
+        "F17": Needed(F17.parameters, 850, separates=True),
+        "F13": Needed({"N": 385, "Omega": 15.1}, 110, separates=True),
+    },
+)
+def bounded(cases: Cases, claim: Claim) -> Finding:
     said, bounded = [], []
     for name in ("F02", "F07", "F17", "F13"):
         case = cases[name]
@@ -262,7 +478,23 @@ def _bounded(cases: Cases, claim: Claim) -> Finding:
     return finding("range of the disc in the end, " + ", ".join(said), all(bounded))
 
 
-def _stick_may_vanish(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "C3",
+    "Sec. 4.3, conclusion 3",
+    "After separation the stick phase disappears under some parameter values",
+    paper="under some",
+    tolerance="0.1 % of the time",
+    reason="a stray stick would not refute the statement",
+    bound=1e-3,
+    needs={
+        "F02": Needed({"N": 200, "Omega": 20}, 600, separates=True),
+        "F07": Needed({"N": 300, "Omega": 20}, 190, separates=True),
+        "F09": Needed({"N": 200, "Omega": 50}, 190, separates=True),
+        "F13": Needed({"N": 385, "Omega": 15.1}, 110, separates=True),
+        "F17": Needed(F17.parameters, 850, separates=True),
+    },
+)
+def stick_may_vanish(cases: Cases, claim: Claim) -> Finding:
     shares = {name: measures.phase_share(cases[name], "stick") for name in ("F02", "F07", "F09", "F13", "F17")}
     said = [
         f"N = {cases[name]['N']:g} N, {cases[name]['Omega']:g} rad/s: {100 * share:.1f} %"
@@ -273,283 +505,20 @@ def _stick_may_vanish(cases: Cases, claim: Claim) -> Finding:
     )
 
 
-ORDER = "only the order is claimed"
-SEEN = "the paper shows or says that it happens, without a time"
+# ----------------------------------------------------------------------------------------------------
+# What several checks use
 
-_SPEEDS = {"11": 11, "12": 12, "122": 12.2, "124": 12.4, "126": 12.6, "14": 14, "145": 14.5}
 
-CLAIMS = (
-    Claim(
-        "S43N0",
-        "Sec. 4.3",
-        "Without preload the slider slides and the system is stable at low speed",
-        "stable at 15 rad/s, far below 608 rad/s",
-        "1 rad/s in the speed of onset",
-        "the step at which speeds are tried",
-        _no_preload,
-        1.0,
-        {"S43N0": Needed({"N": 1e-6, "Omega": 15}, 90)},
-    ),
-    Claim(
-        "S43Ninf",
-        "Sec. 4.3",
-        "With an extremely large preload the slider sticks as long as it is watched",
-        "sticks",
-        "1 % in the time of release",
-        "the contact force differs from N by little until then",
-        _huge_preload,
-        0.01,
-        {"S43Ninf": Needed({"N": 8e4, "Omega": 15}, 0.9), "S43N3e3": Needed({"N": 3000, "Omega": 15}, 50)},
-    ),
-    Claim(
-        "S43s",
-        "Sec. 4.3",
-        "The stick phase is longer at 200 N than at 50 N",
-        "longer",
-        "none",
-        "the periodic cycle, before its instability shows",
-        _stick_longer,
-        0.0,
-        {"F16": F16, "F17": F17},
-    ),
-    Claim(
-        "S43c",
-        "Sec. 4.3",
-        "N = 200 N: the critical speed for separation is 12.6 rad/s",
-        "12.6 rad/s",
-        "0.05 rad/s",
-        "half a unit of the last digit printed",
-        _critical_speed,
-        0.05,
-        {"F17": Needed(F17.parameters, 850, separates=True)}
-        | {f"S43c{name}": Needed({"N": 200, "Omega": speed}) for name, speed in _SPEEDS.items()},
-    ),
-    Claim(
-        "S43D",
-        "Conclusion 4",
-        "Disc damping stabilises",
-        "stabilises",
-        "none",
-        ORDER,
-        _more_disc_damping,
-        0.0,
-        {"F18": F18},
-    ),
-    Claim(
-        "F16",
-        "Sec. 4.3, Fig. 16",
-        "N = 50 N, Omega = 15 rad/s: small periodic vibration, no separation",
-        "periodic, small",
-        "range not growing; spread of the release intervals 1e-4",
-        "the cycle attracts slowly: a tenth of the first deviation is left after 300 s",
-        _small_periodic,
-        1e-4,
-        {"F16": F16},
-    ),
-    Claim(
-        "F17",
-        "Sec. 4.3, Fig. 17",
-        "N = 200 N, Omega = 15 rad/s: unstable, separation occurs",
-        "separation",
-        "any time within the run",
-        SEEN,
-        _separates("F17"),
-        0.0,
-        {"F17": F17},
-    ),
-    Claim(
-        "S43N",
-        "Sec. 4.3, conclusion 4",
-        "Preload is not monotonous at 15 rad/s: 50 N stable, 200 N separates, 385 N stable",
-        "stable, separation, stable",
-        "none",
-        "three runs from the published start decide it",
-        _preload,
-        0.0,
-        {"F16": F16, "F17": F17, "F11": F11},
-    ),
-    Claim(
-        "F18",
-        "Sec. 4.3, Fig. 18",
-        "No damping of the disc, N = 200 N, Omega = 10 rad/s: unstable, separation occurs",
-        "separation",
-        "any time within the run",
-        SEEN,
-        _separates("F18"),
-        0.0,
-        {"F18": F18},
-    ),
-    Claim(
-        "S43d",
-        "Sec. 4.3",
-        "Disc damping of 2e-5 N m s makes both motions stable (speed not stated)",
-        "stable",
-        "contact force's range not growing by more than 2 %",
-        "a growth rate of 2e-5/s would show over the run",
-        _disc_damping,
-        0.0,
-        {
-            "S43a126": Needed({"N": 200, "Omega": 12.6, "D_star": 2e-5}, 1000),
-            "S43a10": Needed({"N": 200, "Omega": 10, "D_star": 2e-5}, 1000),
-        },
-    ),
-    Claim(
-        "F19",
-        "Sec. 4.3, Fig. 19; conclusion 4",
-        "In-plane damping destabilises at N = 385 N, 15 rad/s: separation, then a periodic motion",
-        "separation, periodic",
-        "release intervals repeat to 1e-8 s",
-        SEEN,
-        _inplane_damping,
-        1e-8,
-        {"F11": F11, "F19": F19},
-    ),
-    Claim(
-        "F20",
-        "Sec. 4.3, Fig. 20",
-        "Damping normal to the disc, c = 0.5: stable, periodic stick-slip in a small range",
-        "stable, periodic",
-        "range not growing; spread of the release intervals 1e-6",
-        "the cycle attracts fast enough to be reached to rounding",
-        _normal_damping,
-        1e-6,
-        {"F20": Needed({"N": 200, "Omega": 20, "c": 0.5}, 300), "F02": Needed({"N": 200, "Omega": 20}, 500)},
-    ),
-    Claim(
-        "F21",
-        "Sec. 4.3, Fig. 21",
-        "E = 100 GPa, N = 200 N, Omega = 11 rad/s: unstable but bounded, irregular, no separation",
-        "no separation",
-        "range at least doubles, then stays within a factor of 1.5; spread of the intervals above 0.001",
-        "what 'unstable', 'bounded' and 'irregular' may mean; the amplitude wanders",
-        _soft_disc,
-        1e-3,
-        {"F21": Needed({"N": 200, "Omega": 11, "E": 1e11}, 1000)},
-    ),
-    Claim(
-        "S43k",
-        "Sec. 4.3, conclusion 4",
-        "A softer spring normal to the disc separates sooner; 2e5 N/m is stable",
-        "sooner; stable",
-        "none",
-        ORDER,
-        _normal_stiffness,
-        0.0,
-        {
-            "S43k2e4": Needed({"N": 200, "Omega": 20, "k": 2e4}),
-            "S43k3e4": Needed({"N": 200, "Omega": 20, "k": 3e4}),
-            "F02": Needed({"N": 200, "Omega": 20}, 500),
-            "S43k2e5": Needed({"N": 200, "Omega": 20, "k": 2e5}, 500),
-        },
-    ),
-    Claim(
-        "F22",
-        "Sec. 4.3, Fig. 22",
-        "k_p = 2e3 N/m, N = 300 N, Omega = 50 rad/s: separation, then an unpredictable wandering",
-        "separation, wandering",
-        "spread of the release intervals above 0.05",
-        SEEN,
-        _soft_inplane,
-        0.05,
-        {"F22": KP2E3},
-    ),
-    Claim(
-        "S43kp",
-        "Sec. 4.3, conclusion 4",
-        "k_p = 2e4 N/m separates sooner than 2e3 N/m; 2e5 N/m is stable",
-        "sooner; stable",
-        "none",
-        ORDER,
-        _inplane_stiffness,
-        0.0,
-        {"F22": KP2E3, "S43kp2e4": KP2E4, "S43kp2e5": KP2E5},
-    ),
-    Claim(
-        "F23",
-        "Sec. 4.3, Fig. 23; conclusion 4",
-        "m = 0.01 kg: separation when the slider is at its lowest",
-        "lowest position",
-        "within 10 % of the swing",
-        "read off a figure",
-        _lowest_position,
-        0.1,
-        {"F23": Needed({"N": 200, "Omega": 20, "m": 0.01}, 250, separates=True)},
-    ),
-    Claim(
-        "C4",
-        "Sec. 4.3, conclusion 4",
-        "In-plane damping destabilises at a large preload, though not in general",
-        "destabilises at 385 N",
-        "none",
-        "runs of 300 s from the published start decide it",
-        _inplane_damping_alone,
-        0.0,
-        {
-            "F11": F11,
-            "F19": F19,
-            "C4cp01": Needed({"N": 385, "Omega": 15, "c_p": 0.1}, 290),
-            "C4cp1": Needed({"N": 385, "Omega": 15, "c_p": 1}, 290),
-            "C4cpN50": Needed({"N": 50, "Omega": 15, "c_p": 0.5}, 290),
-        },
-    ),
-    Claim(
-        "S43E",
-        "Sec. 4.3",
-        "A stiffer disc is more stable, a softer one less",
-        "monotonous",
-        "none",
-        ORDER,
-        _elasticity,
-        0.0,
-        {
-            "S43E100": Needed({"N": 200, "Omega": 20, "E": 1e11}, 590),
-            "F02": Needed({"N": 200, "Omega": 20}, 500),
-            "S43E200": Needed({"N": 200, "Omega": 20, "E": 2e11}, 1000),
-            "F21": Needed({"N": 200, "Omega": 11, "E": 1e11}, 1000),
-        },
-    ),
-    Claim(
-        "F22a",
-        "Sec. 4.3, Fig. 22",
-        "k_p = 2e3 N/m: at first the disc vibrates quasi-periodically",
-        "quasi-periodic",
-        "none",
-        "a complex pair of multipliers outside the unit circle brings a second frequency",
-        _quasi_periodic_at_first,
-        0.0,
-        {"F22": KP2E3},
-    ),
-    Claim(
-        "S43b",
-        "Sec. 4.1, 4.3; conclusion 3",
-        "After separation the disc's vibration is bounded",
-        "bounded",
-        "range of the last quarter no more than 1.1 times that of the last half after the first separation",
-        "the amplitude wanders a little",
-        _bounded,
-        1.1,
-        {
-            "F02": Needed({"N": 200, "Omega": 20}, 600, separates=True),
-            "F07": Needed({"N": 300, "Omega": 20}, 190, separates=True),
-            "F17": Needed(F17.parameters, 850, separates=True),
-            "F13": Needed({"N": 385, "Omega": 15.1}, 110, separates=True),
-        },
-    ),
-    Claim(
-        "C3",
-        "Sec. 4.3, conclusion 3",
-        "After separation the stick phase disappears under some parameter values",
-        "under some",
-        "0.1 % of the time",
-        "a stray stick would not refute the statement",
-        _stick_may_vanish,
-        1e-3,
-        {
-            "F02": Needed({"N": 200, "Omega": 20}, 600, separates=True),
-            "F07": Needed({"N": 300, "Omega": 20}, 190, separates=True),
-            "F09": Needed({"N": 200, "Omega": 50}, 190, separates=True),
-            "F13": Needed({"N": 385, "Omega": 15.1}, 110, separates=True),
-            "F17": Needed(F17.parameters, 850, separates=True),
-        },
-    ),
-)
+def _grew(cases: Cases, name: str) -> bool:
+    """Whether the contact force ranges wider at the end than at first, by more than sampling can feign."""
+    early, late = (measures.early_range(cases[name], "P"), measures.late_range(cases[name], "P"))
+    return late.width > 1.02 * early.width + 1e-3 * cases[name]["N"]
+
+
+def _range(cases: Cases, name: str) -> str:
+    late = measures.late_range(cases[name], "P")
+    return f"P {late.low:.2f}..{late.high:.2f} N in the end"
+
+
+def _separates(cases: Cases, claim: Claim, name: str) -> Finding:
+    return finding(f"{first_separation(cases[name])}; {growth.in_words(cases[name])}", cases[name].separates)

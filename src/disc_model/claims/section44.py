@@ -6,10 +6,10 @@ import numpy as np
 
 from disc_model.analysis import spectra
 from disc_model.claims import measures
-from disc_model.claims.model import Cases, CaseView, Check, Claim, Finding, Missing, Needed
+from disc_model.claims.measures import many, separates_at
+from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding
 from disc_model.claims.paper_tables import LISTED, TABLE_2, mixing, stick_slip_rate, table_2
 from disc_model.claims.section41 import not_periodic
-from disc_model.claims.wording import finding, first_separation, many
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
 F13 = Needed({"N": 385, "Omega": 15.1}, 110)
@@ -18,14 +18,20 @@ F07 = Needed({"N": 300, "Omega": 20}, 190, separates=True)
 F21 = Needed({"N": 200, "Omega": 11, "E": 1e11}, 480)
 LOW, HIGH = 20.0, 700.0
 """Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
+FUZZ = "share of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: little for lines, much for fuzz"
 
 
-def _natural(case: CaseView) -> np.ndarray:
-    """Natural frequencies with the slider attached, Hz."""
-    return slider_at_rest_frequencies(case.parameters) / (2 * np.pi)
-
-
-def _lines(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "T2a",
+    "Sec. 4.4, Table 2, Fig. 25a",
+    "N = 385 N, Omega = 15.1 rad/s, 0..10 s: the disc's significant frequencies",
+    paper=f"{many(LISTED, 1)} Hz",
+    tolerance="1 Hz",
+    reason="most are printed to a Hz, read off a plot",
+    bound=1.0,
+    needs={"F13": F13},
+)
+def lines(cases: Cases, claim: Claim) -> Finding:
     table = table_2(cases["F13"])
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
     said = ", ".join(f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples())
@@ -34,7 +40,17 @@ def _lines(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, bool(off.max() <= claim.bound), remark)
 
 
-def _drive(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "T2b",
+    "Sec. 4.4",
+    "The drive's frequency predominates; its double and triple take part",
+    paper="2.4 Hz and multiples",
+    tolerance="-60 dB",
+    reason="'take part' without a level; the other lines of Table 2 are at this level or below",
+    bound=-60.0,
+    needs={"F13": F13},
+)
+def drive(cases: Cases, claim: Claim) -> Finding:
     window = measures.stretch(cases["F13"], "spectrum_a", 0, 10)
     drive = cases["F13"]["Omega"] / (2 * np.pi)
     time, values = window["time"].values, window["w_point"].values
@@ -47,7 +63,22 @@ def _drive(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, near and every.amplitude <= found[0].amplitude * (1 + 1e-9) and min(level) > claim.bound)
 
 
-def _follow(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "T2c",
+    "Sec. 4.4",
+    "f_1 to f_6 are natural frequencies of the disc with the slider at rest, shifted by its rotation",
+    paper=TABLE_2["f_1"][1],
+    tolerance="more than 0.3 Hz from n f_s + m f_Omega",
+    reason="what the stick-slip rate drifts by within the 10 s, times n",
+    bound=0.3,
+    needs={
+        "F13": F13,
+        "T2kp18": Needed({"N": 385, "Omega": 15.1, "k_p": 1.8e4}, 9.9),
+        "T2kp22": Needed({"N": 385, "Omega": 15.1, "k_p": 2.2e4}, 9.9),
+        "T2Om12": Needed({"N": 385, "Omega": 12}, 9.9),
+    },
+)
+def follow(cases: Cases, claim: Claim) -> Finding:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     said, worst, farthest = [], 0.0, 0.0
     for name in ("F13", "T2kp18", "T2kp22", "T2Om12"):
@@ -68,7 +99,17 @@ def _follow(cases: Cases, claim: Claim) -> Finding:
     return finding("; ".join(said), worst > claim.bound, remark)
 
 
-def _inplane_line(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "T2d",
+    "Sec. 4.4",
+    "f_h1 and f_h2 are the in-plane frequency of 70 Hz, split by the rotation",
+    paper="65.5 and 70 Hz",
+    tolerance="0.1 Hz in the middle of the pair",
+    reason="the stick-slip rate is known better than that",
+    bound=0.1,
+    needs={"F13": F13},
+)
+def inplane_line(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     rate = stick_slip_rate(case)
     window = measures.stretch(case, "spectrum_a", 0, 10)
@@ -84,7 +125,17 @@ def _inplane_line(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, abs(middle - rate) < claim.bound, remark)
 
 
-def _close_to_natural(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "T2e",
+    "Sec. 4.4",
+    "f_1 to f_6 are close to 135.42, 237.55 and 288.85 Hz",
+    paper="close",
+    tolerance="5 Hz",
+    reason="twice the drive's frequency, which is what rotation can shift a line of the lowest modes by",
+    bound=5.0,
+    needs={"F13": F13},
+)
+def close_to_natural(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     table = table_2(case).iloc[3:]
     natural = _natural(case)
@@ -95,13 +146,33 @@ def _close_to_natural(cases: Cases, claim: Claim) -> Finding:
     return finding(f"{said} Hz, in brackets the nearest natural frequency", bool(off.max() <= claim.bound), remark)
 
 
-def _new_lines(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F25b",
+    "Sec. 4.4, Fig. 25b",
+    "In 38..48 s new frequencies emerge between the main ones",
+    paper="new, shifted frequencies",
+    tolerance="twice as much of the band filled",
+    reason=FUZZ,
+    bound=2.0,
+    needs={"F13": SEPARATES},
+)
+def new_lines(cases: Cases, claim: Claim) -> Finding:
     shares = [_fuzziness(cases["F13"], "spectrum_a", 0, 10), _fuzziness(cases["F13"], "spectrum_b", 38, 48)]
     ours = f"lines fill {100 * shares[0]:.1f} % of 20..300 Hz in 0..10 s, {100 * shares[1]:.1f} % in 38..48 s"
     return finding(ours, shares[1] > claim.bound * shares[0])
 
 
-def _higher(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F25c",
+    "Sec. 4.4, Fig. 25c; conclusion 5",
+    "With the first separation higher frequencies show up suddenly",
+    paper="sudden change",
+    tolerance="a factor of 50 in power",
+    reason="before, the share is what a smooth motion leaves; 'sudden' is read off a plot of decades",
+    bound=50.0,
+    needs={"F13": SEPARATES},
+)
+def higher(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     first = case["first_separation"]
     before = _high_share(case, "spectrum_c", 50, first)
@@ -113,7 +184,17 @@ def _higher(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, after > claim.bound * before)
 
 
-def _steady_lines(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F25d",
+    "Sec. 4.4, Fig. 25d",
+    "Long after separation the frequencies are constant and the fuzzy ones gone",
+    paper="constant, no fuzz",
+    tolerance="half as much of the band filled; lines at rest within 0.01 Hz",
+    reason=FUZZ,
+    bound=2.0,
+    needs={"F13": SEPARATES},
+)
+def steady_lines(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     fuzz = [_fuzziness(case, "spectrum_b", 38, 48), _fuzziness(case, "spectrum_d", 100, 110)]
     halves = [measures.stretch(case, "spectrum_d", *span) for span in ((100, 105), (105, 110))]
@@ -127,7 +208,17 @@ def _steady_lines(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, fuzz[1] < fuzz[0] / claim.bound and drift < 0.01)
 
 
-def _slider_settles(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F26",
+    "Sec. 4.4, Fig. 26",
+    "The slider's irregular frequencies disappear after separation: stick-slip becomes periodic",
+    paper="periodic",
+    tolerance="half as much of the band filled; release intervals repeat to 1e-6 s",
+    reason=FUZZ,
+    bound=2.0,
+    needs={"F13": SEPARATES},
+)
+def slider_settles(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     first = case["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_d", 100, 100 + first - 50))
@@ -137,7 +228,31 @@ def _slider_settles(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, after < before / claim.bound and motion.period > 0)
 
 
-def _growth_stages(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F27",
+    "Sec. 4.4, Fig. 27",
+    "N = 300 N, Omega = 20 rad/s: first separation",
+    paper="149.5 s",
+    tolerance="0.2 s",
+    reason="'around' in the text, and slow growth: 1e-7 m in the start moves it by 0.02 s",
+    bound=0.2,
+    needs={"F07": Needed({"N": 300, "Omega": 20}, 150)},
+)
+def when_it_separates(cases: Cases, claim: Claim) -> Finding:
+    return separates_at(cases["F07"], 149.5, claim.bound)
+
+
+@claim(
+    "F27a",
+    "Sec. 4.4, Fig. 27a",
+    "The vibration grows gradually, then sharply, then less, and is bounded after separation",
+    paper="slow, sharp, slower, bounded",
+    tolerance="sharp: 3 times the mean rate of the first half",
+    reason="what 'sharply' may mean",
+    bound=3.0,
+    needs={"F07": F07},
+)
+def growth_stages(cases: Cases, claim: Claim) -> Finding:
     case = cases["F07"]
     first, end = case["first_separation"], case["time_reached"]
     if not 20 <= first <= end - 20:
@@ -154,7 +269,17 @@ def _growth_stages(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, sharp > claim.bound * slow and last < sharp and abs(after) < 0.01 * sharp)
 
 
-def _natural_lines(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F27b",
+    "Sec. 4.4, Fig. 27b",
+    "143..153 s: the disc's vibration is mainly governed by its natural frequencies",
+    paper="natural frequencies",
+    tolerance="90 % of the power of the four strongest lines",
+    reason="what 'mainly' may mean; a mode of l nodal diameters is seen shifted by l f_Omega, l up to 4",
+    bound=0.9,
+    needs={"F07": F07},
+)
+def natural_lines(cases: Cases, claim: Claim) -> Finding:
     case = cases["F07"]
     window = measures.stretch(case, "spectrum_d", 143, 153)
     found = spectra.lines(window["time"].values, window["w_point"].values, above=LOW, floor=1e-3)
@@ -170,7 +295,17 @@ def _natural_lines(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, share > claim.bound, remark)
 
 
-def _fuzz_stays(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F27c",
+    "Sec. 4.4, Fig. 27b; conclusion 5",
+    "After separation higher frequencies arise, and the fuzzy ones stay",
+    paper="both",
+    tolerance="not less than two thirds as much of the band filled; power above 700 Hz ten times",
+    reason=FUZZ,
+    bound=1.5,
+    needs={"F07": F07},
+)
+def fuzz_stays(cases: Cases, claim: Claim) -> Finding:
     case = cases["F07"]
     first = case["first_separation"]
     before = _fuzziness(case, "spectrum_d", first - 4, first)
@@ -183,7 +318,31 @@ def _fuzz_stays(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, after > before / claim.bound and high[1] > 10 * high[0])
 
 
-def _no_high_line(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F28",
+    "Sec. 4.4, Fig. 28b",
+    "The same case: stick-slip is quasi-periodic in the steady state",
+    paper="quasi-periodic",
+    tolerance="spread of the release intervals above 0.3",
+    reason="the paper shows a spectrum, no number; a periodic motion would have 0",
+    bound=0.3,
+    needs={"F07": F07},
+)
+def does_not_repeat(cases: Cases, claim: Claim) -> Finding:
+    return not_periodic(cases, claim, "F07")
+
+
+@claim(
+    "F29",
+    "Sec. 4.4, Fig. 29b",
+    "E = 100 GPa: no frequency above the highest natural one",
+    paper="none above 4383.04 rad/s",
+    tolerance="1e-7 of the power above 20 Hz",
+    reason="70 dB below the vibration is below what the figure shows",
+    bound=1e-7,
+    needs={"F21": F21},
+)
+def no_high_line(cases: Cases, claim: Claim) -> Finding:
     case = cases["F21"]
     omega = float(plate_modes(case.parameters)["omega"].max())
     base = float(plate_modes(case.parameters.replace(E=150e9))["omega"].max())
@@ -193,7 +352,17 @@ def _no_high_line(cases: Cases, claim: Claim) -> Finding:
     return finding(ours, share < claim.bound, remark)
 
 
-def _erratic(cases: Cases, claim: Claim) -> Finding:
+@claim(
+    "F29b",
+    "Sec. 4.4, Fig. 29b",
+    "E = 100 GPa: erratic vibration with several incommensurate frequencies",
+    paper="several",
+    tolerance="at least 3 lines that are no combination of the stick-slip rate and the drive's",
+    reason="'several'; 0.2 Hz tells them apart in 10 s",
+    bound=3.0,
+    needs={"F21": F21},
+)
+def erratic(cases: Cases, claim: Claim) -> Finding:
     case = cases["F21"]
     window = measures.stretch(case, "spectrum_d", 465, 475)
     rate, drive = stick_slip_rate(case, "spectrum_d", 465, 475), case["Omega"] / (2 * np.pi)
@@ -205,6 +374,15 @@ def _erratic(cases: Cases, claim: Claim) -> Finding:
         f"in-plane motion {motion}, 0-1 test {motion.chaos:.2f}"
     )
     return finding(ours, len(other) >= claim.bound and motion.period == 0)
+
+
+# ----------------------------------------------------------------------------------------------------
+# What several checks use
+
+
+def _natural(case: CaseView) -> np.ndarray:
+    """Natural frequencies with the slider attached, Hz."""
+    return slider_at_rest_frequencies(case.parameters) / (2 * np.pi)
 
 
 def _fuzziness(case: CaseView, window: str, start: float, stop: float, name: str = "w_point") -> float:
@@ -226,198 +404,3 @@ def _power_share(case: CaseView, window: str, start: float, stop: float, above: 
     time, values = part["time"].values, part["w_point"].values
     measures.found_lines(spectra.lines(time, values, above=LOW), case, window)
     return spectra.power_share(time, values, above, LOW)
-
-
-def _first(name: str, paper: float) -> Check:
-    def check(cases: Cases, claim: Claim) -> Finding:
-        time = cases[name]["first_separation"]
-        return finding(first_separation(cases[name]), bool(abs(time - paper) <= claim.bound))
-
-    return check
-
-
-FUZZ = "share of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: little for lines, much for fuzz"
-
-CLAIMS = (
-    Claim(
-        "T2a",
-        "Sec. 4.4, Table 2, Fig. 25a",
-        "N = 385 N, Omega = 15.1 rad/s, 0..10 s: the disc's significant frequencies",
-        f"{many(LISTED, 1)} Hz",
-        "1 Hz",
-        "most are printed to a Hz, read off a plot",
-        _lines,
-        1.0,
-        {"F13": F13},
-    ),
-    Claim(
-        "T2b",
-        "Sec. 4.4",
-        "The drive's frequency predominates; its double and triple take part",
-        "2.4 Hz and multiples",
-        "-60 dB",
-        "'take part' without a level; the other lines of Table 2 are at this level or below",
-        _drive,
-        -60.0,
-        {"F13": F13},
-    ),
-    Claim(
-        "T2c",
-        "Sec. 4.4",
-        "f_1 to f_6 are natural frequencies of the disc with the slider at rest, shifted by its rotation",
-        TABLE_2["f_1"][1],
-        "more than 0.3 Hz from n f_s + m f_Omega",
-        "what the stick-slip rate drifts by within the 10 s, times n",
-        _follow,
-        0.3,
-        {
-            "F13": F13,
-            "T2kp18": Needed({"N": 385, "Omega": 15.1, "k_p": 1.8e4}, 9.9),
-            "T2kp22": Needed({"N": 385, "Omega": 15.1, "k_p": 2.2e4}, 9.9),
-            "T2Om12": Needed({"N": 385, "Omega": 12}, 9.9),
-        },
-    ),
-    Claim(
-        "T2d",
-        "Sec. 4.4",
-        "f_h1 and f_h2 are the in-plane frequency of 70 Hz, split by the rotation",
-        "65.5 and 70 Hz",
-        "0.1 Hz in the middle of the pair",
-        "the stick-slip rate is known better than that",
-        _inplane_line,
-        0.1,
-        {"F13": F13},
-    ),
-    Claim(
-        "T2e",
-        "Sec. 4.4",
-        "f_1 to f_6 are close to 135.42, 237.55 and 288.85 Hz",
-        "close",
-        "5 Hz",
-        "twice the drive's frequency, which is what rotation can shift a line of the lowest modes by",
-        _close_to_natural,
-        5.0,
-        {"F13": F13},
-    ),
-    Claim(
-        "F25b",
-        "Sec. 4.4, Fig. 25b",
-        "In 38..48 s new frequencies emerge between the main ones",
-        "new, shifted frequencies",
-        "twice as much of the band filled",
-        FUZZ,
-        _new_lines,
-        2.0,
-        {"F13": SEPARATES},
-    ),
-    Claim(
-        "F25c",
-        "Sec. 4.4, Fig. 25c; conclusion 5",
-        "With the first separation higher frequencies show up suddenly",
-        "sudden change",
-        "a factor of 50 in power",
-        "before, the share is what a smooth motion leaves; 'sudden' is read off a plot of decades",
-        _higher,
-        50.0,
-        {"F13": SEPARATES},
-    ),
-    Claim(
-        "F25d",
-        "Sec. 4.4, Fig. 25d",
-        "Long after separation the frequencies are constant and the fuzzy ones gone",
-        "constant, no fuzz",
-        "half as much of the band filled; lines at rest within 0.01 Hz",
-        FUZZ,
-        _steady_lines,
-        2.0,
-        {"F13": SEPARATES},
-    ),
-    Claim(
-        "F26",
-        "Sec. 4.4, Fig. 26",
-        "The slider's irregular frequencies disappear after separation: stick-slip becomes periodic",
-        "periodic",
-        "half as much of the band filled; release intervals repeat to 1e-6 s",
-        FUZZ,
-        _slider_settles,
-        2.0,
-        {"F13": SEPARATES},
-    ),
-    Claim(
-        "F27",
-        "Sec. 4.4, Fig. 27",
-        "N = 300 N, Omega = 20 rad/s: first separation",
-        "149.5 s",
-        "0.2 s",
-        "'around' in the text, and slow growth: 1e-7 m in the start moves it by 0.02 s",
-        _first("F07", 149.5),
-        0.2,
-        {"F07": Needed({"N": 300, "Omega": 20}, 150)},
-    ),
-    Claim(
-        "F27a",
-        "Sec. 4.4, Fig. 27a",
-        "The vibration grows gradually, then sharply, then less, and is bounded after separation",
-        "slow, sharp, slower, bounded",
-        "sharp: 3 times the mean rate of the first half",
-        "what 'sharply' may mean",
-        _growth_stages,
-        3.0,
-        {"F07": F07},
-    ),
-    Claim(
-        "F27b",
-        "Sec. 4.4, Fig. 27b",
-        "143..153 s: the disc's vibration is mainly governed by its natural frequencies",
-        "natural frequencies",
-        "90 % of the power of the four strongest lines",
-        "what 'mainly' may mean; a mode of l nodal diameters is seen shifted by l f_Omega, l up to 4",
-        _natural_lines,
-        0.9,
-        {"F07": F07},
-    ),
-    Claim(
-        "F27c",
-        "Sec. 4.4, Fig. 27b; conclusion 5",
-        "After separation higher frequencies arise, and the fuzzy ones stay",
-        "both",
-        "not less than two thirds as much of the band filled; power above 700 Hz ten times",
-        FUZZ,
-        _fuzz_stays,
-        1.5,
-        {"F07": F07},
-    ),
-    Claim(
-        "F28",
-        "Sec. 4.4, Fig. 28b",
-        "The same case: stick-slip is quasi-periodic in the steady state",
-        "quasi-periodic",
-        "spread of the release intervals above 0.3",
-        "the paper shows a spectrum, no number; a periodic motion would have 0",
-        not_periodic("F07"),
-        0.3,
-        {"F07": F07},
-    ),
-    Claim(
-        "F29",
-        "Sec. 4.4, Fig. 29b",
-        "E = 100 GPa: no frequency above the highest natural one",
-        "none above 4383.04 rad/s",
-        "1e-7 of the power above 20 Hz",
-        "70 dB below the vibration is below what the figure shows",
-        _no_high_line,
-        1e-7,
-        {"F21": F21},
-    ),
-    Claim(
-        "F29b",
-        "Sec. 4.4, Fig. 29b",
-        "E = 100 GPa: erratic vibration with several incommensurate frequencies",
-        "several",
-        "at least 3 lines that are no combination of the stick-slip rate and the drive's",
-        "'several'; 0.2 Hz tells them apart in 10 s",
-        _erratic,
-        3.0,
-        {"F21": F21},
-    ),
-)

@@ -1,4 +1,4 @@
-"""Tables as self-contained HTML pages, readable on light and on dark backgrounds."""
+"""The ledger and other tables for readers: Markdown, and self-contained HTML pages for light and dark backgrounds."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 import pandas as pd
 
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
+from disc_model.data import markdown
 
 STYLE = """
 :root { color-scheme: light dark; --text: #1b1b1b; --back: #ffffff; --line: #cccccc; --head: #f2f2f2; --soft: #555555;
@@ -33,6 +34,16 @@ def page(title: str, *body: str) -> str:
     return f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{escape(title)}</h1>\n' + "\n".join(
         [*body, "</body></html>\n"]
     )
+
+
+def to_markdown(table: pd.DataFrame) -> str:
+    """The table as a Markdown document, with a count of the verdicts above it."""
+    count = table["verdict"].str.partition(":")[0].value_counts()
+    summary = ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
+    header = [name.replace("_", " ").replace("ours", "computed") for name in map(str, table.columns)]
+    lines = ["# The paper's claims", "", f"{len(table)} claims; {summary}.", ""]
+    lines += markdown.table(header, table.itertuples(index=False))
+    return "\n".join(lines) + "\n"
 
 
 def ledger(table: pd.DataFrame) -> str:
