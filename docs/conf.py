@@ -17,13 +17,13 @@ copyright = author
 release = disc_model.__version__
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "numpydoc"]
-exclude_patterns = ["_build", "drawings/*.py", "jupyter_execute"]
+exclude_patterns = ["_build", "drawings/*.py"]
 root_doc = "index"
 
 # ---- pages
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
-nb_execution_mode = "cache"
+nb_execution_mode = "force"  # a change of the package changes what cells print
 nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
