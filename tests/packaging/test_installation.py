@@ -20,10 +20,12 @@ from packaging.markers import default_environment
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from tests import needs
+
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
-VERSIONS = ("3.11", "3.12", "3.13")
+VERSIONS = tuple(needs.PYTHONS)
 THIS = f"{sys.version_info.major}.{sys.version_info.minor}"
 LOCKS = ("requirements.lock", "requirements-bench.lock")
 PIN = re.compile(r"^([A-Za-z0-9._-]+)==(\S+)", re.MULTILINE)
@@ -54,7 +56,7 @@ def interpreter(version: str) -> str:
         check = f"import ensurepip, sys, venv; sys.exit('%d.%d' % sys.version_info[:2] != '{version}')"
         if found and subprocess.run([found, "-c", check], capture_output=True, check=False).returncode == 0:
             return found
-    pytest.skip(f"no Python {version} here")
+    pytest.skip(needs.PYTHONS[version].reason)
 
 
 @pytest.fixture(scope="session")
@@ -270,7 +272,7 @@ def unmet(packages: dict[str, Any], wanted: list[str], version: str) -> Iterator
             waiting += new
 
 
-@pytest.mark.skipif(shutil.which("make") is None, reason="make is not installed")
+@pytest.mark.skipif(not needs.program("make"), reason="make is not installed")
 @pytest.mark.skipif(not Path(sys.prefix, "bin", "uv").exists(), reason="uv is not installed")
 def test_make_lock(tree: Path, index: None, tmp_path: Path) -> None:
     """The target works and writes files of the same form."""

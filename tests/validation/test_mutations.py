@@ -7,7 +7,6 @@ run against the copy, without compilation: at least one of them must fail.  Agai
 from __future__ import annotations
 
 import ast
-import importlib.util
 import os
 import shutil
 import subprocess
@@ -20,6 +19,7 @@ from typing import NamedTuple
 import pytest
 
 import disc_model
+from tests import needs
 from tests.validation.mutants import MUTANTS
 
 PACKAGE = Path(disc_model.__file__).parent
@@ -58,8 +58,8 @@ NOTICED_BY = {
     "benchmarks/methods/taylor_heyoka.py": METHODS,
     "plate.py": ("tests/test_plate.py",),
 }
-#: Optional packages without which a file cannot be tried.
-REQUIRES = {"benchmarks/methods/taylor_heyoka.py": "heyoka"}
+#: Without what a file cannot be tried.
+REQUIRES = {"benchmarks/methods/taylor_heyoka.py": needs.RIVALS}
 PATIENCE = 300
 """s; all that can be tried takes a tenth of that."""
 WITHOUT_COMPILATION = """
@@ -91,7 +91,7 @@ class Mutant(NamedTuple):
     @property
     def possible(self) -> bool:
         """Whether the packages that its file needs are installed."""
-        return self.file not in REQUIRES or importlib.util.find_spec(REQUIRES[self.file]) is not None
+        return self.file not in REQUIRES or REQUIRES[self.file].met
 
     def apply(self, source: str) -> str:
         """The file's text with the mutation in it; the original must stand in its function exactly once."""
@@ -204,7 +204,7 @@ def test_every_original_text_is_there() -> None:
 @pytest.mark.parametrize("mutant", ALL, ids=str)
 def test_a_mutant_is_killed(mutant: Mutant, trials: Trials) -> None:
     if not mutant.possible:
-        pytest.skip(f"needs {REQUIRES[mutant.file]}")
+        pytest.skip(REQUIRES[mutant.file].reason)
     unchanged = trials.unchanged(mutant.tests())
     assert unchanged.returncode == pytest.ExitCode.OK, unchanged.stdout + unchanged.stderr
     done = trials.mutated(mutant)

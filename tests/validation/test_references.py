@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, plate_modes, simulate
+from tests import needs
 from tests.references import stored
 from tests.references.literal import from_slider_frame, literal_of
 
@@ -212,8 +213,10 @@ def test_literal_bonded():
 
 
 # ------------------------------------------------------------------------ the references themselves
+@needs.MPMATH.mark
 def test_stored_data_can_be_regenerated():
-    heyoka_reference = pytest.importorskip("tests.references.heyoka_reference", exc_type=ImportError)
+    from tests.references import heyoka_reference
+
     data = _stored("C")
     run = heyoka_reference.Reference(stored.case_of(data), data["start"]).run(54.5)
     n = len(run.events)
@@ -223,10 +226,12 @@ def test_stored_data_can_be_regenerated():
     assert difference < 1e-16
 
 
+@needs.MPMATH.mark
 @pytest.mark.parametrize("name", ["A", "C"])
 def test_native_heyoka_agrees(name):
     """heyoka's own event detection in double precision, with its guard interval, finds the same."""
-    heyoka_reference = pytest.importorskip("tests.references.heyoka_reference", exc_type=ImportError)
+    from tests.references import heyoka_reference
+
     result = heyoka_reference.time_case(name, tol=1e-12, repeats=1)
     assert result["events"] == result["expected"]
     assert result["error"] < 2e-13

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import contextlib
 import json
-import shutil
 import socket
 import subprocess
 import time
@@ -15,9 +14,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-DRIVER = shutil.which("chromedriver")
-BROWSER = shutil.which("chromium") or shutil.which("google-chrome") or shutil.which("chrome")
-WHY_NOT = "" if DRIVER and BROWSER else "chromium and chromedriver are not installed"
+from tests import needs
+
+BROWSER, DRIVER = (needs.program(*names) for names in needs.BROWSER.programs)
 OPTIONS = (
     "--headless=new",
     "--no-sandbox",
@@ -77,8 +76,7 @@ class Page:
 @contextlib.contextmanager
 def browser(profile: Path, *, dark: bool = False) -> Iterator[Page]:
     """A headless Chromium with an empty profile."""
-    assert DRIVER, WHY_NOT
-    assert BROWSER, WHY_NOT
+    assert needs.BROWSER.met, needs.BROWSER.reason
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]

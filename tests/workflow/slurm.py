@@ -7,7 +7,6 @@ import ctypes
 import getpass
 import os
 import re
-import shutil
 import signal
 import socket
 import subprocess
@@ -16,10 +15,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-SEARCH = os.pathsep.join([os.environ.get("PATH", ""), "/usr/sbin", "/sbin"])
-TOOLS = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue", "scancel", "scontrol")
-MISSING = [tool for tool in TOOLS if shutil.which(tool, path=SEARCH) is None]
-WHY_NOT = f"SLURM is not installed (Debian: slurm-wlm, munge): no {', '.join(MISSING)}" if MISSING else ""
+from tests import needs
 
 # No cgroups, so that it starts in any container: SLURM looks at the memory of jobs once a second instead, and kills
 # what exceeds its share.
@@ -92,8 +88,8 @@ class Cluster:
 
     def start(self, daemon: str, *options: str) -> None:
         """Start a daemon that ends when the tests do, even if these are killed."""
-        program = shutil.which(daemon, path=SEARCH)
-        assert program, WHY_NOT
+        program = needs.program(daemon)
+        assert program, needs.SLURM.reason
         with (self.folder / f"{daemon}.out").open("ab") as out:
             self.daemons[daemon] = subprocess.Popen(
                 [program, *options],
@@ -135,8 +131,8 @@ class Cluster:
 @contextlib.contextmanager
 def cluster(folder: Path) -> Iterator[Cluster]:
     """A SLURM with two processors and one partition, main; raises Unavailable where it cannot be started."""
-    if WHY_NOT:
-        raise Unavailable(WHY_NOT)
+    if not needs.SLURM.met:
+        raise Unavailable(needs.SLURM.reason)
     slurm = Cluster(folder, _environment(folder))
     _configure(folder)
     try:
@@ -154,7 +150,7 @@ def die_with_parent() -> None:
 
 def _environment(folder: Path) -> dict[str, str]:
     bin_folder = folder / "bin"
-    return {"SLURM_CONF": str(folder / "slurm.conf"), "PATH": os.pathsep.join([str(bin_folder), SEARCH])}
+    return {"SLURM_CONF": str(folder / "slurm.conf"), "PATH": os.pathsep.join([str(bin_folder), needs.SEARCH])}
 
 
 def _configure(folder: Path) -> None:
@@ -176,13 +172,13 @@ def _configure(folder: Path) -> None:
         (folder / "cgroup.conf").write_text("CgroupPlugin=disabled\n")
     # Snakemake clears the environment of srun inside a job, and with it where the configuration is.
     srun = folder / "bin" / "srun"
-    srun.write_text(f'#!/bin/sh\nSLURM_CONF={folder}/slurm.conf exec {shutil.which("srun", path=SEARCH)} "$@"\n')
+    srun.write_text(f'#!/bin/sh\nSLURM_CONF={folder}/slurm.conf exec {needs.program("srun")} "$@"\n')
     srun.chmod(0o755)
 
 
 def _version() -> tuple[int, ...]:
-    program = shutil.which("slurmd", path=SEARCH)
-    assert program, WHY_NOT
+    program = needs.program("slurmd")
+    assert program, needs.SLURM.reason
     said = subprocess.run([program, "-V"], capture_output=True, text=True, timeout=60, check=True).stdout
     return tuple(int(number) for number in re.findall(r"\d+", said)[:2])
 

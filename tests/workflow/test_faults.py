@@ -20,6 +20,7 @@ from pathlib import Path
 
 import pytest
 
+from tests import needs
 from tests.tally import tried
 from tests.workflow.conftest import Project, copy_repository
 from tests.workflow.faulty import (
@@ -387,7 +388,7 @@ def set_times(path: Path, days: float) -> None:
     os.utime(path, (at, at))
 
 
-@pytest.mark.skipif(shutil.which("faketime") is None, reason="needs faketime")
+@needs.FAKETIME.mark
 @needs_proc
 def test_clock_set_back_during_a_run(fresh: Project, undisturbed: dict[str, bytes]) -> None:
     """The first part is made tomorrow, and killed; the rest today."""

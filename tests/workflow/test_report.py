@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.workflow.browser import WHY_NOT, Page, browser
+from tests import needs
+from tests.workflow.browser import Page, browser
 from tests.workflow.conftest import Project
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow, pytest.mark.skipif(bool(WHY_NOT), reason=WHY_NOT)]
+pytestmark = [pytest.mark.workflow, pytest.mark.slow, needs.BROWSER.mark]
 
 CATEGORIES = {"Claims of the paper", "Figures of the paper", "Provenance"}
 

@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
+from tests import needs
 from tests.workflow import slurm
 from tests.workflow.conftest import Project, copy_repository
 from tests.workflow.slurm import Cluster
@@ -22,7 +23,7 @@ from tests.workflow.slurm import Cluster
 pytestmark = [
     pytest.mark.workflow,
     pytest.mark.slow,
-    pytest.mark.skipif(bool(slurm.WHY_NOT), reason=slurm.WHY_NOT),
+    needs.SLURM.mark,
 ]
 
 PROFILE = ("--workflow-profile", "workflow/profiles/slurm")

@@ -17,6 +17,7 @@ from disc_model.benchmarks.methods.solve_ivp import SolveIvp
 from disc_model.benchmarks.methods.taylor_heyoka import Heyoka
 from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
 from disc_model.benchmarks.work_precision import fitted_order
+from tests import needs
 from tests.benchmarks.methods.problems import BASE as P
 
 INSTALLED = [name for name, method in METHODS.items() if not method.unavailable()]
@@ -96,7 +97,7 @@ def test_methods_of_variable_order_follow_their_tolerance(name):
 )
 def test_every_method_finds_the_135_switches_of_stick_slip(name, value, allowed):
     if name not in INSTALLED:
-        pytest.skip(METHODS[name].unavailable())
+        pytest.skip(needs.RIVALS.reason)
     result, found = _judge(name, "stick_slip", value)
     assert (result.outcome, len(result.kinds)) == (Outcome.FINISHED, 135)
     assert found.event_time < allowed
@@ -133,7 +134,7 @@ def test_the_engine_misses_none(tol):
     assert found.verdict in (Verdict.CONVERGED, Verdict.INACCURATE)
 
 
-@pytest.mark.skipif("heyoka" not in INSTALLED, reason="needs the extra bench")
+@needs.RIVALS.mark
 def test_native_events_fail_on_the_triple_root_without_a_guard():
     """Whether they do hangs on the rounding of a gap that should be zero; in compact mode it is on the wrong side."""
     assert _judge("heyoka", "separating", 1e-10)[1].event_time < 1e-10
