@@ -9,14 +9,13 @@ min_version("9.27")
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/simulate.smk"
-include: "workflow/rules/merge.smk"
+include: "workflow/rules/cases.smk"
+include: "workflow/rules/grids.smk"
 include: "workflow/rules/figures.smk"
-include: "workflow/rules/studies.smk"
 include: "workflow/rules/claims.smk"
-include: "workflow/rules/plots.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/benchmark.smk"
+include: "workflow/rules/housekeeping.smk"
 
 
 PRODUCTS = [

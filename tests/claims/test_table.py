@@ -11,9 +11,10 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims import COLUMNS, check_claims, disc, measures, to_markdown
-from disc_model.claims.ledger import CLAIMS
+from disc_model.claims import disc, measures
+from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Needed
+from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import events_dataset
 from disc_model.studies.cases.run import run_case
 from disc_model.studies.cases.schema import parse_study

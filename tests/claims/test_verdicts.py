@@ -7,9 +7,11 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims import check_claims, growth, measures, normalisation, to_markdown
+from disc_model.claims import growth, measures, normalisation
 from disc_model.claims.growth import cycle_of
+from disc_model.claims.ledger import check_claims
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Missing
+from disc_model.claims.pages import to_markdown
 from tests.claims import made_up
 
 #: Wrong whatever the motion does: the load's critical speed, and two attributions that contradict Table 2.

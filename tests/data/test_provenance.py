@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from disc_model.data import provenance
-from disc_model.data.provenance import PACKAGE, SIMULATION, git_commit, source_files, source_hash, versions
+from disc_model.data.provenance import PACKAGE, git_commit, source_files, source_hash, versions
 from disc_model.figures.paper.catalogue import CATALOGUE, module_of
 
 
@@ -17,14 +17,14 @@ def names(*modules: str) -> set[str]:
 
 
 def test_a_simulation_depends_on_the_whole_engine_and_on_no_figure_or_claim() -> None:
-    found = names(*SIMULATION)
+    found = names("disc_model.studies.cases.run")
     imported = {path.relative_to(PACKAGE).as_posix() for path in (PACKAGE / "engine").glob("*.py")}
     simulation = {f"simulation/{name}.py" for name in ("api", "record", "result", "collector")}
     assert {"parameters.py", "plate.py", "data/dataset.py", *simulation} <= found
     assert "engine/machine.py" in found
     unused = imported - found
     assert not {name for name in unused if "switch" in name or "series" in name}
-    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name.endswith("schema.py")}
+    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name == "studies/cases/schema.py"}
 
 
 @pytest.mark.parametrize("figure", CATALOGUE)
@@ -48,23 +48,68 @@ def test_imports_of_every_kind_are_followed(tmp_path: Path, monkeypatch: pytest.
         "__init__.py": "",
         "top.py": "import disc_model.a\nfrom disc_model import b\nfrom disc_model.sub import c\nimport os",
         "a.py": "def f():\n    from .sub.d import g",
-        "b.py": "",
+        "b.py": "if TYPE_CHECKING:\n    from . import checked\nelse:\n    from . import f",
+        "f.py": "",
         "sub/__init__.py": "",
         "sub/c.py": "from . import e\nfrom .. import top",
         "sub/d.py": "",
         "sub/e.py": "",
+        "checked.py": "",
         "unused.py": "",
     }
     for name, text in sources.items():
         (package / name).write_text(text)
     monkeypatch.setattr(provenance, "PACKAGE", package)
     found = {path.relative_to(package).as_posix() for path in source_files("disc_model.top")}
-    assert found == set(sources) - {"__init__.py", "unused.py"}
+    assert found == set(sources) - {"__init__.py", "checked.py", "unused.py"}
+    script = tmp_path / "job.py"
+    script.write_text("from disc_model.sub import e\n")
+    assert set(source_files(script)) == {script, package / "sub" / "__init__.py", package / "sub" / "e.py"}
     before = source_hash("disc_model.top")
     (package / "unused.py").write_text("x = 1")
     assert source_hash("disc_model.top") == before
     (package / "sub" / "d.py").write_text("x = 1")
     assert source_hash("disc_model.top") != before
+
+
+BODY = "import os\n\ndef f(x, *, y=1.0):\n    return [x, 'text', None] + y\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        (BODY, True),
+        ("# a comment\n" + BODY, True),
+        ('"""A docstring."""\n' + BODY, True),
+        (BODY.replace("y=1.0", "\n    y = 1.00,\n"), True),
+        (BODY.replace("    return", '    """What it does."""\n\n    return'), True),
+        (BODY.replace("'text'", '"text"'), True),
+        (BODY + "if TYPE_CHECKING:\n    import sys\n", True),
+        (BODY.replace("text", "test"), False),
+        (BODY.replace("1.0", "1"), False),
+        (BODY.replace("None", "False"), False),
+        (BODY.replace(", None", ""), False),
+        (BODY.replace("*, ", ""), False),
+        (BODY.replace("+ y", "- y"), False),
+        (BODY.replace("import os", "import sys"), False),
+        (BODY.replace("import os", "import os as sys"), False),
+        (BODY + "f(1)\n", False),
+        (BODY + "if TYPE_CHECKING:\n    pass\nelse:\n    import sys\n", False),
+    ],
+)
+def test_code_counts_and_what_is_said_of_it_does_not(text: str, same: bool, tmp_path: Path) -> None:
+    script = tmp_path / "job.py"
+    script.write_text(BODY)
+    before = source_hash(script)
+    script.write_text(text)
+    assert (source_hash(script) == before) == same
+
+
+def test_the_hash_does_not_depend_on_the_version_of_python(tmp_path: Path) -> None:
+    """Results may be computed on several machines. `ast.dump` says more in some versions than in others."""
+    script = tmp_path / "job.py"
+    script.write_text(BODY + "class A(int):\n    a: int = 1\n    async def f(self): return f'{self!r:>3}' or {**x}\n")
+    assert source_hash(script) == "97fd49b465e424e4"
 
 
 def test_further_files_count(tmp_path: Path) -> None:

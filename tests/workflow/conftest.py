@@ -131,9 +131,10 @@ class Project:
         shutil.copytree(self.folder, folder, symlinks=True)
         return Project(folder)
 
-    def append(self, path: str, text: str) -> None:
+    def change(self, path: str) -> None:
+        """Change what a source does, as far as anyone can tell without running it: a comment would not count."""
         with (self.folder / path).open("a") as file:
-            file.write(text)
+            file.write("\n_CHANGED = True\n" if path.endswith(".py") else "\n# changed\n")
 
 
 def copy_repository(folder: Path) -> Project:

@@ -214,7 +214,7 @@ ALL: Callable[[Project], Jobs] = lambda project: batches(project, "inc_map") | b
     ],
 )  # fmt: skip
 def test_sources_run_what_uses_them(grid: Project, source: str, jobs: Callable[[Project], Jobs]) -> None:
-    grid.append(source, "\n# changed\n")
+    grid.change(source)
     assert planned(grid) == jobs(grid)
 
 

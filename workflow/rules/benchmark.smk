@@ -32,9 +32,6 @@ BENCH_INPUTS = {
     "truncation": f"{BENCH}/truncation.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
 }
-BENCH_STYLE = Path(
-    workflow.basedir, "src", "disc_model", "figures", "disc_model.mplstyle"
-)
 BENCH_DATA = [
     Path(workflow.basedir, "src", "disc_model", "benchmarks", "data", name)
     for name in ("benchmark_reference.json", "separating_start.json")
@@ -64,13 +61,7 @@ rule measure_work_precision:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of(
-            "measure_work_precision.py",
-            "disc_model.benchmarks.work_precision",
-            "disc_model.benchmarks.table",
-            "disc_model.benchmarks.flops",
-            files=BENCH_DATA,
-        ),
+        sources=sources_of("measure_work_precision", files=BENCH_DATA),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_work_precision.py {output.nc}"
         " --csv {output.csv} --md {output.md} > {log} 2>&1"
@@ -88,9 +79,7 @@ rule map_failures:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of(
-            "map_failures.py", "disc_model.benchmarks.failure_maps", files=BENCH_DATA
-        ),
+        sources=sources_of("map_failures", files=BENCH_DATA),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_failures.py {wildcards.method}"
         " {wildcards.scene} {output} > {log} 2>&1"
@@ -105,7 +94,7 @@ rule study_truncation:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("study_truncation.py", "disc_model.benchmarks.truncation"),
+        sources=sources_of("study_truncation"),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/study_truncation.py {output} > {log} 2>&1"
 
@@ -125,9 +114,7 @@ rule draw_benchmark:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of(
-            "draw_benchmark.py", "disc_model.figures.benchmark", files=[BENCH_STYLE]
-        ),
+        sources=sources_of("draw_benchmark", files=[STYLE]),
     shell:
         "python workflow/scripts/draw_benchmark.py {wildcards.figure} {input} --out {output.pdf} --out {output.png}"
         " > {log} 2>&1"

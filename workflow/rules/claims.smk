@@ -21,9 +21,7 @@ rule check_claims:
         "../envs/disc_model.yaml"
     params:
         made_of=merged_cases_made_of(),
-        sources=sources_of(
-            "check_claims.py", "disc_model.claims", "disc_model.claims.pages"
-        ),
+        sources=sources_of("check_claims"),
     shell:
         "python workflow/scripts/check_claims.py {input.cases} --csv {output.csv} --md {output.md} --html {output.html}"
         " > {log} 2>&1"
@@ -61,11 +59,7 @@ rule make_table:
         "../envs/disc_model.yaml"
     params:
         made_of=lambda wildcards: cases_made_of(["F13"]),
-        sources=sources_of(
-            "make_table.py",
-            "disc_model.claims.paper_tables",
-            "disc_model.claims.pages",
-        ),
+        sources=sources_of("make_table"),
     shell:
         "python workflow/scripts/make_table.py {wildcards.table} {input}"
         " --csv {output.csv} --md {output.md} --html {output.html} > {log} 2>&1"

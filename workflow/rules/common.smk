@@ -10,7 +10,7 @@ from snakemake.settings.types import DeploymentMethod
 from snakemake.shell import shell
 
 from disc_model.figures.paper.catalogue import CATALOGUE, STYLE, module_of
-from disc_model.data.provenance import SIMULATION, source_hash
+from disc_model.data.provenance import source_hash
 from disc_model.studies.faults import read_file
 from disc_model.studies.grids.schema import load_grids
 from disc_model.data.records import unrecorded
@@ -61,8 +61,11 @@ wildcard_constraints:
 
 
 def sources_of(script, *modules, files=()):
-    """Hash of the script and modules that make a result; Snakemake itself watches neither in a shell command."""
-    return source_hash(*modules, files=[SCRIPTS / script, *files])
+    """Hash of all that a script imports, and of what it is told to use besides: modules and further files.
+
+    Snakemake itself watches none of it in a shell command.
+    """
+    return source_hash(SCRIPTS / f"{script}.py", *modules, files=files)
 
 
 def refuse_unrecorded(files):
@@ -102,8 +105,8 @@ def merge_plan(study):
 
 # What files are made of, as hashes. Jobs that read the files are told, so that a file that was made anew is not
 # overlooked if the clock has been set back since they last ran: by its time it would be the older one.
-CASE_SOURCES = sources_of("simulate_case.py", *SIMULATION)
-BATCH_SOURCES = sources_of("compute_batch.py", "disc_model.data.dataset")
+CASE_SOURCES = sources_of("simulate_case")
+BATCH_SOURCES = sources_of("compute_batch")
 LABELS = json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False)
 
 
@@ -116,19 +119,19 @@ def cases_made_of(cases):
 
 
 def merged_cases_made_of():
-    sources = sources_of("merge_cases.py", "disc_model.studies.cases.merge")
+    sources = sources_of("merge_cases")
     return digest(cases_made_of(sorted(STUDY.specs)), LABELS, sources)
 
 
 def grid_made_of(study):
-    sources = sources_of("merge_batches.py", "disc_model.studies.grids.merge")
+    sources = sources_of("merge_batches")
     return digest(BATCH_SOURCES, merge_plan(GRIDS[study]), sources)
 
 
 def plot_made_of(study, name):
     plot = GRIDS[study].plots[name]
     shown = [grid_made_of(other) for _, other in sorted(plot.others.items())]
-    sources = sources_of("draw_plot.py", plot.module, files=[STYLE])
+    sources = sources_of("draw_plot", plot.module, files=[STYLE])
     return digest(plot.model_dump_json(), grid_made_of(study), shown, sources)
 
 

@@ -37,7 +37,7 @@ rule draw_figure:
         module=lambda wildcards: module_of(wildcards.figure),
         made_of=lambda wildcards: cases_made_of(CATALOGUE[wildcards.figure].cases),
         sources=lambda wildcards: sources_of(
-            "draw_figure.py", module_of(wildcards.figure), files=[STYLE]
+            "draw_figure", module_of(wildcards.figure), files=[STYLE]
         ),
     shell:
         "python workflow/scripts/draw_figure.py {params.module} --options {params.options:q}"

@@ -22,11 +22,7 @@ rule describe_study:
     params:
         title=STUDY.title or STUDY.name,
         made_of=merged_cases_made_of(),
-        sources=sources_of(
-            "describe_study.py",
-            "disc_model.claims.pages",
-            "disc_model.figures.paper.catalogue",
-        ),
+        sources=sources_of("describe_study"),
     shell:
         "python workflow/scripts/describe_study.py {input} {output} --title {params.title:q} > {log} 2>&1"
 
@@ -34,6 +30,7 @@ rule describe_study:
 rule compare_normalisations:
     # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and asks for this.
     input:
+        rules.warm_studies.output,
         published="results/paper/cases.nc",
         orthonormal="results/paper_orthonormal/cases.nc",
     output:
@@ -49,10 +46,6 @@ rule compare_normalisations:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of(
-            "compare_normalisations.py",
-            "disc_model.claims.normalisation",
-            "disc_model.claims.pages",
-        ),
+        sources=sources_of("compare_normalisations"),
     shell:
-        "python workflow/scripts/compare_normalisations.py {input} --md {output.md} --html {output.html} > {log} 2>&1"
+        "python workflow/scripts/compare_normalisations.py {input.published} {input.orthonormal} --md {output.md} --html {output.html} > {log} 2>&1"

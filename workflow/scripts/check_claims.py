@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from disc_model.claims import check_claims, to_markdown
-from disc_model.claims.pages import ledger
+from disc_model.claims.ledger import check_claims
+from disc_model.claims.pages import ledger, to_markdown
 from disc_model.data.inputs import load_inputs
 from disc_model.errors import exit_on_error
 

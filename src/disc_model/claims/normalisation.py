@@ -10,7 +10,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.claims import check_claims, growth, measures
+from disc_model.claims import growth, measures
+from disc_model.claims.ledger import check_claims
 from disc_model.claims.model import FAILS, CaseView, Missing
 from disc_model.claims.pages import page, table_html
 from disc_model.data import markdown

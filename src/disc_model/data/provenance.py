@@ -1,7 +1,8 @@
 """Where a result comes from: which sources, versions and commit produced it.
 
-A source hash covers a module and everything of this package that it imports, found by reading the sources, so
-that no list has to be kept by hand: a module that `disc_model.simulation.api` begins to use is in it from then on.
+A source hash covers a module or a script and everything of this package that it imports, found by reading the
+sources, so that no list has to be kept by hand: a module that `disc_model.simulation.api` begins to use is in it from
+then on. Of Python sources the code counts, and not comments, docstrings and layout, which change no result.
 """
 
 from __future__ import annotations
@@ -14,37 +15,40 @@ import platform
 import subprocess
 from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
 PACKAGE = Path(__file__).resolve().parents[1]
-SIMULATION = ("disc_model.simulation.api", "disc_model.data.dataset", "disc_model.studies.cases.run")
-"""What decides the bytes of a case's file: the solver, how its result is encoded, and what calls both."""
 VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
 
 
-def source_hash(*modules: str, files: Iterable[str | Path] = ()) -> str:
+def source_hash(*roots: str | Path, files: Iterable[str | Path] = ()) -> str:
     """First 16 hexadecimal digits of a sha256 over sources.
 
     Parameters
     ----------
-    modules : names of modules of this package; what they import from it is included
-    files : further files that matter, such as a script or a style; hashed by name and content
+    roots : modules of this package by name, scripts by path; what they import from the package is included
+    files : further files that matter, such as a style; hashed by name and content
     """
     digest = hashlib.sha256()
-    for path in source_files(*modules):
-        _add(digest, path.relative_to(PACKAGE).as_posix(), path)
+    for path in source_files(*roots):
+        name = path.relative_to(PACKAGE).as_posix() if path.is_relative_to(PACKAGE) else path.name
+        _add(digest, name, _read(path.read_bytes()).code.encode())
     for path in sorted(Path(file) for file in files):
-        _add(digest, path.name, path)
+        _add(digest, path.name, path.read_bytes())
     return digest.hexdigest()[:16]
 
 
-def source_files(*modules: str) -> tuple[Path, ...]:
-    """Source files of modules and of everything of this package they import, at any depth, sorted.
+def source_files(*roots: str | Path) -> tuple[Path, ...]:
+    """Source files of modules and scripts, and of everything of this package they import, at any depth, sorted.
 
-    The package's own ``__init__`` is left out: it only names what is imported on first use, and modules inside
-    the package do not use those names.
+    What is imported for type checkers only is left out, since it is not run; and so is the package's own ``__init__``:
+    it only names what is imported on first use, and neither modules inside the package nor scripts use those names.
     """
     found: dict[str, Path] = {}
-    waiting = list(modules)
+    waiting = [str(root) for root in roots if not isinstance(root, Path)]
+    scripts = [root for root in roots if isinstance(root, Path)]
+    for script in scripts:
+        waiting += _imported(script, script.stem)
     while waiting:
         name = waiting.pop()
         path = _module_path(name)
@@ -53,7 +57,7 @@ def source_files(*modules: str) -> tuple[Path, ...]:
         found[name] = path
         waiting += _imported(path, name)
         waiting.append(name.rpartition(".")[0])
-    return tuple(sorted(found.values()))
+    return tuple(sorted({*scripts, *found.values()}))
 
 
 def versions() -> dict[str, str]:
@@ -83,8 +87,7 @@ def _git(*arguments: str) -> str:
     return done.stdout.strip()
 
 
-def _add(digest: hashlib._Hash, name: str, path: Path) -> None:
-    content = path.read_bytes()
+def _add(digest: hashlib._Hash, name: str, content: bytes) -> None:
     digest.update(f"{name}\0{len(content)}\0".encode())
     digest.update(content)
 
@@ -102,21 +105,54 @@ def _module_path(name: str) -> Path | None:
     return module if module.is_file() else None
 
 
-def _imported(path: Path, name: str) -> tuple[str, ...]:
+def _imported(path: Path, name: str) -> list[str]:
     """Names a source file imports; ``from x import y`` gives x and x.y, since y may be a module."""
-    return _names_in(path.read_bytes(), path.name, name)
+    package = name if path.name == "__init__.py" else name.rpartition(".")[0]
+    names = []
+    for level, module, imported in _read(path.read_bytes()).imports:
+        parts = package.split(".")
+        base = ".".join([*parts[: len(parts) - level + 1], *([module] if module else [])]) if level else module
+        names += [base, *(f"{base}.{name}" for name in imported)]
+    return names
+
+
+class _Source(NamedTuple):
+    """What there is to know of a source file: its code as text, and imports as level, module and names."""
+
+    code: str
+    imports: tuple[tuple[int, str, tuple[str, ...]], ...]
 
 
 @functools.cache
-def _names_in(source: bytes, file: str, name: str) -> tuple[str, ...]:
-    package = name if file == "__init__.py" else name.rpartition(".")[0]
-    names: list[str] = []
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Import):
-            names += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            parts = package.split(".")
-            base = ".".join([*parts[: len(parts) - node.level + 1], *([node.module] if node.module else [])])
-            module = base if node.level else (node.module or "")
-            names += [module, *(f"{module}.{alias.name}" for alias in node.names)]
-    return tuple(names)
+def _read(source: bytes) -> _Source:
+    imports: list[tuple[int, str, tuple[str, ...]]] = []
+    code = _text(ast.parse(source), imports)
+    return _Source(code, tuple(imports))
+
+
+def _text(node: ast.AST, imports: list[tuple[int, str, tuple[str, ...]]]) -> str:
+    """A syntax tree as text, without docstrings and what is there for type checkers; adds what it imports to a list.
+
+    The same in all versions of Python, unlike that of `ast.dump`: what is empty is left out.
+    """
+    match node:
+        case ast.Expr(value=ast.Constant(value=str())):
+            return ""
+        case ast.If(test=ast.Name(id="TYPE_CHECKING")):
+            return ",".join(_text(statement, imports) for statement in node.orelse)
+        case ast.Import():
+            imports += [(0, alias.name, ()) for alias in node.names]
+        case ast.ImportFrom():
+            imports.append((node.level, node.module or "", tuple(alias.name for alias in node.names)))
+    said = [type(node).__name__]
+    for name in node._fields:
+        value = getattr(node, name, None)
+        if isinstance(value, list):
+            items = [_text(item, imports) if isinstance(item, ast.AST) else repr(item) for item in value]
+            if items := [item for item in items if item]:
+                said.append(f"{name}=[{','.join(items)}]")
+        elif isinstance(value, ast.AST):
+            said.append(f"{name}={_text(value, imports)}")
+        elif value is not None:
+            said.append(f"{name}={value!r}")
+    return f"({' '.join(said)})"

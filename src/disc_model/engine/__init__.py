@@ -14,7 +14,11 @@ from .cache import kept_in
 
 
 def source_hash() -> str:
-    """Hash of the engine's sources: 16 hexadecimal digits."""
+    """Hash of the engine's sources, comments included: 16 hexadecimal digits.
+
+    Numba stamps a kernel with its file's content and names it by its line, so that it would compile after a changed
+    comment all the same; and copies that differ in comments would write over each other's kernels in one folder.
+    """
     digest = hashlib.sha256()
     for path in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(path.name.encode())

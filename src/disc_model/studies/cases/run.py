@@ -8,7 +8,7 @@ from pathlib import Path
 import xarray as xr
 
 from disc_model.data.dataset import failed_groups, json_attribute, to_tree
-from disc_model.data.provenance import SIMULATION, git_commit, source_hash, versions
+from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import simulate
 from disc_model.studies.cases.spec import CaseSpec
@@ -40,7 +40,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
 def provenance() -> dict[str, str]:
     """What produced a case: hash of the sources, commit, and versions of the packages."""
     return {
-        "source_hash": source_hash(*SIMULATION),
+        "source_hash": source_hash(__name__),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
     }

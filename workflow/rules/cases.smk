@@ -1,4 +1,4 @@
-# One job per named case.
+# Named cases: one job for each, and all of them in one file.
 
 SOLVER = source_hash("disc_model.simulation.api")
 
@@ -33,3 +33,20 @@ rule simulate_case:
         sources=CASE_SOURCES,
     shell:
         "python workflow/scripts/simulate_case.py {params.case:q} {output} > {log} 2>&1"
+
+
+rule merge_cases:
+    input:
+        sorted(map(case_file, STUDY.specs)),
+    output:
+        f"{RESULTS}/cases.nc",
+    log:
+        f"{RESULTS}/logs/merge_cases.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        labels=LABELS,
+        made_of=cases_made_of(sorted(STUDY.specs)),
+        sources=sources_of("merge_cases"),
+    shell:
+        "python workflow/scripts/merge_cases.py --labels {params.labels:q} {output} {input} > {log} 2>&1"

@@ -1,9 +1,10 @@
-# Grid studies: batches of points, merged into one dataset for each study. What a batch is, is said in disc_model.studies.grids.schema.
+# Grid studies: batches of points, one dataset for each study, and its figures. What a batch is, is said in
+# disc_model.studies.grids.schema.
 # The name of a batch's file is the hash of all that decides its content, and the name of the merged file is the hash of
 # its batches, so that the files that are there tell what is left to do.
 import json
 
-COMPILED = source_hash("disc_model.stability.cycle", "disc_model.simulation.api")
+COMPILED = sources_of("warm_studies")
 
 
 rule warm_studies:
@@ -54,7 +55,7 @@ rule merge_batches:
         plan=lambda wildcards: merge_plan(GRIDS[wildcards.study]),
         made_of=BATCH_SOURCES,
         folder=lambda wildcards, input: Path(input[0]).parent,
-        sources=sources_of("merge_batches.py", "disc_model.studies.grids.merge"),
+        sources=sources_of("merge_batches"),
     shell:
         "python workflow/scripts/merge_batches.py {output.nc} {output.failed} {params.folder}"
         " <<< {params.plan:q} > {log} 2>&1"
@@ -84,34 +85,34 @@ rule publish_study:
         "python workflow/scripts/publish_study.py {input.nc} {input.failed} {output.nc} {output.failed} > {log} 2>&1"
 
 
-rule gc:
-    # What no study refers to any more: batches and merged files of former values, options or sources.
+rule draw_plot:
+    # One job per figure, from the merged datasets of the studies it shows.
+    input:
+        study=lambda wildcards: merged_file(wildcards.study),
+        others=lambda wildcards: list(shown_by(wildcards).values()),
+    output:
+        pdf="results/{study}/figures/{plot}.pdf",
+        png=report(
+            "results/{study}/figures/{plot}.png",
+            caption="../report/plot.rst",
+            category="Maps and curves",
+            # One label only, as in figures.smk.
+            labels=lambda wildcards: {
+                "figure": f"{GRIDS[wildcards.study].title or wildcards.study}: {wildcards.plot}"
+            },
+        ),
     log:
-        "results/gc.log",
-    localrule: True
+        "results/{study}/logs/draw_plot/{plot}.log",
     conda:
         "../envs/disc_model.yaml"
     params:
-        kept=json.dumps(
-            {
-                name: [*study.batches, study.key]
-                for name, study in sorted(GRIDS.items())
-            }
-        ),
+        plot=lambda wildcards: GRIDS[wildcards.study]
+        .plots[wildcards.plot]
+        .model_dump_json(),
+        made_of=lambda wildcards: plot_made_of(wildcards.study, wildcards.plot),
+        others=lambda wildcards: [
+            f"{role}={file}" for role, file in shown_by(wildcards).items()
+        ],
     shell:
-        "python workflow/scripts/gc.py <<< {params.kept:q} 2>&1 | tee {log}"
-
-
-rule check:
-    # What was damaged on the disk, or is there without a record of how it was made: out of the way, to be made anew.
-    log:
-        "results/check.log",
-    localrule: True
-    conda:
-        "../envs/disc_model.yaml"
-    params:
-        unrecorded=lambda wildcards: json.dumps(
-            unrecorded([*map(case_file, STUDY.specs), *PRODUCTS])
-        ),
-    shell:
-        "python workflow/scripts/check_results.py <<< {params.unrecorded:q} 2>&1 | tee {log}"
+        "python workflow/scripts/draw_plot.py {params.plot:q} {input.study} {params.others:q}"
+        " --out {output.pdf} --out {output.png} > {log} 2>&1"

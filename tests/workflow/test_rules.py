@@ -1,0 +1,63 @@
+"""What the rules have in common."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from disc_model.data.provenance import source_files
+from tests.workflow.conftest import ROOT, copy_repository
+
+pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+SCRIPTS = ROOT / "workflow" / "scripts"
+ALONE = {"measure_work_precision", "map_failures", "study_truncation"}
+"""Have the machine to themselves, so that no other job compiles meanwhile."""
+
+
+def rules() -> dict[str, str]:
+    """The text of each rule."""
+    texts = {}
+    for file in (ROOT / "workflow" / "rules").glob("*.smk"):
+        blocks = re.split(r"^ *rule (\w+):$", file.read_text(), flags=re.MULTILINE)
+        texts |= dict(zip(blocks[1::2], blocks[2::2], strict=True))
+    return texts
+
+
+def test_a_script_has_the_name_of_its_rule() -> None:
+    said = {name: re.findall(r"workflow/scripts/(\w+)\.py", text) for name, text in rules().items()}
+    assert {name: scripts for name, scripts in said.items() if scripts} == {
+        name: [name] for name, scripts in said.items() if scripts
+    }
+    assert sum(map(len, said.values())) >= 15
+
+
+def test_scripts_import_modules_and_not_the_packages_names() -> None:
+    """Those are looked up on first use, so that a hash of the sources would not follow them."""
+    for name in rules():
+        script = SCRIPTS / f"{name}.py"
+        if script.exists():
+            assert not re.search(r"^(import disc_model$|from disc_model import)", script.read_text(), re.MULTILINE), (
+                name
+            )
+
+
+def test_jobs_that_use_kernels_find_them_compiled(tmp_path: Path) -> None:
+    """The table of claims was once made while other jobs compiled, and compiled as well."""
+    project = copy_repository(tmp_path)
+    other = tmp_path / "results" / "paper_orthonormal"  # of a study that is not this one
+    other.mkdir(parents=True)
+    (other / "cases.nc").touch()
+    waits = {}
+    for target, config in (("all", "config/test.yaml"), ("results/paper/normalisation.html", None)):
+        done = project.snakemake("-n", "-F", target, config=config)
+        assert done.returncode == 0, done.stdout + done.stderr
+        found = re.findall(r"^(?:local)?rule (\w+):\n +input: (.*)", done.stdout + done.stderr, re.MULTILINE)
+        waits |= {rule: "results/compiled/" in files for rule, files in found}
+    assert waits["check_claims"]
+    assert waits["compute_batch"]
+    for rule in waits.keys() - ALONE:
+        script = SCRIPTS / f"{rule}.py"
+        uses = script.exists() and any(path.name == "machine.py" for path in source_files(script))
+        assert waits[rule] or not uses, rule

@@ -1,0 +1,35 @@
+# What becomes of results that are out of date, damaged, or of unknown origin: run by name, not part of `all`.
+import json
+
+
+rule gc:
+    # What no study refers to any more: batches and merged files of former values, options or sources.
+    log:
+        "results/gc.log",
+    localrule: True
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        kept=json.dumps(
+            {
+                name: [*study.batches, study.key]
+                for name, study in sorted(GRIDS.items())
+            }
+        ),
+    shell:
+        "python workflow/scripts/gc.py <<< {params.kept:q} 2>&1 | tee {log}"
+
+
+rule check:
+    # What was damaged on the disk, or is there without a record of how it was made: out of the way, to be made anew.
+    log:
+        "results/check.log",
+    localrule: True
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        unrecorded=lambda wildcards: json.dumps(
+            unrecorded([*map(case_file, STUDY.specs), *PRODUCTS])
+        ),
+    shell:
+        "python workflow/scripts/check.py <<< {params.unrecorded:q} 2>&1 | tee {log}"
