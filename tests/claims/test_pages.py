@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from disc_model.claims.ledger import COLUMNS
 
 from disc_model import Parameters
+from disc_model.claims.ledger import COLUMNS
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Needed
 from disc_model.claims.pages import ledger, table_page
 from disc_model.claims.paper_tables import LISTED, TABLE_1, stick_slip_rate, table_1, table_2
