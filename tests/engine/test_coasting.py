@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.engine import coasting, dense_output, layout, machine, series, stick_modes
+from disc_model.engine import coasting, dense_output, layout, outcomes, series, stick_modes
 from disc_model.engine.switches import stick_force
 from disc_model.simulation.api import _Run, build_model
 from tests.engine.compiled import kernel
@@ -164,7 +164,7 @@ def test_samples_of_a_coast_fit_their_buffer() -> None:
     room, width = run.collector.rows.shape
     run.collector.rows = np.full((4 * room, width), np.nan)
     pauses = 0
-    while run.advance() == machine.PAUSED:
+    while run.advance() == outcomes.PAUSED:
         pauses += 1
     assert pauses >= 1
     assert np.isnan(run.collector.rows[room:]).all()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes, simulate
-from disc_model.engine import machine, variational
+from disc_model.engine import machine, outcomes
 from disc_model.stability.return_map import ReturnMap
 
 STEEP = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7, n_diameters=1)
@@ -73,10 +73,10 @@ def outcome(map_: ReturnMap, x: np.ndarray, **how) -> int:
 
 def test_flights_say_how_they_end() -> None:
     map_, x = wild()
-    assert outcome(map_, x) == variational.LOST_CONTACT
-    assert outcome(map_, x, may_separate=True) == variational.RETURNED
-    assert outcome(map_, -5 * map_.static) == variational.OFF_SECTION  # P would be negative
-    assert outcome(map_, np.full(map_.size, math.nan)) != variational.RETURNED
+    assert outcome(map_, x) == outcomes.LOST_CONTACT
+    assert outcome(map_, x, may_separate=True) == outcomes.RETURNED
+    assert outcome(map_, -5 * map_.static) == outcomes.OFF_SECTION  # P would be negative
+    assert outcome(map_, np.full(map_.size, math.nan)) != outcomes.RETURNED
 
 
 def test_a_flight_into_a_paradox_has_no_solution() -> None:
@@ -85,13 +85,13 @@ def test_a_flight_into_a_paradox_has_no_solution() -> None:
     x = map_.static.copy()
     # coordinates: a, b of the pair, then their velocities, then the axisymmetric mode
     x[1] = start.b[1] * map_.scale[1]
-    assert outcome(map_, x) == variational.NO_SOLUTION
+    assert outcome(map_, x) == outcomes.NO_SOLUTION
     slipping = start.replace(phase="slip", direction=1, f=10.0)
-    assert map_.next_release(slipping)[0] == variational.NO_SOLUTION
+    assert map_.next_release(slipping)[0] == outcomes.NO_SOLUTION
 
 
 def test_a_flight_that_overflows_is_not_finite() -> None:
     map_ = ReturnMap(P)
     start = simulate(P, 1e-6).final_state
     with np.errstate(all="ignore"):
-        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == variational.NON_FINITE
+        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == outcomes.NON_FINITE

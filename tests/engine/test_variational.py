@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes
-from disc_model.engine import layout, machine, saltation, tangent, variational
+from disc_model.engine import layout, outcomes, saltation, switches, tangent, variational
 from disc_model.simulation.api import build_model
 from disc_model.simulation.bridge import write_state
 from disc_model.simulation.result import State
@@ -49,7 +49,7 @@ def test_jacobian_of_a_flight(flight: str) -> None:
     map_, x = departure(flight)
     how, h = {"may_separate": True}, 1e-6 * np.linalg.norm(x)
     log, _, jacobian, _ = map_.evaluate(x, **how)
-    assert log.outcome == variational.RETURNED
+    assert log.outcome == outcomes.RETURNED
     assert (log.separations, log.reversals, log.backward_releases) == FLIGHTS[flight][3]
     # three directions that mix all coordinates: a wrong entry of the matrix shows in each
     for direction in np.random.default_rng(0).normal(size=(3, map_.size)) / np.sqrt(map_.size):
@@ -106,7 +106,7 @@ class Full:
         outcome = variational.fly(
             self.model, self.series, self.state, self.tangent, self.order, 1e-14, 2.0, SPAN, 0, True, tangent
         )
-        assert outcome == variational.TIME_OVER
+        assert outcome == outcomes.TIME_OVER
 
     def columns(self) -> np.ndarray:
         """Derivatives of the coordinates at the end by those at the start."""
@@ -173,27 +173,27 @@ def test_divergence_is_the_trace(phase: str, direction: int) -> None:
 def switch_function(cause: int, p: Parameters, state: State) -> float:
     """What falls to zero at a switch, from the paper's equations; contact is lost where P's numerator is zero."""
     printed = Printed(p, state)
-    if cause == machine.AT_REST:
+    if cause == switches.AT_REST:
         return state.f
-    if cause == machine.GAP_CLOSED:
+    if cause == switches.GAP_CLOSED:
         return float(printed.literal.gap(0)(0.0, printed.y))
-    if cause == machine.CONTACT_LOST:
+    if cause == switches.CONTACT_LOST:
         modes = plate_modes(p)
         slope = float(modes["psi"] @ (modes["diameters"] * state.b))
         friction = state.direction * p.mu_k * slope / p.r_0
         return float(printed.force() * (1 + p.m * modes["psi"] @ modes["psi"] + friction))
-    side = 1 if cause == machine.RELEASE_FORWARD else -1
+    side = 1 if cause == switches.RELEASE_FORWARD else -1
     return float(p.mu_s * printed.force() - side * p.r_0 * printed.literal.pull(0.0, printed.y))
 
 
 SWITCHES = {
-    "at rest": (machine.AT_REST, "slip", 1),
-    "contact lost": (machine.CONTACT_LOST, "slip", 1),
-    "contact lost, slip backwards": (machine.CONTACT_LOST, "slip", -1),
-    "contact lost in stick": (machine.CONTACT_LOST, "stick", 0),
-    "release forwards": (machine.RELEASE_FORWARD, "stick", 0),
-    "release backwards": (machine.RELEASE_BACKWARD, "stick", 0),
-    "gap closed": (machine.GAP_CLOSED, "separation", 0),
+    "at rest": (switches.AT_REST, "slip", 1),
+    "contact lost": (switches.CONTACT_LOST, "slip", 1),
+    "contact lost, slip backwards": (switches.CONTACT_LOST, "slip", -1),
+    "contact lost in stick": (switches.CONTACT_LOST, "stick", 0),
+    "release forwards": (switches.RELEASE_FORWARD, "stick", 0),
+    "release backwards": (switches.RELEASE_BACKWARD, "stick", 0),
+    "gap closed": (switches.GAP_CLOSED, "separation", 0),
 }
 
 

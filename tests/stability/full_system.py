@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from disc_model import Parameters
-from disc_model.engine import layout, machine, saltation, tangent, variational
+from disc_model.engine import layout, saltation, switches, tangent, variational
 from disc_model.simulation.api import build_model
 from disc_model.simulation.bridge import write_state
 from disc_model.simulation.result import State
@@ -49,8 +49,7 @@ class Full:
         return out[::8][self.rows]
 
     def release(self):
-        log = np.zeros(tangent.LOG_SIZE)
-        variational.change_phase(self.model, self.state, machine.RELEASE_FORWARD, False, log)
+        switches.change_phase(self.model, self.state, switches.RELEASE_FORWARD, False)
 
     def fly(self, duration, tangent=True):
         return variational.fly(
@@ -60,5 +59,5 @@ class Full:
     def release_change(self, vector):
         """Gradient of the release condition times a vector of coordinates, f's left out."""
         self.set_columns(np.where(np.arange(len(vector)) < len(vector) - 1, vector, 0)[:, None])
-        saltation.switch_times(self.model, self.state, self.tangent, machine.RELEASE_FORWARD)
+        saltation.switch_times(self.model, self.state, self.tangent, switches.RELEASE_FORWARD)
         return -self.tangent.tau[0]

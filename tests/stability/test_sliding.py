@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, steady_sliding
-from disc_model.engine import variational
+from disc_model.engine import outcomes
 from disc_model.simulation.result import State
 from disc_model.stability.sliding import SlidingStatus
 from tests.stability.full_system import Full
@@ -30,7 +30,7 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     start = State(0.0, "slip", 1, sliding.psi, p.Omega, 0.0, 0.0, **modal)
     run, duration = Full(p, start), 1e-3
     before = run.coordinates
-    assert run.fly(duration) == variational.TIME_OVER
+    assert run.fly(duration) == outcomes.TIME_OVER
     assert np.allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
     flow = np.linalg.eigvals(run.columns)
     expected = np.exp(sliding.eigenvalues * duration)

@@ -11,8 +11,16 @@ from __future__ import annotations
 from .compile import inlined, kernel
 from .lanes import WIDTH, add, fma, load, mul, splat, store, sub, total
 from .layout import DIRECTION, HALF, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, U_VELOCITY, U
-from .machine import AT_REST, CONTACT_LOST, GAP_CLOSED, RELEASE_FORWARD
-from .switches import disc_point, slip_force, spring_force, stick_force
+from .switches import (
+    AT_REST,
+    CONTACT_LOST,
+    GAP_CLOSED,
+    RELEASE_FORWARD,
+    disc_point,
+    slip_force,
+    spring_force,
+    stick_force,
+)
 from .tangent import D_C, D_C_P, D_K, D_K_P, D_M, D_OMEGA, LOAD, N_SCALARS, n_inputs, n_rows_of, point_change
 
 

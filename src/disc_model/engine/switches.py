@@ -3,26 +3,14 @@
 from __future__ import annotations
 
 from .compile import inlined, kernel
-from .layout import (
-    COASTED,
-    DIRECTION,
-    FORCE,
-    KNOWN,
-    PHASE,
-    PSI,
-    SEPARATION,
-    SLIP,
-    SPEED,
-    STICK,
-    U_VELOCITY,
-    U,
-)
+from .layout import COASTED, DIRECTION, FORCE, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, U_VELOCITY, U
+from .outcomes import CONSISTENT, NO_SOLUTION
 
-# Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
-STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
-# Outcome of a transition.
-CONSISTENT, PARADOX = 0, 1
+# What can end a step.
+NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
 
+# More switches than this without the clock moving end a motion: a guard, not a tuned interval.
+MAX_EVENTS_IN_A_ROW = 200
 # Below this share of its value without friction the denominator of P counts as zero: Painleve's paradox.
 PAINLEVE_MARGIN = 1e-6
 # A force below this share of the terms that make it is rounding.
@@ -128,10 +116,10 @@ def _enter_stick(state, P):
 
 @kernel
 def enter_slip(model, state, direction):
-    """Slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or PARADOX."""
+    """Slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or NO_SOLUTION."""
     P, denominator, noise = slip_force(model, state, direction)
     if denominator <= PAINLEVE_MARGIN * (1.0 + model.m * model.compliance):
-        return PARADOX
+        return NO_SOLUTION
     if P < 0.0 and not model.bonded:
         _enter_separation(model, state, P, noise)
         return CONSISTENT
@@ -150,7 +138,7 @@ def enter_slip(model, state, direction):
 
 @kernel
 def break_loose(model, state, direction, at_once):
-    """Friction holds the slider no longer: slip in ``direction``.  Returns CONSISTENT or PARADOX.
+    """Friction holds the slider no longer: slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION.
 
     at_once: stick has not lasted at all, so that the spring may pull harder than friction can hold.
     """
@@ -194,3 +182,15 @@ def touch_down(model, state):
     if f == 0.0:
         return come_to_rest(model, state)
     return enter_slip(model, state, 1.0 if f > 0.0 else -1.0)
+
+
+@inlined
+def change_phase(model, state, cause, at_once):
+    """Carry out a switch, of a phase that may have ended ``at_once``.  Returns CONSISTENT or NO_SOLUTION."""
+    if cause == GAP_CLOSED:
+        return touch_down(model, state)
+    if cause == AT_REST:
+        return come_to_rest(model, state)
+    if cause == CONTACT_LOST:
+        return lose_contact(model, state)
+    return break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0, at_once)

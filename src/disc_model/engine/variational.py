@@ -8,33 +8,22 @@ from .compile import kernel
 from .dense_output import state_at
 from .lanes import WIDTH, mul, splat, store
 from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME
-from .machine import (
+from .outcomes import LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
+from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_times
+from .stepping import advance_time, expand, first_switch, step_size
+from .switches import (
     AT_REST,
-    CONTACT_LOST,
     GAP_CLOSED,
     MAX_EVENTS_IN_A_ROW,
     NOTHING,
-    RELEASE_FORWARD,
-    advance_time,
-    expand,
-    first_switch,
-    step_size,
-)
-from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_times
-from .switches import (
     PAINLEVE_MARGIN,
-    PARADOX,
-    break_loose,
-    come_to_rest,
+    RELEASE_BACKWARD,
+    RELEASE_FORWARD,
+    change_phase,
     disc_point,
-    lose_contact,
     stick_force,
-    touch_down,
 )
 from .tangent import n_inputs, n_rows_of, tangent_at, tangent_series
-
-# How a flight ended.
-RETURNED, TIME_OVER, NO_SOLUTION, STALLED, NON_FINITE, LOST_CONTACT, OFF_SECTION = range(7)
 
 # What a flight counts, entries of ``Tangent.log``.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
@@ -54,24 +43,19 @@ def _step(model, s, state, order, tolerance, left):
 
 
 @kernel
-def change_phase(model, state, cause, at_once, log):
-    """Carry out a switch, of a phase that may have ended ``at_once``.  Returns its outcome."""
-    if cause == GAP_CLOSED:
-        outcome = touch_down(model, state)
-    elif cause == AT_REST:
-        outcome = come_to_rest(model, state)
-        if state.x[PHASE] == SLIP:
-            log[REVERSALS] += 1.0
-    elif cause == CONTACT_LOST:
-        outcome = lose_contact(model, state)
-    else:
-        outcome = break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0, at_once)
-        log[RELEASES if cause == RELEASE_FORWARD else BACK_RELEASES] += 1.0
-    if state.x[PHASE] == SEPARATION:
+def _count(state, cause, log):
+    """Count a switch that was carried out."""
+    phase = state.x[PHASE]
+    if cause == RELEASE_FORWARD:
+        log[RELEASES] += 1.0
+    elif cause == RELEASE_BACKWARD:
+        log[BACK_RELEASES] += 1.0
+    elif cause == AT_REST and phase == SLIP:
+        log[REVERSALS] += 1.0
+    if phase == SEPARATION:
         log[SEPARATIONS] += 1.0
-    elif state.x[PHASE] == STICK:
+    elif phase == STICK:
         log[STICKS] += 1.0
-    return outcome
 
 
 @kernel
@@ -150,8 +134,9 @@ def fly(model, s, state, t, order, tolerance, longest, t_max, releases, may_sepa
             log[RELEASES] += 1.0
             return RETURNED
         x[KNOWN] = 0.0
-        if change_phase(model, state, cause, x_end == 0.0, log) == PARADOX:
+        if change_phase(model, state, cause, x_end == 0.0) == NO_SOLUTION:
             return NO_SOLUTION
+        _count(state, cause, log)
         if tangent:
             if x[PHASE] == SEPARATION:
                 slider_rows(model, state, t)
@@ -220,9 +205,10 @@ def section_map(
             at, q = c * n_rows_of(model), c * n_inputs(model)
             change = switch_change(model, state, RELEASE_FORWARD, t.now, at, t.parameters, q, c >= t.plain)
             store(t.now, at + row * WIDTH, mul(splat(1.0 / (model.r_0 * model.k_p)), change))
-    if change_phase(model, state, RELEASE_FORWARD, False, t.log) == PARADOX:
+    if change_phase(model, state, RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
-    t.log[RELEASES] = 0.0
+    # the release itself is that of the flight which ended here
+    _count(state, NOTHING, t.log)
     if state.x[PHASE] == SEPARATION and not may_separate:
         return LOST_CONTACT
     if tangent:

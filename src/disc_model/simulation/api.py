@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from disc_model.data.variables import PHASES
-from disc_model.engine import audit, layout, machine
+from disc_model.engine import audit, layout, machine, outcomes
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import modal_damping, mode_arrays
@@ -32,12 +32,12 @@ STEPS_PER_PAUSE = 100_000
 """Steps between two pauses of the engine, about 0.1 s of work, where a step costs least."""
 
 _STATUS = {
-    machine.FINISHED: Status.OK,
-    machine.STOPPED: Status.STOPPED,
-    machine.STEP_LIMIT: Status.STEP_LIMIT,
-    machine.NO_SOLUTION: Status.PARADOX,
-    machine.STALLED: Status.STALLED,
-    machine.NON_FINITE: Status.NON_FINITE,
+    outcomes.TIME_OVER: Status.OK,
+    outcomes.STOPPED: Status.STOPPED,
+    outcomes.STEP_LIMIT: Status.STEP_LIMIT,
+    outcomes.NO_SOLUTION: Status.PARADOX,
+    outcomes.STALLED: Status.STALLED,
+    outcomes.NON_FINITE: Status.NON_FINITE,
 }
 
 
@@ -89,10 +89,10 @@ def simulate(
     if kept is not None and (contents := kept.load()) is not None:
         run.restore(contents)
         log.info("goes on at t = %.9g s from checkpoint %s", run.time, kept.path)
-    code = machine.PAUSED
-    while code == machine.PAUSED:
+    code = outcomes.PAUSED
+    while code == outcomes.PAUSED:
         code = run.advance()
-        if kept is not None and code == machine.PAUSED and kept.due:
+        if kept is not None and code == outcomes.PAUSED and kept.due:
             kept.save(run.contents())
         if progress is not None:
             progress(run.time)

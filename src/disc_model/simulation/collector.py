@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import machine, sampling, switches
+from disc_model.engine import machine, sampling
 from disc_model.parameters import Parameters
 from disc_model.simulation.record import Poincare, Record, Window
 
@@ -69,7 +69,7 @@ class Collector:
         """Take over what the buffers hold and empty them."""
         events = self.event_rows[: counters[machine.EVENT_ROWS]]
         if math.isnan(self.first_separation):
-            lost = np.flatnonzero(events[:, 1] == switches.LOSS_OF_CONTACT)
+            lost = np.flatnonzero(events[:, 1] == machine.LOSS_OF_CONTACT)
             if lost.size:
                 self._first_separation[0] = events[lost[0], 0]
         if self._keep_events and len(events):

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import layout, tangent, variational
+from disc_model.engine import layout, outcomes, tangent, variational
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import build_model, simulate
@@ -48,10 +48,10 @@ _ADVICE = {
     LyapunovStatus.STEP_LIMIT: "The transient took more steps than any motion should: check the magnitudes.",
 }
 _OUTCOMES = {
-    variational.TIME_OVER: LyapunovStatus.OK,
-    variational.NO_SOLUTION: LyapunovStatus.PARADOX,
-    variational.STALLED: LyapunovStatus.STALLED,
-    variational.NON_FINITE: LyapunovStatus.NON_FINITE,
+    outcomes.TIME_OVER: LyapunovStatus.OK,
+    outcomes.NO_SOLUTION: LyapunovStatus.PARADOX,
+    outcomes.STALLED: LyapunovStatus.STALLED,
+    outcomes.NON_FINITE: LyapunovStatus.NON_FINITE,
 }
 _BLOCKS = 16
 
@@ -138,7 +138,7 @@ def lyapunov_exponents(
         if i == 0:
             t.log[:] = 0.0
         code = variational.fly(model, series, state, t, order, tolerance, longest, duration / steps, 0, True, True)
-        if code != variational.TIME_OVER or not np.all(np.isfinite(columns)):
+        if code != outcomes.TIME_OVER or not np.all(np.isfinite(columns)):
             status = _OUTCOMES.get(code, LyapunovStatus.NON_FINITE)
             status = LyapunovStatus.NON_FINITE if status is LyapunovStatus.OK else status
             break

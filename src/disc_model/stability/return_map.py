@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import layout, variational
+from disc_model.engine import layout, outcomes, variational
 from disc_model.engine import tangent as columns
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import build_model
@@ -30,15 +30,15 @@ PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 COARSE, COARSE_ORDER, COARSE_TRIES, COLUMNS_COARSE = 1e-9, 20, 3, 1e-5
 """Tolerance and order of the first few Jacobians, which only have to point Newton's method the right way."""
 
-RETURNED = variational.RETURNED
+RETURNED = outcomes.RETURNED
 OUTCOMES = {
-    variational.RETURNED: "returned",
-    variational.TIME_OVER: "time_over",
-    variational.NO_SOLUTION: "paradox",
-    variational.STALLED: "stalled",
-    variational.NON_FINITE: "non_finite",
-    variational.LOST_CONTACT: "lost_contact",
-    variational.OFF_SECTION: "off_section",
+    outcomes.RETURNED: "returned",
+    outcomes.TIME_OVER: "time_over",
+    outcomes.NO_SOLUTION: "paradox",
+    outcomes.STALLED: "stalled",
+    outcomes.NON_FINITE: "non_finite",
+    outcomes.LOST_CONTACT: "lost_contact",
+    outcomes.OFF_SECTION: "off_section",
 }
 
 

@@ -1,0 +1,144 @@
+"""One step of the motion: its series, how far that reaches, and the switch that ends the phase within it."""
+
+from __future__ import annotations
+
+import math
+
+from .compile import inlined
+from .dense_output import load_state
+from .lanes import WIDTH, absolute, largest, load, maximum, splat
+from .layout import DIRECTION, KNOWN, PHASE, SEPARATION, SLIP, STICK, TIME, TIME_LOW, E
+from .polynomial import NO_ROOT, first_root, set_powers
+from .series import lane_count, separation_series, slip_series, stick_series
+from .switches import (
+    AT_REST,
+    CONTACT_LOST,
+    GAP_CLOSED,
+    NOTHING,
+    RELEASE_BACKWARD,
+    RELEASE_FORWARD,
+    never_pulled,
+)
+
+# Longest step, in units of 1 / largest omega: beyond it the terms of the series cancel more digits than they add.
+LONGEST_STEP = 8.0
+TYPICAL_STEP = 3.0
+
+
+@inlined
+def _size(model, s, k):
+    """Largest modulus among the modal velocities of order k."""
+    width, n, biggest = lane_count(model), len(model.force0), splat(0.0)
+    for j in range(k * width, (k + 1) * width, WIDTH):
+        biggest = maximum(biggest, absolute(load(s.modes, E * width + j)))
+    size = largest(biggest)
+    for j in range(k * n, (k + 1) * n):
+        size = max(size, abs(s.g[j]))
+    return size
+
+
+@inlined
+def _last_two(c, order):
+    """Size of the last two terms, as if the step were ``TYPICAL_STEP``."""
+    return max(abs(c[order]), abs(c[order - 1]) / TYPICAL_STEP)
+
+
+@inlined
+def _scale(usual, now, growth):
+    """What a quantity's error is compared with: its usual size or its present one; its growth if both are zero."""
+    size = max(usual, now)
+    return size if size > 0.0 else growth
+
+
+@inlined
+def _relative(error, scale):
+    return error / scale if scale > 0.0 else error
+
+
+@inlined
+def step_size(model, s, order, tolerance, phase):
+    """Step (time units) at which the last two terms of the series fall below the tolerance (Jorba and Zou).
+
+    Modal velocities are compared with those of static deflection under the preload, or with what is there if that is
+    more; f with the drive speed; in separation also u'.  The two terms are merged as if the step were
+    ``TYPICAL_STEP``, which spares a root.
+    """
+    last = max(_size(model, s, order), _size(model, s, order - 1) / TYPICAL_STEP)
+    scale = _scale(model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
+    speed = _scale(model.speed_scale, abs(s.f[0]), abs(s.f[1]))
+    error = _relative(last, scale) + _relative(_last_two(s.f, order), speed)
+    if phase == SEPARATION:
+        error += _relative(_last_two(s.v, order), _scale(model.slider_scale, abs(s.v[0]), abs(s.v[1])))
+    else:
+        # P is known to one order less
+        last_force = max(abs(s.P[order - 1]) / TYPICAL_STEP, abs(s.P[order - 2]) / TYPICAL_STEP**2)
+        error += _relative(last_force, _scale(model.N, abs(s.P[0]), abs(s.P[1])))
+    if not error < math.inf or not scale + speed < math.inf:
+        return math.nan
+    if error * LONGEST_STEP**order <= tolerance:
+        return LONGEST_STEP
+    return math.exp(math.log(tolerance / error) / order)
+
+
+@inlined
+def expand(model, s, state, order):
+    """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
+    load_state(s, state)
+    phase = state.x[PHASE]
+    if phase == SLIP:
+        return slip_series(model, s, order, state.x[DIRECTION]) / (1.0 + model.m * model.compliance)
+    if phase == STICK:
+        stick_series(model, s, order)
+    else:
+        separation_series(model, s, order)
+    return 1.0
+
+
+@inlined
+def first_switch(model, s, state, order, x_end):
+    """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
+    phase, known = state.x[PHASE], int(state.x[KNOWN])
+    set_powers(s.powers, x_end)
+    cause = NOTHING
+    if phase == STICK:
+        if not model.bonded and never_pulled(model, state):
+            # P = 0 and the friction limit coincide, and it is contact that ends
+            x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+            return (x, CONTACT_LOST) if x != NO_ROOT else (x_end, NOTHING)
+        x = first_root(s.switch, 0, order - 1, x_end, s.powers, s.roots)
+        if x != NO_ROOT:
+            x_end, cause = x, RELEASE_FORWARD
+            set_powers(s.powers, x_end)
+        if s.switch2[0] < s.switch[0]:
+            x = first_root(s.switch2, 0, order - 1, x_end, s.powers, s.roots)
+            if x != NO_ROOT:
+                x_end, cause = x, RELEASE_BACKWARD
+                set_powers(s.powers, x_end)
+        if model.mu_s == 0.0 and not model.bonded:
+            # the friction limit is zero all along and says nothing of contact
+            x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+            if x != NO_ROOT:
+                x_end, cause = x, CONTACT_LOST
+        return x_end, cause
+    if phase == SEPARATION:
+        x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
+        return (x, GAP_CLOSED) if x != NO_ROOT else (x_end, NOTHING)
+    x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
+    if x != NO_ROOT:
+        x_end, cause = x, AT_REST
+        set_powers(s.powers, x_end)
+    if not model.bonded:
+        x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+        if x != NO_ROOT:
+            x_end, cause = x, CONTACT_LOST
+    return x_end, cause
+
+
+@inlined
+def advance_time(x, dt):
+    """Compensated sum: TIME + TIME_LOW is the time to twice the digits."""
+    dt += x[TIME_LOW]
+    new = x[TIME] + dt
+    kept = new - x[TIME]
+    x[TIME_LOW] = (x[TIME] - (new - kept)) + (dt - kept)
+    x[TIME] = new
