@@ -35,11 +35,11 @@ def test_base_values_are_those_of_table_1() -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"N": -1}, "N=-1.0: must be >= 0"),
-        ({"Omega": "-1"}, "Omega=-1.0: must be >= 0"),
+        ({"N": -1}, "N=-1: must be >= 0"),
+        ({"Omega": "-1"}, "Omega=-1: must be >= 0"),
         ({"N": math.nan}, "N=nan: must be finite"),
         ({"k": "inf"}, "k=inf: must be finite"),
-        ({"m": 0}, "m=0.0: must be > 0"),
+        ({"m": 0}, "m=0: must be > 0"),
         ({"nu": 0.5}, "nu=0.5: must be < 0.5"),
         ({"mu_k": 0.5}, "mu_k=0.5: must be <= mu_s=0.4"),
         ({"a": 0.1}, "a=0.1: must be < r_0=0.1"),
@@ -55,7 +55,7 @@ def test_base_values_are_those_of_table_1() -> None:
         ({"contact": "glued"}, "contact='glued': must be 'separable' or 'bonded'"),
         ({"omega": 3}, "omega=3: unknown parameter, did you mean Omega?"),
         ({"mu_S": 3}, "mu_S=3: unknown parameter, did you mean mu_s?"),
-        ({"h": 1e-200}, "h=1e-200: must give a finite, positive E h^3/12/(1-nu^2), not 0.0"),
+        ({"h": 1e-200}, "h=1e-200: must give a finite, positive E h^3/12/(1-nu^2), not 0"),
         ({"h": 1e200}, "h=1e+200: must give a finite, positive E h^3/12/(1-nu^2), not inf"),
         ({"k": 10**400}, "k=inf: must be finite"),
     ],
@@ -68,14 +68,14 @@ def test_all_faults_are_reported_at_once_and_none_hides_another() -> None:
     with pytest.raises(ParameterError) as caught:
         Parameters(N=-1, mu_k=0.5, a=0.2, Omga=3)
     message = str(caught.value)
-    for part in ("N=-1.0", "Omega: is required", "mu_k=0.5", "a=0.2", "did you mean Omega"):
+    for part in ("N=-1: ", "Omega: is required", "mu_k=0.5", "a=0.2", "did you mean Omega"):
         assert part in message
     assert len(caught.value.faults) == 5
     assert "\n" not in message
 
 
 def test_error_survives_pickling() -> None:
-    error = ParameterError("N=-1.0: must be >= 0", "k=nan: must be finite")
+    error = ParameterError("N=-1: must be >= 0", "k=nan: must be finite")
     copy = pickle.loads(pickle.dumps(error))
     assert (str(copy), copy.faults) == (str(error), error.faults)
 
@@ -87,6 +87,11 @@ def test_pydantic_errors_do_not_leak() -> None:
         lambda: Parameters.model_validate([1, 2]),
         lambda: Parameters.model_validate({1: 2}),
         lambda: Parameters.model_validate_json('{"N": -1, "Omega": 1}'),
+        lambda: Parameters.model_validate_json("{"),
+        lambda: Parameters.model_validate_json(b"\xff"),
+        lambda: Parameters.model_validate_json("[" * 10**5),
+        lambda: Parameters.model_validate_json(None),  # type: ignore[arg-type]
+        lambda: Parameters.model_validate_json("3"),
         lambda: Parameters(N=1, Omega=1).replace(N=-1),
         lambda: Parameters(N=1, Omega=1).model_copy(update={"N": -1}),
     ):
@@ -99,7 +104,7 @@ def test_nested_in_another_schema_the_message_is_kept() -> None:
         case: Parameters
 
     assert Study(case={"N": 1, "Omega": 2}).case == Parameters(N=1, Omega=2)
-    with pytest.raises(ValidationError, match=r"N=-1\.0: must be >= 0"):
+    with pytest.raises(ValidationError, match=r"N=-1: must be >= 0"):
         Study(case={"N": -1, "Omega": 2})
 
 

@@ -71,7 +71,7 @@ def test_bad_tolerances_are_named():
 def test_a_mapping_is_as_good_as_parameters() -> None:
     values = {"N": "385", "Omega": 15.1, "normalization": "orthonormal", "n_diameters": "auto"}
     assert choose_modes(values, "1e-2") == choose_modes(P.replace(normalization="orthonormal"), 1e-2)
-    with pytest.raises(ParameterError, match=r"N=-1\.0"):
+    with pytest.raises(ParameterError, match=r"N=-1"):
         choose_modes({**values, "N": -1})
 
 
@@ -100,10 +100,10 @@ def test_a_plain_value_leaves_no_choice() -> None:
 @pytest.mark.parametrize(
     ("values", "faults"),
     [
-        ({"N": -1, "n_diameters": "auto"}, ("N=-1.0: must be >= 0",)),
+        ({"N": -1, "n_diameters": "auto"}, ("N=-1: must be >= 0",)),
         (
             {"N": -1, "n_diameters": "auto", "truncation_tolerance": 1e-9},
-            ("N=-1.0: must be >= 0", "truncation_tolerance=1e-09: must be finite and >= 0.0001"),
+            ("N=-1: must be >= 0", "truncation_tolerance=1e-09: must be finite and >= 0.0001"),
         ),
         ({"n_diameters": "auto", "truncation_tolerance": "fine"}, ("truncation_tolerance='fine': must be a number",)),
         (

@@ -21,8 +21,9 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from disc_model.errors import DiscModelError, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import Parameters
+from disc_model.schema import TOLERANCES, limits_rule, shown
 
 if TYPE_CHECKING:
     from disc_model.simulation.record import Record
@@ -34,6 +35,7 @@ PLOT_RATE = 2000.0
 """Samples per second in a plot of the whole run, Hz."""
 ZOOM = 0.25
 """Length of the second column of a plot, the end of the run, s."""
+TOLERANCE_HELP = f"tolerance, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}"
 
 app = typer.Typer(
     add_completion=False,
@@ -102,7 +104,7 @@ def run(
         str | None,
         typer.Option("--t-end", metavar="SECONDS", help=r"time at which the run ends (s) \[required]"),
     ] = None,
-    tol: Annotated[str, typer.Option("--tol", metavar="VALUE", help="tolerance, 1e-15 to 1e-2")] = "1e-10",
+    tol: Annotated[str, typer.Option("--tol", metavar="VALUE", help=TOLERANCE_HELP)] = "1e-10",
     stop_at: Annotated[
         str | None, typer.Option("--stop-at", metavar="EVENT", help="end early: first_separation")
     ] = None,
@@ -202,9 +204,9 @@ def _checked(
     except ParameterError as error:
         faults += error.faults
     end = _number("t_end", t_end, lambda x: 0 < x < math.inf, "must be finite and > 0", faults)
-    tolerance = _number("tol", tol, lambda x: 1e-15 <= x <= 1e-2, "must be between 1e-15 and 1e-2", faults)
+    tolerance = _number("tol", tol, lambda x: TOLERANCES[0] <= x <= TOLERANCES[1], limits_rule(TOLERANCES), faults)
     if stop_at not in (None, "first_separation"):
-        faults.append(f"stop_at={stop_at!r}: must be 'first_separation'")
+        faults.append(Fault(("stop_at",), shown(stop_at), "must be 'first_separation'"))
     if plot is not None:
         faults += _plot_faults(plot)
     if checkpoint is not None:
@@ -217,15 +219,15 @@ def _checked(
 def _number(name: str, text: str | None, holds: Callable[[float], bool], rule: str, faults: list[str]) -> float:
     """The number that `text` stands for; what is wrong with it is added to `faults`."""
     if text is None:
-        faults.append(f"{name}: is required")
+        faults.append(Fault((name,), "", "is required"))
         return math.nan
     try:
         value = float(text)
     except ValueError:
-        faults.append(f"{name}={text!r}: must be a number")
+        faults.append(Fault((name,), shown(text), "must be a number"))
         return math.nan
     if not holds(value):
-        faults.append(f"{name}={value!r}: {rule}")
+        faults.append(Fault((name,), shown(value), rule))
     return value
 
 

@@ -17,6 +17,31 @@ def exit_on_error(main: Callable[[], None]) -> None:
         raise SystemExit(str(error)) from None
 
 
+class Fault(str):
+    """What is wrong with one value: the text ``path=value: rule``, which knows its parts.
+
+    Attributes
+    ----------
+    path : names and indices that lead to the value; empty if it is the whole
+    value : as messages show it; "" if it is not shown
+    rule : that it breaks
+    """
+
+    __slots__ = ("path", "rule", "value")
+    path: tuple[str, ...]
+    value: str
+    rule: str
+
+    def __new__(cls, path: tuple[str, ...], value: str, rule: str) -> Fault:
+        place = ".".join(path) + (f"={value}" if value and path else "")
+        fault = super().__new__(cls, f"{place}: {rule}" if place else rule)
+        fault.path, fault.value, fault.rule = path, value, rule
+        return fault
+
+    def __getnewargs__(self) -> tuple[tuple[str, ...], str, str]:  # type: ignore[override]
+        return (self.path, self.value, self.rule)
+
+
 class ParameterError(DiscModelError, ValueError):
     """Input that breaks a rule. One error lists every fault, each as ``name=value: rule``.
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
 import hashlib
 import json
 import math
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, Field
 
-from disc_model.errors import ParameterError
-from disc_model.schema import Count, Real, number, shown
+from disc_model.errors import Fault
+from disc_model.schema import Checked, Count, Real, number, shown
 
 
 def _diameters(value: Any) -> Any:
@@ -35,7 +34,7 @@ def _choice(default: str, description: str) -> Any:
     return Field(default, description=description, json_schema_extra={"unit": ""})
 
 
-class Parameters(BaseModel):
+class Parameters(Checked):
     """One case of the disc and slider. Base values are the paper's Table 1; `N` and `Omega` have none.
 
     A plain value. `disc_model.choose_modes` finds how many modes a tolerance asks for.
@@ -46,7 +45,7 @@ class Parameters(BaseModel):
         Naming every parameter that breaks a rule, its value and the rule, in one message.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", validate_default=False)
+    _word: ClassVar[str] = "parameter"
 
     N: Real = _field(..., "N", "preload pressing the slider onto the disc", ge=0)
     Omega: Real = _field(..., "rad/s", "speed of the drive point", ge=0)
@@ -72,39 +71,9 @@ class Parameters(BaseModel):
     )
     contact: Literal["separable", "bonded"] = _choice("separable", "whether the slider may leave the disc")
 
-    def __init__(self, /, **data: Any) -> None:
-        faults: list[str] = []
-        try:
-            super().__init__(**data)
-        except ValidationError as error:
-            faults += [_fault(type(self), item) for item in error.errors(include_url=False)]
-        faults += _cross_faults(type(self), data)
-        if faults:
-            raise ParameterError(*faults) from None
-
     @classmethod
-    def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
-        """As pydantic's, but a mapping's faults come as one `ParameterError`, as everywhere."""
-        if isinstance(obj, Mapping):
-            if unnamed := [key for key in obj if not isinstance(key, str)]:
-                raise ParameterError(*(f"{key!r}={obj[key]!r}: a parameter's name must be text" for key in unnamed))
-            return cls(**obj)
-        if isinstance(obj, cls):
-            return obj
-        raise ParameterError(f"parameters={obj!r}: must be a mapping of names to values")
-
-    @classmethod
-    def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
-        """Parameters from JSON text, with the same errors as the constructor."""
-        return cls.model_validate(json.loads(json_data))
-
-    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """A copy; unlike pydantic's, what `update` changes is validated."""
-        return self.replace(**(update or {}))
-
-    def replace(self, **changes: Any) -> Self:
-        """A validated copy with some values changed."""
-        return type(self)(**{**self.model_dump(), **changes})
+    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
+        return _cross_faults(cls, data)
 
     @property
     def D(self) -> float:
@@ -132,47 +101,6 @@ def _rigidity(E: float, h: float, nu: float) -> float:
     return E * h**3 / 12 / (1 - nu**2)
 
 
-def _shown_field(model: type[BaseModel], name: str, value: Any) -> str:
-    """Numbers as the float they stand for, so that a message does not depend on the spelling."""
-    if model.model_fields[name].annotation is float:
-        try:
-            return repr(number(value))
-        except ValueError:
-            pass
-    return shown(value)
-
-
-_RULES: dict[str, Callable[[dict[str, Any]], str]] = {
-    "greater_than_equal": lambda ctx: f"must be >= {ctx['ge']:g}",
-    "greater_than": lambda ctx: f"must be > {ctx['gt']:g}",
-    "less_than": lambda ctx: f"must be < {ctx['lt']:g}",
-    "less_than_equal": lambda ctx: f"must be <= {ctx['le']:g}",
-    "finite_number": lambda ctx: "must be finite",
-    "literal_error": lambda ctx: f"must be {ctx['expected']}",
-}
-
-
-def _fault(model: type[BaseModel], item: Any) -> str:
-    """One of pydantic's error items as ``name=value: rule``."""
-    name, kind = str(item["loc"][0]), item["type"]
-    if kind == "missing":
-        return f"{name}: is required"
-    if kind == "extra_forbidden":
-        return f"{name}={shown(item['input'])}: unknown parameter{_suggestion(name, model)}"
-    value = _shown_field(model, name, item["input"])
-    if kind in _RULES:
-        return f"{name}={value}: {_RULES[kind](item.get('ctx', {}))}"
-    reason = str(item.get("ctx", {}).get("error", item["msg"]))
-    return f"{name}={value}: {reason if reason.startswith('must') else 'must be a number'}"
-
-
-def _suggestion(name: str, model: type[BaseModel]) -> str:
-    known = list(model.model_fields)
-    folded = {field.lower(): field for field in known}
-    close = difflib.get_close_matches(name.lower(), folded, n=1, cutoff=0.6)
-    return f", did you mean {folded[close[0]]}?" if close else f" (known: {', '.join(known)})"
-
-
 def _cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     """Rules between parameters, checked where both sides are finite numbers: no fault hides another."""
     values: dict[str, float] = {}
@@ -183,11 +111,11 @@ def _cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
             continue
         if math.isfinite(value):
             values[name] = value
-    faults = []
+    faults: list[str] = []
 
     def require(low: str, high: str, holds: Callable[[float, float], bool], rule: str) -> None:
         if low in values and high in values and not holds(values[low], values[high]):
-            faults.append(f"{low}={values[low]!r}: must be {rule} {high}={values[high]!r}")
+            faults.append(Fault((low,), shown(values[low]), f"must be {rule} {high}={shown(values[high])}"))
 
     require("mu_k", "mu_s", lambda x, y: x <= y, "<=")
     require("a", "r_0", lambda x, y: x < y, "<")
@@ -198,5 +126,6 @@ def _cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
         except OverflowError:
             rigidity = math.inf
         if not 0 < rigidity < math.inf:
-            faults.append(f"h={values['h']!r}: must give a finite, positive E h^3/12/(1-nu^2), not {rigidity!r}")
+            rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {shown(rigidity)}"
+            faults.append(Fault(("h",), shown(values["h"]), rule))
     return faults

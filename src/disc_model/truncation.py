@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.errors import DiscModelError, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.schema import number, shown
@@ -136,7 +136,7 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], float | None
     rest = {name: value for name, value in values.items() if name != "truncation_tolerance"}
     given = values.get("truncation_tolerance", TOLERANCE)
     if rest.get("n_diameters") != AUTO:
-        fault = f"truncation_tolerance={shown(given)}: is used with n_diameters={AUTO!r} only"
+        fault = Fault(("truncation_tolerance",), shown(given), f"is used with n_diameters={AUTO!r} only")
         return rest, None, [fault] if "truncation_tolerance" in values else []
     del rest["n_diameters"]
     tolerance, faults = _checked("truncation_tolerance", given)
@@ -148,9 +148,9 @@ def _checked(name: str, value: Any) -> tuple[float, list[str]]:
     try:
         tolerance = float(number(value))
     except ValueError:
-        return math.nan, [f"{name}={shown(value)}: must be a number"]
+        return math.nan, [Fault((name,), shown(value), "must be a number")]
     if not TRUSTED <= tolerance < math.inf:
-        return math.nan, [f"{name}={tolerance!r}: must be finite and >= {TRUSTED:g}"]
+        return math.nan, [Fault((name,), shown(tolerance), f"must be finite and >= {TRUSTED:g}")]
     return tolerance, []
 
 

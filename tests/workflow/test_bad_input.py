@@ -24,8 +24,8 @@ def test_every_fault_is_shown_and_nothing_runs(project: Project) -> None:
     assert done.returncode != 0
     for fault in (
         "config/bad.yaml: 8 faults",
-        "base.m = 0.0: must be > 0",
-        "cases.F13.parameters.N = -5.0: must be >= 0",
+        "base.m = 0: must be > 0",
+        "cases.F13.parameters.N = -5: must be >= 0",
         "cases.F13.parameters.mu_k = 0.5: must be <= mu_s=0.4",
         "cases.F13.tol = 1: must be <= 0.01",
         "cases.X.parameters.N = nan: must be finite",

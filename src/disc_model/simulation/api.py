@@ -13,9 +13,10 @@ import numpy as np
 
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
-from disc_model.errors import ParameterError
+from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import modal_damping, mode_arrays
+from disc_model.schema import TOLERANCES, is_number, limits_faults, shown
 from disc_model.simulation.bridge import read_state, write_state
 from disc_model.simulation.checkpoint import Checkpoint, Contents, faults, identity
 from disc_model.simulation.collector import Collector
@@ -26,7 +27,6 @@ from disc_model.status import Status
 
 log = logging.getLogger(__name__)
 
-TOLERANCES = (1e-15, 1e-2)
 AUDIT_EVERY = 64
 STEPS_PER_PAUSE = 100_000
 """Steps between two pauses of the engine, about 0.1 s of work, where a step costs least."""
@@ -81,10 +81,9 @@ def simulate(
         Bad input; the message names the argument, its value and the rule.
     """
     record = Record() if record is None else record
-    start = 0.0 if initial_state is None else initial_state.time
-    _check_arguments(p, t_end, tol, start, record, stop_at, max_steps, (checkpoint, checkpoint_every))
+    _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every))
     run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps)
-    _warn_of_empty(record, start, t_end)
+    _warn_of_empty(record, 0.0 if initial_state is None else initial_state.time, t_end)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
     if kept is not None and (contents := kept.load()) is not None:
         run.restore(contents)
@@ -231,26 +230,32 @@ def _check_arguments(
     p: object,
     t_end: float,
     tol: float,
-    start: float,
+    initial_state: object,
     record: object,
     stop_at: str | None,
     max_steps: int | None,
     checkpoint: tuple[object, object],
 ) -> None:
     """Raise one ParameterError that lists every fault."""
-    found = []
+    found: list[str] = []
     if not isinstance(p, Parameters):
-        found.append(f"p={p!r}: must be Parameters")
+        found.append(Fault(("p",), shown(p), "must be Parameters"))
     if not isinstance(record, Record):
-        found.append(f"record={record!r}: must be a Record")
-    if not _is_number(t_end) or not math.isfinite(t_end) or t_end <= start:
-        found.append(f"t_end={t_end!r}: must be finite and > {start:g} (the time of the initial state)")
-    if not _is_number(tol) or not TOLERANCES[0] <= tol <= TOLERANCES[1]:
-        found.append(f"tol={tol!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}")
+        found.append(Fault(("record",), shown(record), "must be a Record"))
+    start = 0.0
+    if isinstance(initial_state, State):
+        if is_number(initial_state.time) and math.isfinite(initial_state.time):  # else it is refused later
+            start = initial_state.time
+    elif initial_state is not None:
+        found.append(Fault(("initial_state",), shown(initial_state), "must be a State"))
+    if not is_number(t_end) or not start < t_end < math.inf:
+        rule = f"must be finite and > {shown(start)} (the time of the initial state)"
+        found.append(Fault(("t_end",), shown(t_end), rule))
+    found += limits_faults("tol", tol, TOLERANCES)
     if stop_at not in (None, "first_separation"):
-        found.append(f"stop_at={stop_at!r}: must be None or 'first_separation'")
+        found.append(Fault(("stop_at",), shown(stop_at), "must be None or 'first_separation'"))
     if max_steps is not None and (not isinstance(max_steps, int) or max_steps < 1):
-        found.append(f"max_steps={max_steps!r}: must be a whole number >= 1")
+        found.append(Fault(("max_steps",), shown(max_steps), "must be a whole number >= 1"))
     found += faults(*checkpoint)
     if found:
         raise ParameterError(*found)
@@ -262,10 +267,6 @@ def _warn_of_empty(record: Record, start: float, t_end: float) -> None:
         if window.start > t_end or window.stop < start:
             asked, given = f"[{window.start:g}, {window.stop:g}] s", f"from {start:g} to {t_end:g} s"
             warnings.warn(f"windows[{i}] = {asked}: stays empty, the run is {given}", stacklevel=3)
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float | np.floating | np.integer) and not isinstance(value, bool)
 
 
 def _step_limit(model: layout.Model, duration: float) -> int:

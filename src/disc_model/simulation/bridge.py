@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from disc_model.data.variables import PHASES
 from disc_model.engine import layout
-from disc_model.errors import ParameterError
+from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
+from disc_model.schema import is_number, shown
 from disc_model.simulation.result import State
 
 
@@ -55,9 +58,10 @@ def write_state(p: Parameters, model: layout.Model, given: State, state: layout.
         raise ParameterError(*faults)
     for array in (state.z, state.e, state.y, state.g, state.x):
         array[:] = 0.0
-    state.z[lane], state.z[lane + layout.HALF] = given.a[pairs], given.b[pairs]
-    state.e[lane], state.e[lane + layout.HALF] = given.alpha[pairs], given.beta[pairs]
-    state.y[: len(single)], state.g[: len(single)] = given.a[single], given.alpha[single]
+    a, b, alpha, beta = (np.asarray(array, dtype=float) for array in (given.a, given.b, given.alpha, given.beta))
+    state.z[lane], state.z[lane + layout.HALF] = a[pairs], b[pairs]
+    state.e[lane], state.e[lane + layout.HALF] = alpha[pairs], beta[pairs]
+    state.y[: len(single)], state.g[: len(single)] = a[single], alpha[single]
     x = state.x
     x[layout.TIME], x[layout.TIME_LOW] = given.time, given.time_low
     x[layout.PSI], x[layout.SPEED] = given.psi, given.f
@@ -74,25 +78,42 @@ def _places(p: Parameters) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def _faults(given: State, n_modes: int) -> list[str]:
-    faults = []
+    faults: list[str] = []
+
+    def add(name: str, rule: str, value: object = None) -> None:
+        faults.append(Fault(("initial_state", name), "" if value is None else shown(value), rule))
+
     for name in ("a", "b", "alpha", "beta"):
-        array = np.asarray(getattr(given, name))
-        if array.shape != (n_modes,) or not np.all(np.isfinite(array)):
-            faults.append(f"initial_state.{name}: must be {n_modes} finite numbers, one per row of plate_modes")
+        if not _is_finite_array(getattr(given, name), n_modes):
+            add(name, f"must be {n_modes} finite numbers, one per row of plate_modes")
+    finite = {name: _is_finite(getattr(given, name)) for name in ("time", "time_low", "psi", "f", "u", "u_velocity")}
     for name in ("time", "psi", "f", "u", "u_velocity"):
-        if not np.isfinite(getattr(given, name)):
-            faults.append(f"initial_state.{name}={getattr(given, name)!r}: must be finite")
+        if not finite[name]:
+            add(name, "must be finite", getattr(given, name))
     # the clock's compensation is at most a unit in the last place of the time
-    if not abs(given.time_low) <= np.spacing(abs(float(given.time))):
-        faults.append(f"initial_state.time_low={given.time_low!r}: must be less than the last digit of the time")
+    last_digit = np.spacing(abs(float(given.time))) if finite["time"] else math.inf
+    if not (finite["time_low"] and abs(given.time_low) <= last_digit):
+        add("time_low", "must be less than the last digit of the time", given.time_low)
     if given.known not in range(4):
-        faults.append(f"initial_state.known={given.known!r}: must be 0, 1, 2 or 3")
+        add("known", "must be 0, 1, 2 or 3", given.known)
     if given.phase not in PHASES:
-        faults.append(f"initial_state.phase={given.phase!r}: must be one of {', '.join(PHASES)}")
-    elif given.phase == "stick" and given.f != 0:
-        faults.append(f"initial_state.f={given.f!r}: must be 0 in stick")
+        add("phase", f"must be one of {', '.join(PHASES)}", given.phase)
+    elif given.phase == "stick" and finite["f"] and given.f != 0:
+        add("f", "must be 0 in stick", given.f)
     elif given.phase == "slip" and given.direction not in (-1, 1):
-        faults.append(f"initial_state.direction={given.direction!r}: must be -1 or 1 in slip")
-    elif given.phase == "slip" and given.f * given.direction < 0:
-        faults.append(f"initial_state.f={given.f!r}: must have the sign of direction={given.direction}")
+        add("direction", "must be -1 or 1 in slip", given.direction)
+    elif given.phase == "slip" and finite["f"] and given.f * given.direction < 0:
+        add("f", f"must have the sign of direction={given.direction}", given.f)
     return faults
+
+
+def _is_finite(value: object) -> bool:
+    return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
+
+
+def _is_finite_array(values: object, size: int) -> bool:
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        return False
+    return array.shape == (size,) and bool(np.all(np.isfinite(array)))

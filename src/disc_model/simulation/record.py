@@ -3,35 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
-from disc_model.errors import ParameterError
-from disc_model.schema import Real
+from disc_model.errors import Fault, ParameterError
+from disc_model.schema import Checked, Real, shown
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False)]
 
 
-class _Spec(BaseModel):
-    """Frozen, strict, and with this package's own error instead of pydantic's."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    def __init__(self, /, **data: Any) -> None:
-        try:
-            super().__init__(**data)
-        except ValidationError as error:
-            raise ParameterError(*(_fault(item) for item in error.errors(include_url=False))) from None
-
-
-def _fault(item: Any) -> str:
-    place = ".".join(map(str, item["loc"])) or "window"
-    value = "" if item["type"] == "missing" or not item["loc"] else f"={item['input']!r}"
-    return f"{place}{value}: {item['msg'].removeprefix('Value error, ')}"
-
-
-class Window(_Spec):
+class Window(Checked):
     """Uniform samples at ``rate`` in [start, stop].
 
     What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
@@ -56,7 +38,7 @@ class Window(_Spec):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         if not self.start < self.stop:
-            raise ValueError(f"start={self.start:g}: must be < stop={self.stop:g}")
+            raise ParameterError(Fault(("start",), shown(self.start), f"must be < stop={shown(self.stop)}"))
         return self
 
     @property
@@ -65,7 +47,7 @@ class Window(_Spec):
         return int(math.floor((self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9)) + 1
 
 
-class Poincare(_Spec):
+class Poincare(Checked):
     """Samples at the drive's period, t = i 2 pi/Omega (i whole), within [start, stop]; ``theta`` as in `Window`."""
 
     start: Time = 0.0
@@ -75,11 +57,11 @@ class Poincare(_Spec):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         if not self.start < self.stop:
-            raise ValueError(f"start={self.start:g}: must be < stop={self.stop:g}")
+            raise ParameterError(Fault(("start",), shown(self.start), f"must be < stop={shown(self.stop)}"))
         return self
 
 
-class Record(_Spec):
+class Record(Checked):
     """What a simulation keeps; by default the events and the statistics alone.
 
     Parameters

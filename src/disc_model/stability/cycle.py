@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.parameters import Parameters
+from disc_model.schema import CYCLE_TOLERANCES, limits_faults
 from disc_model.simulation.result import State
 from disc_model.stability.return_map import OUTCOMES, RETURNED, Flight, ReturnMap, Solution, newton
 from disc_model.stability.sliding import SteadySliding, steady_sliding
@@ -23,7 +24,6 @@ from disc_model.stability.sliding import SteadySliding, steady_sliding
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-TOLERANCES = (1e-14, 1e-6)
 RETURNS_TRIED = (1, 2, 3)
 """Cycles with up to so many releases a period are looked for."""
 TRANSIENT = 60
@@ -146,12 +146,11 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
     ParameterError
         Bad input; the message names the argument, its value and the rule.
     """
-    faults = []
+    faults: list[str] = []
     given: object = p
     if not isinstance(given, Parameters):
         faults.append(f"p={p!r}: must be Parameters")
-    if not TOLERANCES[0] <= tol <= TOLERANCES[1]:
-        faults.append(f"tol={tol!r}: must be within {TOLERANCES[0]:g} and {TOLERANCES[1]:g}")
+    faults += limits_faults("tol", tol, CYCLE_TOLERANCES)
     if releases < 1 or (near is None and releases != 1):
         faults.append(f"releases={releases!r}: must be >= 1, and 1 without a state to look near")
     if faults:

@@ -10,7 +10,8 @@ from typing import Any, TypeVar
 import yaml
 from pydantic import BaseModel, ValidationError
 
-from disc_model.errors import DiscModelError
+from disc_model.errors import DiscModelError, Fault
+from disc_model.schema import faults_of, shown
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -36,8 +37,7 @@ class Faults(list[str]):
     """Faults in the order found; what several cases inherit is listed once."""
 
     def add(self, path: tuple[str, ...], value: Any, rule: str) -> None:
-        shown = "" if value == "" else f" = {value!r}"
-        self.add_text(f"{dotted(path)}{shown}: {rule}")
+        self.add_text(f"{dotted(path)}{'' if value == '' else f' = {shown(value)}'}: {rule}")
 
     def add_text(self, text: str) -> None:
         if text not in self:
@@ -70,42 +70,20 @@ def validated(model: type[M], raw: Any, path: tuple[str, ...], faults: Faults, p
     try:
         return model.model_validate(raw)
     except ValidationError as error:
-        _add_pydantic(error, path, faults, place)
+        for fault in faults_of(error, raw, model.model_fields):
+            where = place.of(fault.path) if place and fault.path else (*path, *fault.path)
+            faults.add_text(_said(where, fault))
         return None
-
-
-def _add_pydantic(error: ValidationError, path: tuple[str, ...], faults: Faults, place: Origin | None = None) -> None:
-    for item in error.errors(include_url=False):
-        loc = tuple(str(step) for step in item["loc"] if step not in ("bool", "Span", "[key]"))
-        where = place.of(loc) if place and loc else (*path, *loc)
-        kind = item["type"]
-        if kind == "missing":
-            faults.add(where, "", "is required")
-        elif kind == "extra_forbidden":
-            faults.add(where, item["input"], "unknown key")
-        else:
-            value = item["input"] if not isinstance(item["input"], Mapping) else ""
-            faults.add(where, value, _rule(item["msg"]))
 
 
 def add_parameter_faults(found: Iterable[str], place: Callable[[str], tuple[str, ...]], faults: Faults) -> None:
     """Take over the faults of a `ParameterError`; `place` tells where the file gives a parameter."""
     for fault in found:
-        name = fault.partition("=")[0].partition(":")[0]
-        rest = fault.removeprefix(name)
-        if rest.startswith("="):
-            rest = f" = {rest[1:]}"
-        faults.add_text(f"{dotted(place(name))}{rest}")
+        faults.add_text(_said(place(fault.path[0]), fault) if isinstance(fault, Fault) and fault.path else fault)
 
 
-def _rule(message: str) -> str:
-    for old, new in (
-        ("Value error, ", ""),
-        ("Input should be", "must be"),
-        ("greater than or equal to", ">="),
-    ):
-        message = message.replace(old, new)
-    return message.replace("less than or equal to", "<=").replace("greater than", ">").replace("less than", "<")
+def _said(where: tuple[str, ...], fault: Fault) -> str:
+    return f"{dotted(where)}{f' = {fault.value}' if fault.value else ''}: {fault.rule}"
 
 
 def dotted(path: tuple[str, ...]) -> str:

@@ -18,7 +18,7 @@ from disc_model.data.variables import SCALARS
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.figures.paper.catalogue import CATALOGUE, faults_of
 from disc_model.parameters import Parameters
-from disc_model.schema import Real, Strict
+from disc_model.schema import Real, Strict, Tolerance
 from disc_model.simulation.record import Poincare, Window
 from disc_model.studies.cases.spec import CaseSpec
 from disc_model.studies.faults import (
@@ -97,7 +97,7 @@ class Case(Strict):
     reference: str = ""
     parameters: dict[str, Any] = Field({})
     t_end: Annotated[Real, Field(gt=0, allow_inf_nan=False)]
-    tol: Annotated[Real, Field(ge=1e-15, le=1e-2)] = 1e-10
+    tol: Tolerance = 1e-10
     stop_at: Literal["first_separation"] | None = None
     record: RecordSpec = RecordSpec()
 

@@ -11,14 +11,12 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import AfterValidator, Field, create_model, field_validator, model_validator
 
+from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
-from disc_model.schema import Count, Real, Strict
+from disc_model.schema import Count, CycleTolerance, Real, Strict, Tolerance
 from disc_model.studies.grids.axes import MOST, Finite, Range
 
 Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False)]
-Tolerance = Annotated[Real, Field(ge=1e-15, le=1e-2)]
-CycleTolerance = Annotated[Real, Field(ge=1e-14, le=1e-6)]
-"""Relative, of the series and of the return map's residual."""
 Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
 
 # ----------------------------------------------------------------------------------------------------
@@ -59,7 +57,7 @@ class Preparation(Strict):
     def _checked(cls, given: dict[str, Any]) -> dict[str, Any]:
         """As `Parameters` understands them: floats, whole numbers, words."""
         if given.get("n_diameters") == "auto":
-            raise ValueError("n_diameters='auto': must be a whole number, that of the points")
+            raise ParameterError(Fault(("n_diameters",), "'auto'", "must be a whole number, that of the points"))
         checked = _Some(**given)
         return {name: getattr(checked, name) for name in given}
 
