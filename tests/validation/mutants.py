@@ -1,686 +1,191 @@
-"""Wrong signs and factors in the equations of motion, one at a time: what the tests must not let pass.
+"""Wrong signs, factors and comparisons in the functions that hold the equations, one at a time.
 
-Each row is (equation, original text, mutated text), listed under the function that holds the text.  Equations are named
-by their left side, as in the model's text (docs/method.md):
+What is changed is read from the syntax tree, so that no formatting and no new term needs attention here:
 
-    a' b' alpha' beta' psi' f'    the equations of motion of modes and slider
-    F                             the spring and damper in the plane
-    u u' u'' A B S2               the disc's point under the slider, its acceleration's parts, its slope
-    P slip, P stick               the contact force
-    start                         the static equilibrium
-    E, dE/dt, impact E            the energies, their balances, what an impact changes
-    separation, impact, release   what holds without contact, at its return, and at the end of stick
-    w                             the disc at a fixed angle
-    linear                        derivatives of any of these
-    modes                         the edge conditions of the disc, its modes with the slider at rest
+    a + b, a - b, a += b, a -= b    the other sign; of a vector operation, the sign of its last argument
+    -a                              a
+    a**b                            a
+    2.0 (any float)                 twice that, and 1.0 for 0.0
+    a < b, a == b, ...              the opposite
+
+Index arithmetic and messages of errors are left alone.  `FUNCTIONS` says which functions; `EQUIVALENT` lists, each
+with its reason, the changes that make no difference.
 """
 
 from __future__ import annotations
 
-MUTANTS: dict[str, tuple[tuple[str, str, str], ...]] = {
-    # ------------------------------------------------------------------------------------ constants and start
-    "engine/layout.py:build_model": (
-        ("a' b'", "diameters[pairs], -diameters[pairs]", "diameters[pairs], diameters[pairs]"),
-        ("a' b'", "diameters[pairs], -diameters[pairs]", "-diameters[pairs], diameters[pairs]"),
-        ("alpha' beta'", "= omega[pairs] ** 2", "= -(omega[pairs] ** 2)"),
-        ("alpha' beta'", "= damping[pairs]", "= -damping[pairs]"),
-        ("alpha'", "= psi[pairs]", "= -psi[pairs]"),
-        ("B", "= diameters[pairs] * psi[pairs]", "= -diameters[pairs] * psi[pairs]"),
-        ("A", "-(diameters[pairs] ** 2)", "+(diameters[pairs] ** 2)"),
-        ("A", '-row["force"] * row["damping"]', 'row["force"] * row["damping"]'),
-        ("A", '-row["force"] * row["stiffness"]', 'row["force"] * row["stiffness"]'),
-        ("alpha'", "=omega[single] ** 2", "=-(omega[single] ** 2)"),
-        ("alpha'", "=damping[single]", "=-damping[single]"),
-        ("alpha'", "=psi[single]", "=-psi[single]"),
-        ("start", "u_0=-N", "u_0=N"),
-        ("start", "psi**2 / omega**2", "psi**2 / omega"),
-        ("S2", " compliance=float", " compliance=-float"),
-        ("u''", "damped_compliance=float", "damped_compliance=-float"),
-    ),
-    "engine/layout.py:build_state": (
-        ("start", "-model.N * model.force,", "model.N * model.force,"),
-        ("start", "-model.N * model.force0", "model.N * model.force0"),
-    ),
-    "simulate.py:build_model": (
-        ("alpha' beta'", "p.D_star / p.D *", "-p.D_star / p.D *"),
-        ("alpha' beta'", "modes.omega**2", "modes.omega"),
-    ),
-    "states.py:read_state": (
-        ("u", "model.force @ state.z +", "model.force @ state.z -"),
-        ("u'", "+ x[layout.SPEED] *", "- x[layout.SPEED] *"),
-        ("u'", "model.force @ state.e +", "model.force @ state.e -"),
-    ),
-    # ------------------------------------------------------------------------------------ plain series
-    "engine/plain.py:_disc_rates": (
-        ("a' b'", "+ turned", "- turned"),
-        ("alpha' beta'", "rate = model.shift[j]", "rate = -model.shift[j]"),
-        ("alpha' beta'", "rate -= model.damping[j]", "rate = rate + model.damping[j]"),
-        ("alpha' beta'", "+ model.stiffness[j]", "- model.stiffness[j]"),
-        ("A", "+= model.force[j] * rate", "+= -model.force[j] * rate"),
-        ("A", "+ s.down[k] * model.slope[j]", "- s.down[k] * model.slope[j]"),
-        ("a'", "= s.g[i] * s.up[k]", "= -s.g[i] * s.up[k]"),
-        ("A", "-= model.force0[j]", "+= model.force0[j]"),
-        ("A", "+ model.stiffness0[j]", "- model.stiffness0[j]"),
-    ),
-    "engine/plain.py:_apply_force": (
-        ("alpha'", "- model.force[j] * P", "+ model.force[j] * P"),
-        ("alpha'", "rate = -model.damping0[j]", "rate = model.damping0[j]"),
-        ("alpha'", "- model.stiffness0[j]", "+ model.stiffness0[j]"),
-        ("alpha'", "- model.force0[j] * P", "+ model.force0[j] * P"),
-    ),
-    "engine/plain.py:_disc_point": (
-        ("u", "u += model.force[j]", "u -= model.force[j]"),
-        ("u'", "v += model.force[j]", "v -= model.force[j]"),
-        ("B", "slope += model.slope[j]", "slope -= model.slope[j]"),
-        ("u", "u += model.force0[j]", "u -= model.force0[j]"),
-        ("u'", "v += model.force0[j]", "v -= model.force0[j]"),
-        ("u'", "+ s.f[0] * slope", "- s.f[0] * slope"),
-    ),
-    "engine/plain.py:slip_series": (
-        ("P slip", "friction = direction", "friction = -direction"),
-        ("P slip", "1.0 + model.m", "1.0 - model.m"),
-        ("P slip", "+ friction * slope", "- friction * slope"),
-        ("F", "F = model.k_p", "F = -model.k_p"),
-        ("F", "- model.c_p * s.f[k]", "+ model.c_p * s.f[k]"),
-        ("P slip", "vertical = model.k * s.u[k]", "vertical = -model.k * s.u[k]"),
-        ("P slip", "+ model.c * s.v[k]", "- model.c * s.v[k]"),
-        ("F", "F += model.c_p", "F -= model.c_p"),
-        ("P slip", "vertical += model.N", "vertical -= model.N"),
-        ("P slip", "- model.k * model.u_0", "+ model.k * model.u_0"),
-        ("P slip", "+ model.m * acceleration", "- model.m * acceleration"),
-        ("P slip", "+ slope * F", "- slope * F"),
-        ("f'", "F - friction * P", "F + friction * P"),
-        ("psi'", "drive - s.f[k]", "drive + s.f[k]"),
-        ("psi'", "drive = model.Omega", "drive = -model.Omega"),
-        ("u''", "+ rate * slope", "- rate * slope"),
-        ("u''", "- model.compliance * P", "+ model.compliance * P"),
-    ),
-    "engine/plain.py:stick_series": (
-        ("P stick", "1.0 + model.m", "1.0 - model.m"),
-        ("psi'", "= model.Omega * model.unit", "= -model.Omega * model.unit"),
-        ("P stick", "vertical = model.k * s.u[k]", "vertical = -model.k * s.u[k]"),
-        ("P stick", "+ model.c * s.v[k]", "- model.c * s.v[k]"),
-        ("P stick", "vertical += model.N", "vertical -= model.N"),
-        ("P stick", "- model.k * model.u_0", "+ model.k * model.u_0"),
-        ("F", "F += model.c_p", "F -= model.c_p"),
-        ("P stick", "+ model.m * acceleration", "- model.m * acceleration"),
-        ("u''", "- model.compliance * P", "+ model.compliance * P"),
-        ("release", "model.mu_s * P - model.r_0", "model.mu_s * P + model.r_0"),
-        ("release", "model.mu_s * P + model.r_0", "model.mu_s * P - model.r_0"),
-    ),
-    "engine/plain.py:separation_series": (
-        ("F", "F = model.k_p", "F = -model.k_p"),
-        ("F", "- model.c_p * s.f[k]", "+ model.c_p * s.f[k]"),
-        ("F", "F += model.c_p", "F -= model.c_p"),
-        ("separation", "vertical = model.k * s.u[k]", "vertical = -model.k * s.u[k]"),
-        ("separation", "+ model.c * s.v[k]", "- model.c * s.v[k]"),
-        ("separation", "vertical += model.N", "vertical -= model.N"),
-        ("separation", "- model.k * model.u_0", "+ model.k * model.u_0"),
-        ("f'", "= F / model.m", "= -F / model.m"),
-        ("psi'", "drive - s.f[k]", "drive + s.f[k]"),
-        ("separation", "= -vertical", "= vertical"),
-        ("separation", "s.u[k] - w", "s.u[k] + w"),
-        ("u", "w += model.force[j]", "w -= model.force[j]"),
-        ("u", "w += model.force0[j]", "w -= model.force0[j]"),
-    ),
-    # ------------------------------------------------------------------------------------ samples and energies
-    "engine/sampling.py:point_motion": (
-        ("w", "+ state.z[j + HALF] * sine", "- state.z[j + HALF] * sine"),
-        ("w", "+ state.e[j + HALF] * sine", "- state.e[j + HALF] * sine"),
-        ("w", "w += model.force0[j]", "w -= model.force0[j]"),
-        ("w", "velocity += model.force0[j]", "velocity -= model.force0[j]"),
-    ),
-    "engine/sampling.py:_write_row": (
-        ("w", "theta - (model", "theta + (model"),
-        ("w", "time - probe", "time + probe"),
-        ("psi'", "model.Omega - probe", "model.Omega + probe"),
-    ),
-    "engine/audit.py:transverse_energy": (
-        ("E", "+ model.stiffness[j]", "- model.stiffness[j]"),
-        ("E", "+ model.stiffness0[j]", "- model.stiffness0[j]"),
-        ("E", "+ 0.5 * model.m", "- 0.5 * model.m"),
-        ("E", "+ 0.5 * model.k", "- 0.5 * model.k"),
-        ("E", "+ model.N", "- model.N"),
-        ("E", "model.k * (u - model.u_0)", "model.k * (u + model.u_0)"),
-    ),
-    "engine/audit.py:inplane_energy": (
-        ("E", "+ model.k_p", "- model.k_p"),
-        ("E", "0.5 * model.r_0**2", "0.5 * model.r_0"),
-    ),
-    "engine/audit.py:_powers_in": (
-        ("dE/dt", "P * f * slope", "-P * f * slope"),
-        ("dE/dt", "lost = model.c", "lost = -model.c"),
-        ("dE/dt", "lost += model.damping[j]", "lost -= model.damping[j]"),
-        ("dE/dt", "lost += model.damping0[j]", "lost -= model.damping0[j]"),
-        ("dE/dt", "supplied = model.Omega", "supplied = -model.Omega"),
-        ("dE/dt", "rubbed = model.mu_k", "rubbed = -model.mu_k"),
-        ("dE/dt", "damped = model.c_p", "damped = -model.c_p"),
-        ("dE/dt", "model.Omega - f", "model.Omega + f"),
-    ),
-    "engine/audit.py:audit_impact": (
-        ("impact E", "-0.5 * impulse**2", "0.5 * impulse**2"),
-        ("impact E", "+ 1.0 / model.m", "- 1.0 / model.m"),
-        ("impact E", "+ impulse * state", "- impulse * state"),
-    ),
-    # ------------------------------------------------------------------------------------ the engine's series
-    "engine/series.py:_disc_point": (
-        ("u", "u = fma(force, z, u)", "u = sub(u, mul(force, z))"),
-        ("u'", "v = fma(force, _e(s, width, b), v)", "v = sub(v, mul(force, _e(s, width, b)))"),
-        ("B", "fma(_row(model, SLOPE, b), z, slope)", "sub(slope, mul(_row(model, SLOPE, b), z))"),
-        ("u'", "+ s.slider[F] * B", "- s.slider[F] * B"),
-        ("u", "u0 += model.force0[j]", "u0 -= model.force0[j]"),
-        ("u'", "v0 += model.force0[j]", "v0 -= model.force0[j]"),
-    ),
-    "engine/series.py:_inner_terms": (
-        ("alpha' beta'", "fma(f_low, e, e_low)", "sub(e_low, mul(f_low, e))"),
-        ("a' b'", "fma(f_low, z, z_low)", "sub(z_low, mul(f_low, z))"),
-        ("alpha' beta'", "fma(f_high, e, e_high)", "sub(e_high, mul(f_high, e))"),
-        ("a' b'", "fma(f_high, z, z_high)", "sub(z_high, mul(f_high, z))"),
-        ("alpha' beta'", "fma(f_low, e_last, e_low)", "fma(f_high, e_last, e_low)"),
-        ("a' b'", "fma(f_high, z_last, z_high)", "fma(f_low, z_last, z_high)"),
-    ),
-    "engine/series.py:_pending": (
-        ("A", "_BENT, width, b), carried", "_BENT, width, b), sub(splat(0.0), carried)"),
-        ("A", "_CORIOLIS, width, b), e", "_CORIOLIS, width, b), sub(splat(0.0), e)"),
-        ("A", "MINUS_FORCE_STIFFNESS, b), z", "MINUS_FORCE_STIFFNESS, b), sub(splat(0.0), z)"),
-    ),
-    "engine/series.py:_order": (
-        ("alpha'", "splat(-impulse)", "splat(impulse)"),
-        ("A", "_row(model, SLOPE, b), fma(", "sub(splat(0.0), _row(model, SLOPE, b)), fma("),
-        ("A", "z_inner, e_inner)", "z_inner, sub(splat(0.0), e_inner))"),
-        ("a' b'", "z_next = mul(fma(shift, turned, e), up)", "z_next = mul(sub(e, mul(shift, turned)), up)"),
-        ("a' b'", "swap_halves(fma(f, _z(s, b)", "swap_halves(fma(sub(splat(0.0), f), _z(s, b)"),
-        ("a' b'", "carried = fma(first, z_next", "carried = fma(sub(splat(0.0), first), z_next"),
-        ("alpha' beta'", "sub(splat(0.0), free)", "free"),
-        ("alpha' beta'", "z_last, mul(damping, e)", "z_last, mul(damping, sub(splat(0.0), e))"),
-        ("alpha' beta'", "swap_halves(fma(first, e", "swap_halves(fma(sub(splat(0.0), first), e"),
-        ("alpha' beta'", "e_next = mul(fma(shift, turned", "e_next = mul(fma(sub(splat(0.0), shift), turned"),
-        ("alpha' beta'", "fma(f, _e(s, width, b)", "fma(sub(splat(0.0), f), _e(s, width, b)"),
-    ),
-    "engine/series.py:_order_zero": (
-        ("a' b'", "z_next = mul(fma(first", "z_next = mul(fma(sub(splat(0.0), first)"),
-        ("alpha' beta'", "_row(model, DAMPING, b), e", "_row(model, DAMPING, b), sub(splat(0.0), e)"),
-        ("alpha' beta'", "e_next = mul(sub(", "e_next = mul(add("),
-        ("alpha' beta'", "mul(first, mul(shift, swap_halves(e)))", "mul(splat(-f0), mul(shift, swap_halves(e)))"),
-        ("A", "splat(2.0 * f0)", "splat(-2.0 * f0)"),
-        ("A", "mul(first, _row(model, BEND, b))", "mul(splat(-f0), _row(model, BEND, b))"),
-    ),
-    "engine/series.py:_axisymmetric": (
-        ("alpha'", "s.g[at], model.stiffness0[j]", "s.g[at], -model.stiffness0[j]"),
-        ("A", "part -= force", "part += force"),
-        ("alpha'", "g -= force * impulse", "g += force * impulse"),
-        ("a'", "= g * up", "= -g * up"),
-        ("alpha'", "-(damping * g + pull) * up", "(damping * g + pull) * up"),
-        ("A", "(damping * g + pull)\n        g", "(damping * g - pull)\n        g"),
-    ),
-    "engine/series.py:_last_force": (
-        ("alpha'", "sub(_e(s, width, at), mul(q", "add(_e(s, width, at), mul(q"),
-        ("alpha'", "-= model.force0[j] * impulse", "+= model.force0[j] * impulse"),
-    ),
-    "engine/series.py:slip_series": (
-        ("P slip", "friction = direction", "friction = -direction"),
-        ("P slip", "1.0 + model.m *", "1.0 - model.m *"),
-        ("P slip", "+ friction * slope", "- friction * slope"),
-        ("A", "coriolis + f0 * total(by_z)", "coriolis - f0 * total(by_z)"),
-        ("A", "+ f0 * (s.slider[DOWN]", "- f0 * (s.slider[DOWN]"),
-        ("A", "by_f_rate - coriolis", "by_f_rate + coriolis"),
-        ("F", "pull = model.k_p * psi + model.c_p", "pull = -model.k_p * psi + model.c_p"),
-        ("F", "+ model.c_p * (model.Omega", "- model.c_p * (model.Omega"),
-        ("P slip", "(model.N + model.k", "(-model.N + model.k"),
-        ("P slip", "+ model.k * (u - model.u_0)", "- model.k * (u - model.u_0)"),
-        ("P slip", "u - model.u_0", "u + model.u_0"),
-        ("P slip", "+ model.c * v", "- model.c * v"),
-        ("P slip", "+ model.m * acceleration", "- model.m * acceleration"),
-        ("P slip", "+ slope * pull", "- slope * pull"),
-        ("psi'", "psi = (model.Omega - f0)", "psi = (model.Omega + f0)"),
-        ("P slip", "damped_compliance - braking", "damped_compliance + braking"),
-        ("P slip", "- (model.c - model.c_p)", "+ (model.c - model.c_p)"),
-        ("P slip", "(model.c - model.c_p)", "(model.c + model.c_p)"),
-        ("P slip", "- model.c * model.compliance", "+ model.c * model.compliance"),
-        ("P slip", "by_force_rate = -inverse", "by_force_rate = inverse"),
-        ("u''", "+ f_hat * slope", "- f_hat * slope"),
-        ("f'", "f_hat - braking * impulse", "f_hat + braking * impulse"),
-        ("u''", "v_hat - (model.compliance", "v_hat + (model.compliance"),
-        ("u''", "model.compliance + braking", "model.compliance - braking"),
-        ("A", "by_f + by_f_rate * down", "by_f - by_f_rate * down"),
-        ("P slip", "known = by_u * u", "known = -by_u * u"),
-        ("P slip", "+ by_v * v_hat", "- by_v * v_hat"),
-        ("P slip", "+ by_psi * psi", "- by_psi * psi"),
-        ("P slip", "weight * by_speed - by_f_hat", "weight * by_speed + by_f_hat"),
-        ("P slip", "+ weight * single", "- weight * single"),
-        ("A", "single + f * by_speed", "single - f * by_speed"),
-        ("u''", "+ impulse * model.damped_compliance", "- impulse * model.damped_compliance"),
-        ("F", "pull = model.k_p * psi - model.c_p", "pull = model.k_p * psi + model.c_p"),
-        ("psi'", "psi = -f *", "psi = f *"),
-    ),
-    "engine/series.py:_stick_order": (
-        ("alpha'", "splat(-impulse)", "splat(impulse)"),
-        ("a'", "z_next = mul(e, up)", "z_next = mul(sub(splat(0.0), e), up)"),
-        ("alpha'", "sub(splat(0.0), mul(fma(damping", "add(splat(0.0), mul(fma(damping"),
-        ("alpha'", "fma(damping, e,", "fma(damping, sub(splat(0.0), e),"),
-    ),
-    "engine/series.py:stick_series": (
-        ("P stick", "1.0 + model.m *", "1.0 - model.m *"),
-        ("P stick", "- model.c * model.compliance", "+ model.c * model.compliance"),
-        ("P stick", "model.N + model.k * (u", "model.N - model.k * (u"),
-        ("P stick", "u - model.u_0", "u + model.u_0"),
-        ("P stick", "+ model.c * v\n", "- model.c * v\n"),
-        ("u''", "single + impulse", "single - impulse"),
-        ("P stick", "P = impulse * by_force", "P = -impulse * by_force"),
-        ("P stick", "vertical + model.m * single", "vertical - model.m * single"),
-        ("u''", "v_hat - model.compliance", "v_hat + model.compliance"),
-        ("P stick", "vertical = model.k * u +", "vertical = -model.k * u +"),
-        ("P stick", "+ model.c * v_hat", "- model.c * v_hat"),
-        ("psi'", "= model.Omega * model.unit", "= -model.Omega * model.unit"),
-        ("F", "+ model.c_p * model.Omega", "- model.c_p * model.Omega"),
-        ("release", "s.slider[SWITCH] -= start", "s.slider[SWITCH] += start"),
-        ("release", "s.slider[SWITCH2] += start", "s.slider[SWITCH2] -= start"),
-        ("release", "s.slider[SWITCH + 1] -= growth", "s.slider[SWITCH + 1] += growth"),
-        ("release", "s.slider[SWITCH2 + 1] += growth", "s.slider[SWITCH2 + 1] -= growth"),
-    ),
-    "engine/series.py:separation_series": (
-        ("separation", "model.N - model.k * model.u_0", "model.N + model.k * model.u_0"),
-        ("F", "pull = model.k_p * s.slider[PSI_SERIES] +", "pull = -model.k_p * s.slider[PSI_SERIES] +"),
-        ("F", "+ model.c_p * (model.Omega - f0)", "- model.c_p * (model.Omega - f0)"),
-        ("F", "- model.c_p * s.slider[F + k]", "+ model.c_p * s.slider[F + k]"),
-        ("u", "- total(w)", "+ total(w)"),
-        ("u", "gap -= model.force0[j]", "gap += model.force0[j]"),
-        ("psi'", "drive - s.slider[F + k]", "drive + s.slider[F + k]"),
-        ("f'", "= pull / model.m", "= -pull / model.m"),
-        ("separation", "-(weight + model.k", "(weight + model.k"),
-        ("separation", "weight + model.k", "weight - model.k"),
-        ("separation", "+ model.c * s.slider", "- model.c * s.slider"),
-    ),
-    # ------------------------------------------------------------------------------------ stick in closed form
-    "engine/coasting.py:coast_length": (
-        ("release", "model.N - swing", "model.N + swing"),
-        ("F", "+ model.c_p * model.Omega", "- model.c_p * model.Omega"),
-    ),
-    "engine/coasting.py:coast_to": (("psi'", "+ model.Omega", "- model.Omega"),),
-    "engine/coasting.py:_times": (
-        ("alpha' beta'", "sub(mul(ar, br), mul(ai, bi))", "add(mul(ar, br), mul(ai, bi))"),
-        ("alpha' beta'", "fma(ar, bi, mul(ai, br))", "sub(mul(ar, bi), mul(ai, br))"),
-    ),
-    "engine/stick_modes.py:_eigenmodes": (
-        ("P stick", "np.eye(n) - rank_one", "np.eye(n) + rank_one"),
-        ("P stick", "m / (1.0 + m", "m / (1.0 - m"),
-        ("P stick", "np.diag(omega**2) + k", "np.diag(omega**2) - k"),
-        ("alpha' beta'", "-inverse @ (np.diag(omega**2)", "inverse @ (np.diag(omega**2)"),
-        ("P stick", "np.diag(damping) + c", "np.diag(damping) - c"),
-        ("alpha' beta'", "-inverse @ (np.diag(damping)", "inverse @ (np.diag(damping)"),
-    ),
-    "engine/stick_modes.py:_under_unit_load": (
-        ("start", "-shape / omega**2", "shape / omega**2"),
-        ("P stick", "k - m * omega**2", "k + m * omega**2"),
-        ("P stick", "1.0 + m * shape", "1.0 - m * shape"),
-    ),
-    "engine/stick_modes.py:_packed": (
-        ("alpha' beta'", "-2.0 * vectors.imag", "2.0 * vectors.imag"),
-        ("start", "-np.tensordot(rest", "np.tensordot(rest"),
-    ),
-    # ------------------------------------------------------------------------------------ switches
-    "engine/switches.py:disc_point": (
-        ("u", "u += model.force[j]", "u -= model.force[j]"),
-        ("u'", "v += model.force[j]", "v -= model.force[j]"),
-        ("B", "slope += model.slope[j]", "slope -= model.slope[j]"),
-        ("u", "u += model.force0[j]", "u -= model.force0[j]"),
-        ("u'", "v += model.force0[j]", "v -= model.force0[j]"),
-        ("u'", "v + f * slope", "v - f * slope"),
-    ),
-    "engine/switches.py:spring_force": (
-        ("F", "return model.k_p", "return -model.k_p"),
-        ("F", "+ model.c_p", "- model.c_p"),
-        ("F", "model.Omega - state", "model.Omega + state"),
-    ),
-    "engine/switches.py:_free_force": (
-        ("A", "a = -model.damping[j]", "a = model.damping[j]"),
-        ("A", "- (model.stiffness[j]", "+ (model.stiffness[j]"),
-        ("A", "model.stiffness[j] +", "model.stiffness[j] -"),
-        ("A", "part = model.force[j] * a", "part = -model.force[j] * a"),
-        ("A", "+ 2.0 * f", "- 2.0 * f"),
-        ("A", "2.0 * f", "f"),
-        ("A", "part = -model.force0[j]", "part = model.force0[j]"),
-        ("A", "+ model.stiffness0[j]", "- model.stiffness0[j]"),
-        ("P stick", "value = model.N", "value = -model.N"),
-        ("P stick", "+ spring + damper", "- spring + damper"),
-        ("P stick", "u - model.u_0", "u + model.u_0"),
-        ("P stick", "+ damper + model.m", "- damper + model.m"),
-        ("P stick", "+ model.m * acceleration", "- model.m * acceleration"),
-    ),
-    "engine/switches.py:stick_force": (("P stick", "1.0 + model.m", "1.0 - model.m"),),
-    "engine/switches.py:slip_force": (
-        ("P slip", "1.0 + model.m", "1.0 - model.m"),
-        ("P slip", "+ direction * model.mu_k", "- direction * model.mu_k"),
-        ("P slip", "(force + pull)", "(force - pull)"),
-        ("P slip", "* slope / model.r_0", "* slope * model.r_0"),
-    ),
-    "engine/switches.py:impact": (
-        ("impact", "v - state", "v + state"),
-        ("impact", "+ 1.0 / model.m", "- 1.0 / model.m"),
-        ("impact", "-= model.force[j] * p", "+= model.force[j] * p"),
-        ("impact", "-= model.force0[j] * p", "+= model.force0[j] * p"),
-    ),
-    # ------------------------------------------------------------------------------------ derivatives
-    "engine/saltation.py:rates": (
-        ("f'", "F - x[DIRECTION]", "F + x[DIRECTION]"),
-        ("f'", "rate_f = F / model.m", "rate_f = -F / model.m"),
-        ("a' b'", "state.e[j] + model.shift[j]", "state.e[j] - model.shift[j]"),
-        ("alpha' beta'", "rate = model.shift[j]", "rate = -model.shift[j]"),
-        ("alpha' beta'", "- model.damping[j]", "+ model.damping[j]"),
-        ("alpha' beta'", "- model.stiffness[j]", "+ model.stiffness[j]"),
-        ("alpha'", "rate - model.force[j]", "rate + model.force[j]"),
-        ("alpha'", "rate = -model.damping0[j]", "rate = model.damping0[j]"),
-        ("alpha'", "- model.stiffness0[j]", "+ model.stiffness0[j]"),
-        ("alpha'", "rate - model.force0[j]", "rate + model.force0[j]"),
-        ("psi'", "model.Omega - f", "model.Omega + f"),
-        ("separation", "P - model.N", "P + model.N"),
-        ("separation", "- model.k * (u", "+ model.k * (u"),
-        ("separation", "- model.c * v", "+ model.c * v"),
-    ),
-    "engine/saltation.py:_force_change": (
-        ("linear A", "-(model.stiffness[j]", "(model.stiffness[j]"),
-        ("linear A", "model.stiffness[j] + (l", "model.stiffness[j] - (l"),
-        ("linear A", "splat(-model.damping[j])", "splat(model.damping[j])"),
-        ("linear A", "splat(2.0 * l * f)", "splat(-2.0 * l * f)"),
-        ("linear A", "splat(2.0 * l * state.e[i]", "splat(-2.0 * l * state.e[i]"),
-        ("linear A", "- 2.0 * l * l * f", "+ 2.0 * l * l * f"),
-        ("linear A", "splat(-model.stiffness0[j])", "splat(model.stiffness0[j])"),
-        ("linear A", "splat(-model.damping0[j])", "splat(model.damping0[j])"),
-        ("linear P", "fma(splat(model.m), acceleration", "fma(splat(-model.m), acceleration"),
-        ("linear P", "fma(splat(model.k), du", "fma(splat(-model.k), du"),
-        ("linear P", "mul(splat(model.c), dv)", "mul(splat(-model.c), dv)"),
-        ("linear P", "splat(spring_force(model, state)), dB", "splat(-spring_force(model, state)), dB"),
-        ("linear P", "fma(splat(B), _pull", "fma(splat(-B), _pull"),
-    ),
-    "engine/saltation.py:_pull_change": (
-        ("linear F", "fma(splat(model.k_p), load", "fma(splat(-model.k_p), load"),
-        ("linear F", "splat(-model.c_p)", "splat(model.c_p)"),
-        ("linear F", "model.Omega - state", "model.Omega + state"),
-        ("linear F", "fma(splat(model.c_p), load", "fma(splat(-model.c_p), load"),
-    ),
-    "engine/saltation.py:_inertia": (
-        ("A", "part = -model.damping[j]", "part = model.damping[j]"),
-        ("A", "- (model.stiffness[j]", "+ (model.stiffness[j]"),
-        ("A", "acceleration -= model.force0[j]", "acceleration += model.force0[j]"),
-    ),
-    "engine/saltation.py:switch_change": (
-        ("linear release", "- P * model.compliance", "+ P * model.compliance"),
-        ("linear release", "1.0 + model.m", "1.0 - model.m"),
-        ("linear release", "splat(-side * model.r_0)", "splat(side * model.r_0)"),
-        ("linear u", "sub(load(x, at + (row + 2) * WIDTH), du)", "add(load(x, at + (row + 2) * WIDTH), du)"),
-    ),
-    "engine/saltation.py:impact_change": (
-        ("linear impact", "+ 1.0 / model.m", "- 1.0 / model.m"),
-        ("linear impact", "v - state", "v + state"),
-        ("linear impact", "sub(dv, load", "add(dv, load"),
-        ("linear impact", "mul(splat(model.force[j]), dp)", "mul(splat(-model.force[j]), dp)"),
-        ("linear impact", "mul(splat(model.force0[j]), dp)", "mul(splat(-model.force0[j]), dp)"),
-    ),
-    "engine/tangent.py:_convolve": (
-        ("linear a' b'", "fma(df, spread(s.z, low), a1)", "sub(a1, mul(df, spread(s.z, low)))"),
-        ("linear alpha' beta'", "fma(df, spread(s.e, low), p1)", "sub(p1, mul(df, spread(s.e, low)))"),
-        ("linear alpha' beta'", "return add(a0, a1)", "return sub(a0, a1)"),
-    ),
-    "engine/tangent.py:_motion_slope": (("B", "slope += model", "slope -= model"),),
-    "engine/tangent.py:point_change": (
-        ("linear u'", "fma(splat(f), dB", "fma(splat(-f), dB"),
-        ("linear u'", "fma(splat(B), df", "fma(splat(-B), df"),
-    ),
-    "engine/tangent.py:_diametral_rates": (
-        ("linear alpha' beta'", "splat(-model.stiffness[j])", "splat(model.stiffness[j])"),
-        ("linear alpha' beta'", "splat(-model.damping[j])", "splat(model.damping[j])"),
-        ("linear a'", "fma(l, fb, dp)", "sub(dp, mul(l, fb))"),
-        ("linear b'", "sub(dq, mul(l, fa))", "add(dq, mul(l, fa))"),
-        ("linear alpha'", "fma(l, fq, rate_p)", "sub(rate_p, mul(l, fq))"),
-        ("linear beta'", "sub(rate_q, mul(l, fp))", "add(rate_q, mul(l, fp))"),
-    ),
-    "engine/tangent.py:_axisymmetric_rates": (
-        ("linear alpha'", "splat(-model.stiffness0[j])", "splat(model.stiffness0[j])"),
-        ("linear alpha'", "splat(-model.damping0[j])", "splat(model.damping0[j])"),
-    ),
-    "engine/tangent.py:_slider_forces": (
-        ("linear F", "mul(splat(model.k_p), dpsi)", "mul(splat(-model.k_p), dpsi)"),
-        ("linear F", "mul(splat(model.c_p), df)", "mul(splat(-model.c_p), df)"),
-        ("linear P", "fma(splat(model.k), du", "fma(splat(-model.k), du"),
-        ("linear P", "mul(splat(model.c), dv)", "mul(splat(-model.c), dv)"),
-        ("linear psi'", "turn = sub(splat(0.0), df)", "turn = df"),
-        ("linear f'", "mul(d_m, splat(s.f[k + 1]", "mul(d_m, splat(-s.f[k + 1]"),
-    ),
-    "engine/tangent.py:_path_change": (
-        ("linear u''", "mul(splat(s.f[k + 1])", "mul(splat(-s.f[k + 1])"),
-        ("linear u''", "fma(splat(s.f[i])", "fma(splat(-s.f[i])"),
-        ("linear u''", "splat(t.base_slope[k + 1 - i])", "splat(-t.base_slope[k + 1 - i])"),
-    ),
-    "engine/tangent.py:_apply_force": (
-        ("linear alpha'", "splat(model.force[j])", "splat(-model.force[j])"),
-        ("linear alpha'", "splat(model.force0[j])", "splat(-model.force0[j])"),
-    ),
-    "engine/tangent.py:tangent_series": (
-        ("P slip", "friction = direction", "friction = -direction"),
-        ("P slip", "1.0 + model.m", "1.0 - model.m"),
-        ("P slip", "+ friction * B0", "- friction * B0"),
-        ("linear separation", "sub(P, mul(vertical, lightness))", "add(P, mul(vertical, lightness))"),
-        ("linear P", "vertical = fma(splat(B0), pull", "vertical = fma(splat(-B0), pull"),
-        ("linear P", "fma(splat(model.m), free", "fma(splat(-model.m), free"),
-        ("linear u''", "mul(splat(model.compliance), P)", "mul(splat(-model.compliance), P)"),
-        ("linear f'", "mul(splat(friction), P)", "mul(splat(-friction), P)"),
-        ("linear u''", "fma(splat(B0), rate_f", "fma(splat(-B0), rate_f"),
-    ),
-    "engine/variational.py:divergence": (
-        ("linear", "trace -= model.damping[j]", "trace += model.damping[j]"),
-        ("linear", "trace -= model.damping0[j]", "trace += model.damping0[j]"),
-        ("linear", "trace - model.c_p", "trace + model.c_p"),
-        ("P slip", "1.0 + model.m", "1.0 - model.m"),
-        ("P slip", "+ direction * model.mu_k * B", "- direction * model.mu_k * B"),
-        ("linear", "model.c * model.compliance - model.m", "model.c * model.compliance + model.m"),
-        ("linear", "+ 2.0 * f * model.bend[j]", "- 2.0 * f * model.bend[j]"),
-        ("linear", "(model.c - model.c_p) * B", "(model.c + model.c_p) * B"),
-        ("linear", "model.c_p + direction", "model.c_p - direction"),
-    ),
-    "engine/variational.py:section_map": (
-        ("release", "- model.c_p * model.Omega", "+ model.c_p * model.Omega"),
-        ("release", "model.mu_s * P / model.r_0", "model.mu_s * P * model.r_0"),
-    ),
-    "stability/return_map.py:_set_changes": (
-        ("linear start", "1.0 - model.k * model.u_0", "1.0 + model.k * model.u_0"),
-        ("linear start", "1.0, -model.u_0", "1.0, model.u_0"),
-        ("linear alpha'", "= model.stiffness / p.E", "= -model.stiffness / p.E"),
-        ("linear start", "model.k * model.u_0 / p.E", "-model.k * model.u_0 / p.E"),
-        ("linear alpha'", "= model.stiffness / p.D", "= -model.stiffness / p.D"),
-    ),
-    "stability/return_map.py:state": (("release", "- p.c_p * p.Omega", "+ p.c_p * p.Omega"),),
-    "stability/return_map.py:contact_force": (
-        ("u", "model.force @ z +", "model.force @ z -"),
-        ("A", "-model.force @ (", "model.force @ ("),
-        ("A", "free -= model.force0", "free += model.force0"),
-        ("A", "+ model.damping * e", "- model.damping * e"),
-        ("P stick", "+ model.k *", "- model.k *"),
-        ("P stick", "+ model.c * v", "- model.c * v"),
-        ("P stick", "+ model.m * free", "- model.m * free"),
-        ("P stick", "1.0 + model.m", "1.0 - model.m"),
-    ),
-    # ------------------------------------------------------------------------------------ steady sliding
-    "stability/sliding.py:steady_sliding": (
-        ("a'", "-l * p.Omega * b", "l * p.Omega * b"),
-        ("b'", ", l * p.Omega * a", ", -l * p.Omega * a"),
-        ("P slip", "+ p.mu_k * slope", "- p.mu_k * slope"),
-        ("P slip", "1 + p.m", "1 - p.m"),
-        ("f'", "p.mu_k * force / (p.r_0", "-p.mu_k * force / (p.r_0"),
-    ),
-    "stability/sliding.py:_equilibrium": (
-        ("alpha' beta'", "turned**2 - modes.omega**2", "turned**2 + modes.omega**2"),
-        ("alpha' beta'", "modes.psi * gap / (gap**2 +", "modes.psi * gap / (gap**2 -"),
-        ("P slip", "1 + p.k * static", "1 - p.k * static"),
-        ("P slip", "1 - p.k * float", "1 + p.k * float"),
-        ("beta'", "across = modes.psi", "across = -modes.psi"),
-    ),
-    "stability/sliding.py:_jacobian": (
-        ("linear alpha'", "= -w2, -damping\n", "= w2, -damping\n"),
-        ("linear alpha'", "= -w2, -damping\n", "= -w2, damping\n"),
-        ("linear a'", "= turned[pairs], l[pairs] * b[pairs]", "= -turned[pairs], l[pairs] * b[pairs]"),
-        ("linear a'", "= turned[pairs], l[pairs] * b[pairs]", "= turned[pairs], -l[pairs] * b[pairs]"),
-        ("linear alpha'", "= turned[pairs], l[pairs] * beta[pairs]", "= -turned[pairs], l[pairs] * beta[pairs]"),
-        ("linear alpha'", "= turned[pairs], l[pairs] * beta[pairs]", "= turned[pairs], -l[pairs] * beta[pairs]"),
-        ("linear b'", "= 1, -turned[pairs], -l[pairs] * a[pairs]", "= 1, turned[pairs], -l[pairs] * a[pairs]"),
-        ("linear b'", "= 1, -turned[pairs], -l[pairs] * a[pairs]", "= 1, -turned[pairs], l[pairs] * a[pairs]"),
-        ("linear beta'", "= -damping[pairs], -w2[pairs]", "= damping[pairs], -w2[pairs]"),
-        ("linear beta'", "= -damping[pairs], -w2[pairs]", "= -damping[pairs], w2[pairs]"),
-        ("linear beta'", "A[at_beta + j, at_alpha + pairs] = -turned", "A[at_beta + j, at_alpha + pairs] = turned"),
-        ("linear beta'", "= l[pairs] * turned[pairs] * b", "= -l[pairs] * turned[pairs] * b"),
-        ("linear psi'", "A[at_psi, at_f] = -1", "A[at_psi, at_f] = 1"),
-        ("linear F", "= p.k_p, -p.c_p", "= -p.k_p, -p.c_p"),
-        ("linear F", "= p.k_p, -p.c_p", "= p.k_p, p.c_p"),
-        ("linear P", "p.k * weight - p.m", "p.k * weight + p.m"),
-        ("linear P", "w2 + turned**2", "w2 - turned**2"),
-        ("linear P", "p.c - p.m * damping", "p.c + p.m * damping"),
-        ("linear P", "+= p.c * weight[pairs]", "-= p.c * weight[pairs]"),
-        ("linear P", "+= 2 * p.m", "-= 2 * p.m"),
-        ("linear P", "by_f = p.c", "by_f = -p.c"),
-        ("linear P", "2 * l * beta - 2", "2 * l * beta + 2"),
-        ("linear alpha'", "-= weight[:, None] * force", "+= weight[:, None] * force"),
-        ("linear f'", "pull - p.mu_k", "pull + p.mu_k"),
-    ),
-    "stability/moving_load.py:rotating_oscillator_eigenvalues": (("P slip", "1 + p.m", "1 - p.m"),),
-    # ------------------------------------------------------------------------------------ rival methods
-    "benchmarks/methods/physics.py:__init__": (
-        ("start", "-p.N * float", "p.N * float"),
-        ("S2", "self.shape**2))  # S2", "self.shape))  # S2"),
-        ("B", "self.slope = self.l", "self.slope = -self.l"),
-        ("A", "self.bend = self.l", "self.bend = -self.l"),
-    ),
-    "benchmarks/methods/physics.py:disc_point": (("u'", "+ y[self.f] * slope", "- y[self.f] * slope"),),
-    "benchmarks/methods/physics.py:pull": (
-        ("F", "self.p.k_p * y[self.psi] +", "self.p.k_p * y[self.psi] -"),
-        ("F", "self.p.Omega - y", "self.p.Omega + y"),
-    ),
-    "benchmarks/methods/physics.py:gap": (("u", "y[self.u] - self", "y[self.u] + self"),),
-    "benchmarks/methods/physics.py:_contact": (
-        ("u'", "+ f * slope", "- f * slope"),
-        ("A", "A = -self.shape", "A = self.shape"),
-        ("A", "+ self.stiffness * a", "- self.stiffness * a"),
-        ("A", "A += f *", "A -= f *"),
-        ("A", "- f * (self.bend", "+ f * (self.bend"),
-        ("F", "+ p.c_p * (p.Omega - f)", "- p.c_p * (p.Omega - f)"),
-        ("P slip", "p.N + p.k", "p.N - p.k"),
-        ("P slip", "w - self.u_0", "w + self.u_0"),
-        ("P slip", "+ p.c * velocity", "- p.c * velocity"),
-        ("P slip", "+ p.m * A", "- p.m * A"),
-        ("P stick", "1.0 + p.m", "1.0 - p.m"),
-        ("P slip", "top + slope * F", "top - slope * F"),
-        ("P slip", "below + direction", "below - direction"),
-    ),
-    "benchmarks/methods/physics.py:rate": (
-        ("a'", "alpha + turn * b", "alpha - turn * b"),
-        ("b'", "beta - turn * a", "beta + turn * a"),
-        ("alpha'", "-self.damping * alpha", "self.damping * alpha"),
-        ("alpha'", "- self.stiffness * a ", "+ self.stiffness * a "),
-        ("alpha'", "+ turn * beta", "- turn * beta"),
-        ("beta'", "-self.damping * beta", "self.damping * beta"),
-        ("beta'", "- self.stiffness * b ", "+ self.stiffness * b "),
-        ("beta'", "- turn * alpha", "+ turn * alpha"),
-        ("psi'", "p.Omega - f", "p.Omega + f"),
-        ("f'", "= self.pull(y)", "= -self.pull(y)"),
-        ("separation", "-(p.N + p.k", "(p.N + p.k"),
-        ("separation", "y[self.u] - self.u_0", "y[self.u] + self.u_0"),
-        ("separation", "+ p.c * y", "- p.c * y"),
-        ("alpha'", "-= self.shape * P", "+= self.shape * P"),
-        ("f'", "F / p.m - direction", "F / p.m + direction"),
-    ),
-    "benchmarks/methods/physics.py:impact": (
-        ("impact", "velocity - y", "velocity + y"),
-        ("impact", "+ 1.0 / self.p.m", "- 1.0 / self.p.m"),
-        ("impact", "-= self.shape * impulse", "+= self.shape * impulse"),
-    ),
-    "benchmarks/methods/kernels.py:contact": (
-        ("A", "-modes[3, i] * alpha", "modes[3, i] * alpha"),
-        ("A", "- (modes[2, i]", "+ (modes[2, i]"),
-        ("A", "modes[2, i] + (l", "modes[2, i] - (l"),
-        ("A", "+ 2.0 * l", "- 2.0 * l"),
-        ("u'", "velocity += f * slope", "velocity -= f * slope"),
-        ("F", "+ c[_CP]", "- c[_CP]"),
-        ("P slip", "c[_N] + c[_K]", "c[_N] - c[_K]"),
-        ("P slip", "+ c[_C] *", "- c[_C] *"),
-        ("P slip", "+ c[_M] * A", "- c[_M] * A"),
-        ("P stick", "1.0 + c[_M]", "1.0 - c[_M]"),
-        ("P slip", "top + slope * F", "top - slope * F"),
-        ("P slip", "below + direction", "below - direction"),
-    ),
-    "benchmarks/methods/kernels.py:rate": (
-        ("psi'", "c[_OMEGA] - f\n", "c[_OMEGA] + f\n"),
-        ("F", "+ c[_CP]", "- c[_CP]"),
-        ("separation", "-(c[_N]", "(c[_N]"),
-        ("f'", "- direction * c[_MUK]", "+ direction * c[_MUK]"),
-        ("a'", "alpha + turn * b", "alpha - turn * b"),
-        ("b'", "beta - turn * a", "beta + turn * a"),
-        ("alpha'", "= -modes[3, i] * alpha", "= modes[3, i] * alpha"),
-        ("alpha'", "- modes[2, i] * a ", "+ modes[2, i] * a "),
-        ("alpha'", "+ turn * beta", "- turn * beta"),
-        ("alpha'", "- modes[1, i] * P", "+ modes[1, i] * P"),
-        ("beta'", "= -modes[3, i] * beta", "= modes[3, i] * beta"),
-        ("beta'", "- modes[2, i] * b ", "+ modes[2, i] * b "),
-        ("beta'", "- turn * alpha", "+ turn * alpha"),
-    ),
-    "benchmarks/methods/kernels.py:switch_values": (
-        ("release", "c[_MUS] * P - c[_R0]", "c[_MUS] * P + c[_R0]"),
-        ("release", "c[_MUS] * P + c[_R0]", "c[_MUS] * P - c[_R0]"),
-        ("u", "y[4 * n + 2] - w", "y[4 * n + 2] + w"),
-    ),
-    "benchmarks/methods/kernels.py:switch": (
-        ("impact", "velocity - y", "velocity + y"),
-        ("impact", "+ 1.0 / c[_M]", "- 1.0 / c[_M]"),
-        ("impact", "-= modes[1, i] * impulse", "+= modes[1, i] * impulse"),
-    ),
-    "benchmarks/methods/phases.py:switches": (
-        ("release", "- p.r_0 * physics.pull(y)", "+ p.r_0 * physics.pull(y)"),
-        ("release", "+ p.r_0 * physics.pull(y)", "- p.r_0 * physics.pull(y)"),
-    ),
-    "benchmarks/methods/regularised.py:force": (
-        ("P slip", "(w - float", "(w + float"),
-        ("P slip", "velocity - float", "velocity + float"),
-    ),
-    "benchmarks/methods/regularised.py:rate": (
-        ("alpha'", "-= physics.shape * P", "+= physics.shape * P"),
-        ("separation", "+= P / p.m", "-= P / p.m"),
-        ("f'", "-= self.friction", "+= self.friction"),
-    ),
-    "benchmarks/scenes.py:static_start": (("start", "a = -p.N", "a = p.N"),),
-    "benchmarks/methods/taylor_heyoka.py:_system": (
-        ("F", "p.k_p * psi + p.c_p", "p.k_p * psi - p.c_p"),
-        ("alpha'", "-physics.damping[i] * alpha[i]", "physics.damping[i] * alpha[i]"),
-        ("alpha'", "- physics.stiffness[i] * a[i]", "+ physics.stiffness[i] * a[i]"),
-        ("A", "A + rate * hy", "A - rate * hy"),
-        ("A", "A - rate * rate", "A + rate * rate"),
-        ("u'", "velocity + rate * slope", "velocity - rate * slope"),
-        ("P slip", "p.N + p.k * (w", "p.N - p.k * (w"),
-        ("P slip", "+ p.c * velocity", "- p.c * velocity"),
-        ("P slip", "+ p.m * A", "- p.m * A"),
-        ("P slip", "top + slope * F", "top - slope * F"),
-        ("P slip", "below + phase", "below - phase"),
-        ("f'", "F / p.m - phase", "F / p.m + phase"),
-        ("a'", "alpha[i] + (l[i]", "alpha[i] - (l[i]"),
-        ("alpha'", "free[i] + (l[i]", "free[i] - (l[i]"),
-        ("alpha'", "- s[i] * P", "+ s[i] * P"),
-        ("b'", "beta[i] - l[i] * rate * a", "beta[i] + l[i] * rate * a"),
-        ("beta'", "- l[i] * rate * alpha", "+ l[i] * rate * alpha"),
-        ("psi'", "p.Omega - rate), (f", "p.Omega + rate), (f"),
-        ("separation", "-(p.N + p.k", "(p.N + p.k"),
-        ("u", "[u - w]", "[u + w]"),
-        ("release", "p.mu_s * P - p.r_0", "p.mu_s * P + p.r_0"),
-    ),
-    # ------------------------------------------------------------------------------------ the disc's modes
-    "plate.py:_modes": (
-        ("modes", "1 - nu**2", "1 + nu**2"),
-        ("modes", "np.sqrt(2), 1.0", "1.0, np.sqrt(2)"),
-    ),
-    "plate.py:slider_at_rest_frequencies": (
-        ("modes", "omega**-2) + p.m", "omega**-2) - p.m"),
-        ("modes", "np.eye(omega.size) + p.k", "np.eye(omega.size) - p.k"),
-    ),
-    "plate.py:_columns": (
-        ("modes", "[-1.0, -1.0, 1.0, 1.0]", "[1.0, 1.0, -1.0, -1.0]"),
-        ("modes", "kind + bend", "kind - bend"),
-        ("modes", "- (1 - nu) / lam", "+ (1 - nu) / lam"),
-        ("modes", "kind - bend", "kind + bend"),
-        ("modes", "+ bend / lam", "- bend / lam"),
-    ),
+import ast
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import disc_model
+
+PACKAGE = Path(disc_model.__file__).parent
+FUNCTIONS = {
+    "engine/layout.py": ("build_model", "build_state"),
+    "engine/plain.py": (
+        *("_disc_rates", "_apply_force", "_disc_point"),
+        *("slip_series", "stick_series", "separation_series"),
+    ),
+    "engine/sampling.py": ("point_motion", "_write_row"),
+    "engine/audit.py": ("transverse_energy", "inplane_energy", "_powers_in", "audit_impact"),
+    "engine/series.py": (
+        *("_disc_point", "_inner_terms", "_pending", "_order", "_order_zero", "_axisymmetric", "_last_force"),
+        *("slip_series", "_stick_order", "stick_series", "separation_series"),
+    ),
+    "engine/coasting.py": ("coast_length", "coast_to", "_times"),
+    "engine/stick_modes.py": ("_eigenmodes", "_under_unit_load", "_packed"),
+    "engine/switches.py": ("disc_point", "spring_force", "_free_force", "stick_force", "slip_force", "impact"),
+    "engine/saltation.py": ("rates", "_force_change", "_pull_change", "_inertia", "switch_change", "impact_change"),
+    "engine/tangent.py": (
+        *("_convolve", "_motion_slope", "point_change", "_diametral_rates", "_axisymmetric_rates"),
+        *("_slider_forces", "_path_change", "_apply_force", "tangent_series"),
+    ),
+    "engine/variational.py": ("divergence", "section_map"),
+    "simulation/bridge.py": ("read_state",),
+    "stability/return_map.py": ("ReturnMap._set_changes", "ReturnMap.state", "ReturnMap.contact_force"),
+    "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),
+    "stability/moving_load.py": ("rotating_oscillator_eigenvalues",),
+    "benchmarks/methods/physics.py": (
+        *("Physics.__init__", "Physics.disc_point", "Physics.pull", "Physics.gap"),
+        *("Physics._contact", "Physics.rate", "Physics.impact"),
+    ),
+    "benchmarks/methods/kernels.py": ("contact", "rate", "switch_values", "switch"),
+    "benchmarks/methods/phases.py": ("switches",),
+    "benchmarks/methods/regularised.py": ("Law.force", "Law.rate"),
+    "benchmarks/methods/taylor_heyoka.py": ("_system",),
+    "benchmarks/scenes.py": ("static_start",),
+    "plate.py": ("_modes", "_columns", "_coupling", "coupled_frequencies", "modal_damping"),
 }
+#: By the name of a mutant (as `Mutant` prints it): why it makes no difference.
+EQUIVALENT: dict[str, str] = {}
+
+VECTOR_OPERATIONS = ("fma", "mul", "add", "sub")
+STORAGE = ("load", "store", "spread")
+NUMBERS_OF_ELEMENTS = ("range", "len")
+OTHER = {ast.Add: ast.Sub, ast.Sub: ast.Add}
+OPPOSITE = {
+    ast.Lt: ast.GtE,
+    ast.GtE: ast.Lt,
+    ast.Gt: ast.LtE,
+    ast.LtE: ast.Gt,
+    ast.Eq: ast.NotEq,
+    ast.NotEq: ast.Eq,
+    ast.Is: ast.IsNot,
+    ast.IsNot: ast.Is,
+}
+
+
+class Mutant(NamedTuple):
+    """One change: the ``place``-th of a function, in the order of the syntax tree."""
+
+    file: str
+    function: str
+    place: int
+    change: str
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.function}: {self.change}"
+
+    def source(self, package: Path = PACKAGE) -> str:
+        """The file's text with the change in it."""
+        tree = ast.parse((package / self.file).read_text(encoding="utf-8"))
+        node = list(changeable(find(tree, self.file, self.function)))[self.place]
+        assert flip(node), self
+        return ast.unparse(tree) + "\n"
+
+
+def all_mutants() -> list[Mutant]:
+    """Every change of every function, the equivalent ones too."""
+    return [
+        mutant for file, functions in FUNCTIONS.items() for function in functions for mutant in mutants(file, function)
+    ]
+
+
+def mutants(file: str, function: str) -> Iterator[Mutant]:
+    """The changes of a function; equal ones are numbered."""
+    tree = ast.parse((PACKAGE / file).read_text(encoding="utf-8"))
+    seen: Counter[str] = Counter()
+    for place, node in enumerate(list(changeable(find(tree, file, function)))):
+        change = flip(node)
+        seen[change] += 1
+        yield Mutant(file, function, place, change + (f" ({seen[change]})" if seen[change] > 1 else ""))
+
+
+def find(tree: ast.Module, file: str, function: str) -> ast.FunctionDef:
+    """A function, or a method given as Class.method."""
+    node: ast.AST = tree
+    for name in function.split("."):
+        body = getattr(node, "body", [])
+        found = [child for child in body if getattr(child, "name", None) == name]
+        assert len(found) == 1, f"{file} has no function {function}: bring tests/validation/mutants.py up to date"
+        node = found[0]
+    assert isinstance(node, ast.FunctionDef)
+    return node
+
+
+def changeable(function: ast.FunctionDef) -> Iterator[ast.AST]:
+    """Where a function can be changed."""
+    for statement in function.body:
+        yield from _changeable(statement)
+
+
+def _changeable(node: ast.AST) -> Iterator[ast.AST]:
+    if isinstance(node, ast.Raise | ast.JoinedStr):
+        return
+    if isinstance(node, ast.Subscript):  # what is taken, not from where
+        yield from _changeable(node.value)
+        return
+    called = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
+    if called in NUMBERS_OF_ELEMENTS:
+        return
+    if called in VECTOR_OPERATIONS or _is_changeable(node):
+        yield node
+    for child in ast.iter_child_nodes(node):
+        if not (called in STORAGE or called.startswith("_")) or not _is_index(child):
+            yield from _changeable(child)
+
+
+def _is_changeable(node: ast.AST) -> bool:
+    match node:
+        case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Pow()) | ast.AugAssign(op=ast.Add() | ast.Sub()):
+            return True
+        case ast.UnaryOp(op=ast.USub()) | ast.Constant(value=float()):
+            return True
+        case ast.Compare():
+            return type(node.ops[0]) in OPPOSITE
+    return False
+
+
+def _is_index(argument: ast.AST) -> bool:
+    """Whether an argument is made of bare names and whole numbers."""
+    return isinstance(argument, ast.BinOp) and all(
+        isinstance(part, ast.BinOp | ast.operator | ast.Name | ast.expr_context)
+        or (isinstance(part, ast.Constant) and isinstance(part.value, int))
+        for part in ast.walk(argument)
+    )
+
+
+def flip(node: ast.AST) -> str:
+    """Change a node in place; says what is changed, in a line."""
+    before = ast.unparse(node)
+    match node:
+        case ast.BinOp(op=ast.Pow()):
+            node.right = ast.Constant(1)
+            return f"{before} -> {ast.unparse(node.left)}"
+        case ast.BinOp(right=other) | ast.AugAssign(value=other):
+            sign, opposite = ("+", "-") if isinstance(node.op, ast.Add) else ("-", "+")
+            node.op = OTHER[type(node.op)]()
+            return f"{sign} {ast.unparse(other)} -> {opposite}"
+        case ast.UnaryOp():
+            node.op = ast.UAdd()
+        case ast.Compare():
+            node.ops[0] = OPPOSITE[type(node.ops[0])]()
+        case ast.Constant():
+            node.value = 2 * node.value or 1.0
+        case ast.Call(func=function, args=[*_, last]):
+            node.args[-1] = ast.UnaryOp(ast.USub(), last)
+            return f"{ast.unparse(function)}(..., {ast.unparse(last)}) -> -"
+    return f"{before} -> {ast.unparse(node)}"
