@@ -1,0 +1,66 @@
+"""Links between pages lead somewhere, and names of the package that texts mention exist."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "results" / "README.md"]
+PAGES += sorted(path for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts)
+TEXTS = [*PAGES, *sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rglob("*.*"))]
+NO_MODULES = {"yaml", "mplstyle", "post", "egg"}
+"""What follows the package's name in names of files."""
+
+
+def name(path):
+    return str(path.relative_to(ROOT))
+
+
+def anchor(heading):
+    """As MyST and GitHub make it."""
+    return re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_links_lead_somewhere(page):
+    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+        if "://" in target or target.startswith("mailto:"):
+            continue
+        file, _, place = target.partition("#")
+        found = (page.parent / file).resolve() if file else page
+        assert found.exists(), target
+        if place:
+            headings = re.findall(r"^#+ (.*)$", found.read_text(encoding="utf-8"), re.M)
+            assert place in map(anchor, headings), target
+
+
+def exists(dotted):
+    """Whether a dotted name is that of a module, or of something in one."""
+    parts = dotted.split(".")
+    for i in range(len(parts), 0, -1):
+        try:
+            found = importlib.util.find_spec(".".join(parts[:i]))
+        except ModuleNotFoundError:  # what stands before the last dot is no package
+            continue
+        if found is not None:
+            thing = importlib.import_module(".".join(parts[:i]))
+            for part in parts[i:]:
+                if not hasattr(thing, part):
+                    return part in getattr(thing, "__annotations__", {})
+                thing = getattr(thing, part)
+            return True
+    return False
+
+
+def test_names_of_the_package_exist():
+    wrong = []
+    for path in TEXTS:
+        for dotted in set(re.findall(r"\bdisc_model(?:\.[A-Za-z_]\w*)+", path.read_text(encoding="utf-8"))):
+            if dotted.split(".")[1] not in NO_MODULES and not exists(dotted):
+                wrong.append(f"{name(path)}: {dotted}")
+    assert not wrong
