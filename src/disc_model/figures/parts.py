@@ -16,7 +16,7 @@ from disc_model.analysis.spectra import TimeFrequency, time_frequency
 from disc_model.data import held
 from disc_model.data.held import Missing
 from disc_model.data.variables import PHASES, flag_names
-from disc_model.figures.style import BLACK, SEPARATED, VERMILION
+from disc_model.figures.style import BLACK, SEPARATED
 
 SEPARATION = PHASES.index("separation")
 SYMBOLS = {
@@ -75,6 +75,10 @@ def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: f
     return found
 
 
+MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes"}
+"""What a panel is titled by normalization."""
+
+
 def axis_of(name: str) -> tuple[str, float]:
     """Label of a parameter's axis, and the factor from SI to its unit."""
     label, unit, factor = SYMBOLS[name]
@@ -110,7 +114,7 @@ def mark_first_separation(ax: Axes, time: float) -> None:
     low, high = ax.get_xlim()
     if not low <= time <= high:
         return
-    ax.axvline(time, color=VERMILION, linewidth=0.8, linestyle=(0, (4, 2)))
+    ax.axvline(time, color=SEPARATED, linewidth=0.8, linestyle=(0, (4, 2)))
     ax.annotate(
         f"first separation {time:.2f} s",
         (time, 1),
@@ -120,7 +124,7 @@ def mark_first_separation(ax: Axes, time: float) -> None:
         ha="center",
         va="bottom",
         fontsize=7,
-        color=VERMILION,
+        color=SEPARATED,
     )
 
 

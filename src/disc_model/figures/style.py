@@ -27,7 +27,15 @@ BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK = (
     "#56B4E9",
     "#000000",
 )
-SEPARABLE, BONDED, SEPARATED = BLUE, ORANGE, VERMILION
+GREY = "#8a8a8a"
+
+# One colour a quantity in the whole set; what is lost with contact is always vermilion.
+DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"
+"""Motion of the disc; of the slider, normal to the disc (u) and in its plane (psi); contact force."""
+STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
+PHASE_COLOURS = {"stick": STICK, "slip": SLIP, "separation": SEPARATED}
+BEFORE, AFTER = SKY, BLACK
+"""Stages of a run: in contact before and after the first separation."""
 
 
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.grids import bifurcation as attractors
@@ -42,3 +43,14 @@ def test_diagrams_show_samples_and_exponents(tmp_path) -> None:
     figure = attractors.draw(samples, {"lyapunov": exponents}, Bifurcation(x="Omega"))
     assert figure.axes[0].get_ylabel() == "Angle ψ (mrad)"
     save(figure, tmp_path / "diagram.png")
+
+
+def test_a_diagram_without_exponents_has_one_panel() -> None:
+    samples = xr.Dataset(
+        {"P": (("N", "sample"), np.ones((2, 3)), {"units": "N"}), "phase": (("N", "sample"), np.zeros((2, 3), int))},
+        coords={"N": ("N", [1.0, 2.0], {"units": "N"})},
+    )
+    figure = attractors.bifurcation_diagram(samples, "N", "P", scale=1.0)
+    (ax,) = figure.axes
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Preload N (N)", "Contact force (N)")
+    assert len(ax.lines) == 1  # all of it stick

@@ -7,7 +7,7 @@ import xarray as xr
 
 from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids import critical_speed as curves
-from disc_model.figures.grids import thresholds
+from disc_model.figures.grids import growth_map, thresholds
 from disc_model.figures.grids.kinds import Bifurcation, CriticalSpeed, GrowthMap, Thresholds
 from tests.studies.grids.conftest import growth_over, in_base, made_up_samples, with_failed
 
@@ -46,7 +46,7 @@ def test_the_normalization_may_be_given_in_base(plane: xr.Dataset, speeds: xr.Da
     alone = in_base(speeds)
     assert len(curves.draw(alone, {"hysteresis": in_base(sweep), "cycle": both}, CriticalSpeed()).axes) == 2
     assert len(thresholds.draw(alone, {"curves": plane, "cycle": both}, Thresholds()).axes) == 1
-    assert len(thresholds.draw(in_base(growth), {"curves": plane}, GrowthMap()).axes) == 2  # and the colour bar
+    assert len(growth_map.draw(in_base(growth), {"curves": plane}, GrowthMap()).axes) == 2  # and the colour bar
     samples, exponents = made_up_samples("as_published")
     exponents = exponents.expand_dims(normalization=["as_published"])
     assert len(attractors.draw(samples, {"lyapunov": exponents}, Bifurcation(x="N")).axes) == 2

@@ -55,7 +55,7 @@ def test_maps_of_one_normalization_over_any_number(x: str, values: list[float], 
     plot = StabilityMap(x=x, y="N", marks={"a": Mark(x=values[0], y=100, paper="stable")})
     figure = maps.draw(study, {"growth": growth}, plot)
     panel, _ = figure.axes
-    assert panel.get_title(loc="left") == "modes orthonormal"
+    assert panel.get_title(loc="left") == "orthonormal modes"
     assert panel.get_xlabel() == {"c": "Damper c (N s/m)"}.get(x, f"Nodal {x[2:]}")
     # the paper's cases are of the other modes
     assert "what the paper says" not in [text.get_text() for text in figure.legends[0].get_texts()]

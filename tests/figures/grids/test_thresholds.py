@@ -1,27 +1,59 @@
-"""Growth, and where separation follows."""
+"""The chart of thresholds: what is drawn, named and shaded."""
 
 from __future__ import annotations
 
 import numpy as np
 import xarray as xr
+from matplotlib.colors import to_rgba
 
 from disc_model.figures.grids import thresholds
-from disc_model.figures.grids.kinds import GrowthMap, Thresholds
-from disc_model.figures.style import save
+from disc_model.figures.grids.curves import Curve
+from disc_model.figures.grids.kinds import Thresholds
+from disc_model.figures.grids.thresholds import threshold_chart
+from disc_model.figures.style import BLUE, save
 from tests.studies.grids.conftest import growth_over
 
+SPEEDS, LOADS = np.linspace(5, 50, 6), np.linspace(50, 600, 5)
+RATE = np.linspace(-0.1, 0.2, 30).reshape(5, 6)
+NEUTRAL = Curve(SPEEDS, np.linspace(600, 50, 6), "neutral")
+FOLD = Curve(SPEEDS, SPEEDS * 12, "fold", "2 f_s = 135.42 Hz")
 
-def test_growth_and_thresholds_are_drawn(plane: xr.Dataset, speeds: xr.Dataset, tmp_path) -> None:
+
+def grid(rate=RATE) -> xr.Dataset:
+    return xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, coords={"N": LOADS, "Omega": SPEEDS})
+
+
+def labels(figure) -> set[str]:
+    return {text.get_text() for legend in figure.legends for text in legend.get_texts()}
+
+
+def test_thresholds_shade_where_the_cycle_is_unstable():
+    separation = np.array([np.nan, 45.0, 40, 35, 30])
+    figure = threshold_chart(LOADS, separation, 1000.0, NEUTRAL, [FOLD, FOLD], {200: 12.6})
+    band = "no stable cycle, no separation within 1000 s"
+    assert {"fold: the cycle ends", "paper", "cycle loses stability", band} <= labels(figure)
+    (ax,) = figure.axes
+    assert {text.get_text() for text in ax.texts} == {"2 $f_s$ = 135.42 Hz"}
+    # between the curve, interpolated at each load, and the separation
+    (shaded,) = (c for c in ax.collections if c.get_label() == band)
+    assert to_rgba(shaded.get_facecolor()[0]) == to_rgba(BLUE, 0.15)
+    corners = shaded.get_paths()[0].vertices
+    for load in LOADS[1:]:
+        lowest = np.interp(load, NEUTRAL.N[::-1], NEUTRAL.Omega[::-1])
+        at = corners[np.isclose(corners[:, 1], load)]
+        assert np.any(np.isclose(at[:, 0], lowest))
+    shown = threshold_chart(LOADS, separation, 1000.0, NEUTRAL, cycle=grid())
+    assert shown.axes[0].get_xlim() == (5, 50)
+    none = threshold_chart(LOADS, np.full(5, np.nan), 1000.0, NEUTRAL, cycle=grid())
+    assert band in labels(none)
+
+
+def test_thresholds_are_drawn(plane: xr.Dataset, speeds: xr.Dataset, tmp_path) -> None:
     growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
-    mapped = thresholds.draw(growth, {"curves": plane}, GrowthMap())
-    assert mapped.axes[0].get_xlim() == (5, 18)
-    save(mapped, tmp_path / "growth.png")
     chart = thresholds.draw(speeds, {"curves": plane, "cycle": growth}, Thresholds(claim={"a": (200, 12.6)}))
-    labels = [text.get_text() for text in chart.legends[0].get_texts()]
-    assert "separation within 1000 s" in labels
-    assert "paper" in labels
+    said = [text.get_text() for text in chart.legends[0].get_texts()]
+    assert "separation within 1000 s" in said
+    assert "paper" in said
     save(chart, tmp_path / "chart.png")
-    both = xr.concat([growth, growth.assign_coords(normalization=["orthonormal"])], "normalization")
-    assert len(thresholds.draw(both, {}, GrowthMap()).axes) == 3  # two panels and the colour bar
     without = thresholds.draw(speeds, {"curves": plane}, Thresholds())
     assert len(without.axes) == 1

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import Bifurcation
-from disc_model.figures.grids.stability import bifurcation_diagram
+from disc_model.figures.style import BLACK, BLUE, GREY, ORANGE, PAGE, PHASE_COLOURS, VERMILION, new_figure, styled
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
@@ -21,3 +23,54 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     if "lyapunov" in others:
         exponents = parts.without_failed(parts.of(others["lyapunov"], norm), "exponent", "exponent_error")
     return bifurcation_diagram(study, plot.x, plot.variable, plot.scale, exponents)
+
+
+@styled
+def bifurcation_diagram(
+    samples: xr.Dataset, name: str, variable: str = "psi", scale: float = 1e3, lyapunov: xr.Dataset | None = None
+) -> Figure:
+    """Samples once a turn against a parameter; those in stick apart from those in slip or separation.
+
+    Where all samples or the largest exponent are missing, a cross says so.
+
+    samples : as `disc_model.stability.bifurcation.bifurcation_samples` returns; name : its parameter's dimension
+    scale : factor for the axis, 1e3 shows mrad or mm
+    lyapunov : `exponent` and `exponent_error` (1/s) over the parameter and `exponent_number`, for a panel below
+    """
+    figure = new_figure(PAGE, 2.6 if lyapunov is None else 4.0)
+    axes = figure.subplots(1 if lyapunov is None else 2, 1, sharex=True, squeeze=False)[:, 0]
+    ax = axes[0]
+    values = samples[variable].transpose(name, "sample")
+    phase = samples["phase"].transpose(name, "sample").values
+    label, factor = parts.axis_of(name)
+    along = values[name].values * factor
+    position = np.broadcast_to(along[:, None], values.shape)
+    for code, (name_of_phase, color) in enumerate(PHASE_COLOURS.items()):
+        here = phase == code
+        if np.any(here):
+            ax.plot(position[here], values.values[here] * scale, ".", color=color, markersize=1.5, label=name_of_phase)
+    parts.mark_failed(ax, along[(phase == -1).all(axis=1)])
+    unit = values.attrs.get("units", "")
+    prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(scale, f"{1 / scale:g} ")
+    axes[-1].set_xlabel(label)
+    ax.set_ylabel(f"{parts.MOTION[variable]} ({prefix}{unit.replace(' s-1', '/s')})")
+    if lyapunov is not None:
+        _exponents(axes[1], lyapunov, name)
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, markerscale=5, borderaxespad=0.2)
+    return figure
+
+
+def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
+    """The largest exponents with four standard errors."""
+    exponent = lyapunov["exponent"].transpose("exponent_number", name)
+    error = lyapunov["exponent_error"].transpose("exponent_number", name)
+    along = exponent[name].values * parts.axis_of(name)[1]
+    ax.axhline(0, color=GREY, linewidth=0.8)
+    for i, color in zip(range(len(exponent)), (VERMILION, BLUE, ORANGE, BLACK), strict=False):
+        label = "largest exponent" if i == 0 else f"exponent {i + 1}"
+        low, high = (exponent[i].values + s * 4 * error[i].values for s in (-1, 1))
+        ax.plot(along, exponent[i], ".-", color=color, markersize=3, linewidth=0.8, label=label)
+        ax.fill_between(along, low, high, color=color, alpha=0.15, linewidth=0)
+    parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
+    ax.set_ylabel("Lyapunov exponents (1/s)")
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, borderaxespad=0.2)

@@ -238,7 +238,7 @@ class GrowthMap(Plot):
 
     @property
     def module(self) -> str:
-        return "disc_model.figures.grids.thresholds"
+        return "disc_model.figures.grids.growth_map"
 
 
 class Bifurcation(Plot):

@@ -7,19 +7,17 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from cmcrameri import cm
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
-from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
+from disc_model.figures.grids.growth_colours import growth_bar, growth_mesh, no_cycle_patch
 from disc_model.figures.grids.kinds import StabilityMap
 from disc_model.figures.style import BLACK, PAGE, new_figure, styled
 
@@ -43,12 +41,6 @@ PAPER = "#F0E442"
 """Colour of the paper's cases: none of the map's."""
 LARGE = 55.0
 """Size of their marks."""
-GREATEST = 0.3
-"""Growth rate at which the colours end, 1/s."""
-LINEAR = 0.01
-"""Growth rate up to which the colours are linear, 1/s."""
-HATCH, GREY = "//////", "#8a8a8a"
-"""How it looks where there is no cycle."""
 
 
 @styled
@@ -69,24 +61,21 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
             mesh = _background(ax, parts.of(others["growth"], norm), plot) or mesh
         _points(ax, parts.of(study, norm), plot)
         panel = f"({letter}) " if len(norms) > 1 else ""
-        ax.set_title(f"{panel}modes {'as published' if norm == 'as_published' else 'orthonormal'}", loc="left")
+        ax.set_title(f"{panel}{parts.MODES[norm]}", loc="left")
         if norm == "as_published":
             _marks(ax, study, plot)
     _scales(axes, study, plot)
     if mesh is not None:
-        bar = figure.colorbar(mesh, ax=list(axes), extend="both", pad=0.01, aspect=30)
-        bar.set_label("Growth rate of the stick-slip cycle (1/s)")
+        growth_bar(figure, mesh, list(axes))
     _legend(figure, study, bool(plot.marks) and "as_published" in norms, mesh is not None)
     return figure
 
 
 def _background(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> QuadMesh:
     """Growth rate in colour, its sign's change as a line; hatched where there is no cycle."""
+    mesh = growth_mesh(ax, growth, plot.x, plot.y)
     x, y = (growth[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
     rate = growth["growth_rate"].transpose(plot.y, plot.x).values
-    norm = SymLogNorm(LINEAR, vmin=-GREATEST, vmax=GREATEST)
-    mesh = ax.pcolormesh(x, y, np.ma.masked_invalid(rate), cmap=cm.vik, norm=norm, shading="nearest", rasterized=True)
-    ax.patch.set(facecolor="white", hatch=HATCH, edgecolor=GREY, linewidth=0)
     if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
         ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=0.8)
     return mesh
@@ -179,7 +168,7 @@ def _legend(figure: Figure, study: xr.Dataset, marked: bool, mapped: bool) -> No
     ]  # fmt: skip
     if mapped:
         handles.append(Line2D([], [], color=BLACK, linewidth=0.8, label="growth rate 0"))
-        handles.append(Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label="no cycle found"))
+        handles.append(no_cycle_patch())
     if marked:
         ring = Line2D([], [], linestyle="", marker="o", markerfacecolor="none", markersize=6, markeredgewidth=1.4)
         ring.set(

@@ -56,8 +56,10 @@ def _section(section: str, case: str, title: str, what: str) -> Entry:
     return Entry(section, f"Poincare sections, {title}", text, {case: ()}, "sections")
 
 
-BEFORE = "Blue crosses: in contact before the first separation; green dots: in contact after it; red triangles: apart."
-HALVES = "Blue crosses: first half of the run; green dots: second half."
+BEFORE = (
+    "Light blue crosses: in contact before the first separation; black dots: in contact after it; red triangles: apart."
+)
+HALVES = "Light blue crosses: first half of the run; black dots: second half."
 IGNORED = f"Separation ignored. {HALVES}"
 STAGES = f"Stages: {BEFORE}"
 QUIET = f"No separation occurs. {HALVES}"

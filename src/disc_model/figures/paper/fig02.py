@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data import held
 from disc_model.figures import parts
-from disc_model.figures.style import PAGE, SEPARABLE, new_figure, styled
+from disc_model.figures.style import FORCE, PAGE, new_figure, styled
 
 
 @styled
@@ -29,7 +29,7 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 def _whole(ax: Axes, case: xr.DataTree) -> None:
     parts.letter(ax, "a")
-    parts.envelope(ax, parts.history(case), "P", color=SEPARABLE)
+    parts.envelope(ax, parts.history(case), "P", color=FORCE)
     _show_zero(ax, case)
     parts.mark_first_separation(ax, float(case["first_separation"]))
     ax.set(xlabel="Time (s)", ylabel="Contact force (N)")
@@ -48,7 +48,7 @@ def _zoom(ax: Axes, case: xr.DataTree) -> None:
     start = float(time[0])
     spans = [((a - start) * 1e3, (b - start) * 1e3) for a, b in parts.separations(window)]
     parts.shade(ax, spans, "separation")
-    ax.plot((time - start) * 1e3, window["P"].values, color=SEPARABLE)
+    ax.plot((time - start) * 1e3, window["P"].values, color=FORCE)
     _show_zero(ax, case)
     ax.set(xlabel=f"Time after {start:.3f} s (ms)", ylabel="Contact force (N)")
     if spans:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from disc_model.data import held
 from disc_model.data.held import Missing
 from disc_model.figures import parts
-from disc_model.figures.style import BLACK, BLUE, COLUMN, GREEN, new_figure, styled
+from disc_model.figures.style import BLACK, COLUMN, DISC, SLIDER, new_figure, styled
 
 MARGIN = 0.5
 """Time shown before and after, as a share of the separation."""
@@ -44,8 +44,8 @@ def _around_a_separation(both: Axes, gap: Axes, case: xr.DataTree) -> None:
     u, w, rest = part["u"].values, part["w"].values, float(case["u_0"])
     for ax in (both, gap):
         parts.shade(ax, [(0.0, (stop - start) * 1e3)], "separation")
-    both.plot(time, (w - rest) * 1e3, color=BLUE, label="disc")
-    both.plot(time, (u - rest) * 1e3, color=GREEN, linestyle=(0, (4, 1.5)), label="slider")
+    both.plot(time, (w - rest) * 1e3, color=DISC, label="disc")
+    both.plot(time, (u - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
     gap.plot(time, (u - w) * 1e6, color=BLACK)
     both.set(ylabel="From equilibrium (mm)")
     gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")

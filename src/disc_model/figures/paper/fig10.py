@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
-from disc_model.figures.style import BONDED, COLUMN, SEPARABLE, new_figure, styled
+from disc_model.figures.style import COLUMN, DISC, GREY, new_figure, styled
 
 
 @styled
@@ -24,7 +24,7 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 def _both(ax: Axes, cases: Mapping[str, xr.DataTree]) -> None:
     histories = {name: parts.history(cases[name]) for name in ("F04", "F02")}
-    for name, color, label in (("F04", BONDED, "separation ignored"), ("F02", SEPARABLE, "with separation")):
+    for name, color, label in (("F04", GREY, "separation ignored"), ("F02", DISC, "with separation")):
         parts.envelope(ax, histories[name], "w_point", scale=1e3, color=color, label=label)
     ax.set(xlabel="Time (s)", ylabel=parts.disc_label(*histories.values()))
     low, high = ax.get_ylim()

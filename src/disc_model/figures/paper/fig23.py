@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data import held
 from disc_model.figures import parts
-from disc_model.figures.style import BLUE, COLUMN, GREEN, VERMILION, new_figure, styled
+from disc_model.figures.style import COLUMN, DISC, SEPARATED, SLIDER, new_figure, styled
 
 SHOWN = 0.025
 """Length of the stretch shown, s."""
@@ -37,13 +37,13 @@ def _motion(ax: Axes, case: xr.DataTree) -> None:
     time = (part["time"].values - start) * 1e3
     rest = float(case["u_0"])
     parts.shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in parts.separations(part)], "separation")
-    ax.plot(time, (part["w"].values - rest) * 1e3, color=BLUE, label="disc")
-    ax.plot(time, (part["u"].values - rest) * 1e3, color=GREEN, linestyle=(0, (4, 1.5)), label="slider")
+    ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
+    ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
     losses = np.array([a for a, _ in parts.separations(part) if a > start])
     if losses.size:
         height = part["w"].sel(time=losses, method="nearest").values
         ax.plot(
-            (losses - start) * 1e3, (height - rest) * 1e3, "o", color=VERMILION, markersize=3.5, label="contact lost"
+            (losses - start) * 1e3, (height - rest) * 1e3, "o", color=SEPARATED, markersize=3.5, label="contact lost"
         )
     ax.set(xlabel=f"Time after {start:.4f} s (ms)", ylabel="From equilibrium (mm)")
     parts.legend_above(ax)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import parts
 from disc_model.figures.paper.spectrograms import stretch
-from disc_model.figures.style import BLUE, PAGE, SKY, new_figure, styled
+from disc_model.figures.style import DISC, PAGE, SKY, new_figure, styled
 
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
 
@@ -31,7 +31,7 @@ def _range(ax: Axes, case: xr.DataTree) -> None:
         ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
         ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
     history = parts.history(case)
-    parts.envelope(ax, history, "w_point", scale=1e3, color=BLUE)
+    parts.envelope(ax, history, "w_point", scale=1e3, color=DISC)
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + 0.15 * (high - low))
     parts.mark_first_separation(ax, float(case["first_separation"]))

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
-from disc_model.figures.style import COLUMN, GREEN, SEPARABLE, new_figure
+from disc_model.figures.style import COLUMN, DISC, FORCE, new_figure
 
 
 def force_and_disc(case: xr.DataTree) -> Figure:
@@ -23,8 +23,8 @@ def force_and_disc(case: xr.DataTree) -> Figure:
 def _ranges(force: Axes, disc: Axes, case: xr.DataTree) -> None:
     history = parts.history(case)
     first = float(case["first_separation"])
-    parts.envelope(force, history, "P", color=SEPARABLE)
-    parts.envelope(disc, history, "w_point", scale=1e3, color=GREEN)
+    parts.envelope(force, history, "P", color=FORCE)
+    parts.envelope(disc, history, "w_point", scale=1e3, color=DISC)
     parts.mark_first_separation(force, first)
     parts.mark_first_separation(disc, first)
     force.set(ylabel="Contact force (N)")

@@ -12,11 +12,7 @@ from matplotlib.figure import Figure
 from disc_model.data import held
 from disc_model.data.variables import PHASES
 from disc_model.figures import parts
-from disc_model.figures.paper.sections import MARKS
-from disc_model.figures.style import COLUMN, new_figure, styled
-
-NAMES = {"stick": "early", "slip": "later", "separation": "separated"}
-"""Colour by phase, those of the Poincare sections."""
+from disc_model.figures.style import COLUMN, PHASE_COLOURS, new_figure, styled
 
 
 @styled
@@ -38,7 +34,7 @@ def _orbit(ax: Axes, window: xr.Dataset) -> None:
             continue
         # a line broken where the phase changes, so that no chord is drawn across others
         shown = np.where(inside, velocity, np.nan)
-        colour = str(MARKS[NAMES[name]]["color"])
+        colour = PHASE_COLOURS[name]
         ax.plot(psi, shown, color=colour, linewidth=0.5, rasterized=True)
         ax.plot([], [], color=colour, linewidth=1.5, label=name)
     ax.margins(0.04)

@@ -18,11 +18,11 @@ from disc_model.data.held import Missing
 from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
 from disc_model.figures.paper.spectrograms import colour_bar, mark_time, spectrogram, stretch
-from disc_model.figures.style import BLUE, GREEN, PAGE, SKY, new_figure, styled
+from disc_model.figures.style import DISC, PAGE, SKY, SLIDER, new_figure, styled
 
 SCALES = {"psi": 1.0, "w_point": 1e3}
 """From SI to what the axes show."""
-COLOURS = {"psi": BLUE, "w_point": GREEN}
+COLOURS = {"psi": SLIDER, "w_point": DISC}
 
 
 @styled

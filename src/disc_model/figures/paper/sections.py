@@ -16,12 +16,12 @@ from matplotlib.figure import Figure
 from disc_model.analysis.poincare import Stages, stages
 from disc_model.data import held
 from disc_model.figures import parts
-from disc_model.figures.style import BLUE, GREEN, PAGE, VERMILION, new_figure, styled
+from disc_model.figures.style import AFTER, BEFORE, PAGE, SEPARATED, new_figure, styled
 
 MARKS: dict[str, dict[str, Any]] = {
-    "early": {"marker": "x", "color": BLUE, "s": 9, "linewidths": 0.5},
-    "later": {"marker": "o", "color": GREEN, "s": 3.5, "linewidths": 0},
-    "separated": {"marker": "^", "color": VERMILION, "s": 8, "linewidths": 0},
+    "early": {"marker": "x", "color": BEFORE, "s": 9, "linewidths": 0.5},
+    "later": {"marker": "o", "color": AFTER, "s": 3.5, "linewidths": 0},
+    "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
 """Symbol by stage: told apart by shape as well as by colour."""
 BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "separated": "separated"}

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.grids import thresholds
+from disc_model.figures.grids.curves import curves_of
 from disc_model.studies.faults import StudyError
 from disc_model.studies.grids.schema import parse_grid
 from tests.stability.toy_map import fold_at, outside
@@ -36,7 +36,7 @@ def test_curves_are_stored_point_by_point(plane: xr.Dataset) -> None:
         x, y = (one[name].isel(curve=i).dropna("curve_point").values for name in ("x", "y"))
         assert np.abs(outside(x, y) if kind == "neutral" else x - fold_at(y)).max() < 1e-5
     # the ellipse only borders on stable cycles
-    (drawn,) = thresholds.curves_of(one)
+    (drawn,) = curves_of(one)
     assert drawn.kind == "neutral"
 
 
@@ -50,7 +50,7 @@ def test_the_fold_of_the_paper_is_found_once_and_named(curves: xr.Dataset) -> No
     ]
     near = [i for i, speed in zip(folds, at, strict=True) if abs(speed - 15.0949) < 5e-3]
     assert len(near) == 1
-    drawn = [curve for curve in thresholds.curves_of(one) if curve.kind == "fold"]
+    drawn = [curve for curve in curves_of(one) if curve.kind == "fold"]
     assert "2 f_s = 135.42 Hz" in [curve.label for curve in drawn]
 
 

@@ -1,0 +1,46 @@
+"""Growth maps: one scale of colours, curves on top, and what is no cycle."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.colors import AsinhNorm
+
+from disc_model.figures.grids import growth_map, stability_map
+from disc_model.figures.grids.growth_colours import GREATEST
+from disc_model.figures.grids.kinds import GrowthMap, StabilityMap
+from disc_model.figures.style import save
+from tests.studies.grids.conftest import growth_over
+
+
+def labels(figure) -> set[str]:
+    return {text.get_text() for legend in figure.legends for text in legend.get_texts()}
+
+
+def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset, tmp_path) -> None:
+    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    mapped = growth_map.draw(growth, {"curves": plane}, GrowthMap())
+    assert mapped.axes[0].get_xlim() == (5, 18)
+    assert {"a multiplier crosses the unit circle", "fold", "no cycle found"} >= labels(mapped) > set()
+    bar = mapped.axes[-1]
+    assert [text.get_text() for text in bar.get_yticklabels()] == ["−0.1", "−0.01", "0", "0.01", "0.1"]
+    save(mapped, tmp_path / "growth.png")
+    both = xr.concat([growth, growth.assign_coords(normalization=["orthonormal"])], "normalization")
+    assert len(growth_map.draw(both, {}, GrowthMap()).axes) == 3  # two panels and the colour bar
+    full = growth.assign(growth_rate=growth["growth_rate"].fillna(0.1))
+    assert not growth_map.draw(full, {}, GrowthMap()).legends
+    none = growth.assign(growth_rate=growth["growth_rate"] * np.nan)
+    assert labels(growth_map.draw(none, {}, GrowthMap())) == {"no cycle found"}
+
+
+def test_growth_has_one_scale_of_colours_in_all_maps(toy) -> None:
+    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    outcome = xr.zeros_like(growth["growth_rate"], dtype=np.int8)
+    outcome.attrs = {"flag_meanings": "stable unstable separation unknown"}
+    study = xr.Dataset({"outcome": outcome})
+    maps = (
+        growth_map.draw(growth, {}, GrowthMap()),
+        stability_map.draw(study, {"growth": growth}, StabilityMap(x="Omega", y="N")),
+    )
+    norms = [next(c for c in figure.axes[0].collections if c.get_array() is not None).norm for figure in maps]
+    assert all(isinstance(norm, AsinhNorm) and (norm.vmin, norm.vmax) == (-GREATEST, GREATEST) for norm in norms)
