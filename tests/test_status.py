@@ -7,19 +7,21 @@ import pickle
 import pytest
 
 from disc_model import Status
+from disc_model.stability.cycle import CycleStatus
+from disc_model.stability.lyapunov import LyapunovStatus
+from disc_model.stability.sliding import SlidingStatus
 from disc_model.status import StatusBase
 
+ALL = [status for kind in (Status, CycleStatus, LyapunovStatus, SlidingStatus) for status in kind]
 
-@pytest.mark.parametrize("status", Status)
-def test_each_word_has_a_sentence(status: Status) -> None:
+
+@pytest.mark.parametrize("status", ALL, ids=repr)
+def test_each_word_has_a_sentence(status: StatusBase) -> None:
     assert status == status.value == str(status)
-    assert Status(status.value) is status
+    assert type(status)(status.value) is status
+    assert pickle.loads(pickle.dumps(status)) is status
     assert status.advice[0].isupper()
     assert status.advice.endswith(".")
-
-
-def test_words_come_back_from_a_pickle_as_they_were() -> None:
-    assert pickle.loads(pickle.dumps(Status.STALLED)) is Status.STALLED
 
 
 def test_a_status_without_a_sentence_is_refused() -> None:

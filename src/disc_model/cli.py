@@ -307,7 +307,7 @@ def _print_summary(result: Result, choice: str) -> None:
         lines.append((f"time in {phase}", f"{s[f'time_{phase}']:.6g} s ({share:.2%})"))
     ratio = f"{reached / s['wall_time']:.0f}" if s["wall_time"] > 0 else "-"
     lines += [
-        ("steps", f"{s['steps']} ({s['rejected']} rejected)"),
+        ("steps", str(s["steps"])),
         ("wall time", f"{s['wall_time']:.3g} s ({ratio} simulated seconds a second)"),
         ("energy residual", f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)"),
     ]

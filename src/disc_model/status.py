@@ -16,7 +16,9 @@ class StatusBase(enum.StrEnum):
 
     advice: str
 
-    def __new__(cls, word: str, advice: str) -> Self:
+    def __new__(cls, word: str, advice: str = "") -> Self:
+        if not advice:
+            raise TypeError(f"{word}: a status needs its advice")
         member = str.__new__(cls, word)
         member._value_ = word
         member.advice = advice

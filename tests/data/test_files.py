@@ -36,6 +36,19 @@ def test_other_readers_pass_over_the_checksum(path: Path) -> None:
         xr.testing.assert_equal(tree.load(), TREE)
 
 
+@pytest.mark.parametrize(("umask", "mode"), [(0o022, 0o644), (0o077, 0o600), (0o002, 0o664)])
+def test_the_umask_says_who_may_read(umask: int, mode: int, tmp_path: Path) -> None:
+    """Every file was readable to all, whatever the umask."""
+    before = os.umask(umask)
+    try:
+        save(TREE, tmp_path / "case.nc")
+        save(TREE, tmp_path / "case.nc")  # over the old one as well
+    finally:
+        os.umask(before)
+    assert (tmp_path / "case.nc").stat().st_mode & 0o777 == mode
+    assert list(tmp_path.iterdir()) == [tmp_path / "case.nc"]
+
+
 def test_every_changed_bit_is_noticed(path: Path) -> None:
     whole, chance, count = path.read_bytes(), random.Random(1), 500
     for _ in range(count):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-import tempfile
+import secrets
 from collections.abc import Callable
 from pathlib import Path
 
@@ -31,7 +31,7 @@ def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
 
     Parameters
     ----------
-    write : called with the name of a file in the same folder, which it shall write
+    write : called with the name of a new file in the same folder, which it shall write
     size : bytes that the file will roughly have, to find out about a full disk
 
     Raises
@@ -40,13 +40,11 @@ def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
         If the disk is full, or the file may not be that large.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".tmp", dir=path.parent)
-    os.close(handle)
-    temporary = Path(name)
+    # made by `write`, so that the umask says who may read it
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}.tmp")
     try:
-        write(name)
+        write(str(temporary))
         _append_checksum(temporary)
-        os.chmod(temporary, 0o644)
         os.replace(temporary, path)
     except Exception:
         if refusal := _refusal(temporary, size):

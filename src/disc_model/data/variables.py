@@ -46,8 +46,7 @@ SCALARS = {
     "time_reached": Variable("s", "time that the simulation reached"),
     "tol": Variable("1", "tolerance of the simulation"),
     "u_0": Variable("m", "displacement of the slider in static equilibrium"),
-    "steps": Variable("1", "number of accepted steps"),
-    "rejected": Variable("1", "number of rejected steps"),
+    "steps": Variable("1", "number of steps"),
     "n_events": Variable("1", "number of switches"),
     "n_separations": Variable("1", "number of separations"),
     "time_stick": Variable("s", "time spent sticking"),
@@ -60,7 +59,6 @@ SCALARS = {
 }
 COUNTS = {
     "steps": "steps",
-    "rejected": "rejected",
     "n_events": "events",
     "n_separations": "separations",
     "audited_steps": "audited_steps",

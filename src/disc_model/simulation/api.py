@@ -301,7 +301,6 @@ def _statistics(
 
     return {
         "steps": int(counters[machine.STEPS]),
-        "rejected": 0,  # a Taylor step is sized after its series is known: none is ever rejected
         "events": int(counters[machine.EVENTS]),
         "separations": int(counters[machine.SEPARATIONS]),
         "time_stick": float(phase_times[layout.STICK]),

@@ -88,7 +88,7 @@ class Result:
     u_0 : m, static height of the slider
     samples : one dict of arrays per window
     poincare : dict of arrays, None if not asked for
-    statistics : steps, rejected, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
+    statistics : steps, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
         energy_transverse, energy_inplane, audited_steps, wall_time (s)
     """
 

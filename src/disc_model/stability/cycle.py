@@ -7,7 +7,6 @@ map's Jacobian.  Two multipliers of the full system are left out: 1, along the o
 
 from __future__ import annotations
 
-import enum
 import math
 from dataclasses import dataclass
 
@@ -20,6 +19,7 @@ from disc_model.schema import CYCLE_TOLERANCES, limits_faults
 from disc_model.simulation.result import State
 from disc_model.stability.return_map import OUTCOMES, RETURNED, Flight, ReturnMap, Solution, newton
 from disc_model.stability.sliding import SteadySliding, steady_sliding
+from disc_model.status import StatusBase
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -30,35 +30,21 @@ TRANSIENT = 60
 """Returns simulated from the published start before Newton's method is tried again."""
 
 
-class CycleStatus(enum.StrEnum):
+class CycleStatus(StatusBase):
     """What was found; `advice` says what it means and what to do."""
 
-    OK = "ok"
-    NO_CYCLE = "no_cycle"
-    SEPARATES = "separates"
-    NO_STICK_SLIP = "no_stick_slip"
-    AT_REST = "at_rest"
-    PARADOX = "paradox"
-    NON_FINITE = "non_finite"
+    OK = "ok", "A periodic stick-slip cycle was found; its growth rate says whether it is stable."
+    NO_CYCLE = (
+        "no_cycle",
+        "The slider sticks and slips, but no cycle of up to three releases exists near the published start, "
+        "as beyond a fold; follow the cycle from other parameters with disc_model.stability.continuation.",
+    )
+    SEPARATES = "separates", "Near the published start no cycle keeps contact, and contact is soon lost: simulate."
+    NO_STICK_SLIP = "no_stick_slip", "The slider does not stick again: look at disc_model.stability.sliding."
+    AT_REST = "at_rest", "Nothing ever slips: raise Omega, k_p or lower the friction."
+    PARADOX = "paradox", "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N."
+    NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
-    @property
-    def advice(self) -> str:
-        """What the outcome means and what to do, in a sentence."""
-        return _ADVICE[self]
-
-
-_ADVICE = {
-    CycleStatus.OK: "A periodic stick-slip cycle was found; its growth rate says whether it is stable.",
-    CycleStatus.NO_CYCLE: (
-        "The slider sticks and slips, but no cycle of up to three releases exists near the published start, as "
-        "beyond a fold; follow the cycle from other parameters with disc_model.stability.continuation."
-    ),
-    CycleStatus.SEPARATES: "Near the published start no cycle keeps contact, and contact is soon lost: simulate.",
-    CycleStatus.NO_STICK_SLIP: "The slider does not stick again: look at disc_model.stability.sliding.",
-    CycleStatus.AT_REST: "Nothing ever slips: raise Omega, k_p or lower the friction.",
-    CycleStatus.PARADOX: "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N.",
-    CycleStatus.NON_FINITE: "The motion overflowed: check the parameters' magnitudes.",
-}
 
 KINDS = ("fold", "period_doubling", "neimark_sacker")
 

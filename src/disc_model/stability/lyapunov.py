@@ -7,7 +7,6 @@ it comes to rest.
 
 from __future__ import annotations
 
-import enum
 import math
 from dataclasses import dataclass
 
@@ -21,32 +20,21 @@ from disc_model.simulation.api import build_model, simulate
 from disc_model.simulation.bridge import read_state, write_state
 from disc_model.simulation.result import State
 from disc_model.simulation.tolerance import series_order, series_tolerance
+from disc_model.status import StatusBase
 
 Array = NDArray[np.float64]
 
 
-class LyapunovStatus(enum.StrEnum):
+class LyapunovStatus(StatusBase):
     """How the computation ended; `advice` says what to do."""
 
-    OK = "ok"
-    PARADOX = "paradox"
-    STALLED = "stalled"
-    NON_FINITE = "non_finite"
-    STEP_LIMIT = "step_limit"
-
-    @property
-    def advice(self) -> str:
-        """What the outcome means, in a sentence."""
-        return _ADVICE[self]
+    OK = "ok", "All of the time asked for was covered."
+    PARADOX = "paradox", "Painleve's paradox ended the motion: lower mu_k or N."
+    STALLED = "stalled", "Switches followed each other without the clock moving: perturb the start."
+    NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
+    STEP_LIMIT = "step_limit", "The transient took more steps than any motion should: check the magnitudes."
 
 
-_ADVICE = {
-    LyapunovStatus.OK: "All of the time asked for was covered.",
-    LyapunovStatus.PARADOX: "Painleve's paradox ended the motion: lower mu_k or N.",
-    LyapunovStatus.STALLED: "Switches followed each other without the clock moving: perturb the start.",
-    LyapunovStatus.NON_FINITE: "The motion overflowed: check the parameters' magnitudes.",
-    LyapunovStatus.STEP_LIMIT: "The transient took more steps than any motion should: check the magnitudes.",
-}
 _OUTCOMES = {
     outcomes.TIME_OVER: LyapunovStatus.OK,
     outcomes.NO_SOLUTION: LyapunovStatus.PARADOX,

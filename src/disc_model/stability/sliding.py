@@ -11,7 +11,6 @@ so that u = chi P and P = (N - k u_0) / (1 - k chi).
 
 from __future__ import annotations
 
-import enum
 import math
 from dataclasses import dataclass
 
@@ -21,32 +20,19 @@ from numpy.typing import NDArray
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
+from disc_model.status import StatusBase
 
 Array = NDArray[np.float64]
 
 
-class SlidingStatus(enum.StrEnum):
+class SlidingStatus(StatusBase):
     """Whether steady sliding exists; `advice` says what that means."""
 
-    OK = "ok"
-    NO_CONTACT = "no_contact"
-    AT_REST = "at_rest"
-    NO_SPRING = "no_spring"
-    PARADOX = "paradox"
-
-    @property
-    def advice(self) -> str:
-        """What the outcome means, in a sentence."""
-        return _ADVICE[self]
-
-
-_ADVICE = {
-    SlidingStatus.OK: "Steady sliding exists; its growth rate says whether it is stable.",
-    SlidingStatus.NO_CONTACT: "The equilibrium would need a contact force that is not positive: lower Omega.",
-    SlidingStatus.AT_REST: "The disc is not driven (Omega = 0): nothing slides.",
-    SlidingStatus.NO_SPRING: "Without the spring in the plane (k_p = 0) nothing balances friction.",
-    SlidingStatus.PARADOX: "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N.",
-}
+    OK = "ok", "Steady sliding exists; its growth rate says whether it is stable."
+    NO_CONTACT = "no_contact", "The equilibrium would need a contact force that is not positive: lower Omega."
+    AT_REST = "at_rest", "The disc is not driven (Omega = 0): nothing slides."
+    NO_SPRING = "no_spring", "Without the spring in the plane (k_p = 0) nothing balances friction."
+    PARADOX = "paradox", "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N."
 
 
 @dataclass(frozen=True, eq=False)
