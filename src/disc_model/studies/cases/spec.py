@@ -63,7 +63,7 @@ class CaseSpec:
     @property
     def key(self) -> str:
         """First 12 hexadecimal digits of the sha256 of `canonical`."""
-        return hashlib.sha256(self.canonical.encode()).hexdigest()[:12]
+        return content_key(self.canonical)
 
     @classmethod
     def from_canonical(cls, text: str) -> CaseSpec:
@@ -79,6 +79,11 @@ class CaseSpec:
             energy=data["energy"],
             truncation=data.get("truncation", ""),
         )
+
+
+def content_key(text: str) -> str:
+    """First 12 hexadecimal digits of the sha256 of a text."""
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
 def canonical_json(value: Any) -> str:

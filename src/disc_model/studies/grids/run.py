@@ -27,7 +27,7 @@ SCHEMA = "disc_model.studies.grids.quantities.schema"
 
 
 def run_batch(text: str) -> xr.Dataset:
-    """Compute a batch, given as the text that `disc_model.studies.grids.schema.GridStudy.batches` holds.
+    """Compute a batch, given as a text of `disc_model.studies.grids.spec.batch_texts`.
 
     The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
     """

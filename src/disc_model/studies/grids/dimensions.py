@@ -1,0 +1,132 @@
+"""Dimensions of a grid: axes, one parameter each, and zips, several parameters that vary together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from disc_model.errors import ParameterError
+from disc_model.parameters import Parameters
+from disc_model.studies.faults import Faults, add_parameter_faults, mapping
+from disc_model.studies.grids.axes import Blocks, Value, parse_blocks, without_repeats
+from disc_model.truncation import AUTO
+
+VARIED = (
+    "N", "Omega", "D_star", "c", "c_p", "k", "k_p", "E", "m",
+    "n_diameters", "n_circles", "normalization", "contact",
+)  # fmt: skip
+"""Parameters that a grid may vary, in the order of its dimensions."""
+MOST_POINTS = 1_000_000
+"""Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
+ANY = {"N": 1.0, "Omega": 1.0}
+"""Values for the check of one parameter where a study does not give the others."""
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """One dimension of a grid: the parameters that vary along it, and their values in blocks of sorted tuples."""
+
+    names: tuple[str, ...]
+    blocks: tuple[tuple[tuple[Value, ...], ...], ...]
+
+    @property
+    def name(self) -> str:
+        """The parameter, or the parameters of a zip, joined by _."""
+        return "_".join(self.names)
+
+    @property
+    def values(self) -> tuple[tuple[Value, ...], ...]:
+        """All values, sorted."""
+        return tuple(sorted(value for block in self.blocks for value in block))
+
+
+def n_points(dims: Sequence[Dimension]) -> int:
+    """Number of points of a grid."""
+    return math.prod(len(dim.values) for dim in dims)
+
+
+def parse_dimensions(
+    raw: Mapping[str, Any], resolution: int, base: Mapping[str, Any], faults: Faults
+) -> tuple[Dimension, ...]:
+    """The dimensions that a file gives rightly, in the order of `VARIED`."""
+    dims: list[Dimension] = []
+    for name, given in mapping(raw.get("axes")).items():
+        path = ("axes", str(name))
+        if name not in VARIED:
+            faults.add(path, "", f"cannot be an axis (known: {', '.join(VARIED)})")
+            continue
+        blocks = parse_blocks(given, path, faults, resolution)
+        checked = None if blocks is None else _checked(str(name), blocks, base, path, faults)
+        if checked is not None:
+            dims.append(Dimension((str(name),), without_repeats([[(v,) for v in block] for block in checked])))
+    for i, group in enumerate(_zips(raw)):
+        where = ("zip",) if isinstance(raw["zip"], Mapping) else ("zip", str(i))
+        dim = _zipped(mapping(group), where, base, faults)
+        if dim is not None:
+            dims.append(dim)
+    return tuple(sorted(dims, key=lambda dim: VARIED.index(dim.names[0])))
+
+
+def _zips(raw: Mapping[str, Any]) -> list[Any]:
+    """What a file gives under ``zip``: one group, or a list of them."""
+    zips = raw.get("zip")
+    return [zips] if isinstance(zips, Mapping) else zips if isinstance(zips, list) else []
+
+
+def asked(raw: Mapping[str, Any]) -> set[str]:
+    """Parameters that a file wants to vary, whether or not it says rightly how."""
+    return {str(name) for group in (raw.get("axes"), *_zips(raw)) for name in mapping(group)}
+
+
+def _zipped(
+    group: Mapping[Any, Any], path: tuple[str, ...], base: Mapping[str, Any], faults: Faults
+) -> Dimension | None:
+    columns: dict[str, list[Value]] = {}
+    for name, given in group.items():
+        if name not in VARIED:
+            faults.add((*path, str(name)), "", f"cannot be an axis (known: {', '.join(VARIED)})")
+            continue
+        blocks = parse_blocks(given, (*path, name), faults)
+        checked = None if blocks is None else _checked(name, blocks, base, (*path, name), faults)
+        if checked is not None:
+            columns[name] = [value for block in checked for value in block]
+    if not columns or len(columns) < len(group):
+        return None
+    lengths = {name: len(column) for name, column in columns.items()}
+    if len(set(lengths.values())) > 1:
+        faults.add(
+            path, "", f"must have columns of equal length, not {', '.join(f'{n}: {k}' for n, k in lengths.items())}"
+        )
+        return None
+    names = tuple(sorted(columns, key=VARIED.index))
+    return Dimension(names, without_repeats([list(zip(*[columns[name] for name in names], strict=True))]))
+
+
+def _checked(
+    name: str, blocks: Blocks, base: Mapping[str, Any], path: tuple[str, ...], faults: Faults
+) -> list[list[Value]] | None:
+    """Values as `Parameters` understands them: floats, whole numbers, words."""
+    good = True
+    result: list[list[Value]] = []
+    for block in blocks:
+        result.append([])
+        for value in block:
+            if name == "n_diameters" and value == AUTO:
+                good = False
+                faults.add(path, value, "cannot be varied: give it in base, for all points")
+                continue
+            try:
+                result[-1].append(getattr(Parameters(**{**ANY, **base, name: value}), name))
+            except ParameterError as error:
+                good = False
+                add_parameter_faults(error.faults, lambda _: path, faults)
+    return result if good else None
+
+
+def check_size(dims: Sequence[Dimension], faults: Faults) -> None:
+    """A fault for a grid of more than `MOST_POINTS`."""
+    points = n_points(dims)
+    if points > MOST_POINTS:
+        faults.add(("axes",), "", f"must make at most {MOST_POINTS} points, and not {points}")
