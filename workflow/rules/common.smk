@@ -11,7 +11,7 @@ from snakemake.shell import shell
 
 from disc_model.figures.paper.catalogue import CATALOGUE, STYLE, module_of
 from disc_model.data.provenance import source_hash
-from disc_model.studies.faults import read_file
+from disc_model.studies.reading import read_file
 from disc_model.studies.grids.schema import load_grids
 from disc_model.data.records import unrecorded
 from disc_model.studies.cases.schema import StudyError, study_from_config

@@ -29,10 +29,9 @@ from disc_model.studies.faults import (
     inherit,
     is_name,
     mapping,
-    read_file,
-    shown_path,
     validated,
 )
+from disc_model.studies.reading import read_file, shown_path
 from disc_model.truncation import AUTO, read_parameters
 
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]

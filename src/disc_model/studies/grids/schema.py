@@ -21,14 +21,13 @@ from disc_model.studies.faults import (
     add_parameter_faults,
     inherit,
     mapping,
-    read_file,
-    shown_path,
     validated,
 )
 from disc_model.studies.grids.axes import Value
 from disc_model.studies.grids.dimensions import ANY, Dimension, asked, check_size, n_points, parse_dimensions
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity
 from disc_model.studies.grids.spec import BatchSpec, batch_texts
+from disc_model.studies.reading import read_file, shown_path
 from disc_model.truncation import AUTO, asked_modes
 
 
