@@ -18,6 +18,7 @@ from tests.references.printed import MOTIONS, THETA, P, Printed, lively
 PAGE = (Path(__file__).parents[2] / "docs" / "model.md").read_text(encoding="utf-8")
 ROUNDING = 1e-12
 """Of two ways to write the same sums of some hundred terms, relative to the largest."""
+POWERS = str.maketrans("⁻¹²³", "-123")
 IN_WORDS = {"Contact and switches"}
 """Whose condition says what the phases do."""
 FUNCTIONS = [f for _, f in inspect.getmembers(equations, inspect.isfunction) if f.__module__ == equations.__name__]
@@ -155,7 +156,7 @@ def symbols():
     """Names in the table of symbols and their units."""
     rows = [line.strip("|").split("|") for line in section("Symbols").splitlines() if line.startswith("|")]
     assert all(len(row) == 5 for row in rows)
-    return {name: row[3].strip() for row in rows[2:] for name in re.findall(r"`(\w+)`(?! ¹)", row[1])}
+    return {name: row[3].strip().translate(POWERS) for row in rows[2:] for name in re.findall(r"`(\w+)`(?! ¹)", row[1])}
 
 
 def test_every_variable_is_in_the_table_of_symbols():
