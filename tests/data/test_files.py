@@ -14,7 +14,6 @@ import xarray as xr
 from disc_model.data.dataset import load, save
 from disc_model.data.files import DamagedFile, WriteError, check_whole, write_whole
 from disc_model.data.inputs import InputsError, load_inputs
-from disc_model.data.records import unrecorded
 from tests.tally import tried
 
 TREE = xr.DataTree.from_dict(
@@ -106,16 +105,3 @@ def test_all_damaged_inputs_are_named_and_set_aside(path: Path) -> None:
     assert [line.split(":")[0] for line in lines[:3]] == [str(path), str(other), str(path.with_name("gone.nc"))]
     assert lines[3] == "Run snakemake again: it computes them anew."
     assert sorted(os.listdir(path.parent)) == ["case.nc.damaged", "intact.nc", "other.nc.damaged"]
-
-
-def test_results_without_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    names = {"recorded": "YQ==", "cut": "Yg==", "unfinished": "Yw==", "absent": "ZA=="}  # a, b, c, d
-    for folder in ("metadata", "incomplete"):
-        Path(".snakemake", folder).mkdir(parents=True)
-    Path(".snakemake/metadata", names["recorded"]).write_text('{"rule": "r"}')
-    Path(".snakemake/metadata", names["cut"]).write_text('{"ru')
-    Path(".snakemake/incomplete", names["unfinished"]).write_text("{}")
-    for file in ("a", "b", "c", "e"):
-        Path(file).touch()
-    assert unrecorded(["a", "b", "c", "d", "e"]) == ["b", "e"]

@@ -7,14 +7,16 @@ import subprocess
 import sys
 import textwrap
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
 
 import numba
 import pytest
-from numba.core import caching, dispatcher
+from numba.core import caching, dispatcher, serialize
 
-from disc_model.engine import machine
-from disc_model.engine.cache import KernelCache, KernelFiles, kept_in
+from disc_model.engine import cache, machine
+from disc_model.engine.cache import kept_in
+from disc_model.engine.kernel_files import KernelCache, KernelFiles
 
 KERNEL = """
     import sys
@@ -25,6 +27,11 @@ KERNEL = """
         def twice(x):
             return 2 * x
     print(twice(21), sum(twice.stats.cache_hits.values()))
+"""
+
+WITHOUT = """
+import sys
+sys.modules["disc_model.engine.kernel_files"] = None  # its import fails
 """
 
 
@@ -122,7 +129,7 @@ def test_a_full_disk_costs_time_not_the_result(tmp_path: Path, monkeypatch: pyte
 def test_other_users_of_numba_are_left_alone(tmp_path: Path) -> None:
     before = numba.config.CACHE_DIR
     with kept_in(str(tmp_path)):
-        assert dispatcher.FunctionCache is KernelCache
+        assert isinstance(dispatcher.FunctionCache(only), KernelCache)
     assert dispatcher.FunctionCache is caching.FunctionCache
     assert before == numba.config.CACHE_DIR
 
@@ -133,3 +140,59 @@ def test_the_engine_uses_it() -> None:
         warnings.simplefilter("error")
         assert isinstance(machine.run._cache, KernelCache)
     assert Path(machine.run.stats.cache_path).name.startswith("engine-")
+
+
+# ---------------------------------------------------------------- a numba without the parts that checksums need
+PARTS = {
+    "locator": (caching, "UserProvidedCacheLocator"),
+    "implementation": (caching, "CompileResultCacheImpl"),
+    "serializer": (serialize, "dumps"),
+}
+
+
+@pytest.fixture
+def another_numba(monkeypatch: pytest.MonkeyPatch) -> Iterator[pytest.MonkeyPatch]:
+    """Parts of numba can be taken away, and kernel files are defined anew with what is left."""
+    monkeypatch.delitem(sys.modules, "disc_model.engine.kernel_files")
+    cache._say_once.cache_clear()
+    yield monkeypatch
+    cache._say_once.cache_clear()
+
+
+def falls_back() -> None:
+    """Two kernels in turn have numba's own cache; it is said once."""
+    with pytest.warns(RuntimeWarning, match="keeps compiled kernels in another way than expected") as said:
+        assert [cache._cache_of(lambda _: "numba's own", only) for _ in range(2)] == ["numba's own"] * 2
+    assert len(said) == 1
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_without_a_part_numba_keeps_its_own_files(part: str, another_numba: pytest.MonkeyPatch) -> None:
+    another_numba.delattr(*PARTS[part])
+    falls_back()
+
+
+def test_files_under_another_name(another_numba: pytest.MonkeyPatch) -> None:
+    another_numba.setattr(caching.Cache, "__init__", lambda self, _: setattr(self, "_impl", self._impl_class(only)))
+    falls_back()
+
+
+def test_a_dispatcher_that_has_no_cache(another_numba: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    another_numba.delattr(dispatcher, "FunctionCache")
+    before = numba.config.CACHE_DIR
+    with pytest.warns(RuntimeWarning, match="numba.core.dispatcher has no FunctionCache"), kept_in(str(tmp_path)):
+        assert str(tmp_path) == numba.config.CACHE_DIR
+    assert before == numba.config.CACHE_DIR
+    assert not hasattr(dispatcher, "FunctionCache")
+
+
+@pytest.mark.compiled
+def test_kernels_are_found_again_in_numbas_own_files(tmp_path: Path) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(WITHOUT + textwrap.dedent(KERNEL))
+    for hits in ("0", "1"):
+        command = [sys.executable, str(script), str(tmp_path / "cache")]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        assert done.stdout.split() == ["42", hits]
+        assert done.stderr.count("RuntimeWarning") == 1
+    assert list((tmp_path / "cache").rglob("*.nbi"))

@@ -289,6 +289,13 @@ def cache_of(project: Project) -> Path:
 # ---- Snakemake's records
 
 
+def test_records_in_a_database(finished: Project) -> None:
+    """There they are not looked for: Snakemake does as it does by itself, and it is said once."""
+    done = run(finished, "-n", "--persistence-backend", "db")
+    assert done.returncode == 0, said(done)
+    assert said(done).count("(they are in a database)") == 1
+
+
 def test_lost_records(finished: Project, undisturbed: dict[str, bytes]) -> None:
     """Without its records Snakemake would take everything for up to date."""
     shutil.rmtree(finished.folder / ".snakemake")

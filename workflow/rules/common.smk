@@ -6,6 +6,7 @@ from glob import glob
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.logging import logger
 from snakemake.settings.types import DeploymentMethod
 from snakemake.shell import shell
 
@@ -13,7 +14,7 @@ from disc_model.figures.paper.catalogue import CATALOGUE, STYLE, module_of
 from disc_model.data.provenance import source_hash
 from disc_model.studies.reading import read_file
 from disc_model.studies.grids.schema import load_grids
-from disc_model.data.records import unrecorded
+from disc_model.data.records import unrecorded, why_unknown
 from disc_model.studies.cases.schema import StudyError, study_from_config
 
 PAPER = Path("config/paper.yaml")
@@ -71,7 +72,13 @@ def sources_of(script, *modules, files=()):
 def refuse_unrecorded(files):
     """Stop if there are results of which Snakemake has no record: it would take them for up to date, whatever they are."""
     mending = {"check", "--unlock", "--touch"} & set(sys.argv)
-    if not workflow.is_main_process or mending:
+    if not getattr(workflow, "is_main_process", True) or mending:
+        return
+    if reason := why_unknown(workflow):
+        logger.warning(
+            "Snakemake's records of how files were made are not where they are looked for"
+            f" ({reason}): that results without a record are taken for up to date goes unnoticed."
+        )
         return
     if unknown := unrecorded(files):
         raise WorkflowError(

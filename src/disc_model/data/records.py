@@ -2,14 +2,20 @@
 
 Snakemake keeps a record of how each file was made, and compares it with what is asked for now. Without one it takes the
 file for up to date, whatever has changed since, and says nothing.
+
+Where it keeps them is its own affair; `why_unknown` says whether it is where they are looked for here.
 """
 
 from __future__ import annotations
 
 import json
+import os
 from base64 import urlsafe_b64encode
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
+
+_EXAMPLE = "results/paper/cases/F02.nc"
 
 
 def unrecorded(files: Iterable[str], folder: Path = Path(".snakemake")) -> list[str]:
@@ -24,6 +30,22 @@ def unrecorded(files: Iterable[str], folder: Path = Path(".snakemake")) -> list[
         and not _readable(folder / "metadata" / _name(file))
         and not (folder / "incomplete" / _name(file)).exists()
     ]
+
+
+def why_unknown(workflow: Any) -> str:
+    """What of Snakemake is not as `unrecorded` takes it to be, of the running ``workflow``; "" if all is."""
+    try:
+        from snakemake.persistence.file import FilePersistence
+        from snakemake.settings.enums import PersistenceBackend
+
+        if workflow.workflow_settings.persistence_backend != PersistenceBackend.FILE:
+            return "they are in a database"
+        store = FilePersistence.__new__(FilePersistence)  # which makes no folders
+        store._max_len = 255
+        place = store._record_path("metadata", _EXAMPLE)
+    except (ImportError, AttributeError, TypeError) as error:
+        return str(error)
+    return "" if place == os.path.join("metadata", _name(_EXAMPLE)) else f"one is called {place}"
 
 
 def _name(file: str) -> str:

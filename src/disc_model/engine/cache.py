@@ -1,122 +1,60 @@
-"""Compiled kernels on disk: numba's cache, with checksums.
-
-Numba trusts what it finds there: a cut file ends in a traceback, a changed byte of machine code in a crash or in wrong
-numbers.  It also keeps an index of each kernel's files that is read and written back without a lock, so that processes
-that compile at the same time can come to load each other's code.  Here each compiled signature has one file, named by
-what was compiled.  The file begins with a checksum and says what it holds; what does not fit is compiled anew.
-"""
+"""Where compiled kernels are kept: in a folder of ours, with checksums if numba has the parts that these need."""
 
 from __future__ import annotations
 
 import contextlib
-import glob
-import hashlib
-import os
-import pickle
-import uuid
+import functools
 import warnings
 from collections.abc import Iterator
+from typing import Any
 
 import numba
-from numba.core import caching, dispatcher
-from numba.core.serialize import dumps
 
+# What a part of numba that is not there, or not as expected, ends in.
+MISSING = (ImportError, AttributeError, TypeError)
 
-class KernelFiles:
-    """The files of one kernel; stands in for numba's index and data files."""
+# Type checkers do not know what settings there are, nor who makes caches.
+_SETTINGS: Any = numba.config
+_USER: Any = None
+with contextlib.suppress(ImportError):
+    from numba.core import dispatcher
 
-    def __init__(self, folder, name, source_stamp):
-        self._folder = folder
-        self._name = name
-        self._stamp = (numba.__version__, source_stamp)
-
-    def load(self, key):
-        """What was saved for a signature, or None if that is not there or not intact."""
-        try:
-            with open(self._path(key), "rb") as file:
-                digest, body = file.read(_DIGEST), file.read()
-        except OSError:
-            return None
-        if hashlib.sha256(body).digest() != digest:
-            return None
-        stamp, found, data = pickle.loads(body)
-        return data if (stamp, found) == (self._stamp, key) else None
-
-    def save(self, key, data):
-        """Write one file, in one piece."""
-        body = dumps((self._stamp, key, data))
-        temporary = os.path.join(self._folder, f"{self._name}.{uuid.uuid4().hex}.tmp")
-        try:
-            with open(temporary, "wb") as file:
-                file.write(hashlib.sha256(body).digest() + body)
-            os.replace(temporary, self._path(key))
-        except BaseException:
-            with contextlib.suppress(OSError):
-                os.unlink(temporary)
-            raise
-
-    def flush(self):
-        """Forget all signatures."""
-        for path in glob.glob(f"{glob.escape(os.path.join(self._folder, self._name))}.*{_SUFFIX}"):
-            with contextlib.suppress(FileNotFoundError):
-                os.unlink(path)
-
-    def _path(self, key):
-        # The text of a key is the same in every process, since no kernel is handed a function.
-        name = hashlib.sha256(repr(key).encode()).hexdigest()[:16]
-        return os.path.join(self._folder, f"{self._name}.{name}{_SUFFIX}")
-
-
-_SUFFIX = ".kernel"
-_DIGEST = hashlib.sha256().digest_size
-
-
-class _Locator(caching.UserProvidedCacheLocator):
-    @classmethod
-    def get_suitable_cache_subpath(cls, py_file):
-        # the folder is named by a hash of the sources: copies of them elsewhere may share it
-        return ""
-
-
-class _Implementation(caching.CompileResultCacheImpl):
-    _locator_classes = [_Locator, *caching.CompileResultCacheImpl._locator_classes]  # noqa: RUF012 - numba's own type
-
-
-class KernelCache(caching.FunctionCache):
-    """Numba's cache of one function, kept in `KernelFiles`."""
-
-    _impl_class = _Implementation
-
-    def __init__(self, py_func):
-        super().__init__(py_func)
-        locator = self._impl.locator
-        self._cache_file = KernelFiles(self.cache_path, self._impl.filename_base, locator.get_source_stamp())
-
-    def save_overload(self, sig, data):
-        """Save if there is room: a full or read-only disk costs time, not the result."""
-        try:
-            super().save_overload(sig, data)
-        except OSError as error:
-            warnings.warn(
-                f"{self.cache_path}: compiled kernels cannot be kept there ({error.strerror}); "
-                "every process compiles them again",
-                RuntimeWarning,
-                stacklevel=2,
-            )
+    _USER = dispatcher
 
 
 @contextlib.contextmanager
 def kept_in(folder: str) -> Iterator[None]:
     """Keep the kernels that are defined meanwhile in a folder; other users of numba are left as they were."""
-    ours = [(numba.config, "CACHE_DIR", folder), (dispatcher, "FunctionCache", KernelCache)]
-    before = [(place, name, getattr(place, name)) for place, name, _ in ours]
+    before, own = _SETTINGS.CACHE_DIR, getattr(_USER, "FunctionCache", None)
+    _SETTINGS.CACHE_DIR = folder
+    if own is None:
+        _say_once("numba.core.dispatcher has no FunctionCache")
+    else:
+        _USER.FunctionCache = functools.partial(_cache_of, own)
     try:
-        _set(ours)
         yield
     finally:
-        _set(before)
+        _SETTINGS.CACHE_DIR = before
+        if own is not None:
+            _USER.FunctionCache = own
 
 
-def _set(values):
-    for place, name, value in values:
-        setattr(place, name, value)
+def _cache_of(own, py_func):
+    """The cache of one function: with checksums, or numba's own where it lacks the parts for that."""
+    try:
+        from .kernel_files import KernelCache
+
+        return KernelCache(py_func)
+    except MISSING as error:
+        _say_once(str(error))
+        return own(py_func)
+
+
+@functools.cache
+def _say_once(what: str) -> None:
+    warnings.warn(
+        f"numba {numba.__version__} keeps compiled kernels in another way than expected ({what}): "
+        "its own files are used, which have no checksums",
+        RuntimeWarning,
+        stacklevel=2,
+    )
