@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters
-from disc_model.engine import layout, plain, series
+from disc_model.engine import layout, series
 from disc_model.simulation.api import build_model
 from tests.engine.compiled import kernel
+from tests.references import plain
 
 ORDER = 23
 SHAPES = {

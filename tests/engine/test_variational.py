@@ -12,6 +12,7 @@ from disc_model.simulation.bridge import write_state
 from disc_model.simulation.result import State
 from disc_model.simulation.tolerance import series_order
 from disc_model.stability.return_map import PARAMETERS, ReturnMap
+from tests.references.divergence import divergence
 from tests.references.printed import MOTIONS, SPAN, Printed, lively
 
 LIVELY = Parameters(
@@ -103,9 +104,8 @@ class Full:
             array += part
 
     def fly(self, tangent: bool) -> None:
-        outcome = variational.fly(
-            self.model, self.series, self.state, self.tangent, self.order, 1e-14, 2.0, SPAN, 0, True, tangent
-        )
+        course = variational.Course(self.order, 1e-14, 2.0, SPAN, 0, may_separate=True, tangent=tangent)
+        outcome = variational.fly(self.model, self.series, self.state, self.tangent, course)
         assert outcome == outcomes.TIME_OVER
 
     def columns(self) -> np.ndarray:
@@ -166,7 +166,7 @@ def test_divergence_is_the_trace(phase: str, direction: int) -> None:
 
     steps = 1e-3 * np.maximum(np.abs(run.coordinates), 1e-4)
     trace = sum(differences(lambda h, i=i: rate(i, h), steps[i]) for i in range(n))
-    assert variational.divergence(run.model, run.state) == pytest.approx(trace, rel=1e-7)
+    assert divergence(run.model, run.state) == pytest.approx(trace, rel=1e-7)
 
 
 # ------------------------------------------------------------------------------------ when a switch happens

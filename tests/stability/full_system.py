@@ -52,9 +52,8 @@ class Full:
         switches.change_phase(self.model, self.state, switches.RELEASE_FORWARD, False)
 
     def fly(self, duration, tangent=True):
-        return variational.fly(
-            self.model, self.series, self.state, self.tangent, self.order, self.tol, 2.0, duration, 0, True, tangent
-        )
+        course = variational.Course(self.order, self.tol, 2.0, duration, 0, may_separate=True, tangent=tangent)
+        return variational.fly(self.model, self.series, self.state, self.tangent, course)
 
     def release_change(self, vector):
         """Gradient of the release condition times a vector of coordinates, f's left out."""

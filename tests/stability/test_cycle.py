@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Result, floquet, simulate, steady_sliding
-from disc_model.engine import layout, saltation, variational
+from disc_model.engine import layout, saltation
 from disc_model.errors import DiscModelError
 from disc_model.stability import return_map as return_map_module
 from disc_model.stability.cycle import (
@@ -22,6 +22,7 @@ from disc_model.stability.cycle import (
     kind_of,
 )
 from disc_model.stability.return_map import Flight, ReturnMap
+from tests.references.divergence import divergence
 from tests.stability.full_system import Full
 from tests.stability.test_return_map import central_differences
 
@@ -218,7 +219,7 @@ def test_product_of_multipliers_is_that_of_divergence_and_saltation():
             run = Full(DAMPED, start)
             run.release()
             run.fly(begin + length * (node + 1) / 2, tangent=False)
-            trace += weight * length / 2 * variational.divergence(run.model, run.state)
+            trace += weight * length / 2 * divergence(run.model, run.state)
     run = Full(DAMPED, start)
     before = run.rates
     run.release()

@@ -25,10 +25,6 @@ import disc_model
 PACKAGE = Path(disc_model.__file__).parent
 FUNCTIONS = {
     "engine/layout.py": ("build_model", "build_state"),
-    "engine/plain.py": (
-        *("_disc_rates", "_apply_force", "_disc_point"),
-        *("slip_series", "stick_series", "separation_series"),
-    ),
     "engine/sampling.py": ("point_motion", "_write_row"),
     "engine/audit.py": ("transverse_energy", "inplane_energy", "_powers_in", "audit_impact"),
     "engine/series.py": (
@@ -43,7 +39,7 @@ FUNCTIONS = {
         *("_convolve", "_motion_slope", "point_change", "_diametral_rates", "_axisymmetric_rates"),
         *("_slider_forces", "_path_change", "_apply_force", "tangent_series"),
     ),
-    "engine/variational.py": ("divergence", "section_map"),
+    "engine/variational.py": ("section_map",),
     "simulation/bridge.py": ("read_state",),
     "stability/return_map.py": ("ReturnMap._set_changes", "ReturnMap.state", "ReturnMap.contact_force"),
     "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),

@@ -35,7 +35,6 @@ RIVALS = "tests/benchmarks/methods"
 METHODS = (f"{RIVALS}/test_kernels.py", f"{RIVALS}/test_short_motions.py", f"{RIVALS}/test_rk4.py", *EQUATIONS)
 #: What notices changes of a file, if it is not the tests of the equations.
 NOTICED_BY = {
-    "engine/plain.py": TWINS[:1],
     "engine/series.py": TWINS,
     "engine/coasting.py": CLOSED_FORM,
     "engine/stick_modes.py": CLOSED_FORM,

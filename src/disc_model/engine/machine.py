@@ -6,6 +6,10 @@ does not grow with the simulated time and callers can show progress.  Where it p
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
+import numpy as np
+
 from .audit import audit_impact, audit_step, transverse_energy
 from .coasting import LONGEST_COAST, coast_length
 from .compile import inlined, kernel
@@ -50,9 +54,35 @@ EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity"
 MAX_EVENTS_PER_STEP = 3
 
 
+class Limits(NamedTuple):
+    """What a run is asked for."""
+
+    order: int  # of the series
+    tolerance: float  # of the series
+    t_end: float  # s
+    stop_at_first: bool  # separation
+    max_steps: int
+    pause_after: int  # steps
+    audit_every: int  # steps
+
+
+class Kept(NamedTuple):
+    """What a run writes beside its state."""
+
+    counters: np.ndarray  # shape (N_COUNTERS,)
+    phase_times: np.ndarray  # s, shape (3,)
+    audit: np.ndarray  # see ``audit``
+    samplers: np.ndarray  # see ``sampling``
+    sampled: np.ndarray  # see ``sampling``
+    sample_rows: np.ndarray  # see ``sampling``
+    sample_capacity: int  # rows that may be filled before the machine pauses
+    event_rows: np.ndarray  # shape (capacity, len(EVENT_ROW)); capacity 0 keeps no events
+
+
 @inlined
-def _record(model, state, kind, counters, rows):
+def _record(model, state, kind, kept):
     """Count an event and, if events are kept, append its row."""
+    counters, rows = kept.counters, kept.event_rows
     counters[EVENTS] += 1
     if kind == LOSS_OF_CONTACT:
         counters[SEPARATIONS] += 1
@@ -81,7 +111,7 @@ def _kind(state, cause):
 
 
 @inlined
-def _switch(model, state, cause, at_once, counters, rows, audit):
+def _switch(model, state, cause, at_once, kept):
     """Carry out the switch and record its events; ``at_once``: after no time.  Returns its outcome."""
     came_from, before, velocity, slope = state.x[DIRECTION], 0.0, 0.0, 0.0
     if cause == GAP_CLOSED:
@@ -89,88 +119,79 @@ def _switch(model, state, cause, at_once, counters, rows, audit):
         _, _, slope = disc_point(model, state)
     outcome = change_phase(model, state, cause, at_once)
     if cause == GAP_CLOSED:
-        audit_impact(model, before, model.m * (state.x[U_VELOCITY] - velocity), slope, state, audit)
+        audit_impact(model, before, model.m * (state.x[U_VELOCITY] - velocity), slope, state, kept.audit)
     if outcome == NO_SOLUTION:
         return outcome
     kind = _kind(state, cause)
     lost = state.x[PHASE] == SEPARATION and kind != LOSS_OF_CONTACT
     if not (kind == SLIP_REVERSAL and state.x[DIRECTION] == came_from) and not (kind == SLIP_REVERSAL and lost):
-        _record(model, state, kind, counters, rows)
+        _record(model, state, kind, kept)
     if lost:
-        _record(model, state, LOSS_OF_CONTACT, counters, rows)
+        _record(model, state, LOSS_OF_CONTACT, kept)
     return outcome
 
 
 @inlined
-def _move(
-    model, s, state, probe, order, x_end, audit_every, counters, phase_times, audit, samplers, sampled, sample_rows,
-):  # fmt: skip
+def _move(model, s, state, probe, order, x_end, audit_every, kept):
     """Carry the state and the clock over a step, or a coast (order ``COAST``), auditing and sampling on the way."""
-    x, phase = state.x, state.x[PHASE]
+    x, phase, counters = state.x, state.x[PHASE], kept.counters
     counters[STEPS] += 1
     counters[FROM_AUDIT] += 1
     if counters[FROM_AUDIT] >= audit_every:
         counters[FROM_AUDIT] = 0
-        audit_step(model, s, order, x_end, phase, x[DIRECTION], probe, audit)
-    if len(samplers) > 0:
+        audit_step(model, s, order, x_end, phase, x[DIRECTION], probe, kept.audit)
+    if len(kept.samplers) > 0:
         counters[SAMPLE_ROWS] = sample_step(
-            model, s, order, state, x_end, samplers, sampled, probe, sample_rows, counters[SAMPLE_ROWS]
+            model, s, order, state, x_end, kept.samplers, kept.sampled, probe, kept.sample_rows, counters[SAMPLE_ROWS]
         )
     move_to(model, s, order, x_end, phase, state)
     x[KNOWN], x[FORCE], x[COASTED] = 0.0, 0.0, 1.0 if x_end < LONGEST_COAST else 0.0
     advance_time(x, x_end * model.unit)
-    phase_times[int(phase)] += x_end * model.unit
+    kept.phase_times[int(phase)] += x_end * model.unit
+
+
+@inlined
+def _full(kept):
+    """Whether a buffer has no room for what a step may bring."""
+    counters, rows = kept.counters, len(kept.event_rows)
+    events = rows > 0 and counters[EVENT_ROWS] > rows - MAX_EVENTS_PER_STEP
+    return events or counters[SAMPLE_ROWS] > kept.sample_capacity
 
 
 @kernel
-def run(
-    model, s, state, probe, order, tolerance, t_end, stop_at_first, max_steps, pause_after, audit_every,
-    counters, phase_times, audit, samplers, sampled, sample_capacity, sample_rows, event_rows,
-):  # fmt: skip
-    """Advance ``state`` until a reason to return: see ``outcomes``.
-
-    order, tolerance: of the series; t_end: s; audit_every: steps between energy audits; counters: shape (N_COUNTERS,);
-    phase_times: s, shape (3,); audit: see ``audit``; samplers, sampled: see ``sampling``; sample_capacity: rows that
-    may be filled before the machine pauses; event_rows: shape (capacity, len(EVENT_ROW)), capacity 0 keeps no events.
-    """
-    pause = counters[STEPS] + pause_after
-    x = state.x
+def run(model, s, state, probe, limits, kept):
+    """Advance ``state`` until a reason to return: see ``outcomes``.  ``probe`` is a state to work with."""
+    x, counters, order = state.x, kept.counters, limits.order
+    pause = counters[STEPS] + limits.pause_after
     while True:
-        if counters[STEPS] >= max_steps:
+        if counters[STEPS] >= limits.max_steps:
             return STEP_LIMIT
-        full = len(event_rows) > 0 and counters[EVENT_ROWS] > len(event_rows) - MAX_EVENTS_PER_STEP
-        if full or counters[STEPS] >= pause or counters[SAMPLE_ROWS] > sample_capacity:
+        if _full(kept) or counters[STEPS] >= pause:
             return PAUSED
         phase = x[PHASE]
-        left = ((t_end - x[TIME]) - x[TIME_LOW]) / model.unit
+        left = ((limits.t_end - x[TIME]) - x[TIME_LOW]) / model.unit
         if phase == STICK and x[COASTED] == 0.0:
             x_end = min(coast_length(model, s, state), left)
             if x_end > 0.0:
-                _move(
-                    model, s, state, probe, COAST, x_end,
-                    audit_every, counters, phase_times, audit, samplers, sampled, sample_rows,
-                )  # fmt: skip
+                _move(model, s, state, probe, COAST, x_end, limits.audit_every, kept)
                 if x_end >= left:
                     return TIME_OVER
                 continue
         if expand(model, s, state, order) <= PAINLEVE_MARGIN:
             return NO_SOLUTION
-        x_end = step_size(model, s, order, tolerance, phase)
+        x_end = step_size(model, s, order, limits.tolerance, phase)
         if not x_end > 0.0:
             return NON_FINITE
         x_end, cause = first_switch(model, s, state, order, min(x_end, left))
         before = x[TIME]
-        _move(
-            model, s, state, probe, order, x_end,
-            audit_every, counters, phase_times, audit, samplers, sampled, sample_rows,
-        )  # fmt: skip
+        _move(model, s, state, probe, order, x_end, limits.audit_every, kept)
         if cause != NOTHING:
             counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[TIME] == before else 0
             if counters[IN_A_ROW] > MAX_EVENTS_IN_A_ROW:
                 return STALLED
-            if _switch(model, state, cause, x_end == 0.0, counters, event_rows, audit) == NO_SOLUTION:
+            if _switch(model, state, cause, x_end == 0.0, kept) == NO_SOLUTION:
                 return NO_SOLUTION
-            if stop_at_first and counters[SEPARATIONS] > 0:
+            if limits.stop_at_first and counters[SEPARATIONS] > 0:
                 return STOPPED
         if x_end >= left:
             return TIME_OVER

@@ -21,7 +21,24 @@ from .switches import (
     spring_force,
     stick_force,
 )
-from .tangent import D_C, D_C_P, D_K, D_K_P, D_M, D_OMEGA, LOAD, N_SCALARS, n_inputs, n_rows_of, point_change
+from .tangent import (
+    D_C,
+    D_C_P,
+    D_K,
+    D_K_P,
+    D_M,
+    D_OMEGA,
+    F_ROW,
+    LOAD,
+    N_SCALARS,
+    PSI_ROW,
+    U_ROW,
+    V_ROW,
+    n_inputs,
+    n_rows_of,
+    point_change,
+    slider_row,
+)
 
 
 @inlined
@@ -43,7 +60,6 @@ def rates(model, state, out):
     x = state.x
     phase, f, P = x[PHASE], x[SPEED], _contact_force(model, state)
     F = spring_force(model, state)
-    row = 2 * width + 2 * n0
     rate_f = 0.0
     if phase == SLIP:
         rate_f = (F - x[DIRECTION] * model.mu_k * P / model.r_0) / model.m
@@ -58,13 +74,13 @@ def rates(model, state, out):
         out[(2 * width + j) * WIDTH] = state.g[j]
         rate = -model.damping0[j] * state.g[j] - model.stiffness0[j] * state.y[j]
         out[(2 * width + n0 + j) * WIDTH] = rate - model.force0[j] * P
-    out[row * WIDTH] = model.Omega - f
-    out[(row + 1) * WIDTH] = rate_f
+    out[slider_row(model, PSI_ROW) * WIDTH] = model.Omega - f
+    out[slider_row(model, F_ROW) * WIDTH] = rate_f
     u, v, _ = disc_point(model, state)
     if phase == SEPARATION:
         u, v = x[U], x[U_VELOCITY]
-    out[(row + 2) * WIDTH] = v
-    out[(row + 3) * WIDTH] = (P - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
+    out[slider_row(model, U_ROW) * WIDTH] = v
+    out[slider_row(model, V_ROW) * WIDTH] = (P - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
 
 
 @inlined
@@ -74,7 +90,7 @@ def _force_change(model, state, x, at, parameters, q, changes, slipping):
     f = state.x[SPEED] if slipping else 0.0
     u, v, B = disc_point(model, state)
     du, dv, dB = point_change(model, x, at, f, B)
-    df = load(x, at + (2 * width + 2 * n0 + 1) * WIDTH)
+    df = load(x, at + slider_row(model, F_ROW) * WIDTH)
     acceleration = splat(0.0)
     for j in range(width):
         if model.shift[j] > 0.0:
@@ -108,8 +124,8 @@ def _force_change(model, state, x, at, parameters, q, changes, slipping):
 @inlined
 def _pull_change(model, state, x, at, parameters, q, changes):
     """Change of F at a state (lanes)."""
-    row = 2 * len(model.force) + 2 * len(model.force0)
-    change = fma(splat(model.k_p), load(x, at + row * WIDTH), mul(splat(-model.c_p), load(x, at + (row + 1) * WIDTH)))
+    dpsi, df = load(x, at + slider_row(model, PSI_ROW) * WIDTH), load(x, at + slider_row(model, F_ROW) * WIDTH)
+    change = fma(splat(model.k_p), dpsi, mul(splat(-model.c_p), df))
     if changes:
         change = fma(splat(state.x[PSI]), load(parameters, q + D_K_P * WIDTH), change)
         change = fma(splat(model.Omega - state.x[SPEED]), load(parameters, q + D_C_P * WIDTH), change)
@@ -133,12 +149,11 @@ def _inertia(model, state, slipping):
 @inlined
 def switch_change(model, state, cause, x, at, parameters, q, changes):
     """Change of the switch function of ``cause`` at a state, for a block of columns (lanes)."""
-    row = 2 * len(model.force) + 2 * len(model.force0)
     if cause == AT_REST:
-        return load(x, at + (row + 1) * WIDTH)
+        return load(x, at + slider_row(model, F_ROW) * WIDTH)
     if cause == GAP_CLOSED:
         du, _, _ = point_change(model, x, at, 0.0, 0.0)
-        return sub(load(x, at + (row + 2) * WIDTH), du)
+        return sub(load(x, at + slider_row(model, U_ROW) * WIDTH), du)
     slipping = cause == CONTACT_LOST and state.x[PHASE] == SLIP
     change = _force_change(model, state, x, at, parameters, q, changes, slipping)
     if changes:
@@ -182,14 +197,13 @@ def shift(model, t, rates_at, sign):
 def impact_change(model, state, t):
     """Jacobian of the plastic impact, applied to the columns; ``state`` is the one before."""
     C, width, n0 = t.columns, len(model.force), len(model.force0)
-    row = 2 * width + 2 * n0
     _, v, B = disc_point(model, state)
     share = 1.0 / (model.compliance + 1.0 / model.m)
     p = (v - state.x[U_VELOCITY]) * share
     for c in range(0, C, WIDTH):
         block = c * n_rows_of(model)
         _, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
-        change = sub(dv, load(t.now, block + (row + 3) * WIDTH))
+        change = sub(dv, load(t.now, block + slider_row(model, V_ROW) * WIDTH))
         if c >= t.plain:
             # 1 / m: -dm / m^2
             change = fma(splat(p / model.m**2), load(t.parameters, c * n_inputs(model) + D_M * WIDTH), change)
@@ -206,20 +220,17 @@ def impact_change(model, state, t):
 def slider_rows(model, state, t):
     """Rows u, u' as the disc's: contact."""
     C = t.columns
-    row = 2 * len(model.force) + 2 * len(model.force0)
     _, _, B = disc_point(model, state)
     for c in range(0, C, WIDTH):
         block = c * n_rows_of(model)
         du, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
-        store(t.now, block + (row + 2) * WIDTH, du)
-        store(t.now, block + (row + 3) * WIDTH, dv)
+        store(t.now, block + slider_row(model, U_ROW) * WIDTH, du)
+        store(t.now, block + slider_row(model, V_ROW) * WIDTH, dv)
 
 
 @kernel
 def rest(model, t):
     """df = 0 in stick, exactly."""
     C = t.columns
-    row = 2 * len(model.force) + 2 * len(model.force0) + 1
     for c in range(0, C, WIDTH):
-        block = c * n_rows_of(model)
-        store(t.now, block + row * WIDTH, splat(0.0))
+        store(t.now, c * n_rows_of(model) + slider_row(model, F_ROW) * WIDTH, splat(0.0))

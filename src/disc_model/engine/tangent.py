@@ -23,6 +23,9 @@ from .layout import HALF, SEPARATION, SLIP, STICK, Model
 # Entries of ``Tangent.log``; ``variational`` says what they are.
 LOG_SIZE = 16
 
+# Rows of the slider in a column, behind those of the disc, which stand in the order of ``State.disc``.
+PSI_ROW, F_ROW, U_ROW, V_ROW, N_SLIDER_ROWS = range(5)
+
 # Rows of the parameters' changes that a column carries; after them stiffness and damping of all lanes and of the
 # axisymmetric modes.
 LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, N_SCALARS = range(8)
@@ -53,7 +56,7 @@ def longest_step(order: int, tolerance: float) -> float:
 
 def n_rows(model: Model) -> int:
     """Number of rows of a column."""
-    return 2 * len(model.force) + 2 * len(model.force0) + 4
+    return 2 * len(model.force) + 2 * len(model.force0) + N_SLIDER_ROWS
 
 
 def build_tangent(model: Model, columns: int, order: int, plain: int | None = None) -> Tangent:
@@ -76,6 +79,24 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
         columns=columns,
         plain=plain,
     )
+
+
+@inlined
+def slider_row(model, row):
+    """Where a row of the slider, ``PSI_ROW`` to ``V_ROW``, stands in a column; ``N_SLIDER_ROWS``: where columns end."""
+    return 2 * len(model.force) + 2 * len(model.force0) + row
+
+
+@inlined
+def n_rows_of(model):
+    """As ``n_rows``, inside kernels."""
+    return slider_row(model, N_SLIDER_ROWS)
+
+
+@inlined
+def n_inputs(model):
+    """Number of rows of ``Tangent.parameters``."""
+    return N_SCALARS + slider_row(model, 0)
 
 
 @inlined
@@ -123,20 +144,8 @@ def point_change(model, x, at, f, B):
         force = splat(model.force0[j])
         du = fma(force, load(x, at + (2 * width + j) * WIDTH), du)
         dv = fma(force, load(x, at + (2 * width + n0 + j) * WIDTH), dv)
-    df = load(x, at + (2 * width + 2 * n0 + 1) * WIDTH)
+    df = load(x, at + slider_row(model, F_ROW) * WIDTH)
     return du, fma(splat(f), dB, fma(splat(B), df, dv)), dB
-
-
-@inlined
-def n_rows_of(model):
-    """As ``n_rows``, inside kernels."""
-    return 2 * len(model.force) + 2 * len(model.force0) + 4
-
-
-@inlined
-def n_inputs(model):
-    """Number of rows of ``Tangent.parameters``."""
-    return N_SCALARS + 2 * len(model.force) + 2 * len(model.force0)
 
 
 @inlined
@@ -146,7 +155,7 @@ def _diametral_rates(model, s, t, block, k, phase, R):
     Returns their share of d(u'') and dB of order k + 1 (lanes).
     """
     width, origin = len(model.force), block * len(t.base_slope) * R * WIDTH
-    f_row, q = R - 3, block * n_inputs(model) * WIDTH
+    f_row, q = slider_row(model, F_ROW), block * n_inputs(model) * WIDTH
     here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
     up, free, dB = splat(s.up[k]), splat(0.0), splat(0.0)
     for j in range(width):
@@ -220,10 +229,10 @@ def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
 
 
 @inlined
-def _path_change(s, t, block, k, R):
+def _path_change(s, t, block, k, R, f_row):
     """Change of f B without f'_k B_0, order k + 1: what the slope of the disc adds to d(u') (lanes)."""
     orders = len(t.base_slope)
-    origin, chain, f_row = block * orders * R * WIDTH, block * orders * WIDTH, R - 3
+    origin, chain = block * orders * R * WIDTH, block * orders * WIDTH
     carried = mul(splat(s.f[k + 1]), load(t.slope, chain))
     for i in range(k + 1):
         carried = fma(splat(s.f[i]), load(t.slope, chain + (k + 1 - i) * WIDTH), carried)
@@ -249,7 +258,8 @@ def _apply_force(model, s, t, block, k, R, P):
 def tangent_series(model, s, t, order, phase, direction):
     """Taylor coefficients of all columns along the step whose series is ``s``, from ``t.now``."""
     R, orders = n_rows_of(model), len(t.base_slope)
-    psi_row, f_row, u_row, v_row = R - 4, R - 3, R - 2, R - 1
+    psi_row, f_row = slider_row(model, PSI_ROW), slider_row(model, F_ROW)
+    u_row, v_row = slider_row(model, U_ROW), slider_row(model, V_ROW)
     _motion_slope(model, s, t, order)
     B0 = t.base_slope[0]
     friction = direction * model.mu_k / model.r_0 if phase == SLIP else 0.0
@@ -276,7 +286,7 @@ def tangent_series(model, s, t, order, phase, direction):
                 rate_f, acceleration = mul(pull, lightness), sub(P, mul(vertical, lightness))
             else:
                 if phase == SLIP:
-                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, R), free)
+                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
                     vertical = fma(splat(B0), pull, vertical)
                 P = mul(splat(inverse), fma(splat(model.m), free, vertical))
                 acceleration = sub(free, mul(splat(model.compliance), P))

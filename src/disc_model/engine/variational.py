@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from .compile import kernel
@@ -20,15 +22,35 @@ from .switches import (
     RELEASE_BACKWARD,
     RELEASE_FORWARD,
     change_phase,
-    disc_point,
     stick_force,
 )
-from .tangent import n_inputs, n_rows_of, tangent_at, tangent_series
+from .tangent import PSI_ROW, n_inputs, n_rows_of, slider_row, tangent_at, tangent_series
 
 # What a flight counts, entries of ``Tangent.log``.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
     range(10)
 )
+
+
+class Course(NamedTuple):
+    """What ends a flight, and how finely it is computed."""
+
+    order: int  # of the series
+    tolerance: float  # of the series
+    longest: float  # step, time units: columns are rougher than the motion that sizes the steps; see ``longest_step``
+    t_max: float  # s, of the flight
+    releases: int  # it ends where stick is released forwards for that time; 0: at ``t_max``
+    may_separate: bool  # if not, a loss of contact ends it
+    tangent: bool  # whether the columns travel along
+
+
+class Section(NamedTuple):
+    """Points of the section "stick is about to be released forwards", n coordinates each, and the map's Jacobian."""
+
+    rows: np.ndarray  # (n,), where each coordinate stands in ``State.disc`` and in a column
+    scale: np.ndarray  # (n,), coordinate over the state's entry
+    end: np.ndarray  # (n,)
+    jacobian: np.ndarray  # (n, columns)
 
 
 @kernel
@@ -59,46 +81,21 @@ def _count(state, cause, log):
 
 
 @kernel
-def divergence(model, state):
-    """Trace of the Jacobian of the rates in the state's phase, 1/s (rows z, e, y, g, psi, f; f fixed in stick)."""
-    phase, trace = state.x[PHASE], 0.0
-    for j in range(len(model.force)):
-        trace -= model.damping[j]
-    for j in range(len(model.force0)):
-        trace -= model.damping0[j]
-    if phase == SEPARATION:
-        return trace - model.c_p / model.m
-    direction = state.x[DIRECTION] if phase == SLIP else 0.0
-    _, _, B = disc_point(model, state)
-    D = 1.0 + model.m * model.compliance + direction * model.mu_k * B / model.r_0
-    # -sum psi dP/dalpha
-    trace -= (model.c * model.compliance - model.m * model.damped_compliance) / D
-    if phase == SLIP:
-        f, by_f = state.x[SPEED], 0.0
-        for j in range(len(model.force)):
-            by_f += 2.0 * model.slope[j] * state.e[j] + 2.0 * f * model.bend[j] * state.z[j]
-        by_f = (model.m * by_f + (model.c - model.c_p) * B) / D
-        trace -= (model.c_p + direction * model.mu_k / model.r_0 * by_f) / model.m
-    return trace
+def fly(model, s, state, t, course):
+    """Carry ``state`` and, if asked, the columns ``t.now`` to the end of a flight; returns how it ended.
 
-
-@kernel
-def fly(model, s, state, t, order, tolerance, longest, t_max, releases, may_separate, tangent):
-    """Carry ``state`` and, if ``tangent``, the columns ``t.now`` to the end of a flight; returns how it ended.
-
-    releases > 0: until stick is released forwards for that time; the columns are then projected onto the section
-    (their switch time is t.tau, the state still in stick).  Otherwise, or when t_max (s, of the flight) comes first,
-    until t_max.  ``longest`` bounds a step (time units): columns are rougher than the motion that sizes the steps; see
-    ``longest_step``.  ``may_separate`` False ends the flight at a loss of contact.  ``t.log`` is added to.
+    At the last release the columns are projected onto the section (their switch time is t.tau, the state still in
+    stick); a flight that ends at ``t_max`` is left as it is then.  ``t.log`` is added to.
     """
+    order, tangent = course.order, course.tangent
     x, log = state.x, t.log
     in_a_row = 0
     start = x[TIME]
     found = 0
     while True:
         phase, direction = x[PHASE], x[DIRECTION]
-        left = (t_max - (x[TIME] - start)) / model.unit
-        x_end, cause = _step(model, s, state, order, tolerance, min(left, longest))
+        left = (course.t_max - (x[TIME] - start)) / model.unit
+        x_end, cause = _step(model, s, state, order, course.tolerance, min(left, course.longest))
         if not x_end >= 0.0:
             return NO_SOLUTION if x_end < 0.0 else NON_FINITE
         if tangent:
@@ -121,7 +118,7 @@ def fly(model, s, state, t, order, tolerance, longest, t_max, releases, may_sepa
         last = False
         if cause == RELEASE_FORWARD:
             found += 1
-            last = found == releases
+            last = found == course.releases
         if cause == AT_REST:
             x[SPEED] = 0.0
         if tangent:
@@ -146,85 +143,51 @@ def fly(model, s, state, t, order, tolerance, longest, t_max, releases, may_sepa
                 slider_rows(model, state, t)
             if x[PHASE] == STICK:
                 rest(model, t)
-        if x[PHASE] == SEPARATION and not may_separate:
+        if x[PHASE] == SEPARATION and not course.may_separate:
             return LOST_CONTACT
         if x_end >= left:
             return TIME_OVER
 
 
 @kernel
-def section_map(
-    model,
-    s,
-    state,
-    t,
-    order,
-    tolerance,
-    longest,
-    t_max,
-    releases,
-    may_separate,
-    tangent,
-    rows,
-    scale,
-    start,
-    end,
-    jacobian,
-):
-    """The return map of the section "stick is about to be released forwards", and its Jacobian.
+def section_map(model, s, state, t, course, section, start):
+    """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it.
 
-    A point of the section is given by its modal coordinates, scaled: start, end, shape (n,), in the order of ``rows``
-    (rows of a column) times ``scale``; f is 0 and psi follows from the release condition.  ``t.parameters`` may hold
-    changes of parameters in the columns from n on.  jacobian: shape (n, columns), filled if ``tangent``.
-    Returns how the flight ended; ``t.log`` is set.
+    A point of the section is given by its modal coordinates; f is 0 and psi follows from the release condition.
+    ``t.parameters`` may hold changes of parameters in the columns from n on.  Returns how the flight ended; ``t.log``
+    is set.
     """
-    width, n0, C = len(model.force), len(model.force0), t.columns
-    row, n = 2 * width + 2 * n0, len(rows)
+    rows, scale, R = section.rows, section.scale, n_rows_of(model)
     t.log[:] = 0.0
     state.x[:] = 0.0
-    for i in range(n):
-        r, value = rows[i], start[i] / scale[i]
-        if r < width:
-            state.z[r] = value
-        elif r < 2 * width:
-            state.e[r - width] = value
-        elif r < 2 * width + n0:
-            state.y[r - 2 * width] = value
-        else:
-            state.g[r - 2 * width - n0] = value
+    for i in range(len(rows)):
+        state.disc[rows[i]] = start[i] / scale[i]
     state.x[PHASE] = STICK
     P = stick_force(model, state)
     if not P > 0.0:
         return OFF_SECTION
     state.x[PSI] = (model.mu_s * P / model.r_0 - model.c_p * model.Omega) / model.k_p
-    if tangent:
+    if course.tangent:
         t.now[:] = 0.0
-        for i in range(n):
-            t.now[((i // WIDTH) * n_rows_of(model) + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
-        for c in range(0, C, WIDTH):
-            at, q = c * n_rows_of(model), c * n_inputs(model)
+        for i in range(len(rows)):
+            t.now[((i // WIDTH) * R + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
+        for c in range(0, t.columns, WIDTH):
+            at, q = c * R, c * n_inputs(model)
             change = switch_change(model, state, RELEASE_FORWARD, t.now, at, t.parameters, q, c >= t.plain)
-            store(t.now, at + row * WIDTH, mul(splat(1.0 / (model.r_0 * model.k_p)), change))
+            dpsi = mul(splat(1.0 / (model.r_0 * model.k_p)), change)
+            store(t.now, at + slider_row(model, PSI_ROW) * WIDTH, dpsi)
     if change_phase(model, state, RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
     # the release itself is that of the flight which ended here
     _count(state, NOTHING, t.log)
-    if state.x[PHASE] == SEPARATION and not may_separate:
+    if state.x[PHASE] == SEPARATION and not course.may_separate:
         return LOST_CONTACT
-    if tangent:
+    if course.tangent:
         slider_rows(model, state, t)
-    outcome = fly(model, s, state, t, order, tolerance, longest, t_max, releases, may_separate, tangent)
-    for i in range(n):
-        r = rows[i]
-        if r < width:
-            end[i] = state.z[r] * scale[i]
-        elif r < 2 * width:
-            end[i] = state.e[r - width] * scale[i]
-        elif r < 2 * width + n0:
-            end[i] = state.y[r - 2 * width] * scale[i]
-        else:
-            end[i] = state.g[r - 2 * width - n0] * scale[i]
-        if tangent:
-            for c in range(C):
-                jacobian[i, c] = t.now[((c // WIDTH) * n_rows_of(model) + r) * WIDTH + c % WIDTH] * scale[i]
+    outcome = fly(model, s, state, t, course)
+    for i in range(len(rows)):
+        section.end[i] = state.disc[rows[i]] * scale[i]
+        if course.tangent:
+            for c in range(t.columns):
+                section.jacobian[i, c] = t.now[((c // WIDTH) * R + rows[i]) * WIDTH + c % WIDTH] * scale[i]
     return outcome

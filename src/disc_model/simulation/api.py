@@ -150,12 +150,15 @@ class _Run:
 
     def _call(self, max_steps: int) -> int:
         keep = self.collector
-        code: int = machine.run(
-            self.model, self.series, self.state, self.probe, self.order, series_tolerance(self.tol), self.t_end,
-            self.stop_at is not None, max_steps, self.pause_after, 1 if self.record.energy else AUDIT_EVERY,
-            self.counters, self.phase_times, self.sums,
-            keep.samplers, keep.sampled, keep.capacity, keep.rows, keep.event_rows,
+        limits = machine.Limits(
+            self.order, series_tolerance(self.tol), self.t_end, self.stop_at is not None, max_steps, self.pause_after,
+            1 if self.record.energy else AUDIT_EVERY,
         )  # fmt: skip
+        kept = machine.Kept(
+            self.counters, self.phase_times, self.sums,
+            keep.samplers, keep.sampled, keep.rows, keep.capacity, keep.event_rows,
+        )  # fmt: skip
+        code: int = machine.run(self.model, self.series, self.state, self.probe, limits, kept)
         return code
 
     def _changing(self) -> dict[str, np.ndarray]:

@@ -120,12 +120,13 @@ def lyapunov_exponents(
     columns[:, :count] = _first_columns(model, state, metric, count)
     steps = max(_BLOCKS, math.ceil(duration / interval))
     longest = tangent.longest_step(order, 10 * tolerance)
+    course = variational.Course(order, tolerance, longest, duration / steps, 0, may_separate=True, tangent=True)
     logs, status = np.zeros((steps, count)), LyapunovStatus.OK
     done = 0
     for i in range(-(steps // 4), steps):
         if i == 0:
             t.log[:] = 0.0
-        code = variational.fly(model, series, state, t, order, tolerance, longest, duration / steps, 0, True, True)
+        code = variational.fly(model, series, state, t, course)
         if code != outcomes.TIME_OVER or not np.all(np.isfinite(columns)):
             status = _OUTCOMES.get(code, LyapunovStatus.NON_FINITE)
             status = LyapunovStatus.NON_FINITE if status is LyapunovStatus.OK else status
@@ -201,7 +202,7 @@ def _first_columns(model: layout.Model, state: layout.State, metric: Array, coun
     lanes = np.flatnonzero(model.shift == 0)
     columns[lanes], columns[width + lanes] = 0.0, 0.0
     if state.x[layout.PHASE] == layout.STICK:
-        columns[2 * width + 2 * n0 + 1] = 0.0
+        columns[-tangent.N_SLIDER_ROWS + tangent.F_ROW] = 0.0
     if state.x[layout.PHASE] != layout.SEPARATION:
         z, e = columns[:width], columns[width : 2 * width]
         y, g = columns[2 * width : 2 * width + n0], columns[2 * width + n0 : 2 * width + 2 * n0]

@@ -78,22 +78,22 @@ class ReturnMap:
         used = np.flatnonzero(model.shift)
         omega, omega0 = np.sqrt(model.stiffness[used]), np.sqrt(model.stiffness0)
         single = np.arange(n0)
-        self._rows = np.concatenate([used, width + used, 2 * width + single, 2 * width + n0 + single])
+        rows = np.concatenate([used, width + used, 2 * width + single, 2 * width + n0 + single])
         self.scale = np.concatenate([omega, np.ones(len(used)), omega0, np.ones(n0)])
         l, l0 = np.abs(model.shift[used]).astype(np.int64), np.zeros(n0, np.int64)
         self.diameters = np.concatenate([l, l, l0, l0])
-        self.size = n = len(self._rows)
+        self.size = n = len(rows)
         self._first = layout.WIDTH * -(-n // layout.WIDTH)
         self._names = parameters
         self._tangent = columns.build_tangent(model, self._first + len(parameters), self.order, self._first)
         if parameters:
             self._set_changes()
-        self._end, self._jacobian = np.zeros(n), np.zeros((n, self._tangent.columns))
+        jacobian = np.zeros((n, self._tangent.columns))
+        self._section = variational.Section(rows, self.scale, np.zeros(n), jacobian)
         self.static = self._coordinates()
 
     def _coordinates(self) -> Array:
-        s = self._state
-        return np.concatenate([s.z, s.e, s.y, s.g])[self._rows] * self.scale
+        return np.asarray(self._state.disc[self._section.rows] * self.scale, dtype=float)
 
     def _set_changes(self) -> None:
         """Columns of the changes of parameters: what a unit of each changes in the equations."""
@@ -146,10 +146,10 @@ class ReturnMap:
         t = self._tangent
         order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
         longest = columns.longest_step(order, COLUMNS_COARSE if coarse else 10 * tolerance) if tangent else math.inf
-        code = variational.section_map(
-            self.model, self._series, self._state, t, order, tolerance, longest, releases * self.longest, releases,
-            may_separate, tangent, self._rows, self.scale, x, self._end, self._jacobian,
-        )  # fmt: skip
+        course = variational.Course(
+            order, tolerance, longest, releases * self.longest, releases, bool(may_separate), bool(tangent)
+        )
+        code = variational.section_map(self.model, self._series, self._state, t, course, self._section, x)
         log = t.log
         times = [float(x) for x in log[variational.DURATION : variational.SEPARATION_TIME + 1]]
         counts = [int(x) for x in log[variational.RELEASES : variational.STICKS + 1]]
@@ -157,44 +157,38 @@ class ReturnMap:
         n, first = self.size, self._first
         return (
             flight,
-            self._end.copy(),
-            self._jacobian[:, :n].copy(),
-            self._jacobian[:, first : first + len(self._names)].copy(),
+            self._section.end.copy(),
+            self._section.jacobian[:, :n].copy(),
+            self._section.jacobian[:, first : first + len(self._names)].copy(),
         )
 
     def next_release(self, start: State, *, may_separate: bool = True) -> tuple[int, Array]:
         """The point of the section that the motion from `start` reaches first, and how it got there (`RETURNED`)."""
         write_state(self.parameters, self.model, start, self._state)
-        code: int = variational.fly(
-            self.model, self._series, self._state, self._tangent, self.order, self.tolerance, math.inf, self.longest, 1,
-            may_separate, False,
-        )  # fmt: skip
+        course = variational.Course(
+            self.order, self.tolerance, math.inf, self.longest, 1, may_separate=may_separate, tangent=False
+        )
+        code: int = variational.fly(self.model, self._series, self._state, self._tangent, course)
         return code, self._coordinates()
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""
-        s, width, n0 = self._state, len(self.model.force), len(self.model.force0)
-        full = np.zeros(2 * width + 2 * n0)
-        full[self._rows] = x / self.scale
-        s.z[:], s.e[:] = full[:width], full[width : 2 * width]
-        s.y[:n0], s.g[:n0] = full[2 * width : 2 * width + n0], full[2 * width + n0 :]
+        s, p = self._state, self.parameters
+        force = self.contact_force(x)
         s.x[:] = 0.0
         s.x[layout.PHASE] = layout.STICK
-        p = self.parameters
-        force = self.contact_force(x)
         s.x[layout.PSI] = (p.mu_s * force / p.r_0 - p.c_p * p.Omega) / p.k_p
         return read_state(p, self.model, s)
 
     def contact_force(self, x: Array) -> float:
         """P in stick at the point `x` of the section, N."""
-        model, width, n0 = self.model, len(self.model.force), len(self.model.force0)
-        full = np.zeros(2 * width + 2 * n0)
-        full[self._rows] = x / self.scale
-        z, e, y, g = np.split(full, [width, 2 * width, 2 * width + n0])
-        u = model.force @ z + model.force0 @ y
-        v = model.force @ e + model.force0 @ g
-        free = -model.force @ (model.stiffness * z + model.damping * e)
-        free -= model.force0 @ (model.stiffness0 * y + model.damping0 * g)
+        model, s = self.model, self._state
+        s.disc[:] = 0.0
+        s.disc[self._section.rows] = x / self.scale
+        u = model.force @ s.z + model.force0 @ s.y
+        v = model.force @ s.e + model.force0 @ s.g
+        free = -model.force @ (model.stiffness * s.z + model.damping * s.e)
+        free -= model.force0 @ (model.stiffness0 * s.y + model.damping0 * s.g)
         numerator = model.N + model.k * (u - model.u_0) + model.c * v + model.m * free
         return float(numerator / (1.0 + model.m * model.compliance))
 

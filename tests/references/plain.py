@@ -1,18 +1,16 @@
-"""Taylor coefficients of the three phases, mode by mode: the plain twin of ``series``.
+"""Taylor coefficients of the three phases, mode by mode: the plain twin of ``disc_model.engine.series``.
 
-Same interface and same numbers (up to rounding) as the vectorised functions, written as the equations of the
-model read.  It is the reference in the tests and runs where clarity matters more than speed.
+Same interface and same numbers (up to rounding) as the vectorised functions, written as the equations of docs/model.md
+read.
 
 Every function fills ``s`` (coefficients 0 are given) up to degree ``order``; P up to ``order - 1``.
 """
 
 from __future__ import annotations
 
-from .compile import kernel
-from .layout import HALF, WIDTH
+from disc_model.engine.layout import HALF, WIDTH
 
 
-@kernel
 def _product(f, x, k, width, lane):
     """Coefficient k of f(t) x(t), x in lane ``lane``."""
     total = 0.0
@@ -21,13 +19,11 @@ def _product(f, x, k, width, lane):
     return total
 
 
-@kernel
 def _partner(lane):
     """Lane of the other member of the pair."""
     return lane + HALF if lane % WIDTH < HALF else lane - HALF
 
 
-@kernel
 def _disc_rates(model, s, k):
     """Order k of everything in the modal equations but the contact force.
 
@@ -54,7 +50,6 @@ def _disc_rates(model, s, k):
     return acceleration
 
 
-@kernel
 def _apply_force(model, s, k, P):
     """Velocities of order k + 1, once the contact force of order k is known."""
     width, width0 = len(model.shift), len(model.force0)
@@ -66,7 +61,6 @@ def _apply_force(model, s, k, P):
         s.g[i + width0] = (rate - model.force0[j] * P) * s.up[k]
 
 
-@kernel
 def _disc_point(model, s):
     """u, u' and the slope B of the disc under the slider, from the coefficients 0."""
     u, v, slope = 0.0, 0.0, 0.0
@@ -80,7 +74,6 @@ def _disc_point(model, s):
     return u, v + s.f[0] * slope, slope
 
 
-@kernel
 def slip_series(model, s, order, direction):
     """Slip with sgn(f) = ``direction``.  Returns the denominator of P, whose zero is Painleve's paradox."""
     s.u[0], s.v[0], slope = _disc_point(model, s)
@@ -109,7 +102,6 @@ def slip_series(model, s, order, direction):
     return denominator
 
 
-@kernel
 def stick_series(model, s, order):
     """Stick: f = 0, the slider rests on the disc.  Fills both release functions mu_s P -/+ r_0 F."""
     s.f[: order + 1] = 0.0
@@ -134,7 +126,6 @@ def stick_series(model, s, order):
         _apply_force(model, s, k, P)
 
 
-@kernel
 def separation_series(model, s, order):
     """No contact: P = 0, disc and slider each for themselves.  Fills the gap u - w."""
     for k in range(order):
