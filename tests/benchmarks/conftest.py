@@ -7,7 +7,7 @@ import math
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import scenes, work_precision
+from disc_model.benchmarks import register, scenes, work_precision
 from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.methods.base import Method, MethodResult
 from disc_model.benchmarks.scenes import answer
@@ -19,6 +19,7 @@ class Known(Method):
     def __init__(self, like: str, error, cost, outcome=Outcome.FINISHED) -> None:
         own = METHODS[like]
         self.name, self.label, self.setting, self.order = own.name, own.label, own.setting, own.order
+        self.look = own.look
         self.error, self.cost, self.outcome = error, cost, outcome
         self.tried: list[float] = []
 
@@ -27,7 +28,7 @@ class Known(Method):
 
     def _solve(self, problem, value, budget):
         self.tried.append(value)
-        name = next(name for name in scenes.SCENES if scenes.problem(name) is problem)
+        name = next(name for name in register.SCENES if scenes.problem(name) is problem)
         right, off = answer(name), self.error(value)
         kinds = right.kinds if off < 1e-2 else ("slip_reversal",) * len(right.kinds)
         times = (right.times[: len(kinds)] + off).astype(float)

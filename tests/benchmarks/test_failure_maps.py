@@ -75,7 +75,7 @@ def test_the_observed_limit_is_where_the_bisection_puts_it(monkeypatch: pytest.M
 
 
 def test_heyoka_is_compiled_compactly_for_maps() -> None:
-    own = failure_maps._economical(METHODS["heyoka-unguarded"])
+    own = METHODS["heyoka-unguarded"].economical()
     assert own.compact
     assert own.guard == 0.0
 

@@ -48,9 +48,11 @@ FUNCTIONS = {
         *("Physics.__init__", "Physics.disc_point", "Physics.pull", "Physics.gap"),
         *("Physics._contact", "Physics.rate", "Physics.impact"),
     ),
-    "benchmarks/methods/kernels.py": ("contact", "rate", "switch_values", "switch"),
+    "benchmarks/methods/kernels.py": (
+        *("contact", "rate", "switch_values", "switch"),
+        *("smooth_friction", "smooth_force", "smooth_rate"),
+    ),
     "benchmarks/methods/phases.py": ("switches",),
-    "benchmarks/methods/regularised.py": ("Law.force", "Law.rate"),
     "benchmarks/methods/taylor_heyoka.py": ("_system",),
     "benchmarks/scenes.py": ("static_start",),
     "plate.py": ("_modes", "_columns", "_coupling", "coupled_frequencies", "modal_damping"),

@@ -32,7 +32,7 @@ CLOSED_FORM = (
 )
 DERIVATIVES = ("tests/engine/test_variational.py",)
 RIVALS = "tests/benchmarks/methods"
-METHODS = (f"{RIVALS}/test_kernels.py", f"{RIVALS}/test_short_motions.py", f"{RIVALS}/test_rk4.py", *EQUATIONS)
+METHODS = (*(f"{RIVALS}/test_{name}.py" for name in ("kernels", "rk4", "regularised", "short_motions")), *EQUATIONS)
 #: What notices changes of a file, if it is not the tests of the equations.
 NOTICED_BY = {
     "engine/series.py": TWINS,
@@ -44,7 +44,6 @@ NOTICED_BY = {
     "stability/return_map.py": ("tests/stability/test_return_map.py", *DERIVATIVES),
     "benchmarks/methods/phases.py": METHODS,
     "benchmarks/methods/kernels.py": METHODS,
-    "benchmarks/methods/regularised.py": (f"{RIVALS}/test_regularised.py", *EQUATIONS),
     "benchmarks/methods/taylor_heyoka.py": METHODS,
     "plate.py": ("tests/test_plate.py",),
 }

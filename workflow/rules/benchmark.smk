@@ -1,30 +1,17 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
-from importlib.util import find_spec
+from disc_model.benchmarks.register import RIVALS, SCENES
 
 BENCH = "results/bench"
-# Named here because importing the methods would cost every start of Snakemake a second; a test compares.
-BENCH_SCENES = ["stick_slip", "separating", "many_modes", "rigid"]
-MODULES = {"heyoka": "heyoka", "heyoka-unguarded": "heyoka", "CVODE": "sksundae"}
-FAILURE_MAPS = ["RK4_stick_slip"] + [
-    f"{method}_separating"
-    for method in (
-        "series",
-        "RK4",
-        "RK45",
-        "DOP853",
-        "LSODA",
-        "Radau",
-        "regularised",
-        "heyoka",
-        "heyoka-unguarded",
-        "CVODE",
-    )
-    if method not in MODULES or (find_spec(MODULES[method]) and not CONDA)
+FAILURE_MAPS = [
+    f"{rival.name}_{scene}"
+    for rival in sorted(RIVALS, key=lambda rival: "stick_slip" not in rival.maps)
+    for scene in rival.maps
+    if not rival.requires or not (CONDA or rival.missing())
 ]
 BENCH_FIGURES = [
     "overview",
-    *(f"work_precision_{scene}" for scene in BENCH_SCENES),
+    *(f"work_precision_{scene}" for scene in SCENES),
     "failure_maps",
     "truncation",
 ]

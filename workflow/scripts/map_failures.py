@@ -6,13 +6,14 @@ import argparse
 
 import xarray as xr
 
-from disc_model.benchmarks.failure_maps import VALUES, failure_map
+from disc_model.benchmarks.failure_maps import failure_map
+from disc_model.benchmarks.register import RIVALS
 from disc_model.data.dataset import save
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("method", choices=list(VALUES))
+    parser.add_argument("method", choices=[rival.name for rival in RIVALS])
     parser.add_argument("scene", choices=["stick_slip", "separating"])
     parser.add_argument("output", help="netCDF file to write")
     args = parser.parse_args()

@@ -15,10 +15,9 @@ import xarray as xr
 
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import Method, Problem
+from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT, FixedStep
-from disc_model.benchmarks.methods.taylor_heyoka import Heyoka
 from disc_model.benchmarks.scenes import Answer, Verdict, errors, separating_start, shortest_phase, static_start
 from disc_model.benchmarks.work_precision import verdict_attributes
 from disc_model.parameters import Parameters
@@ -28,23 +27,6 @@ TRUNCATIONS = (1, 2, 4, 6, 8)
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
 """s"""
 REFERENCE_TOL = 1e-14
-BUDGET = 1.0
-"""s for a point; beyond it a method gave up: the engine needs a ten-thousandth of it."""
-BUDGETS = {"regularised": 6.0}
-"""s, for what takes long even where it succeeds."""
-_TOLERANCES = tuple(10.0**-e for e in range(2, 12))
-VALUES: Mapping[str, tuple[float, ...]] = {
-    "series": _TOLERANCES,
-    "RK4": tuple(float(h) for h in np.geomspace(2e-5, 2e-3, 61)[::-1]),
-    "RK45": _TOLERANCES,
-    "DOP853": _TOLERANCES,
-    "LSODA": _TOLERANCES[::2],
-    "Radau": _TOLERANCES[:8:2],
-    "regularised": (10.0, 1.0, 0.1, 0.01),
-    "heyoka": _TOLERANCES[::2],
-    "heyoka-unguarded": _TOLERANCES[::2],
-    "CVODE": _TOLERANCES,
-}
 
 
 @one_core()
@@ -65,12 +47,12 @@ def failure_map(
     regularised friction law is stiffer than the disc; for RK4 in ``stick_slip`` also ``observed_limit`` (s), see
     `observed_step_limit`.
     """
-    budget = BUDGETS.get(method, BUDGET) if budget is None else budget
-    values = VALUES[method] if values is None else values
+    own = METHODS[method].economical()
+    budget = own.map_budget if budget is None else budget
+    values = own.map_values if values is None else values
     shape = (len(truncations), len(values))
     verdict = np.full(shape, int(Verdict.NOT_RUN), dtype=np.int8)
     event_error, longest = np.full(shape, math.nan), np.full(shape, math.nan)
-    own = _economical(METHODS[method])
     facts: list[dict[str, float]] = []
     for row, diameters in enumerate(truncations):
         problem = short_problem(scene, diameters)
@@ -125,13 +107,6 @@ def _facts(problem: Problem, answer: Answer) -> dict[str, float]:
     }
 
 
-def _economical(method: Method) -> Method:
-    """The method itself, but heyoka in compact mode: a map compiles it for every truncation and tolerance."""
-    if isinstance(method, Heyoka):
-        return Heyoka(guard=method.guard, compact=True)
-    return method
-
-
 @lru_cache(maxsize=64)
 def short_problem(scene: str, diameters: int) -> Problem:
     """The scene's motion with modes up to ``diameters`` for the span of the maps."""
@@ -163,4 +138,4 @@ def observed_step_limit(diameters: int, resolution: float = 2e-3) -> float:
     return low
 
 
-__all__ = ["SPANS", "TRUNCATIONS", "VALUES", "engine_answer", "failure_map", "observed_step_limit"]
+__all__ = ["SPANS", "TRUNCATIONS", "engine_answer", "failure_map", "observed_step_limit"]

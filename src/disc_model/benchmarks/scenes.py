@@ -34,7 +34,6 @@ from disc_model.simulation.result import State
 
 DATA = Path(__file__).parent / "data"
 REFERENCED = ("stick_slip", "separating", "many_modes")
-SCENES = (*REFERENCED, "rigid")
 TITLES = {
     "stick_slip": "stick-slip",
     "separating": "separating",

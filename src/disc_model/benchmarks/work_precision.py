@@ -16,6 +16,7 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.register import SCENES
 from disc_model.benchmarks.scenes import VERDICT_WORDS, Verdict
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import VERSIONS_OF, versions
@@ -31,58 +32,17 @@ FLOOR = 1e-13
 """Errors below this (s, or relative) are rounding and take no part in the fit of the order."""
 
 
-def _decades(*exponents: int) -> tuple[float, ...]:
-    return tuple(10.0**e for e in exponents)
+Settings = Mapping[str, Mapping[str, Sequence[float]]]
+"""By scene and method, the settings from coarse to fine."""
 
 
-_STEPS = tuple(m * 10.0**e for e in (-4, -5, -6) for m in (4, 2, 1))
-SETTINGS: Mapping[str, Mapping[str, tuple[float, ...]]] = {
-    "stick_slip": {
-        "series": _decades(-4, -6, -8, -10, -12, -14),
-        "RK4": _STEPS,
-        "RK45": _decades(-3, -5, -7, -9),
-        "DOP853": _decades(-3, -5, -7, -9, -11),
-        "LSODA": _decades(-3, -5, -7, -9),
-        "Radau": _decades(-2, -3, -4, -5),
-        "regularised": _decades(0, -1, -2),
-        "heyoka": _decades(-4, -6, -8, -9, -10, -12, -14),
-        "CVODE": _decades(-4, -6, -8, -10),
-    },
-    "separating": {
-        "series": _decades(-4, -6, -8, -10, -12, -14),
-        "RK4": _STEPS,
-        "RK45": _decades(-3, -5, -7, -9),
-        "DOP853": _decades(-3, -5, -7, -9, -11),
-        "LSODA": _decades(-3, -5, -7, -9),
-        "Radau": _decades(-2, -3, -4),
-        "regularised": _decades(0, -1, -2),
-        "heyoka": _decades(-4, -6, -8, -9, -10, -12, -14),
-        "CVODE": _decades(-4, -6, -8, -10),
-    },
-    "many_modes": {
-        "series": _decades(-4, -6, -8, -10, -12, -14),
-        "RK4": tuple(m * 10.0**e for e in (-5, -6) for m in (8, 4, 2, 1)),
-        "RK45": _decades(-3, -5, -7),
-        "DOP853": _decades(-3, -5, -7, -9),
-        "LSODA": _decades(-3, -5, -7),
-        "Radau": _decades(-2, -3, -4),
-        "regularised": _decades(0, -1),
-        "heyoka": _decades(-4, -6, -8, -10, -12),
-        "CVODE": _decades(-4, -6, -8, -10),
-    },
-    "rigid": {
-        "series": _decades(-4, -8, -12),
-        "RK4": (8e-8, 6.5e-8, 4e-8, 2e-8),
-        "RK45": _decades(-3),
-        "DOP853": _decades(-3),
-        "LSODA": _decades(-3, -5, -7, -9),
-        "Radau": _decades(-2, -4, -6, -8),
-        "regularised": _decades(0, -1, -2),
-        "heyoka": _decades(-4, -8),
-        "CVODE": _decades(-4),
-        "CVODE-BDF": _decades(-4, -6, -8, -10),
-    },
-}
+def all_settings() -> Settings:
+    """Those of every method."""
+    return {
+        scene: {name: method.settings[scene] for name, method in METHODS.items() if scene in method.settings}
+        for scene in SCENES
+    }
+
 
 VARIABLES: Mapping[str, tuple[str, str]] = {
     "value": ("1", "setting of the method: tolerance, step (s) or regularisation (rad/s)"),
@@ -96,6 +56,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     "separations": ("1", "number of separations found"),
     "repeats": ("1", "number of times measured"),
 }
+LOOK = {"colour": "colour in charts", "marker": "marker in charts", "dash": "line style in charts"}
 COUNTS = ("work", "events", "separations", "repeats")
 
 
@@ -108,7 +69,7 @@ class Point(NamedTuple):
     value: float
 
 
-def points(settings: Mapping[str, Mapping[str, Sequence[float]]]) -> list[Point]:
+def points(settings: Settings) -> list[Point]:
     """All points whose method is installed."""
     return [
         Point(scene, method, place, value)
@@ -121,7 +82,7 @@ def points(settings: Mapping[str, Mapping[str, Sequence[float]]]) -> list[Point]
 
 @one_core()
 def work_precision(
-    settings: Mapping[str, Mapping[str, Sequence[float]]] = SETTINGS,
+    settings: Settings | None = None,
     *,
     rounds: int = ROUNDS,
     budget: float = BUDGET,
@@ -131,7 +92,7 @@ def work_precision(
 
     Parameters
     ----------
-    settings : by scene and method, the settings from coarse to fine
+    settings : if not those of `all_settings`
     rounds : how often the quick points are measured
     budget : s for a point; a method that gives up at a coarse setting is not tried at finer ones
     progress : called with each point and the seconds it took
@@ -141,6 +102,7 @@ def work_precision(
     Dataset along (scene, solver, point), unused points nan; the variables of `VARIABLES`, the flag ``verdict``, and
     along (scene, solver) the fitted ``order_event`` and ``order_state``, see `fitted_order`.
     """
+    settings = all_settings() if settings is None else settings
     todo = points(settings)
     walls: dict[Point, list[float]] = {}
     rows: dict[Point, dict[str, float]] = {}
@@ -181,7 +143,7 @@ def _again(walls: Sequence[float], turn: int) -> bool:
 
 
 def _dataset(
-    settings: Mapping[str, Mapping[str, Sequence[float]]],
+    settings: Settings,
     walls: Mapping[Point, Sequence[float]],
     rows: Mapping[Point, Mapping[str, float]],
 ) -> xr.Dataset:
@@ -214,6 +176,8 @@ def _dataset(
     )
     dataset["verdict"] = (dims, verdict, verdict_attributes())
     dataset["label"] = ("solver", [METHODS[name].label for name in methods], {"long_name": "name in words"})
+    for i, (name, text) in enumerate(LOOK.items()):
+        dataset[name] = ("solver", [METHODS[method].look[i] for method in methods], {"long_name": text})
     theory = [METHODS[name].order for name in methods]
     dataset["order_theory"] = ("solver", theory, {"units": "1", "long_name": "theoretical order, nan if variable"})
     for error in ("event", "state"):

@@ -6,7 +6,7 @@ Pure functions of the datasets of `disc_model.benchmarks`.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -24,30 +24,14 @@ from disc_model.figures.style import (
     BLACK,
     BLUE,
     GREEN,
+    GREY,
     ORANGE,
     PAGE,
     PURPLE,
-    SKY,
-    VERMILION,
     new_figure,
     styled,
 )
 
-GREY, BROWN = "#777777", "#7A4B12"
-LOOKS: Mapping[str, tuple[str, str]] = {
-    "series": (VERMILION, "o"),
-    "RK4": (BLACK, "s"),
-    "RK45": (SKY, "v"),
-    "DOP853": (BLUE, "^"),
-    "LSODA": (GREEN, "D"),
-    "Radau": (PURPLE, "p"),
-    "regularised": (ORANGE, "h"),
-    "heyoka": (BROWN, "*"),
-    "heyoka-unguarded": (BROWN, "*"),
-    "CVODE": (GREY, "<"),
-    "CVODE-BDF": (GREY, ">"),
-}
-"""Colour and marker of each method."""
 TITLES = {
     "stick_slip": "Stick-slip, first second",
     "separating": "Separating, 54.4 to 55.4 s",
@@ -115,13 +99,12 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
     any_wrong = False
     for method in map(str, part["solver"].values):
         line = part.sel(solver=method)
-        color, marker = LOOKS[method]
+        color, marker, dash = _look(line)
         verdict, cost = line["verdict"].values, line["cost"].values
         x = line[f"{error}_error"].values
         right, wrong = np.isin(verdict, (0, 1)), verdict == 2
         bold = method == "series"
         style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 4.5 if marker == "*" else 3.5}
-        dash = "--" if method in ("CVODE-BDF", "heyoka-unguarded") else "-"
         ax.plot(x[right], cost[right], linestyle=dash, linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **style)
         hollow = np.full(np.count_nonzero(wrong), wrong_at) if error == "event" else x[wrong]
         ax.plot(hollow, cost[wrong], linestyle="", markerfacecolor="white", markeredgewidth=0.8, **style)
@@ -146,6 +129,11 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
                     fontsize=6.5, color=color, path_effects=_HALO, zorder=4)  # fmt: skip
 
 
+def _look(line: xr.Dataset) -> tuple[str, str, Any]:
+    """Colour, marker and line style of a method."""
+    return str(line["colour"].values), str(line["marker"].values), str(line["dash"].values)
+
+
 def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float, float, str, str]]:
     """Move labels that would lie on one another apart vertically (log-log axes)."""
     placed: list[tuple[float, float, str, str]] = []
@@ -164,8 +152,7 @@ def _method_handles(part: xr.Dataset) -> list[Line2D]:
         line = part.sel(solver=method)
         if not np.any(np.isin(line["verdict"].values, (0, 1, 2))):
             continue
-        color, marker = LOOKS[method]
-        dash: Any = "--" if method in ("CVODE-BDF", "heyoka-unguarded") else "-"
+        color, marker, dash = _look(line)
         label = str(line["label"].values)
         handles.append(Line2D([], [], color=color, marker=marker, markersize=4, linestyle=dash, label=label))
     return handles

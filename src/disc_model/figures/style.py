@@ -27,7 +27,7 @@ BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK = (
     "#56B4E9",
     "#000000",
 )
-GREY = "#8a8a8a"
+GREY, BROWN = "#8a8a8a", "#7A4B12"
 
 # One colour a quantity in the whole set; what is lost with contact is always vermilion.
 DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"

@@ -11,7 +11,7 @@ from disc_model.benchmarks.methods.base import Problem
 from tests.benchmarks.methods.problems import task
 from tests.references.printed import MOTIONS, P, Printed, lively
 
-SHORT = [name for name in ("RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].unavailable()]
+SHORT = [name for name in ("RK45", "DOP853", "DOP853-numpy", "heyoka", "CVODE") if not METHODS[name].unavailable()]
 
 
 @pytest.mark.parametrize("name", SHORT)

@@ -3,35 +3,26 @@
     >>> from disc_model.benchmarks.methods import METHODS
     >>> METHODS["RK4"].solve(problem, 1e-5)
 
-They share the physics (`physics`, and `kernels` for the compiled ones), not the engine.  heyoka and SUNDIALS come with
-the extra `bench`; without them their `unavailable()` says so and `solve` raises `MethodUnavailable`.
+They share the physics (`kernels`, compiled, and `physics`, the same in numpy), not the engine.  heyoka and SUNDIALS
+come with the extra `bench`; without them their `unavailable()` says so and `solve` raises `MethodUnavailable`.  Which
+there are is said in `disc_model.benchmarks.register`.
 """
 
 from __future__ import annotations
 
-from disc_model.benchmarks.methods.base import Method, MethodResult, MethodUnavailable, Outcome, Problem
-from disc_model.benchmarks.methods.cvode import Cvode
-from disc_model.benchmarks.methods.regularised import Regularised
-from disc_model.benchmarks.methods.rk4 import FixedStep
-from disc_model.benchmarks.methods.series import Series
-from disc_model.benchmarks.methods.solve_ivp import SolveIvp
-from disc_model.benchmarks.methods.taylor_heyoka import Heyoka
+from importlib import import_module
 
-METHODS: dict[str, Method] = {
-    method.name: method
-    for method in (
-        Series(),
-        FixedStep(),
-        SolveIvp("RK45", 5),
-        SolveIvp("DOP853", 8),
-        SolveIvp("LSODA", float("nan")),
-        SolveIvp("Radau", 5),
-        Regularised(),
-        Heyoka(),
-        Heyoka(guard=0.0),
-        Cvode(),
-        Cvode("BDF"),
-    )
-}
+from disc_model.benchmarks.methods.base import Method, MethodResult, MethodUnavailable, Outcome, Problem
+from disc_model.benchmarks.register import RIVALS, Rival
+
+
+def _made(rival: Rival) -> Method:
+    module, _, name = rival.place.partition(":")
+    method: Method = getattr(import_module(f"{__name__}.{module}"), name)(*rival.arguments)
+    method.name, method.requires = rival.name, rival.requires
+    return method
+
+
+METHODS: dict[str, Method] = {rival.name: _made(rival) for rival in RIVALS}
 
 __all__ = ["METHODS", "Method", "MethodResult", "MethodUnavailable", "Outcome", "Problem"]

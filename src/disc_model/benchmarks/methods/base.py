@@ -2,12 +2,17 @@
 
 A method is an object with
 
-``name``
-    short and unique; what charts and tables call it
+``name``, ``requires``
+    as registered in `disc_model.benchmarks.register`: short and unique; the packages that it needs
+``label``, ``look``
+    its name in words; colour, marker and line style in charts
 ``setting``
     what its one number means: "tol" (relative tolerance), "step" (s) or "epsilon" (rad/s)
 ``order``
     theoretical order of the global error against the step (nan if it has none)
+``settings``, ``map_values``, ``map_budget``
+    by scene, the settings from coarse to fine that are measured; those of its failure map, and the seconds that it may
+    take there for a point
 ``unavailable()``
     "" if it can be used, else the sentence that says which package is missing
 ``solve(problem, value, budget)``
@@ -24,7 +29,7 @@ import importlib.util
 import math
 import time as clock
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar
 
@@ -103,14 +108,27 @@ class MethodResult:
         return self.kinds.count("separation")
 
 
+def decades(*exponents: int) -> tuple[float, ...]:
+    """10 to these powers."""
+    return tuple(10.0**e for e in exponents)
+
+
+MAP_TOLERANCES = decades(*range(-2, -12, -1))
+"""Relative tolerances of a failure map."""
+
+
 class Method(ABC):
     """Base class of all methods; see the module's text for the contract."""
 
-    name: ClassVar[str]
-    label: ClassVar[str]
+    name: str = ""
+    label: str
+    look: tuple[str, str, str]
     setting: ClassVar[str] = "tol"
-    order: ClassVar[float] = math.nan
-    requires: ClassVar[tuple[str, ...]] = ()
+    order: float = math.nan
+    requires: tuple[str, ...] = ()
+    settings: Mapping[str, Sequence[float]]
+    map_values: Sequence[float] = MAP_TOLERANCES
+    map_budget: float = 1.0  # beyond it a method gave up: the engine needs a ten-thousandth of it
 
     def unavailable(self) -> str:
         """Why the method cannot be used here; "" if it can."""
@@ -118,6 +136,10 @@ class Method(ABC):
         if not missing:
             return ""
         return f"{self.name} needs {', '.join(missing)}: install the extra `bench` (pip install disc_model[bench])"
+
+    def economical(self) -> Method:
+        """The method as it is used where every run has other modes and another setting: a map."""
+        return self
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
         """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds.

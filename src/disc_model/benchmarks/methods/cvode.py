@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import Meter, Method, MethodResult, Problem
+from disc_model.benchmarks.methods.base import Meter, Method, MethodResult, Problem, decades
 from disc_model.benchmarks.methods.phases import GUARD, Ended, IntegrationFailed, Phase, run_phases, switch_kinds
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
 from disc_model.data.variables import PHASES
+from disc_model.figures.style import GREY
 
 MAX_STEPS = 10_000_000
 ROOT_FOUND = 2
@@ -21,15 +22,15 @@ ROOT_FOUND = 2
 class Cvode(Method):
     """Variable-order multistep methods: Adams where nothing is stiff, else BDF; compiled right-hand side."""
 
-    name = "CVODE"
-    label = "SUNDIALS CVODE (Adams)"
-    requires = ("sksundae",)
-
-    def __init__(self, family: str = "Adams") -> None:
+    def __init__(self, family: str) -> None:
         self.family = family
-        if family != "Adams":
-            self.name = f"CVODE-{family}"  # type: ignore[misc]
-            self.label = f"SUNDIALS CVODE ({family})"  # type: ignore[misc]
+        self.label = f"SUNDIALS CVODE ({family})"
+        if family == "BDF":  # where something is stiff
+            self.look, self.settings = (GREY, ">", "--"), {"rigid": decades(-4, -6, -8, -10)}
+            return
+        self.look = (GREY, "<", "-")
+        shared = dict.fromkeys(("stick_slip", "separating", "many_modes"), decades(-4, -6, -8, -10))
+        self.settings = shared | {"rigid": decades(-4)}
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         from sksundae.cvode import CVODE

@@ -82,6 +82,40 @@ def rate(modes, c, phase, direction, y, dy):
         dy[3 * n + i] = -modes[3, i] * beta - modes[2, i] * b - turn * alpha
 
 
+SMOOTH = ("eps", "excess", "stiffness", "damping")
+"""Constants of the regularised model, see `regularised.Law`."""
+STRIBECK = 30.0
+"""f/eps at which static friction has fallen to kinetic."""
+
+
+@_kernel
+def smooth_friction(c, law, f):
+    """Coefficient of friction with the sign of f."""
+    x = f / law[0]
+    return math.tanh(x) * (c[_MUK] + law[1] * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
+
+
+@_kernel
+def smooth_force(modes, c, law, y):
+    """Signed penalty force; contact where it is positive."""
+    n = modes.shape[1]
+    _, _, w, velocity = contact(modes, c, 0, y)
+    return law[2] * (w - y[4 * n + 2]) + law[3] * (velocity - y[4 * n + 3])
+
+
+@_kernel
+def smooth_rate(modes, c, law, y, dy):
+    """Fill ``dy`` with dy/dt of the regularised model: separation's equations plus whatever force there is."""
+    n = modes.shape[1]
+    rate(modes, c, SEPARATION, 0, y, dy)
+    P = smooth_force(modes, c, law, y)
+    if P > 0.0:
+        for i in range(n):
+            dy[2 * n + i] -= modes[1, i] * P
+        dy[4 * n + 3] += P / c[_M]
+        dy[4 * n + 1] -= smooth_friction(c, law, y[4 * n + 1]) * P / (c[_M] * c[_R0])
+
+
 @_kernel
 def rk4_step(modes, c, phase, direction, y, h, out, k, z):
     """One step of the classical fourth-order method from ``y`` to ``out``; ``k`` (4, size), ``z`` (size,) are work."""

@@ -14,22 +14,31 @@ every switch.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from disc_model.benchmarks.methods.base import BudgetExceeded, Meter, Method, MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods import kernels
+from disc_model.benchmarks.methods.base import (
+    BudgetExceeded,
+    Meter,
+    Method,
+    MethodResult,
+    Outcome,
+    Problem,
+    decades,
+)
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
+from disc_model.figures.style import ORANGE
 from disc_model.simulation.result import State
 
 PENALTY = 1e7
 """N/m times rad/s: K eps."""
 CREEP = 3.0
 """abs(f)/eps below which the slider counts as sticking."""
-STRIBECK = 30.0
-"""f/eps at which static friction has fallen to kinetic."""
 RTOL = 1e-8
 
 
@@ -41,26 +50,21 @@ class Law:
         self.K = PENALTY / eps
         self.excess = _excess(physics.p.mu_s, physics.p.mu_k)
         self.C = 2.0 * math.sqrt(self.K / (1.0 / physics.p.m + physics.compliance))
+        self.modes, self.c = kernels.tables(physics)
+        self.constants = np.array([eps, self.excess, self.K, self.C])  # kernels.SMOOTH
 
     def friction(self, f: float) -> float:
         """Coefficient of friction with the sign of f."""
-        p, x = self.physics.p, f / self.eps
-        return math.tanh(x) * (p.mu_k + self.excess * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
+        return float(kernels.smooth_friction(self.c, self.constants, f))
 
     def force(self, y: Array) -> float:
         """Signed penalty force; contact where it is positive."""
-        w, velocity = self.physics.disc_point(y)
-        physics = self.physics
-        return self.K * (w - float(y[physics.u])) + self.C * (velocity - float(y[physics.v]))
+        return float(kernels.smooth_force(self.modes, self.c, self.constants, y))
 
     def rate(self, y: Array) -> Array:
-        """dy/dt, shape of ``y``: separation's equations plus whatever force there is."""
-        physics, p = self.physics, self.physics.p
-        dy = physics.rate("separation", 0, y)
-        P = max(0.0, self.force(y))
-        dy[physics.alpha] -= physics.shape * P
-        dy[physics.v] += P / p.m
-        dy[physics.f] -= self.friction(float(y[physics.f])) * P / (p.m * p.r_0)
+        """dy/dt, shape of ``y``."""
+        dy = np.empty_like(y)
+        kernels.smooth_rate(self.modes, self.c, self.constants, y, dy)
         return dy
 
     def stiffness(self, P: float) -> float:
@@ -71,8 +75,8 @@ class Law:
 
 def _excess(mu_s: float, mu_k: float) -> float:
     """Height of the Stribeck peak over kinetic friction at which the law's maximum is the static friction."""
-    x = np.linspace(0.0, 2.0 * STRIBECK, 20_001)
-    rise, fall = np.tanh(x), np.exp(-((x / STRIBECK) ** 2))
+    x = np.linspace(0.0, 2.0 * kernels.STRIBECK, 20_001)
+    rise, fall = np.tanh(x), np.exp(-((x / kernels.STRIBECK) ** 2))
     excess = mu_s - mu_k
     for _ in range(50):
         excess += mu_s - float(np.max(rise * (mu_k + excess * fall)))
@@ -82,10 +86,16 @@ def _excess(mu_s: float, mu_k: float) -> float:
 class Regularised(Method):
     """LSODA on the regularised model."""
 
-    name = "regularised"
     label = "regularised, LSODA"
+    look = (ORANGE, "h", "-")
     setting = "epsilon"
     order = 2.0 / 3.0
+    settings: Mapping[str, Sequence[float]] = {
+        **dict.fromkeys(("stick_slip", "separating", "rigid"), decades(0, -1, -2)),
+        "many_modes": decades(0, -1),
+    }
+    map_values = decades(1, 0, -1, -2)
+    map_budget = 6.0
 
     def __init__(self, algorithm: str = "LSODA") -> None:
         self.algorithm = algorithm
@@ -94,6 +104,7 @@ class Regularised(Method):
         physics = Physics(problem.parameters)
         law = Law(physics, value)
         y = self._start(problem, physics, law)
+        law.rate(y)  # compiles
         meter = Meter(budget)
         events = [_event(lambda z: abs(z[physics.f]) - CREEP * value, 0), _event(law.force, 0)]
         origin, outcome, message = problem.start.time, Outcome.FINISHED, ""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import time as clock
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
+from disc_model.figures.style import BLACK
 
 STABILITY_LIMIT = 2.0 * math.sqrt(2.0)
 """Largest omega h at which RK4 does not let an undamped oscillation grow."""
@@ -25,10 +27,16 @@ MAX_EVENTS = 20_000
 class FixedStep(Method):
     """Classical RK4 with bisection."""
 
-    name = "RK4"
     label = "RK4, fixed step"
+    look = (BLACK, "s", "-")
     setting = "step"
     order = 4
+    settings: Mapping[str, Sequence[float]] = {
+        **dict.fromkeys(("stick_slip", "separating"), tuple(m * 10.0**e for e in (-4, -5, -6) for m in (4, 2, 1))),
+        "many_modes": tuple(m * 10.0**e for e in (-5, -6) for m in (8, 4, 2, 1)),
+        "rigid": (8e-8, 6.5e-8, 4e-8, 2e-8),
+    }
+    map_values = tuple(float(h) for h in np.geomspace(2e-5, 2e-3, 61)[::-1])
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         physics = Physics(problem.parameters)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
+from collections.abc import Mapping, Sequence
+
+from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem, decades
+from disc_model.figures.style import VERMILION
 from disc_model.simulation.api import simulate
 from disc_model.status import Status
 
@@ -13,8 +16,12 @@ STEPS_PER_SECOND = 300_000
 class Series(Method):
     """`disc_model.simulation.api`: Taylor series of high order, switches as roots of polynomials."""
 
-    name = "series"
     label = "series (this package)"
+    look = (VERMILION, "o", "-")
+    settings: Mapping[str, Sequence[float]] = {
+        **dict.fromkeys(("stick_slip", "separating", "many_modes"), decades(-4, -6, -8, -10, -12, -14)),
+        "rigid": decades(-4, -8, -12),
+    }
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         steps = int(max(1, min(budget, 1e6) * STEPS_PER_SECOND))

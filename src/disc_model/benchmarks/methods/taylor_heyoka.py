@@ -7,14 +7,16 @@ in compact mode it does); the hand-tuned interval `phases.GUARD` is crossed with
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import Meter, Method, MethodResult, Problem
+from disc_model.benchmarks.methods.base import MAP_TOLERANCES, Meter, Method, MethodResult, Problem, decades
 from disc_model.benchmarks.methods.phases import GUARD, Ended, IntegrationFailed, Phase, run_phases, switch_kinds
 from disc_model.benchmarks.methods.physics import Array, Physics
+from disc_model.figures.style import BROWN
 from disc_model.parameters import Parameters
 
 STEPS_PER_LOOK = 100_000
@@ -24,14 +26,21 @@ STEPS_PER_LOOK = 100_000
 class Heyoka(Method):
     """heyoka's adaptive Taylor integrator."""
 
-    name = "heyoka"
     label = "heyoka"
-    requires = ("heyoka",)
+    look = (BROWN, "*", "-")
+    settings: Mapping[str, Sequence[float]] = {
+        **dict.fromkeys(("stick_slip", "separating"), decades(-4, -6, -8, -9, -10, -12, -14)),
+        "many_modes": decades(-4, -6, -8, -10, -12),
+        "rigid": decades(-4, -8),
+    }
+    map_values = MAP_TOLERANCES[::2]
 
     def __init__(self, guard: float = GUARD, compact: bool = False) -> None:
         self.guard, self.compact = guard, compact
-        if guard == 0.0:
-            self.name, self.label = "heyoka-unguarded", "heyoka, no guard step"  # type: ignore[misc]
+
+    def economical(self) -> Heyoka:
+        """In compact mode: a map compiles it for every truncation and tolerance."""
+        return type(self)(self.guard, compact=True)
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         import heyoka as hy
@@ -75,6 +84,17 @@ class Heyoka(Method):
             return Ended(cause, float(integrator.time), y)
 
         return run_phases(problem, physics, advance, meter)
+
+
+class Unguarded(Heyoka):
+    """As heyoka documents it, native events trusted at the start of a separation too."""
+
+    label = "heyoka, no guard step"
+    look = (BROWN, "*", "--")
+    settings: Mapping[str, Sequence[float]] = {}
+
+    def __init__(self, guard: float = 0.0, compact: bool = False) -> None:
+        super().__init__(guard, compact)
 
 
 def _places(physics: Physics) -> dict[str, Array]:

@@ -1,0 +1,45 @@
+"""Which rivals there are: each is one file in `disc_model.benchmarks.methods` and one line here.
+
+Nothing heavy is imported, so that the workflow can read it at every start.
+"""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from typing import NamedTuple
+
+SCENES = ("stick_slip", "separating", "many_modes", "rigid")
+"""Names of the benchmark's scenes, see `disc_model.benchmarks.scenes`."""
+
+
+class Rival(NamedTuple):
+    """A method's name, where it is (``module:class`` in `disc_model.benchmarks.methods`), and what its class is given.
+
+    ``requires`` are packages without which it cannot be used; ``maps`` the scenes of which it has a failure map.
+    """
+
+    name: str
+    place: str
+    arguments: tuple[object, ...] = ()
+    requires: tuple[str, ...] = ()
+    maps: tuple[str, ...] = ("separating",)
+
+    def missing(self) -> tuple[str, ...]:
+        """Packages that are not installed."""
+        return tuple(package for package in self.requires if find_spec(package) is None)
+
+
+RIVALS = (
+    Rival("series", "series:Series"),
+    Rival("RK4", "rk4:FixedStep", maps=("stick_slip", "separating")),
+    Rival("RK45", "solve_ivp:SolveIvp", ("RK45", 5)),
+    Rival("DOP853", "solve_ivp:SolveIvp", ("DOP853", 8)),
+    Rival("DOP853-numpy", "solve_ivp:InNumpy", ("DOP853", 8), maps=()),
+    Rival("LSODA", "solve_ivp:SolveIvp", ("LSODA",)),
+    Rival("Radau", "solve_ivp:SolveIvp", ("Radau", 5)),
+    Rival("regularised", "regularised:Regularised"),
+    Rival("heyoka", "taylor_heyoka:Heyoka", requires=("heyoka",)),
+    Rival("heyoka-unguarded", "taylor_heyoka:Unguarded", requires=("heyoka",)),
+    Rival("CVODE", "cvode:Cvode", ("Adams",), requires=("sksundae",)),
+    Rival("CVODE-BDF", "cvode:Cvode", ("BDF",), requires=("sksundae",), maps=()),
+)

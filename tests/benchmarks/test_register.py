@@ -1,0 +1,32 @@
+"""The register of rivals: names without the methods themselves."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.register import RIVALS, SCENES
+from disc_model.benchmarks.scenes import problem
+
+
+def test_every_rival_is_made_as_registered() -> None:
+    assert [rival.name for rival in RIVALS] == list(METHODS)
+    for rival in RIVALS:
+        method = METHODS[rival.name]
+        assert (method.name, method.requires) == (rival.name, rival.requires)
+        assert bool(method.unavailable()) == bool(rival.missing())
+        assert set(method.settings) <= set(SCENES)
+        assert not rival.maps or method.map_values
+
+
+def test_every_scene_is_there() -> None:
+    for scene in SCENES:
+        assert problem(scene).span > 0
+
+
+def test_nothing_heavy_is_imported_to_read_it() -> None:
+    """The workflow reads it at every start."""
+    code = "import sys, disc_model.benchmarks.register; print(*{'numba', 'numpy', 'matplotlib'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""
