@@ -73,7 +73,7 @@ class Parameters(Checked):
 
     @classmethod
     def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
-        return _cross_faults(cls, data)
+        return cross_faults(cls, data)
 
     @property
     def D(self) -> float:
@@ -101,7 +101,7 @@ def _rigidity(E: float, h: float, nu: float) -> float:
     return E * h**3 / 12 / (1 - nu**2)
 
 
-def _cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
+def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     """Rules between parameters, checked where both sides are finite numbers: no fault hides another."""
     values: dict[str, float] = {}
     for name in ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu"):

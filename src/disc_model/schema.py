@@ -9,7 +9,7 @@ import numbers
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from disc_model.errors import Fault, ParameterError
 
@@ -74,6 +74,8 @@ def _within(limits: tuple[float, float]) -> AfterValidator:
 
 
 Real = Annotated[float, BeforeValidator(number)]
+Finite = Annotated[Real, Field(allow_inf_nan=False)]
+Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False)]
 Count = Annotated[int, BeforeValidator(whole)]
 Tolerance = Annotated[Real, _within(TOLERANCES)]
 CycleTolerance = Annotated[Real, _within(CYCLE_TOLERANCES)]

@@ -65,6 +65,12 @@ COUNTS = {
 }
 """Whole numbers among the scalars, and what `Result.statistics` calls them."""
 CHOICES = {"normalization": NORMALIZATIONS, "contact": CONTACTS}
+KICKS = {
+    "kick_u": Variable("m", "kick of the slider and of the disc under it, upward"),
+    "kick_u_velocity": Variable("m s-1", "kick of their velocity, upward"),
+    "kick_f": Variable("rad s-1", "kick of the slider's angular velocity"),
+}
+"""What grids may add to a coordinate where motions start; coordinates of their datasets."""
 _CF_UNITS = {"N m s": "N m s", "N s/m": "N s m-1", "N/m": "N m-1", "kg/m^3": "kg m-3", "rad/s": "rad s-1"}
 
 
@@ -75,7 +81,7 @@ def attributes(name: str) -> dict[str, Any]:
         which = "least" if bound == "min" else "greatest"
         variable = SERIES[stem]._replace(long_name=f"{SERIES[stem].long_name}, {which} within the bin")
     else:
-        variable = (SERIES | SCALARS).get(name) or _parameter_variable(name)
+        variable = (SERIES | SCALARS | KICKS).get(name) or _parameter_variable(name)
     result: dict[str, Any] = {"units": variable.units, "long_name": variable.long_name}
     if variable.flags:
         result |= {

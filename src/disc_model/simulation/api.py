@@ -207,6 +207,12 @@ def _compiled_for(model: layout.Model, _seen: set[int] = set()) -> bool:  # noqa
     return known
 
 
+def published_start(p: Parameters) -> State:
+    """The published start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
+    model = build_model(p)
+    return read_state(p, model, layout.build_state(model))
+
+
 def build_model(p: Parameters) -> layout.Model:
     """The engine's constants of a case."""
     modes = mode_arrays(p)

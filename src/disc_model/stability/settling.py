@@ -163,7 +163,16 @@ class Followed:
     simulated: float
 
 
-def follow(p: Parameters, horizon: float, *, tol: float, settled: float, near: float, late: float = PROBE) -> Followed:
+def follow(
+    p: Parameters,
+    horizon: float,
+    *,
+    tol: float,
+    settled: float,
+    near: float,
+    late: float = PROBE,
+    initial_state: State | None = None,
+) -> Followed:
     """Simulate from the published start until the first separation, a settled motion, or the horizon.
 
     Parameters
@@ -172,9 +181,10 @@ def follow(p: Parameters, horizon: float, *, tol: float, settled: float, near: f
     settled : difference of successive cycles, relative, below which a motion has settled; 0: it never has
     near : distance from a stable cycle, relative, below which it has; 0: it never has
     late : s, length of the last stretch
+    initial_state : where to start instead, at time 0
     """
     settling = Settling(p)
-    state: State | None = None
+    state = initial_state
     for start, stop in _probes(horizon, late):
         if start > (0.0 if state is None else state.time):
             result = simulate(p, start, tol=tol, initial_state=state, record=_NOTHING, stop_at="first_separation")

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal, NamedTuple, Protocol
 
 from pydantic import Field
 
+from disc_model.data.variables import KICKS
 from disc_model.parameters import Parameters
 from disc_model.schema import Real, Strict
 
@@ -96,7 +98,7 @@ class Plot(Strict):
         for axis, name in chosen.items():
             if name not in values:
                 yield Fault((axis,), name, f"is no dimension of this study (known: {', '.join(values)})")
-            elif name not in Parameters.model_fields or not Parameters.unit(name):
+            elif name not in KICKS and (name not in Parameters.model_fields or not Parameters.unit(name)):
                 yield Fault((axis,), name, "must be one parameter, and a number")
         if len(set(chosen.values())) < len(chosen):
             yield Fault(("y",), chosen["y"], "must differ from x")
@@ -172,6 +174,15 @@ class StabilityMap(Plot):
     @property
     def roles(self) -> dict[str, Role]:
         return {"growth": Role("floquet", self.dims)}
+
+    def faults(self, values: Values) -> Iterator[Fault]:
+        """As of any figure; and what is marked must be computed, and not only lie between points that are."""
+        yield from super().faults(values)
+        for name, mark in self.marks.items():
+            for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
+                along = [float(one) for one, *more in values.get(dim, ()) if not more and not isinstance(one, str)]
+                if along and not any(math.isclose(value, one, rel_tol=1e-12) for one in along):
+                    yield Fault(("marks", name, axis), f"{value:g}", f"must be a value of {dim}, such as an extra one")
 
     @property
     def module(self) -> str:

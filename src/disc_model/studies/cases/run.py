@@ -12,6 +12,7 @@ from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import simulate
 from disc_model.studies.cases.spec import CaseSpec
+from disc_model.studies.preparation import prepared
 
 log = logging.getLogger(__name__)
 
@@ -23,7 +24,15 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
     """
     p = spec.parameters
     try:
-        result = simulate(p, spec.t_end, tol=spec.tol, record=spec.record, stop_at=spec.stop_at, checkpoint=checkpoint)
+        result = simulate(
+            p,
+            spec.t_end,
+            tol=spec.tol,
+            initial_state=prepared(p, spec.start, spec.tol),
+            record=spec.record,
+            stop_at=spec.stop_at,
+            checkpoint=checkpoint,
+        )
     except DiscModelError as error:
         log.error("no result: %s", error)
         tree = to_tree(failed_groups(p, spec.t_end, spec.tol, f"{type(error).__name__}: {error}"))

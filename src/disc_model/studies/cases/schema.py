@@ -32,6 +32,7 @@ from disc_model.studies.faults import (
     validated,
 )
 from disc_model.studies.reading import read_file, shown_path
+from disc_model.studies.start import Start
 from disc_model.truncation import AUTO, read_parameters
 
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
@@ -98,6 +99,7 @@ class Case(Strict):
     t_end: Annotated[Real, Field(gt=0, allow_inf_nan=False)]
     tol: Tolerance = 1e-10
     stop_at: Literal["first_separation"] | None = None
+    start: Start = Start()
     record: RecordSpec = RecordSpec()
 
 
@@ -214,6 +216,7 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
         case.record.poincare,
         events,
         case.record.energy,
+        case.start,
         truncation,
     )
     return case, spec

@@ -6,11 +6,12 @@ import hashlib
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.record import Poincare, Record, Window
+from disc_model.studies.start import Start
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,7 @@ class CaseSpec:
     poincare: Poincare | None
     events: tuple[float, float] | None
     energy: bool
+    start: Start = field(default_factory=Start)
     truncation: str = ""
     """How the number of modes was chosen, as JSON; empty if it was given."""
 
@@ -57,6 +59,7 @@ class CaseSpec:
                 "events": self.events,
                 "energy": self.energy,
             }
+            | ({"start": self.start.model_dump()} if self.start != Start() else {})
             | ({"truncation": self.truncation} if self.truncation else {})
         )
 
@@ -77,6 +80,7 @@ class CaseSpec:
             poincare=data["poincare"] and Poincare(**data["poincare"]),
             events=data["events"] and tuple(data["events"]),
             energy=data["energy"],
+            start=Start.model_validate(data.get("start", {})),
             truncation=data.get("truncation", ""),
         )
 

@@ -8,13 +8,12 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
-from disc_model.schema import Count, Real, Strict
+from disc_model.schema import Count, Finite, Real, Strict
 from disc_model.studies.faults import Faults, validated
 
 Value = float | int | str
 Blocks = tuple[tuple[Value, ...], ...]
 
-Finite = Annotated[Real, Field(allow_inf_nan=False)]
 MOST = 100_000
 """Values along one axis, at most; a slip of the pen can ask for more than fit into memory."""
 
@@ -87,6 +86,8 @@ def values_of(range_: Range) -> list[float]:
 def parse_blocks(raw: Any, path: tuple[str, ...], faults: Faults, resolution: int = 1) -> Blocks | None:
     """Blocks of raw values: a list, a range, or ``{blocks: [list or range, ...]}``.
 
+    The values of a range's ``extra`` are a block of their own, so that what there is without them stays.
+
     A value that stands in several blocks belongs to the first. What the values mean is not checked here.
     """
     if isinstance(raw, Mapping) and "blocks" in raw:
@@ -100,13 +101,16 @@ def parse_blocks(raw: Any, path: tuple[str, ...], faults: Faults, resolution: in
         ]
         return None if None in each else tuple(block for part in each if part for block in part)
     if isinstance(raw, Mapping):
-        given = validated(Range, raw, path, faults)
-        if given is None:
+        extra = raw.get("extra", [])
+        if not isinstance(extra, list):
+            faults.add((*path, "extra"), extra, "must be a list of values")
+        given = validated(Range, {key: value for key, value in raw.items() if key != "extra"}, path, faults)
+        if given is None or not isinstance(extra, list):
             return None
         if given.intervals * resolution >= MOST:
             faults.add(path, "", f"must be at most {MOST} values, and not {given.intervals * resolution + 1}")
             return None
-        return given.blocks(resolution)
+        return (*given.blocks(resolution), *([tuple(extra)] if extra else []))
     if isinstance(raw, list) and raw:
         return (tuple(raw),)
     faults.add(path, raw, "must be a list of values, or a range {start, stop, count or step}")

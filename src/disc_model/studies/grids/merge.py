@@ -120,6 +120,9 @@ def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, st
     """What all batches agree on: quantity, options, base values, sources; and all commits that made them."""
     specification = json.loads(batches[0].attrs["specification"])
     del specification["points"], specification["names"]
+    if "starts" in specification:
+        every = [json.loads(batch.attrs["specification"])["starts"] for batch in batches]
+        specification["starts"] = {name: start for starts in every for name, start in sorted(starts.items())}
     common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
     common["source_hash"] = common.pop("sources")
     for name in ("git_commit", "versions"):

@@ -6,7 +6,7 @@ import importlib
 import json
 import logging
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,10 +14,11 @@ import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
-from disc_model.data.variables import CHOICES, Variable, attributes
+from disc_model.data.variables import CHOICES, KICKS, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.studies.grids.quantities.table import Column, Quantity, compute
+from disc_model.studies.start import START, Start
 from disc_model.truncation import AUTO, read_parameters
 
 log = logging.getLogger(__name__)
@@ -36,9 +37,11 @@ def run_batch(text: str) -> xr.Dataset:
     schema = importlib.import_module(SCHEMA)
     quantity: Quantity = importlib.import_module(schema.module_of(data["quantity"]))
     options = schema.QUANTITIES[data["quantity"]].options.model_validate(data["options"])
-    parameters = [_made(data["base"] | dict(zip(names, point, strict=True))) for point in points]
+    varied = [dict(zip(names, point, strict=True)) for point in points]
+    parameters = [_made(data["base"] | _only(Parameters.model_fields, values)) for values in varied]
+    each = [_started(options, values, data.get("starts", {})) for values in varied]
     began = time.process_time()
-    table = compute(quantity, parameters, options)
+    table = compute(quantity, parameters, options, each)
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
     for point, message in zip(points, table.messages, strict=True):
         if message:
@@ -58,6 +61,19 @@ def run_batch(text: str) -> xr.Dataset:
     return xr.Dataset(variables, coords | own, attrs)
 
 
+def _only(names: Collection[str], values: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if name in names}
+
+
+def _started(options: Any, values: Mapping[str, Any], starts: Mapping[str, Any]) -> Any:
+    """The options of a point, with its start and its kicks."""
+    if START in values:
+        start = Start.model_validate(starts[values[START]])
+        options = options.model_copy(update={"prepare": start.prepare, "kick": start.kick})
+    kicks = {name.removeprefix("kick_"): value for name, value in _only(KICKS, values).items()}
+    return options.kicked(kicks) if kicks else options
+
+
 def _made(values: Mapping[str, Any]) -> Parameters | DiscModelError:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
     try:
@@ -72,7 +88,9 @@ def _chosen(name: str, parameters: Sequence[Parameters | DiscModelError]) -> xr.
 
 
 def describe(name: str) -> dict[str, Any]:
-    """Attributes of a parameter that is a coordinate; choices are stored as words, without unit."""
+    """Attributes of what varies, a coordinate; choices are stored as words, without unit."""
+    if name == START:
+        return {"long_name": "where the motion starts"}
     described = attributes(name)
     return {"long_name": described["long_name"]} if name in CHOICES else described
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import Field
 
+from disc_model.data.variables import KICKS
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, Plot, Values
 from disc_model.parameters import Parameters
@@ -20,15 +21,28 @@ from disc_model.studies.faults import (
     StudyError,
     add_parameter_faults,
     inherit,
+    is_name,
     mapping,
     validated,
 )
 from disc_model.studies.grids.axes import Value
-from disc_model.studies.grids.dimensions import ANY, Dimension, asked, check_size, n_points, parse_dimensions
+from disc_model.studies.grids.dimensions import (
+    PUBLISHED,
+    Dimension,
+    asked,
+    check_points,
+    check_size,
+    n_points,
+    parse_dimensions,
+)
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity
 from disc_model.studies.grids.spec import BatchSpec, batch_texts
 from disc_model.studies.reading import read_file, shown_path
+from disc_model.studies.start import START, SomeParameters, Start
 from disc_model.truncation import AUTO, asked_modes
+
+REQUIRED = ("N", "Omega")
+"""Parameters without a base value."""
 
 
 class _Header(Strict):
@@ -42,6 +56,7 @@ class _Header(Strict):
     axes: dict[str, Any] = Field({})
     zip: dict[str, Any] | list[dict[str, Any]] = Field([])
     batch: BatchSpec = BatchSpec()
+    starts: dict[str, Any] = Field({})
     figures: dict[Name, Any] = Field({})
 
 
@@ -165,25 +180,30 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
         None if quantity is None else validated(quantity.options, mapping(raw.get("options")), ("options",), faults)
     )
     base, automatic = _base(mapping(raw.get("base")), faults)
-    dims = parse_dimensions(raw, fineness, base, faults)
+    starts = _starts(mapping(raw.get("starts")), faults)
+    dims = parse_dimensions(raw, fineness, starts, faults)
     varied = [name for dim in dims for name in dim.names]
     _check_names(raw, dims, varied, () if quantity is None else quantity.scanned(options), quantity, faults)
+    _check_starts(raw, quantity, faults)
     _check_truncation(raw, automatic, faults)
+    if not faults:
+        check_points(dims, base, faults)
     check_size(dims, faults)
     # what is only meant to be a dimension, and has faults, counts as one without values
     values: Values = dict.fromkeys(sorted(asked(raw) - set(varied)), ()) | {dim.name: dim.values for dim in dims}
     plots = _plots(mapping(raw.get("figures")), raw.get("quantity"), values, faults)
     if faults or header is None or quantity is None or options is None:
         raise StudyError(*faults)
-    first = {name: value for dim in dims for name, value in zip(dim.names, dim.values[0], strict=True)}
-    complete = Parameters(**{**ANY, **base, **first}).model_dump()
-    complete |= {name: 0.0 for name in quantity.scanned(options) if name in ANY}  # not used
+    varied_first = {name: value for dim in dims for name, value in zip(dim.names, dim.values[0], strict=True)}
+    first = {name: value for name, value in varied_first.items() if name in Parameters.model_fields}
+    scanned = {name: 0.0 for name in quantity.scanned(options) if name in REQUIRED}  # not used
+    complete = Parameters(**{**scanned, **base, **first}).model_dump()
     if automatic:
         complete |= automatic
         del complete["n_circles"]
-    for name in varied:
+    for name in first:
         del complete[name]
-    batches = batch_texts(header.quantity, options, complete, dims, header.batch)
+    batches = batch_texts(header.quantity, options, complete, starts, dims, header.batch)
     return GridStudy(header.study, header.title, header.quantity, options, complete, dims, batches, plots)
 
 
@@ -215,11 +235,38 @@ def _base(values: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Any], di
     automatic = {} if tolerance is None else {"n_diameters": AUTO, "truncation_tolerance": tolerance}
     add_parameter_faults(more, lambda name: ("base", name), faults)
     try:
-        checked = Parameters(**{**ANY, **fixed}).model_dump()
-        return {name: checked[name] for name in fixed}, automatic
+        checked = SomeParameters(**fixed)
+        return {name: getattr(checked, name) for name in fixed}, automatic
     except ParameterError as error:
         add_parameter_faults(error.faults, lambda name: ("base", name), faults)
         return {}, automatic
+
+
+def _starts(given: Mapping[Any, Any], faults: Faults) -> dict[str, Start]:
+    """The starts that a file names and says rightly; and the published one."""
+    starts = {PUBLISHED: Start()}
+    for name, raw in given.items():
+        path = ("starts", str(name))
+        if not is_name(str(name)) or name == PUBLISHED:
+            faults.add(path, "", f"must be letters, digits and _, starting with a letter, and not {PUBLISHED}")
+        elif (start := validated(Start, raw, path, faults)) is not None:
+            starts[str(name)] = start
+    return starts
+
+
+def _check_starts(raw: Mapping[str, Any], quantity: Quantity | None, faults: Faults) -> None:
+    """What starts elsewhere must be followed by the quantity, and its start be said in one place."""
+    wanted = [name for name in (START, *KICKS) if name in asked(raw)]
+    options = mapping(raw.get("options"))
+    if quantity is not None and not quantity.starts:
+        for name in wanted:
+            faults.add(("axes", name), "", f"the quantity {raw['quantity']} follows no motion from a start")
+    for name in ("prepare", "kick"):
+        if START in wanted and name in options:
+            faults.add(("options", name), "", "must not be given where the start varies: say it under starts")
+    for name in wanted:
+        if name in KICKS and name.removeprefix("kick_") in mapping(options.get("kick")):
+            faults.add(("options", "kick", name.removeprefix("kick_")), "", f"is given, and varies as axes.{name}")
 
 
 def _check_truncation(raw: Mapping[str, Any], automatic: Mapping[str, Any], faults: Faults) -> None:
@@ -250,7 +297,9 @@ def _check_names(
     for name in scanned:
         if name in wanted or name in base:
             faults.add(("axes" if name in wanted else "base", name), "", f"is varied by the quantity {raw['quantity']}")
-    for name in ("N", "Omega"):
+    for name in sorted(wanted & base.keys()):
+        faults.add(("base", name), base[name], "varies as well: give it in base or as an axis, not both")
+    for name in REQUIRED:
         if name not in wanted and name not in base and name not in scanned and quantity is not None:
             faults.add(("axes", name), "", "is required, here, in a zip or in base")
     known = [dim.name for dim in dims]

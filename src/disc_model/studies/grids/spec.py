@@ -19,6 +19,7 @@ from disc_model.studies.cases.spec import canonical_json, content_key
 from disc_model.studies.grids.axes import Value
 from disc_model.studies.grids.dimensions import Dimension
 from disc_model.studies.grids.quantities.schema import module_of
+from disc_model.studies.start import START, Start
 
 RUNNER = "disc_model.studies.grids.run"
 
@@ -35,18 +36,34 @@ class BatchSpec(Strict):
 
 
 def batch_texts(
-    quantity: str, options: Strict, base: Mapping[str, Any], dims: Sequence[Dimension], batch: BatchSpec
+    quantity: str,
+    options: Strict,
+    base: Mapping[str, Any],
+    starts: Mapping[str, Start],
+    dims: Sequence[Dimension],
+    batch: BatchSpec,
 ) -> dict[str, str]:
     """The text of each batch by its name, 12 hexadecimal digits."""
-    shared = {
+    shared: dict[str, Any] = {
         "quantity": quantity,
         "options": options.model_dump(),
         "base": base,
         "names": [name for dim in dims for name in dim.names],
         "sources": source_hash(module_of(quantity), RUNNER),
     }
-    texts = (canonical_json({**shared, "points": points}) for points in _chunks(dims, batch))
+    texts = [
+        canonical_json({**shared, **_used(starts, shared["names"], points), "points": points})
+        for points in _chunks(dims, batch)
+    ]
     return {content_key(text): text for text in texts}
+
+
+def _used(starts: Mapping[str, Start], names: Sequence[str], points: Sequence[Sequence[Value]]) -> dict[str, Any]:
+    """The starts that points name, if they do."""
+    if START not in names:
+        return {}
+    used = {str(point[names.index(START)]) for point in points}
+    return {"starts": {name: starts[name].model_dump() for name in sorted(used)}}
 
 
 def _chunks(dims: Sequence[Dimension], batch: BatchSpec) -> Iterator[list[list[Value]]]:

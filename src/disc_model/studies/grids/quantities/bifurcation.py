@@ -9,8 +9,8 @@ import numpy as np
 from disc_model.data.variables import PHASES, SCALARS, SERIES, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
-from disc_model.studies.grids.quantities.preparation import prepared
 from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column
+from disc_model.studies.preparation import prepared
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import BifurcationOptions
@@ -39,7 +39,7 @@ def at(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]
         [p.Omega],
         transient=options.transient,
         samples=options.samples,
-        initial_state=prepared(p, options),
+        initial_state=prepared(p, options, options.tol),
         theta=options.theta,
         tol=options.tol,
     ).isel(Omega=0)

@@ -9,8 +9,8 @@ import numpy as np
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
-from disc_model.studies.grids.quantities.preparation import prepared
 from disc_model.studies.grids.quantities.table import STATUS, Column
+from disc_model.studies.preparation import prepared
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import LyapunovOptions
@@ -37,7 +37,7 @@ def at(p: Parameters, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
         transient=options.transient,
         count=options.exponents,
         interval=options.interval,
-        initial_state=prepared(p, options),
+        initial_state=prepared(p, options, options.tol),
         tol=options.tol,
     )
     values = {

@@ -8,6 +8,7 @@ from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.settling import Followed, follow, late_stretch, numbers
 from disc_model.studies.grids.quantities.table import STATUS, Column
+from disc_model.studies.preparation import prepared
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import OutcomeOptions
@@ -43,7 +44,13 @@ def coordinates(options: OutcomeOptions) -> dict[str, Any]:
 def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     """The late stretch of a point that separates lies ``after_separation`` later."""
     followed = follow(
-        p, options.horizon, tol=options.tol, settled=options.settled, near=options.near, late=options.late
+        p,
+        options.horizon,
+        tol=options.tol,
+        settled=options.settled,
+        near=options.near,
+        late=options.late,
+        initial_state=prepared(p, options, options.tol),
     )
     result, late = followed.result, followed.late
     separated = result.status.value == "stopped"

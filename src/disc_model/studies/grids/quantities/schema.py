@@ -7,16 +7,14 @@ from the values alone, and what they amount to is worked out in its own file.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal, NamedTuple, Self
+from typing import Annotated, Literal, NamedTuple, Self
 
-from pydantic import AfterValidator, Field, create_model, field_validator, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
-from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import Parameters
-from disc_model.schema import Count, CycleTolerance, Real, Strict, Tolerance
-from disc_model.studies.grids.axes import MOST, Finite, Range
+from disc_model.schema import Count, CycleTolerance, Finite, Positive, Real, Strict, Tolerance
+from disc_model.studies.grids.axes import MOST, Range
+from disc_model.studies.start import Start
 
-Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False)]
 Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
 
 # ----------------------------------------------------------------------------------------------------
@@ -35,40 +33,9 @@ class SettlingOptions(Strict):
     near: Deviation = 1e-4
 
 
-_OPTIONAL: dict[str, Any] = {
-    name: (Annotated[field.annotation, field], None) for name, field in Parameters.model_fields.items()
-}
-_Some = create_model("_Some", __base__=Parameters, **_OPTIONAL)
-"""Parameters of which any may be left out; rules between several are checked if all of them are there."""
+class Lead(Start):
+    """Where a motion starts, see `disc_model.studies.start`, and how it is computed."""
 
-
-class Preparation(Strict):
-    """Another case, and how long it is simulated from the published start: its last state is where the point starts.
-
-    parameters : those that differ from the point's
-    time : s
-    """
-
-    parameters: dict[str, Any]
-    time: Positive
-
-    @field_validator("parameters")
-    @classmethod
-    def _checked(cls, given: dict[str, Any]) -> dict[str, Any]:
-        """As `Parameters` understands them: floats, whole numbers, words."""
-        if given.get("n_diameters") == "auto":
-            raise ParameterError(Fault(("n_diameters",), "'auto'", "must be a whole number, that of the points"))
-        checked = _Some(**given)
-        return {name: getattr(checked, name) for name in given}
-
-
-class Lead(Strict):
-    """Where a motion starts.
-
-    prepare : after another motion, such as one that has separated; the published start if not given
-    """
-
-    prepare: Preparation | None = None
     tol: Tolerance = 1e-10
 
 
@@ -76,8 +43,8 @@ class Lead(Strict):
 # Options of each quantity
 
 
-class OutcomeOptions(SettlingOptions):
-    """One simulation from the published start.
+class OutcomeOptions(Lead, SettlingOptions):
+    """One simulation.
 
     horizon : s
     late : s, length of the last stretch, over which ranges and shares of the phases are taken
@@ -229,6 +196,11 @@ class Quantity(NamedTuple):
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
         """Parameters that the quantity varies by itself, given its options."""
         return tuple(getattr(options, "scans", self.scans))
+
+    @property
+    def starts(self) -> bool:
+        """Whether it follows motions that may start elsewhere than from the published start."""
+        return issubclass(self.options, Start)
 
 
 QUANTITIES = {

@@ -72,21 +72,27 @@ class Table(NamedTuple):
     messages: list[str]
 
 
-def compute(quantity: Quantity, points: Sequence[Parameters | DiscModelError], options: Any) -> Table:
+def compute(
+    quantity: Quantity,
+    points: Sequence[Parameters | DiscModelError],
+    options: Any,
+    each: Sequence[Any] | None = None,
+) -> Table:
     """A quantity at each point; one that fails (see `NUMERICAL`) gets the status `failed` and a message.
 
     Parameters
     ----------
     points : parameters; an error stands for a point that could not be made, and is its message
     options : as `schema` says for this quantity
+    each : options of each point, where they differ in its start
     """
     rows: list[Row] = []
     messages: list[str] = []
-    for point in points:
+    for point, own in zip(points, each or [options] * len(points), strict=True):
         try:
             if isinstance(point, DiscModelError):
                 raise point
-            row, message = quantity.at(point, options)
+            row, message = quantity.at(point, own)
         except NUMERICAL as error:
             row, message = {"status": "failed"}, f"{type(error).__name__}: {error}"
         rows.append(row)

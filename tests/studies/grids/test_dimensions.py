@@ -1,0 +1,130 @@
+"""What may vary along a grid, and what is refused before anything is computed."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from disc_model.data.variables import KICKS
+from disc_model.parameters import Parameters
+from disc_model.studies.faults import StudyError
+from disc_model.studies.grids.dimensions import RELATED
+from disc_model.studies.grids.schema import GridStudy, parse_grid
+
+AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
+
+
+def parsed(**changes: Any) -> GridStudy:
+    raw = {"study": "x", "quantity": "outcome", "options": {"horizon": 2}, "base": {"N": 200, "Omega": 20}}
+    return parse_grid(raw | changes)
+
+
+def faults(**changes: Any) -> tuple[str, ...]:
+    with pytest.raises(StudyError) as error:
+        parsed(**changes)
+    return error.value.faults
+
+
+@pytest.mark.parametrize("name", Parameters.model_fields)
+def test_every_parameter_may_vary(name: str) -> None:
+    field = Parameters.model_fields[name]
+    values = {"N": [1, 2], "Omega": [1, 2], "n_diameters": [1, 2], "n_circles": [0, 1], "a": [0.02, 0.03]}.get(name)
+    values = values or (
+        [field.default] if isinstance(field.default, str) else [field.default, 0.9 * (field.default or 0.1)]
+    )
+    base = {other: 1 for other in ("N", "Omega") if other != name} | ({"mu_k": 0.1} if name == "mu_s" else {})
+    study = parsed(base=base | ({"r_0": 0.05} if name == "b" else {}), axes={name: values})
+    assert sorted(study.values[name]) == sorted((value,) for value in values)
+    assert name not in study.base
+    assert set(study.base) | {name} == set(Parameters.model_fields)
+
+
+def test_rules_between_parameters_hold_at_every_point() -> None:
+    """Values are right or wrong together: each axis alone would pass, or fail, with the base value of the other."""
+    assert parsed(axes={"a": [0.05, 0.11]}, base={"N": 1, "Omega": 1, "r_0": 0.115}).n_points == 2
+    assert parsed(axes={"mu_s": [0.6, 0.7]}, base={"N": 1, "Omega": 1, "mu_k": 0.5}).n_points == 2
+    assert parsed(zip={"a": [0.01, 0.06], "r_0": [0.05, 0.1]}).n_points == 2
+    assert faults(axes={"a": [0.01, 0.06], "r_0": [0.05, 0.1]}) == ("axes.a = 0.06: must be < r_0=0.05",)
+    assert faults(axes={"a": [0.05, 0.11], "mu_s": [0.1, 0.5]}) == (
+        "base.mu_k = 0.24: must be <= mu_s=0.1",
+        "axes.a = 0.11: must be < r_0=0.1",
+    )
+
+
+@pytest.mark.parametrize(("name", "value"), [("mu_s", 0.1), ("mu_k", 1.0), ("a", 0.2), ("b", 0.05), ("r_0", 0.3)])
+def test_a_rule_is_checked_whichever_side_varies(name: str, value: float) -> None:
+    assert "must be <" in faults(axes={name: [value]})[0]
+    assert name in RELATED
+
+
+@pytest.mark.parametrize(("name", "value"), [("h", 1e-300), ("E", 1e-320), ("h", 1e200)])
+def test_a_rigidity_that_is_none_is_refused(name: str, value: float) -> None:
+    assert "must give a finite, positive E h^3/12/(1-nu^2)" in faults(axes={name: [value]})[0]
+
+
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        ({"axes": {"N": [1]}}, "base.N = 200: varies as well: give it in base or as an axis, not both"),
+        ({"zip": {"Omega": [1, 2], "c": [0, 1]}}, "base.Omega = 20: varies as well"),
+        ({"axes": {"rho": [-1]}}, "axes.rho = -1: must be > 0"),
+        ({"axes": {"colour": [1]}}, "axes.colour: cannot be an axis"),
+        ({"axes": {"kick_u": ["x"]}}, "axes.kick_u = 'x': must be a number"),
+        ({"axes": {"kick_u": [float("inf")]}}, "axes.kick_u = inf: must be finite"),
+        ({"axes": {"kick_w": [0]}}, "axes.kick_w: cannot be an axis"),
+        ({"axes": {"start": ["other"]}}, "axes.start = 'other': no such start (known: published)"),
+        ({"axes": {"c": [0]}, "starts": {"published": {}}}, "starts.published: must be letters"),
+        ({"axes": {"c": [0]}, "starts": {"a": {"kick": {"w": 1}}}}, "starts.a.kick.w = 'w': must be 'u'"),
+        ({"axes": {"c": [0]}, "starts": {"a": {"prepare": {"parameters": {}, "time": 0}}}}, "time = 0: must be > 0"),
+        (
+            {"axes": {"kick_f": [0]}, "quantity": "floquet", "options": {}},
+            "axes.kick_f: the quantity floquet follows no motion from a start",
+        ),
+        (
+            {"axes": {"start": ["a"]}, "starts": {"a": {}}, "options": {"horizon": 2, "kick": {"u": 1}}},
+            "options.kick: must not be given where the start varies",
+        ),
+        ({"axes": {"kick_u": [0]}, "options": {"horizon": 2, "kick": {"u": 1}}}, "options.kick.u: is given, and"),
+        ({"axes": {"c": {"start": 0, "stop": 1, "count": 2, "extra": 3}}}, "axes.c.extra = 3: must be a list"),
+        ({"axes": {"c": {"start": 0, "stop": 1, "count": 2, "extra": [-1]}}}, "axes.c = -1: must be >= 0"),
+    ],
+)  # fmt: skip
+def test_what_is_refused(changes: dict[str, Any], fault: str) -> None:
+    assert fault in "\n".join(faults(**changes))
+
+
+def test_extra_values_leave_the_batches_that_there_are() -> None:
+    """At any resolution; a value that is there already is not computed twice."""
+    axis = {"start": 0, "stop": 4, "count": 3}
+    for resolution in (1, 2):
+        before, after = (
+            parse_grid(
+                {"study": "x", "quantity": "floquet", "base": {"N": 1, "Omega": 1}, "axes": {"c": given}}, resolution
+            )
+            for given in (axis, axis | {"extra": [2, 3.3]})
+        )
+        assert {(3.3,)} == set(after.values["c"]) - set(before.values["c"])
+        assert set(before.batches) < set(after.batches)
+        (new,) = set(after.batches) - set(before.batches)
+        assert json.loads(after.batches[new])["points"] == [[3.3]]
+
+
+def test_a_batch_knows_the_starts_that_its_points_have_and_no_others() -> None:
+    def texts(starts: dict[str, Any], names: list[str]) -> dict[str, dict[str, Any]]:
+        study = parsed(axes={"c": [0, 1], "start": names}, starts=starts, batch={"over": ["c"]})
+        return {key: json.loads(text) for key, text in study.batches.items()}
+
+    before = texts({"apart": AFTER}, ["published", "apart"])
+    assert sorted(sorted(text["starts"]) for text in before.values()) == [["apart"], ["published"]]
+    more = texts({"apart": AFTER, "kicked": {"kick": {"u": 1e-3}}}, ["published", "apart", "kicked"])
+    assert set(before) < set(more)
+    changed = texts({"apart": AFTER | {"kick": {"f": 1}}}, ["published", "apart"])
+    assert len(set(before) & set(changed)) == 1
+
+
+def test_kicks_are_axes_with_units() -> None:
+    study = parsed(axes={name: [0, "1e-4"] for name in KICKS})
+    assert study.values == dict.fromkeys(KICKS, ((0.0,), (0.0001,)))
+    assert all(variable.units for variable in KICKS.values())

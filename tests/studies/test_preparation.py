@@ -1,0 +1,195 @@
+"""Motions that begin where another one ended, or with a kick."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import flag_names
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
+from disc_model.simulation.api import published_start, simulate
+from disc_model.simulation.result import State
+from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases.schema import parse_study
+from disc_model.studies.cases.spec import CaseSpec
+from disc_model.studies.faults import StudyError
+from disc_model.studies.grids.quantities.schema import BifurcationOptions
+from disc_model.studies.grids.schema import parse_grid
+from disc_model.studies.preparation import kicked, prepared
+from disc_model.studies.start import Start
+from tests.studies.grids.conftest import computed
+
+AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}, "transient": 1}
+
+
+@pytest.mark.compiled
+def test_motions_may_start_after_a_separation() -> None:
+    raw = {"study": "b", "quantity": "bifurcation", "base": {"N": 385}, "axes": {"Omega": [5, 15]}}
+    before = computed(**(raw | {"options": {"transient": 1, "samples": 3}}))
+    after = computed(**(raw | {"options": AFTER | {"samples": 3}}))
+    assert before["separations"].values.tolist() == [0, 0]
+    assert after["separations"].sel(Omega=15) > 50
+    assert flag_names(before["phase"]).tolist() != [["none"] * 3] * 2
+    start = simulate(Parameters(N=385, Omega=15.1), 56).final_state.replace(time=0.0, time_low=0.0)
+    run = simulate(Parameters(N=385, Omega=15), 1.0, initial_state=start)
+    assert after["first_separation"].sel(Omega=15) == run.first_separation
+
+
+@pytest.mark.parametrize(
+    ("parameters", "faults"),
+    [
+        ({"Omgea": 15}, ["Omgea = 15: unknown parameter, did you mean Omega?"]),
+        ({"m": -1, "contact": "open"}, ["m = -1: must be > 0", "contact = 'open': must be 'separable' or 'bonded'"]),
+        ({"mu_s": 0.2, "mu_k": 0.3}, ["mu_k = 0.3: must be <= mu_s=0.2"]),
+        ({"n_diameters": "auto"}, ["n_diameters = 'auto': must be a whole number, that of the points"]),
+    ],
+)
+@pytest.mark.parametrize(("quantity", "more"), [("bifurcation", {}), ("lyapunov", {"duration": 1})])
+def test_a_preparation_is_checked_before_anything_runs(
+    quantity: str, more: dict, parameters: dict, faults: list[str]
+) -> None:
+    given = {"prepare": {"parameters": parameters, "time": 1}, "transient": 1} | more
+    raw = {"study": "b", "quantity": quantity, "axes": {"N": [1], "Omega": [15]}}
+    with pytest.raises(StudyError) as error:
+        parse_grid(raw | {"options": given})
+    assert error.value.faults == tuple(f"options.prepare.parameters.{fault}" for fault in faults)
+
+
+def test_any_parameter_may_be_prepared_however_it_is_spelled() -> None:
+    def read(**parameters: object) -> dict:
+        raw = {"prepare": {"parameters": parameters, "time": 1}, "transient": 1}
+        return BifurcationOptions.model_validate(raw).model_dump()["prepare"]["parameters"]
+
+    assert read() == {}
+    found = read(normalization="orthonormal", N="3e2", n_diameters=4.0, mu_k=0.5, contact="bonded")
+    # mu_k may be right: the point has its own mu_s
+    assert found == {"normalization": "orthonormal", "N": 300.0, "n_diameters": 4, "mu_k": 0.5, "contact": "bonded"}
+    assert isinstance(found["n_diameters"], int)
+
+
+def test_a_preparation_that_fails_is_reported() -> None:
+    options = {"prepare": {"parameters": {"mu_k": 0.9}, "time": 1}, "transient": 1}
+    raw = {"study": "b", "quantity": "bifurcation", "base": {"N": 385}, "axes": {"Omega": [15]}, "options": options}
+    found = computed(**raw).isel(Omega=0)
+    assert flag_names(found["status"]) == "failed"
+    assert "ParameterError" in str(found["message"].item())
+
+
+def test_a_preparation_is_another_motions_end() -> None:
+    p = Parameters(N=200, Omega=50, n_diameters=1)
+    asked = {"transient": 0.1, "samples": 1, "tol": 1e-8}
+    assert prepared(p, BifurcationOptions(**asked), 1e-8) is None
+    start = prepared(p, BifurcationOptions(**asked, prepare={"parameters": {"N": 100}, "time": 0.01}), 1e-8)
+    expected = simulate(p.replace(N=100), 0.01, tol=1e-8).final_state
+    np.testing.assert_array_equal(start.a, expected.a)
+    assert start.time == 0
+
+
+# ---- kicks
+
+
+P = Parameters(N=385, Omega=15)
+
+
+def height(p: Parameters, state: State) -> float:
+    """Of the disc under the slider."""
+    return float(mode_arrays(p).psi @ state.a)
+
+
+def test_the_published_start_is_the_one_taken_without_a_state() -> None:
+    p = P.replace(n_diameters=1)
+    own, given = simulate(p, 0.2), simulate(p, 0.2, initial_state=published_start(p))
+    np.testing.assert_array_equal(own.event_rows, given.event_rows)
+    assert prepared(p, Start(), 1e-10) is None
+    assert prepared(p, Start(kick={"u": 0.0}), 1e-10) is None
+
+
+def test_a_kick_moves_slider_and_disc_as_a_steady_force_would() -> None:
+    """In that shape a kick is the static deflection of another preload."""
+    start = published_start(P)
+    moved = kicked(P, start, u=1e-4)
+    assert height(P, moved) - height(P, start) == pytest.approx(1e-4, rel=1e-12)
+    assert moved.u - start.u == pytest.approx(1e-4, rel=1e-12)
+    other = published_start(P.replace(N=200))
+    there = kicked(P, start, u=other.u - start.u)
+    np.testing.assert_allclose(there.a, other.a, rtol=1e-12)
+
+
+def test_a_blow_changes_the_velocity_of_slider_and_disc_alike() -> None:
+    start = published_start(P)
+    hit = kicked(P, start, u_velocity=0.2)
+    assert mode_arrays(P).psi @ hit.alpha == pytest.approx(0.2, rel=1e-12)
+    assert hit.u_velocity == pytest.approx(0.2)
+    np.testing.assert_array_equal(hit.a, start.a)
+    # what velocities have at one slider they have at once in the simulation: it does not end contact
+    assert not len(simulate(P, 1e-6, initial_state=hit).event_rows)
+
+
+def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
+    start = published_start(P)
+    assert (start.phase, start.direction) == ("stick", 0)
+    forward, backward = kicked(P, start, f=3.0), kicked(P, start, f=-3.0)
+    assert [(s.phase, s.direction, s.f) for s in (forward, backward)] == [("slip", 1, 3.0), ("slip", -1, -3.0)]
+    stopped = kicked(P, forward, f=-3.0)
+    assert (stopped.phase, stopped.direction, stopped.f) == ("stick", 0, 0.0)
+    apart = kicked(P, start.replace(phase="separation"), f=3.0)
+    assert (apart.phase, apart.f) == ("separation", 3.0)
+    for state in (forward, backward, stopped):
+        assert simulate(P, 0.01, initial_state=state).status.complete
+
+
+def test_kicks_come_on_top_of_a_preparation() -> None:
+    p = P.replace(n_diameters=1)
+    after = {"parameters": {"N": 100}, "time": 0.01}
+    plain = prepared(p, Start(prepare=after), 1e-8)
+    both = prepared(p, Start(prepare=after, kick={"u": 1e-5}), 1e-8)
+    np.testing.assert_allclose(both.a, kicked(p, plain, u=1e-5).a)
+    assert both.time == 0
+
+
+@pytest.mark.compiled
+def test_a_kick_of_three_tenths_of_a_millimetre_leads_to_separation_below_the_fold() -> None:
+    """At N = 385 N and 15 rad/s the quiet cycle is stable, and the separating motion is there as well."""
+    cases = {"kick_u": [0, 2e-4, 3e-4]}
+    options = {"horizon": 60, "late": 0.1, "after_separation": 0.1}
+    found = computed(study="k", quantity="outcome", options=options, base={"N": 385, "Omega": 15}, axes=cases)
+    assert flag_names(found["outcome"]).tolist() == ["stable", "stable", "separation"]
+    assert found["kick_u"].attrs["units"] == "m"
+    alone = simulate(P, 60, initial_state=kicked(P, published_start(P), u=3e-4), stop_at="first_separation")
+    assert float(found["first_separation"][2]) == pytest.approx(alone.first_separation, abs=1e-6)
+
+
+@pytest.mark.compiled
+def test_starts_are_an_axis() -> None:
+    """A motion that has separated goes on at 15 rad/s, where the published start stays quiet."""
+    starts = {"apart": {"prepare": {"parameters": {"Omega": 15.1}, "time": 56}}, "kicked": {"kick": {"u": 3e-4}}}
+    options = {"horizon": 55, "late": 0.1, "after_separation": 0.1}
+    found = computed(
+        study="s", quantity="outcome", options=options, base={"N": 385}, starts=starts,
+        axes={"Omega": [15], "start": ["published", "apart", "kicked"], "kick_u": [0, 1e-4]},
+    ).isel(Omega=0)  # fmt: skip
+    assert found["start"].values.tolist() == ["apart", "kicked", "published"]
+    outcome = flag_names(found["outcome"])
+    assert outcome.tolist() == [["separation"] * 2, ["separation"] * 2, ["stable"] * 2]
+    first = found["first_separation"].values
+    assert (first[0] < 1).all()
+    assert first[1, 1] < first[1, 0] - 0.5  # its own kick and the axis' add up
+    assert sorted(json.loads(found.attrs["starts"])) == ["apart", "kicked", "published"]
+
+
+def test_a_case_of_a_study_may_start_elsewhere() -> None:
+    case = {"title": "", "parameters": {"N": 385, "Omega": 15, "n_diameters": 1}, "t_end": 0.02}
+    start = {"kick": {"f": 2.0}}
+    specs = parse_study({"study": "x", "cases": {"A": case, "B": case | {"start": start}}}).specs
+    assert "start" not in json.loads(specs["A"].canonical)
+    assert json.loads(specs["B"].canonical)["start"]["kick"] == {"f": 2.0}
+    assert CaseSpec.from_canonical(specs["B"].canonical) == specs["B"]
+    tree = run_case(specs["B"])
+    p = specs["B"].parameters
+    expected = simulate(p, 0.02, initial_state=kicked(p, published_start(p), f=2.0))
+    assert tree["events"]["time"].values.tolist() == expected.events["time"].tolist()
+    with pytest.raises(StudyError, match=r"cases\.A\.start\.kick\.f = 'x': must be a number"):
+        parse_study({"study": "x", "cases": {"A": case | {"start": {"kick": {"f": "x"}}}}})
