@@ -45,6 +45,13 @@ MAP = {"kind": "stability_map", "x": "N", "y": "k"}
         (MAP, {"N": [1], "k": [], "c": []}, []),
         (MAP, {"N": [1]}, ["y = 'k': is no dimension of this study (known: N)"]),
         (MAP | {"y": "N"}, {"N": [1]}, ["y = 'N': must differ from x"]),
+        (MAP | {"x": "kick_u"}, {"kick_u": [0, 1e-3], "k": [2]}, []),
+        (MAP | {"marks": {"F2": {"x": 1, "y": 0.3, "paper": "stable"}}}, {"N": [1], "k": [0.1 + 0.2]}, []),
+        (
+            MAP | {"marks": {"F2": {"x": 1.5, "y": 2, "paper": "stable"}}},
+            {"N": [1, 2], "k": [2]},
+            ["marks.F2.x = 1.5: must be a value of N, such as an extra one"],
+        ),
         (
             MAP | {"x": "contact"},
             {"contact": ["bonded"], "k": [1]},

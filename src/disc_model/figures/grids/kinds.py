@@ -23,7 +23,7 @@ class Fault(NamedTuple):
     """What is wrong with a figure: where below its name, the value there, and the rule."""
 
     place: tuple[str, ...]
-    value: str
+    value: Any
     rule: str
 
 
@@ -182,7 +182,7 @@ class StabilityMap(Plot):
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
                 along = [float(one) for one, *more in values.get(dim, ()) if not more and not isinstance(one, str)]
                 if along and not any(math.isclose(value, one, rel_tol=1e-12) for one in along):
-                    yield Fault(("marks", name, axis), f"{value:g}", f"must be a value of {dim}, such as an extra one")
+                    yield Fault(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
 
     @property
     def module(self) -> str:
