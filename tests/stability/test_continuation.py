@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import ParameterError, Parameters
 from disc_model.stability import borders, continuation, cycle_problem
-from disc_model.stability.borders import _correct_on_curve, _Direction, continue_fold, continue_neutral
+from disc_model.stability.borders import _correct_on_curve, _OnCurve, _Ways, continue_fold, continue_neutral
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.curves import stability_curves
 from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
@@ -91,7 +91,7 @@ def test_where_the_motion_does_not_return_there_is_no_branch(monkeypatch):
 def test_a_singular_matrix_is_no_convergence():
     """Rows that ask for nothing used to end in an error of numpy's."""
     problem = cycle_problem.CycleProblem(P, ("Omega", "N"), None, 1e-12)
-    z = problem.unknowns(cycle_at(15, 300), P, np.ones(3))
+    z = problem.unknowns(cycle_at(15, 300))
     with pytest.raises(cycle_problem.Lost, match="its matrix is singular"):
         problem.correct(z, np.zeros((2, 5)), np.ones(2))
 
@@ -99,12 +99,12 @@ def test_a_singular_matrix_is_no_convergence():
 def test_a_corrector_without_gradient_is_lost(monkeypatch):
     """F = 0, test = 0 and the plane then leave a direction free."""
     problem = cycle_problem.CycleProblem(P, ("Omega", "N"), None, 1e-12)
-    point = problem.evaluate(problem.unknowns(cycle_at(15, 300), P, np.ones(3)))
+    point = problem.evaluate(problem.unknowns(cycle_at(15, 300)))
     along = problem.tangents(point)[0]
-    here = _Direction(along, np.zeros(5), np.zeros(5, complex))
-    monkeypatch.setattr(borders, "_direction", lambda *_: here)
+    ways = _Ways(along, np.zeros(5), np.zeros(5, complex))
+    monkeypatch.setattr(borders, "_ways", lambda *_: ways)
     with pytest.raises(cycle_problem.Lost, match="its matrix is singular"):
-        _correct_on_curve(problem, point, here, along, 1e-3, lambda _, former: (1e-3, former), 1j)
+        _correct_on_curve(problem, _OnCurve(point, along, 1j, ways), 1e-3, lambda _, former: (1e-3, former))
 
 
 def test_the_neutral_curve_is_the_ellipse():

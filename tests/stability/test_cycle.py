@@ -36,11 +36,12 @@ DAMPED = Parameters(N=200, Omega=20, c=0.05, c_p=0.02)
 
 
 def test_multipliers_agree_with_differences_of_the_return_map():
-    result, cycle = floquet(P), find_cycle(P)
-    x, h = cycle.solution.x, 3e-5 * np.linalg.norm(cycle.solution.x)
+    result, map_ = floquet(P), ReturnMap(P)
+    x = map_.point(result.state)
+    h = 3e-5 * np.linalg.norm(x)
 
     def end(change):
-        return cycle.map.evaluate(x + change, tangent=False)[1]
+        return map_.evaluate(x + change, tangent=False)[1]
 
     columns = [(8 * (end(h * e) - end(-h * e)) - end(2 * h * e) + end(-2 * h * e)) / (12 * h) for e in np.eye(6)]
     expected = np.linalg.eigvals(np.array(columns).T)
@@ -63,14 +64,14 @@ def test_multipliers_agree_with_differences_of_the_return_map():
     ids=["base", "damped", "soft spring", "orthonormal", "two blocks", "axisymmetric", "bonded"],
 )
 def test_multipliers_agree_with_central_differences_of_the_return_map(p):
-    cycle = find_cycle(p)
-    assert cycle.status is CycleStatus.OK
-    expected = central_differences(cycle.map, cycle.solution.x)
-    mine = floquet(p).multipliers
+    result, map_ = floquet(p), ReturnMap(p)
+    assert result.status is CycleStatus.OK
+    x = map_.point(result.state)
+    expected, mine = central_differences(map_, x), result.multipliers
     reference = np.linalg.eigvals(expected)
     distance = np.min(np.abs(mine[:, None] - reference[None, :]), axis=1)
     assert np.max(distance) < 1e-6
-    assert np.max(np.abs(expected - cycle.solution.jacobian)) < 1e-7
+    assert np.max(np.abs(expected - map_.evaluate(x)[2])) < 1e-7
 
 
 def assert_closed(result: FloquetResult) -> Result:
@@ -116,10 +117,12 @@ def test_the_cycle_closes_in_a_simulation_and_is_found_again_from_there():
     again = find_cycle_near(P, later, releases=1)
     assert again.status is CycleStatus.OK
     assert again.message.endswith("with 1 release")
-    np.testing.assert_allclose(again.solution.x, find_cycle(P).solution.x, atol=1e-9 * np.linalg.norm(again.solution.x))
+    map_ = ReturnMap(P)
+    x = map_.point(again.state)
+    np.testing.assert_allclose(x, map_.point(result.state), atol=1e-9 * np.linalg.norm(x))
     # run through twice it is the same cycle
     twice = find_cycle_near(P, later, releases=2)
-    assert twice.solution.flight.period == pytest.approx(2 * result.period, rel=1e-9)
+    assert twice.period == pytest.approx(2 * result.period, rel=1e-9)
     assert twice.message.endswith("with 2 releases")
 
 
@@ -130,7 +133,7 @@ def test_no_cycle_near_a_state_is_said():
     slipping = simulate(slippery, 0.01, tol=1e-8).final_state
     found = find_cycle_near(slippery, slipping, 1)
     assert found.status is CycleStatus.NO_STICK_SLIP
-    assert re.fullmatch(r"the slider does not stick within 0\.0\d+ s of the given state", found.message)
+    assert re.fullmatch(r"no_stick_slip: the slider does not stick within 0\.0\d+ s of the given state", found.message)
 
 
 @pytest.mark.compiled
@@ -194,7 +197,7 @@ def test_from_a_given_point_no_other_cycle_is_taken():
     assert find_cycle(P).status is CycleStatus.OK
     found = find_cycle(P, start=far)
     assert found.status is CycleStatus.NO_CYCLE
-    assert found.message == "no cycle near the given point of the section"
+    assert found.message == "no_cycle: no cycle near the given point of the section"
 
 
 def test_a_multiplier_tells_the_bifurcation():
@@ -210,10 +213,11 @@ def test_product_of_multipliers_is_that_of_divergence_and_saltation():
     multiplies volumes by (h' after) / (h' before).  At rest f is lost: what remains of the determinant is the f
     component of the jump of the rates there, carried backwards through the cycle, over f' before.
     """
-    cycle = find_cycle(DAMPED, 1e-14)
-    map_, x, flight = cycle.map, cycle.solution.x, cycle.solution.flight
+    map_, start = ReturnMap(DAMPED, 1e-14), find_cycle(DAMPED, 1e-14).state
+    x = map_.point(start)
+    flight = map_.evaluate(x)[0]
     nodes, weights = np.polynomial.legendre.leggauss(24)
-    trace, start = 0.0, map_.state(x)
+    trace = 0.0
     for begin, length in ((0.0, flight.slip_time), (flight.slip_time, flight.stick_time)):
         for node, weight in zip(nodes, weights, strict=True):
             run = Full(DAMPED, start)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import Parameters, steady_sliding
+from disc_model import Parameters, plate_modes, steady_sliding
 from disc_model.engine import outcomes
 from disc_model.simulation.result import State
 from disc_model.stability.sliding import SlidingStatus
@@ -37,6 +37,18 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     distance = np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)
     assert np.max(distance) < 1e-10
     assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
+
+
+@pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
+def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_moving_load(normalization):
+    """That is where the first mode stands still under the slider: the least omega_l / l."""
+    p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bonded", D_star=0, normalization=normalization)
+    modes = plate_modes(p).query("diameters > 0")
+    critical = float((modes["omega"] / modes["diameters"]).min())
+    for share, grows in ((0.5, False), (0.999, False), (1.001, True)):
+        growth = steady_sliding(p.replace(Omega=share * critical)).growth_rate
+        # rounding leaves 1e-12 1/s, a thousandth above the critical speed it is 3 to 7
+        assert (growth > 1e-6) == grows, share
 
 
 def test_steady_sliding_without_drive():

@@ -82,6 +82,12 @@ class ToyMap:
         by = np.array([[rate[name], *(turn[name] * rest)] for name in self._names]).reshape(-1, 3).T
         return returned if Omega <= 30 else lost, end, jacobian, by if Omega >= 2 else by * math.nan
 
+    def state(self, x):
+        return np.array(x)
+
+    def point(self, state):
+        return np.array(state)
+
     def iterate(self, x, times, releases=1):
         for _ in range(times):
             flight, x, _, _ = self.evaluate(x, releases=releases)

@@ -43,7 +43,6 @@ FUNCTIONS = {
     "simulation/bridge.py": ("read_state",),
     "stability/return_map.py": ("ReturnMap._set_changes", "ReturnMap.state", "ReturnMap.contact_force"),
     "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),
-    "stability/moving_load.py": ("rotating_oscillator_eigenvalues",),
     "benchmarks/methods/physics.py": (
         *("Physics.__init__", "Physics.disc_point", "Physics.pull", "Physics.gap"),
         *("Physics._contact", "Physics.rate", "Physics.impact"),

@@ -19,7 +19,6 @@ from disc_model.plate import mode_arrays
 from disc_model.simulation.api import build_model
 from disc_model.simulation.bridge import read_state, write_state
 from disc_model.simulation.result import State
-from disc_model.stability.moving_load import rotating_oscillator_eigenvalues
 from disc_model.stability.sliding import _jacobian
 from tests.references.literal import literal_of
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
@@ -301,11 +300,3 @@ def test_steady_sliding_solves_the_printed_equations():
     damping = p.D_star / p.D * modes.omega**2
     got = _jacobian(p, modes, damping, start.a, start.b, start.beta, slope, denominator)
     np.testing.assert_array_less(np.abs(got - expected), 1e-6 * np.abs(expected) + noise)
-
-
-def test_rotating_oscillator_solves_the_printed_equations():
-    p, speed = P.replace(mu_s=0.0, mu_k=0.0), 200.0
-    n = len(plate_modes(p))
-    flat = State(0.0, "slip", 1, 0.0, speed, 0.0, 0.0, *(np.zeros(n) for _ in range(4)))
-    expected = np.linalg.eigvals(jacobian(p.replace(Omega=speed), flat)[0][:-2, :-2])
-    assert nearest(rotating_oscillator_eigenvalues(P, speed), expected) < 1e-7

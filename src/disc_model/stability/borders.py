@@ -12,24 +12,16 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import multipliers
-from disc_model.stability.cycle_problem import (
-    Array,
-    Branch,
-    ComplexArray,
-    CyclePoint,
-    CycleProblem,
-    Lost,
-    branch_of,
-    check,
-    newton_step,
-    shortened,
-    starting_point,
-)
+from disc_model.stability.branch import Branch, Place, Stride, branch_of, check, starting_point, walk
+from disc_model.stability.cycle_problem import CyclePoint, CycleProblem, Lost, newton_step
+from disc_model.stability.multipliers import multipliers
 
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 Test = Callable[[Array, complex], tuple[float, complex]]
 
 
@@ -102,49 +94,38 @@ def _continue_on_surface(
     names = tuple(names)  # type: ignore[assignment]
     check(p, names, 2)
     problem = CycleProblem(p, names, scales, tol)
-    point = starting_point(problem, p, start)
+    point = starting_point(problem, start)
     mu = former if former is not None else complex(multipliers(point.jacobian)[0])
     try:
         point, mu = _reach(problem, point, test, mu)
-        here = _direction(problem, point, test, mu)
+        ways = _ways(problem, point, test, mu)
     except Lost as lost:
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
-    tangent = here.along
-    lead = tangent[problem.n] if abs(tangent[problem.n]) > 1e-12 else tangent[problem.n + 1]
-    tangent = tangent * direction * math.copysign(1.0, lead)
-    points, ended, ds = [point], "the number of points allowed is reached", step
+    lead = ways.along[problem.n] if abs(ways.along[problem.n]) > 1e-12 else ways.along[problem.n + 1]
+    tangent = ways.along * direction * math.copysign(1.0, lead)
     limits = np.array([bounds[name] for name in names]) / problem.scales[:, None]
-    while len(points) < max_points:
-        try:
-            (new, new_mu, there, turned), ds = shortened(
-                partial(_next, problem, point, here, tangent, test, mu), ds, shortest
-            )
-        except Lost as lost:
-            ended = str(lost)
-            break
-        easy = turned @ tangent > 0.98
-        point, tangent, mu, here = new, turned, new_mu, there
-        points.append(point)
-        q = point.z[problem.n :]
+
+    def leaves(places: list[_OnCurve], ds: float) -> str:
+        q = places[-1].point.z[problem.n :]
         if np.any(q < limits[:, 0]) or np.any(q > limits[:, 1]):
-            ended = f"{' or '.join(names)} has left the bounds"
-            break
-        if len(points) > 8 and np.linalg.norm(point.z - points[0].z) < 0.6 * ds:
-            ended = "the curve is closed"
-            break
-        ds = min(longest, 1.4 * ds) if easy else ds
-    return branch_of(problem, points, np.zeros((0, 2)), ended)
+            return f"{' or '.join(names)} has left the bounds"
+        if len(places) > 8 and np.linalg.norm(places[-1].point.z - places[0].point.z) < 0.6 * ds:
+            return "the curve is closed"
+        return ""
+
+    stride = Stride(step, longest, shortest, growth=1.4, easy=0.98)
+    first = _OnCurve(point, tangent, mu, ways)
+    places, ended = walk(first, partial(_next, problem, test), stride, max_points, meet=lambda *_: None, leaves=leaves)
+    return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), ended)
 
 
-def _next(
-    problem: CycleProblem, point: CyclePoint, here: _Direction, tangent: Array, test: Test, mu: complex, ds: float
-) -> tuple[CyclePoint, complex, _Direction, Array]:
-    """The curve's point at arclength ds, its multiplier, direction and tangent."""
-    new, new_mu, there = _correct_on_curve(problem, point, here, tangent, ds, test, mu)
-    turned = there.along if there.along @ tangent > 0 else -there.along
-    if turned @ tangent < 0.8:
+def _next(problem: CycleProblem, test: Test, here: _OnCurve, ds: float) -> _OnCurve:
+    """The curve's place at arclength ds along the tangent."""
+    new, mu, ways = _correct_on_curve(problem, here, ds, test)
+    turned = ways.along if ways.along @ here.tangent > 0 else -ways.along
+    if turned @ here.tangent < 0.8:
         raise Lost("the curve bends too sharply")
-    return new, new_mu, there, turned
+    return _OnCurve(new, turned, mu, ways)
 
 
 _DIFFERENCE = 1e-4
@@ -152,7 +133,7 @@ _DIFFERENCE = 1e-4
 
 
 @dataclass(frozen=True)
-class _Direction:
+class _Ways:
     """At a point of the curve, all in the unknowns z: unit tangent, gradients of the test function and of the
     multiplier within the surface."""
 
@@ -165,7 +146,15 @@ class _Direction:
         return mu + complex(self.multiplier @ move)
 
 
-def _direction(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) -> _Direction:
+@dataclass(frozen=True)
+class _OnCurve(Place):
+    """A place with the multiplier that is followed, and what changes it."""
+
+    mu: complex
+    ways: _Ways
+
+
+def _ways(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) -> _Ways:
     basis = problem.tangents(point)
     slopes, turns = np.zeros(2), np.zeros(2, complex)
     for i, unit in enumerate(basis):
@@ -176,7 +165,7 @@ def _direction(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex
     if not size > 0:
         raise Lost("the multiplier does not depend on the parameters")
     along = np.array([-slopes[1], slopes[0]]) / size
-    return _Direction(along @ basis, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
+    return _Ways(along @ basis, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
 
 
 LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
@@ -189,7 +178,7 @@ def _reach(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) ->
     for _ in range(REACHES):
         if abs(value) < 1e-10:
             return point, mu
-        here = _direction(problem, point, test, mu)
+        here = _ways(problem, point, test, mu)
         move = -value * here.gradient / (here.gradient @ here.gradient)
         turn = abs(complex(here.multiplier @ move))
         move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
@@ -208,23 +197,23 @@ def _reach(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) ->
 
 
 def _correct_on_curve(
-    problem: CycleProblem, before: CyclePoint, here: _Direction, tangent: Array, ds: float, test: Test, mu: complex
-) -> tuple[CyclePoint, complex, _Direction]:
+    problem: CycleProblem, here: _OnCurve, ds: float, test: Test
+) -> tuple[CyclePoint, complex, _Ways]:
     """The curve's point at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
-    expected = here.predicted(mu, ds * tangent)
-    if abs(expected - mu) > 2 * LARGEST_TURN:
+    expected = here.ways.predicted(here.mu, ds * here.tangent)
+    if abs(expected - here.mu) > 2 * LARGEST_TURN:
         raise Lost("the multiplier turns too fast")
-    guess = before.z + ds * tangent
-    rows = tangent[None, :]
+    guess = here.point.z + ds * here.tangent
+    rows = here.tangent[None, :]
     point = problem.evaluate(guess)
     value, found = test(point.jacobian, expected)
-    gradient = _direction(problem, point, test, found).gradient
+    gradient = _ways(problem, point, test, found).gradient
     last = math.inf
     for _ in range(12):
         right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
         error = float(np.linalg.norm(right))
         if error < 1e-10:
-            return point, found, _direction(problem, point, test, found)
+            return point, found, _ways(problem, point, test, found)
         if error > 0.9 * last:
             break
         last = error

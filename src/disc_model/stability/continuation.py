@@ -5,19 +5,13 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle_problem import (
-    Array,
-    Branch,
-    CyclePoint,
-    CycleProblem,
-    Lost,
-    branch_of,
-    check,
-    shortened,
-    starting_point,
-)
+from disc_model.stability.branch import Branch, Place, Stride, branch_of, check, starting_point, walk
+from disc_model.stability.cycle_problem import CyclePoint, CycleProblem, Lost
+
+Array = NDArray[np.float64]
 
 UNLOCATED = "a fold that cannot be located"
 """How the reason for which a branch ends may begin."""
@@ -58,42 +52,37 @@ def continue_cycle(
     """
     check(p, (name,), 1)
     problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol)
-    point = starting_point(problem, p, start)
+    point = starting_point(problem, start)
     tangent = problem.tangents(point)[0]
     tangent *= direction * (1.0 if tangent[-1] >= 0 else -1.0)
-    points, folds, ended = [point], [], "the number of points allowed is reached"
     low, high = (bound / problem.scales[0] for bound in bounds)
-    ds = step
-    while len(points) < max_points:
-        try:
-            (new, turned), ds = shortened(partial(_next, problem, point, tangent), ds, shortest)
-        except Lost as lost:
-            ended = str(lost)
-            break
-        if turned[-1] * tangent[-1] < 0:
+    folds: list[float] = []
+
+    def meet(before: Place, after: Place) -> None:
+        if after.tangent[-1] * before.tangent[-1] < 0:
             try:
-                folds.append(_locate_fold(problem, point, new, tangent) * problem.scales[0])
+                folds.append(_locate_fold(problem, before.point, after.point, before.tangent) * problem.scales[0])
             except Lost as lost:
-                ended = f"{UNLOCATED} near {name}={point.z[-1] * problem.scales[0]:.6g}: {lost}"
-                break
-        easy = turned @ tangent > 0.99
-        point, tangent = new, turned
-        points.append(point)
-        if not low <= point.z[-1] <= high:
-            ended = f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
-            break
-        ds = min(longest, 1.5 * ds) if easy else ds
-    return branch_of(problem, points, np.array(folds).reshape(-1, 1), ended)
+                where = before.point.z[-1] * problem.scales[0]
+                raise Lost(f"{UNLOCATED} near {name}={where:.6g}: {lost}") from None
+
+    def leaves(places: list[Place], ds: float) -> str:
+        return "" if low <= places[-1].point.z[-1] <= high else f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
+
+    stride = Stride(step, longest, shortest, growth=1.5, easy=0.99)
+    places, ended = walk(Place(point, tangent), partial(_next, problem), stride, max_points, meet=meet, leaves=leaves)
+    return branch_of(problem, [place.point for place in places], np.array(folds).reshape(-1, 1), ended)
 
 
-def _next(problem: CycleProblem, point: CyclePoint, tangent: Array, ds: float) -> tuple[CyclePoint, Array]:
-    """The point at arclength ds along the tangent, and the tangent there."""
-    new = problem.correct(point.z + ds * tangent, tangent[None, :], np.array([tangent @ point.z + ds]))
+def _next(problem: CycleProblem, here: Place, ds: float) -> Place:
+    """The place at arclength ds along the tangent."""
+    tangent = here.tangent
+    new = problem.correct(here.point.z + ds * tangent, tangent[None, :], np.array([tangent @ here.point.z + ds]))
     turned = problem.tangents(new)[0]
     turned *= 1.0 if turned @ tangent > 0 else -1.0
     if turned @ tangent < 0.9:
         raise Lost("the curve bends too sharply")
-    return new, turned
+    return Place(new, turned)
 
 
 def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, tangent: Array) -> float:

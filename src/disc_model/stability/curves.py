@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.stability.borders import continue_fold, continue_neutral
+from disc_model.stability.branch import Branch
 from disc_model.stability.continuation import UNLOCATED, continue_cycle
-from disc_model.stability.cycle_problem import Branch, default_scale
-from disc_model.stability.floquet_batch import solve
+from disc_model.stability.cycle import find_cycle
+from disc_model.stability.cycle_problem import default_scale
 from disc_model.stability.resonances import nearest_tongue
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.tongue import Tongue
@@ -116,7 +117,7 @@ def stability_curves(
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
     """Where the cycle changes stability or ends along a line: followed from either side, into the gap between cases."""
-    growth = solve(list(cases), tol)["growth_rate"]
+    growth = np.array([find_cycle(case, tol).growth_rate for case in cases])
     for i, (one, two) in enumerate(pairwise(growth)):
         if (np.isnan(one) and np.isnan(two)) or one * two > 0:
             continue

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,9 @@ from disc_model.errors import DiscModelError, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.schema import CYCLE_TOLERANCES, limits_faults
 from disc_model.simulation.result import State
-from disc_model.stability.return_map import OUTCOMES, RETURNED, Flight, ReturnMap, Solution, newton
+from disc_model.stability.multipliers import growth_rate, kind_of, multipliers
+from disc_model.stability.newton import FixedPoint, newton
+from disc_model.stability.return_map import OUTCOMES, RETURNED, Flight, ReturnMap
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 from disc_model.status import StatusBase
 
@@ -44,9 +47,6 @@ class CycleStatus(StatusBase):
     AT_REST = "at_rest", "Nothing ever slips: raise Omega, k_p or lower the friction."
     PARADOX = "paradox", "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N."
     NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
-
-
-KINDS = ("fold", "period_doubling", "neimark_sacker")
 
 
 class CycleError(DiscModelError):
@@ -91,7 +91,11 @@ class FloquetResult:
     separations: int
     sticks: int
     residual: float
-    sliding: SteadySliding
+
+    @cached_property
+    def sliding(self) -> SteadySliding:
+        """Steady sliding of the same case."""
+        return steady_sliding(self.parameters)
 
     @property
     def stable(self) -> bool:
@@ -141,21 +145,10 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
         faults.append(f"releases={releases!r}: must be >= 1, and 1 without a state to look near")
     if faults:
         raise ParameterError(*faults)
-    cycle = find_cycle(p, tol) if near is None else find_cycle_near(p, near, releases, tol)
-    return _result(p, tol, cycle, steady_sliding(p))
+    return find_cycle(p, tol) if near is None else find_cycle_near(p, near, releases, tol)
 
 
-@dataclass(frozen=True)
-class Cycle:
-    """What was found, without the trimmings of a `FloquetResult`."""
-
-    status: CycleStatus
-    message: str
-    map: ReturnMap | None = None
-    solution: Solution | None = None
-
-
-def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) -> Cycle:
+def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) -> FloquetResult:
     """The cycle Newton's method finds from `start` (a point of the section), the static equilibrium by default.
 
     Where it finds none from the equilibrium, the motion from there is simulated for some returns, and cycles of up to
@@ -164,71 +157,74 @@ def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) ->
     side, and this function leaves them alone.
     """
     if p.Omega == 0 or p.N == 0 or p.mu_s == 0 or p.k_p == 0:
-        return _degenerate(p)
+        return _degenerate(p, tol)
     map_ = ReturnMap(p, tol)
-    solution = newton(map_, map_.static if start is None else start, tol=tol)
-    if solution.converged:
-        return _found(map_, solution)
+    found = newton(map_, map_.static if start is None else start, tol=tol)
+    if found is not None:
+        return _found(map_, tol, found)
     if start is not None:
-        return Cycle(CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
+        return _none(p, tol, CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
     return _second_try(map_, tol)
 
 
-def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-12) -> Cycle:
+def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-12) -> FloquetResult:
     """A cycle near the next release after a state; it may lose contact."""
     if p.Omega == 0 or p.N == 0 or p.mu_s == 0 or p.k_p == 0:
-        return _degenerate(p)
+        return _degenerate(p, tol)
     map_ = ReturnMap(p, tol)
     outcome, x = map_.next_release(near)
     if outcome == RETURNED:
-        solution = newton(map_, x, tol=tol, releases=releases, may_separate=True)
-        if solution.converged:
-            return _found(map_, solution)
-        return Cycle(CycleStatus.NO_CYCLE, f"no cycle of {releases} releases near the given state")
+        found = newton(map_, x, tol=tol, releases=releases, may_separate=True)
+        if found is not None:
+            return _found(map_, tol, found)
+        return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle of {releases} releases near the given state")
     if OUTCOMES[outcome] == "time_over":
         waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
-        return Cycle(CycleStatus.NO_STICK_SLIP, waited)
-    return Cycle(CycleStatus.NO_CYCLE, f"the motion from the given state does not return: {OUTCOMES[outcome]}")
+        return _none(p, tol, CycleStatus.NO_STICK_SLIP, waited)
+    return _none(p, tol, CycleStatus.NO_CYCLE, f"the motion from the given state does not return: {OUTCOMES[outcome]}")
 
 
-def _degenerate(p: Parameters) -> Cycle:
+def _degenerate(p: Parameters, tol: float) -> FloquetResult:
     """Cases in which nothing can stick and slip."""
     held = p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N
     if p.Omega == 0 or held:
-        return Cycle(CycleStatus.AT_REST, "the slider stays where it is on the disc")
-    return Cycle(CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
+        return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
+    return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
 
 
-def _second_try(map_: ReturnMap, tol: float) -> Cycle:
+def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
     """Look again from where a simulated transient has come to; else report what the motion does."""
-    x = map_.static
-    flight, end = map_.iterate(x, TRANSIENT)
+    p = map_.parameters
+    flight, end = map_.iterate(map_.static, TRANSIENT)
     if flight.outcome == RETURNED:
         for releases in RETURNS_TRIED:
-            solution = newton(map_, end, tol=tol, releases=releases)
-            if solution.converged:
-                # a cycle run through several times counts once
-                once = newton(map_, solution.x, tol=tol) if releases > 1 else solution
-                same = once.converged and np.allclose(once.x, solution.x, rtol=0, atol=1e-7 * np.linalg.norm(once.x))
-                return _found(map_, once if same else solution)
-        found = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
-        return Cycle(CycleStatus.NO_CYCLE, found)
+            found = newton(map_, end, tol=tol, releases=releases)
+            if found is not None:
+                return _found(map_, tol, _once(map_, tol, found) if releases > 1 else found)
+        tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
+        return _none(p, tol, CycleStatus.NO_CYCLE, tried)
     outcome = OUTCOMES[flight.outcome]
     if outcome == "time_over":
-        return Cycle(CycleStatus.NO_STICK_SLIP, f"the slider slips on for {flight.period:.3g} s without sticking")
+        return _none(
+            p, tol, CycleStatus.NO_STICK_SLIP, f"the slider slips on for {flight.period:.3g} s without sticking"
+        )
     if outcome in ("lost_contact", "off_section"):
-        return Cycle(CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the published start")
+        return _none(
+            p, tol, CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the published start"
+        )
     if outcome == "non_finite":
-        return Cycle(CycleStatus.NON_FINITE, "the motion from the published start overflows")
+        return _none(p, tol, CycleStatus.NON_FINITE, "the motion from the published start overflows")
     if outcome == "stalled":
-        return Cycle(CycleStatus.NO_CYCLE, "switches follow each other without the clock moving")
-    return Cycle(CycleStatus.PARADOX, "the motion from the published start runs into Painleve's paradox")
+        return _none(p, tol, CycleStatus.NO_CYCLE, "switches follow each other without the clock moving")
+    return _none(p, tol, CycleStatus.PARADOX, "the motion from the published start runs into Painleve's paradox")
 
 
-def _found(map_: ReturnMap, solution: Solution) -> Cycle:
-    flight = solution.flight
-    message = f"cycle of {flight.period:.9g} s with {_counted(flight)}"
-    return Cycle(CycleStatus.OK, message, map_, solution)
+def _once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
+    """A cycle run through several times, as one that is run through once if it is that."""
+    once = newton(map_, found.x, tol=tol)
+    if once is not None and np.allclose(once.x, found.x, rtol=0, atol=1e-7 * np.linalg.norm(once.x)):
+        return once
+    return found
 
 
 def _counted(flight: Flight) -> str:
@@ -245,54 +241,53 @@ def _counted(flight: Flight) -> str:
     return ", ".join(parts)
 
 
-def multipliers(jacobian: Array) -> ComplexArray:
-    """Eigenvalues of the return map's Jacobian, largest modulus first; of a complex pair the upper one first."""
-    values = np.linalg.eigvals(jacobian).astype(complex)
-    return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]
+def _none(p: Parameters, tol: float, status: CycleStatus, found: str) -> FloquetResult:
+    """The result where there is no cycle."""
+    none = np.zeros(0, complex)
+    return FloquetResult(
+        p,
+        tol,
+        status,
+        f"{status}: {found}",
+        math.nan,
+        none,
+        none,
+        math.nan,
+        math.nan,
+        None,
+        "",
+        0,
+        0,
+        0,
+        0,
+        0,
+        math.nan,
+    )
 
 
-def growth_rate(multiplier: complex, period: float) -> float:
-    """log of the modulus over the period, 1/s; -inf for a multiplier of zero."""
-    return math.log(abs(multiplier)) / period if multiplier else -math.inf
-
-
-def kind_of(multiplier: complex) -> str:
-    """Which bifurcation a multiplier brings when it crosses the unit circle."""
-    if multiplier.imag != 0:
-        return KINDS[2]
-    return KINDS[0] if multiplier.real > 0 else KINDS[1]
-
-
-def _result(p: Parameters, tol: float, cycle: Cycle, sliding: SteadySliding) -> FloquetResult:
-    if cycle.map is None or cycle.solution is None:
-        none = np.zeros(0, complex)
-        return FloquetResult(
-            p, tol, cycle.status, f"{cycle.status}: {cycle.message}", math.nan, none, none, math.nan, math.nan, None,
-            "", 0, 0, 0, 0, 0, math.nan, sliding,
-        )  # fmt: skip
-    solution, flight = cycle.solution, cycle.solution.flight
-    values = multipliers(solution.jacobian)
+def _found(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
+    """The result of a cycle."""
+    flight, values = found.flight, multipliers(found.jacobian)
     with np.errstate(divide="ignore"):
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
     for array in (values, exponents):
         array.setflags(write=False)
     return FloquetResult(
-        parameters=p,
+        parameters=map_.parameters,
         tol=tol,
-        status=cycle.status,
-        message=f"{cycle.status}: {cycle.message}",
+        status=CycleStatus.OK,
+        message=f"{CycleStatus.OK}: cycle of {flight.period:.9g} s with {_counted(flight)}",
         period=flight.period,
         multipliers=values,
         exponents=exponents,
         growth_rate=growth_rate(complex(values[0]), flight.period),
         stick_fraction=flight.stick_time / flight.period,
-        state=cycle.map.state(solution.x),
+        state=map_.state(found.x),
         kind=kind_of(complex(values[0])),
         releases=flight.releases,
         backward_releases=flight.backward_releases,
         reversals=flight.reversals,
         separations=flight.separations,
         sticks=flight.sticks,
-        residual=solution.residual / max(float(np.linalg.norm(cycle.map.static)), 1e-300),
-        sliding=sliding,
+        residual=found.residual / max(float(np.linalg.norm(map_.static)), 1e-300),
     )

@@ -1,4 +1,4 @@
-"""Cycles as zeros of F(x, q) = R(x, q) - x, in scaled unknowns; what all continuations share.
+"""Cycles as zeros of F(x, q) = R(x, q) - x, in scaled unknowns.
 
 R is the return map, x the point of the section and q the free parameters; the Jacobian of F by both comes from the
 variational equations.  Distances mix the point, over the norm of the static deflection, with the parameters, over
@@ -8,60 +8,22 @@ their scales.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import CycleStatus, find_cycle, kind_of, multipliers
-from disc_model.stability.return_map import OUTCOMES, PARAMETERS, RETURNED, Flight, ReturnMap, rounding
+from disc_model.simulation.result import State
+from disc_model.stability.newton import rounding
+from disc_model.stability.return_map import OUTCOMES, RETURNED, Flight, ReturnMap
 
 Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-T = TypeVar("T")
 
 CORRECTIONS = 8
 """Newton steps allowed to a corrector before the arclength is halved."""
-
-
-@dataclass(frozen=True, eq=False)
-class Branch:
-    """Cycles along a curve.
-
-    Attributes
-    ----------
-    parameters : names of the free ones
-    values : shape (n_points, n_parameters), in SI units
-    period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
-    multipliers : complex, (n_points, n), largest modulus first
-    diameters : int, (n_points,), nodal diameters of the modes that have most energy in the leading multiplier's vector
-    points : (n_points, n), on the section, in the coordinates of `ReturnMap` for the case followed
-    folds : (n_folds, n_parameters), values where the first parameter turns, located to rounding; on a branch in one
-        parameter only
-    ended : why it ends, in words
-    """
-
-    parameters: tuple[str, ...]
-    values: Array
-    period: Array
-    stick_fraction: Array
-    growth_rate: Array
-    multipliers: ComplexArray
-    diameters: NDArray[np.int64]
-    points: Array
-    folds: Array
-    ended: str
-
-    def __len__(self) -> int:
-        return len(self.period)
-
-    def kinds(self) -> list[str]:
-        """Of each point: the bifurcation its leading multiplier stands for."""
-        return [kind_of(complex(m[0])) for m in self.multipliers]
 
 
 class Lost(Exception):
@@ -82,11 +44,10 @@ class CycleProblem:
 
     def __init__(self, p: Parameters, names: tuple[str, ...], scales: Mapping[str, float] | None, tol: float) -> None:
         self.base, self.names, self.tol = p, names, tol
-        reference = ReturnMap(p, tol)
+        self._reference = reference = ReturnMap(p, tol)
         self.n = reference.size
         self.scale = reference.scale
         self.size = float(np.linalg.norm(reference.static))
-        self._diameters = reference.diameters
         given = dict(scales or {})
         self.scales = np.array([given.get(name, default_scale(p, name)) for name in names])
 
@@ -97,10 +58,10 @@ class CycleProblem:
         except ParameterError as error:
             raise Lost(str(error)) from None
 
-    def unknowns(self, x: Array, p: Parameters, scale: Array) -> Array:
-        """z of a point x given in the coordinates of case `p`."""
-        q = np.array([getattr(p, name) for name in self.names]) / self.scales
-        return np.concatenate([x / scale * self.scale / self.size, q])
+    def unknowns(self, state: State) -> Array:
+        """z of a state on the section in the case at hand."""
+        q = np.array([getattr(self.base, name) for name in self.names]) / self.scales
+        return np.concatenate([self._reference.point(state) / self.size, q])
 
     def evaluate(self, z: Array) -> CyclePoint:
         p = self.case(z)
@@ -141,7 +102,7 @@ class CycleProblem:
         """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector."""
         values, vectors = np.linalg.eig(jacobian)
         energy = np.abs(vectors[:, np.argmax(np.abs(values))]) ** 2
-        return int(np.argmax(np.bincount(self._diameters, energy)))
+        return int(np.argmax(np.bincount(self._reference.diameters, energy)))
 
     def tangents(self, point: CyclePoint) -> Array:
         """Orthonormal basis of the null space of F's Jacobian: (number of parameters, n + number of parameters)."""
@@ -171,54 +132,3 @@ def default_scale(p: Parameters, name: str) -> float:
         "m": 0.1,
     }
     return max(abs(float(getattr(p, name))), 0.2 * usual[name])
-
-
-def check(p: object, names: tuple[str, ...], count: int) -> None:
-    faults = []
-    if not isinstance(p, Parameters):
-        faults.append(f"p={p!r}: must be Parameters")
-    if len(names) != count or len(set(names)) != len(names) or not set(names) <= set(PARAMETERS):
-        faults.append(f"names={names!r}: must be {count} of {', '.join(PARAMETERS)}")
-    if faults:
-        raise ParameterError(*faults)
-
-
-def starting_point(problem: CycleProblem, p: Parameters, start: Array | None) -> CyclePoint:
-    """The cycle that Newton's method finds from ``start``; raises `ParameterError` if there is none to follow."""
-    cycle = find_cycle(p, problem.tol, start)
-    if cycle.status is not CycleStatus.OK or cycle.map is None or cycle.solution is None:
-        raise ParameterError(f"p: must have a cycle to start from, but {cycle.message}")
-    if cycle.solution.flight.releases != 1:
-        raise ParameterError("p: must have a cycle with a single release to start from")
-    try:
-        return problem.evaluate(problem.unknowns(cycle.solution.x, p, cycle.map.scale))
-    except Lost as lost:
-        raise ParameterError(f"p: must have a cycle to start from, but {lost}") from None
-
-
-def branch_of(problem: CycleProblem, points: list[CyclePoint], folds: Array, ended: str) -> Branch:
-    values = [multipliers(point.jacobian) for point in points]
-    period = np.array([point.flight.period for point in points])
-    return Branch(
-        parameters=problem.names,
-        values=np.array([point.z[problem.n :] * problem.scales for point in points]),
-        period=period,
-        stick_fraction=np.array([point.flight.stick_time for point in points]) / period,
-        growth_rate=np.array([math.log(abs(v[0])) for v in values]) / period,
-        multipliers=np.array(values),
-        diameters=np.array([problem.leading_diameters(point.jacobian) for point in points]),
-        points=np.array([point.z[: problem.n] * problem.size for point in points]),
-        folds=folds,
-        ended=ended,
-    )
-
-
-def shortened(take: Callable[[float], T], ds: float, shortest: float) -> tuple[T, float]:
-    """What ``take`` finds at arclength ``ds``, halved as often as it is lost; raises Lost below ``shortest``."""
-    while True:
-        try:
-            return take(ds), ds
-        except Lost:
-            ds /= 2
-            if ds < shortest:
-                raise

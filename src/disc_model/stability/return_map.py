@@ -1,4 +1,4 @@
-"""The return map of the stick-slip cycle and Newton's method on it.
+"""The return map of the stick-slip cycle.
 
 The section is "stick is about to be released forwards": f = 0 and r_0 F = mu_s P.  A point of it is its modal
 coordinates alone, because psi follows from the release condition; they are scaled so that the norm is that of the
@@ -27,8 +27,8 @@ Array = NDArray[np.float64]
 PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
 
-COARSE, COARSE_ORDER, COARSE_TRIES, COLUMNS_COARSE = 1e-9, 20, 3, 1e-5
-"""Tolerance and order of the first few Jacobians, which only have to point Newton's method the right way."""
+COARSE, COARSE_ORDER, COLUMNS_COARSE = 1e-9, 20, 1e-5
+"""Tolerance and order of the series and tolerance of the columns where a Jacobian only has to point the right way."""
 
 RETURNED = outcomes.RETURNED
 OUTCOMES = {
@@ -171,6 +171,11 @@ class ReturnMap:
         code: int = variational.fly(self.model, self._series, self._state, self._tangent, course)
         return code, self._coordinates()
 
+    def point(self, state: State) -> Array:
+        """The point of the section at which a state, such as `state` gave, lies."""
+        write_state(self.parameters, self.model, state, self._state)
+        return self._coordinates()
+
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""
         s, p = self._state, self.parameters
@@ -202,93 +207,3 @@ class ReturnMap:
             x = end
         assert flight is not None
         return flight, x
-
-
-@dataclass(frozen=True)
-class Solution:
-    """Outcome of Newton's method: `converged`, the point, and the map's values there."""
-
-    converged: bool
-    x: Array
-    flight: Flight
-    jacobian: Array
-    residual: float
-    by_parameters: Array
-
-
-GOOD_STEP = 0.05
-"""A step that leaves less than this share of the residual spares the next one its own Jacobian."""
-
-
-def rounding(tol: float, factor: float) -> float:
-    """Relative residual that may be left where it falls no further; a rough `tol` is no excuse for more than 1e-8."""
-    return max(tol, min(factor * tol, 1e-8))
-
-
-def newton(
-    map_: ReturnMap,
-    x: Array,
-    *,
-    tol: float = 1e-12,
-    releases: int = 1,
-    jacobians: int = 14,
-    may_separate: bool = False,
-) -> Solution:
-    """Fixed point of the map, by Newton's method with a line search and reused Jacobians.
-
-    Converged means that the residual is below `tol` times the norm of the static deflection, or that rounding, of up to
-    ten thousand times that but not above 1e-8, keeps it from falling further.  The Jacobian is that of the point
-    returned.
-    """
-    size = max(float(np.linalg.norm(map_.static)), 1e-300)
-    identity = np.eye(map_.size)
-    flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=may_separate, coarse=True)
-    used, fresh = 1, True
-    if flight.outcome != RETURNED:
-        return Solution(False, x, flight, jacobian, math.inf, by)
-    residual = float(np.linalg.norm(end - x))
-    while True:
-        if not math.isfinite(residual):
-            return Solution(False, x, flight, jacobian, residual, by)
-        if residual <= tol * size:
-            break
-        step = _solve(jacobian - identity, end - x)
-        accepted = False
-        for shrink in range(7 if fresh else 1):
-            new = x - step * 0.5**shrink
-            trial, new_end, _, _ = map_.evaluate(new, releases=releases, tangent=False, may_separate=may_separate)
-            new_residual = float(np.linalg.norm(new_end - new))
-            if trial.outcome == RETURNED and new_residual < residual * (1 - 0.2 * 0.5**shrink):
-                accepted = True
-                break
-        if not accepted:
-            if fresh:
-                if residual <= rounding(tol, 1e3) * size:
-                    break
-                return Solution(False, x, flight, jacobian, residual, by)
-            ratio = 1.0
-        else:
-            ratio = new_residual / residual
-            x, end, residual, flight, fresh = new, new_end, new_residual, trial, False
-        if residual > tol * size and ratio > GOOD_STEP:
-            if used >= jacobians:
-                return Solution(False, x, flight, jacobian, residual, by)
-            coarse = used < COARSE_TRIES
-            flight, _, jacobian, by = map_.evaluate(x, releases=releases, may_separate=may_separate, coarse=coarse)
-            if flight.outcome != RETURNED:
-                return Solution(False, x, flight, jacobian, residual, by)
-            used, fresh = used + 1, True
-    flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=may_separate)
-    residual = float(np.linalg.norm(end - x))
-    converged = (
-        flight.outcome == RETURNED and residual <= rounding(tol, 1e4) * size and bool(np.all(np.isfinite(jacobian)))
-    )
-    return Solution(converged, x, flight, jacobian, residual, by)
-
-
-def _solve(matrix: Array, right: Array) -> Array:
-    """Newton's step; the shortest one if the matrix is singular."""
-    try:
-        return np.asarray(np.linalg.solve(matrix, right), dtype=float)
-    except np.linalg.LinAlgError:
-        return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)

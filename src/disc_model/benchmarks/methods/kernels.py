@@ -257,10 +257,3 @@ def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, times, kinds):
             times[events + j], kinds[events + j] = local, new[j]
         events += added
     return FINISHED, local, phase, direction, events, steps
-
-
-@_kernel
-def largest_amplification(omega, h):
-    """abs of the growth factor of one step of RK4 for an undamped oscillation omega (rad/s); the limit is 2 sqrt(2)."""
-    x = omega * h
-    return math.hypot(1.0 - x**2 / 2.0 + x**4 / 24.0, x - x**3 / 6.0)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import CycleStatus
-from disc_model.stability.floquet_batch import STATUS_NAMES, solve
+from disc_model.stability.cycle import CycleStatus, floquet
 from disc_model.studies.grids.quantities.table import Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import FloquetOptions
 
-STATUSES = (*STATUS_NAMES, "failed")
+STATUSES = (*(status.value for status in CycleStatus), "failed")
 COLUMNS = {
     "status": Column(Variable("1", "what was found near the published start", STATUSES)),
     "growth_rate": Column(Variable("s-1", "growth rate of disturbances of the stick-slip cycle")),
@@ -32,7 +32,15 @@ def coordinates(options: FloquetOptions) -> dict[str, Any]:
 
 def at(p: Parameters, options: FloquetOptions) -> tuple[dict[str, Any], str]:
     """The cycle of this point, not started from a neighbour's."""
-    values: dict[str, Any] = {name: array[0] for name, array in solve([p], options.tol).items()}
-    found = STATUS_NAMES[int(values["status"])]
-    message = "" if found == CycleStatus.OK.value else CycleStatus(found).advice
-    return values | {"status": found}, message
+    cycle = floquet(p, tol=options.tol)
+    leading = complex(cycle.multipliers[0]) if cycle.status is CycleStatus.OK else complex(math.nan, math.nan)
+    values = {
+        "status": cycle.status.value,
+        "growth_rate": cycle.growth_rate,
+        "period": cycle.period,
+        "stick_fraction": cycle.stick_fraction,
+        "multiplier_re": leading.real,
+        "multiplier_im": leading.imag,
+        "sliding_growth_rate": cycle.sliding.growth_rate,
+    }
+    return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
