@@ -94,6 +94,17 @@ def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -
     assert table.loc[claim, "verdict"].startswith(f"{NOT_COMPUTED}: {reason}")
 
 
+def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
+    case = {"parameters": {"N": 385, "Omega": 15, "n_diameters": 1}, "t_end": 0.01, "start": {"kick": {"f": 1.0}}}
+    needed = {"F11": Needed({"N": 385, "Omega": 15, "n_diameters": 1})}
+    claim = Claim("x", "", "", "", "", "", lambda cases, claim: Finding("", HOLDS), 0.0, needed)
+    views = {name: CaseView(name, node) for name, node in tree_of(F11=case).children.items()}
+    said = "case F11 does not begin with the published start in this study"
+    assert claim.evaluate(views).verdict == f"{NOT_COMPUTED}: {said}"
+    plain = {name: CaseView(name, node) for name, node in tree_of(F11=case | {"start": {}}).children.items()}
+    assert claim.evaluate(plain).verdict == HOLDS
+
+
 def test_status_of_a_failed_case_is_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     from disc_model import NonFinite
     from disc_model.studies.cases import run as batch

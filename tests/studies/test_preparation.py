@@ -191,5 +191,7 @@ def test_a_case_of_a_study_may_start_elsewhere() -> None:
     p = specs["B"].parameters
     expected = simulate(p, 0.02, initial_state=kicked(p, published_start(p), f=2.0))
     assert tree["events"]["time"].values.tolist() == expected.events["time"].tolist()
+    assert json.loads(tree.attrs["start"])["kick"] == {"f": 2.0}
+    assert "start" not in run_case(specs["A"]).attrs
     with pytest.raises(StudyError, match=r"cases\.A\.start\.kick\.f = 'x': must be a number"):
         parse_study({"study": "x", "cases": {"A": case | {"start": {"kick": {"f": "x"}}}}})

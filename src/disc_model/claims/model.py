@@ -172,5 +172,7 @@ def _require(cases: Cases, name: str, needed: Needed) -> None:
     if wanted != found:
         differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")
+    if "start" in case.node.attrs:
+        raise Missing(f"case {name} does not begin with the published start in this study")
     if case.status == "ok" and case["time_reached"] < needed.until:
         raise Missing(f"case {name} ends at {case['time_reached']:g} s, {needed.until:g} s are needed")

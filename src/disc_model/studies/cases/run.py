@@ -13,6 +13,7 @@ from disc_model.errors import DiscModelError
 from disc_model.simulation.api import simulate
 from disc_model.studies.cases.spec import CaseSpec
 from disc_model.studies.preparation import prepared
+from disc_model.studies.start import Start
 
 log = logging.getLogger(__name__)
 
@@ -40,6 +41,8 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
         log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
         tree = result.to_tree([name for name, _ in spec.windows])
         tree["events"].dataset = _kept_events(tree["events"].to_dataset(), spec.events)
+    if spec.start != Start():
+        tree.attrs["start"] = json_attribute(spec.start.model_dump())
     if spec.truncation:
         tree.attrs["truncation"] = spec.truncation
     tree.attrs |= provenance() | {"specification": spec.canonical, "specification_key": spec.key}
