@@ -26,6 +26,41 @@ def test_periodic_with_its_period(period: int) -> None:
     assert motion.closure < 1e-8
 
 
+@pytest.mark.parametrize("period", [45, 180, 280, 499])
+def test_long_periods_are_found(period: int) -> None:
+    """The search used to end at 12 releases; motions of the paper repeat after 45, 180 and 280."""
+    intervals = np.tile(0.03 + 0.02 * np.random.default_rng(period).standard_normal(period), 4)[: 2 * period + 7]
+    motion = motion_of(intervals + 1e-12 * np.cos(np.arange(intervals.size)))
+    assert (motion.kind, motion.period) == (Kind.PERIODIC, period)
+    assert str(motion) == f"periodic, repeats after {period} releases"
+
+
+def test_a_period_has_to_be_seen_twice() -> None:
+    intervals = np.tile(0.03 + 0.02 * np.random.default_rng(2).standard_normal(300), 2)
+    assert motion_of(intervals).period == 300
+    cut = motion_of(intervals[:-1])
+    assert (cut.period, cut.longest) == (0, 299)
+
+
+@pytest.mark.parametrize("size", [2e-5, 1e-9 * 3])
+def test_the_near_returns_of_a_quasi_periodic_motion_are_no_period(size: float) -> None:
+    """A rotation by (167 + 1e-3) / 1000: after 1000 steps it misses by 6e-3 of its size, to 1e-7 s."""
+    alpha = (167 + 1e-3 * np.sqrt(2)) / 1000
+    intervals = 7e-3 + size * np.cos(2 * np.pi * alpha * np.arange(8000))
+    found = motion_of(intervals)
+    assert classify.closure(intervals, 1000) < 1e-2 * size
+    if size > 1e-8:
+        assert (found.kind, found.period, found.longest) == (Kind.QUASI_PERIODIC, 0, 4000)
+    else:  # smaller than what a period has to close to
+        assert (found.kind, found.period) == (Kind.PERIODIC, 1)
+
+
+def test_three_frequencies_are_quasi_periodic() -> None:
+    j = np.arange(3000)
+    intervals = 0.01 + 1e-3 * np.cos(2**0.5 * j) + 1e-3 * np.sin(3**0.5 * j)
+    assert motion_of(intervals).kind is Kind.QUASI_PERIODIC
+
+
 def test_a_slow_approach_to_a_period_is_periodic_only_to_its_tolerance() -> None:
     intervals = 0.01 + 1e-4 * np.exp(-np.arange(200) / 50)
     assert motion_of(intervals, 1e-5).period == 1
@@ -62,7 +97,7 @@ def test_too_few_intervals_are_not_judged() -> None:
 
 def test_constant_intervals() -> None:
     assert str(motion_of(np.full(50, 0.015))) == "periodic"
-    assert str(motion_of(np.tile([1.0, 2.0], 50))) == "periodic, period 2"
+    assert str(motion_of(np.tile([1.0, 2.0], 50))) == "periodic, repeats after 2 releases"
     assert classify.irregularity(np.ones(5)) == 0
 
 

@@ -38,6 +38,14 @@ def combinations(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
     return values
 
 
+def logistic(count: int) -> np.ndarray:
+    """Chaos between -1 and 1."""
+    x = np.full(count, 0.3)
+    for j in range(1, count):
+        x[j] = 4 * x[j - 1] * (1 - x[j - 1])
+    return 2 * x - 1
+
+
 def fuzz(t: np.ndarray, size: float) -> np.ndarray:
     """Noise below 400 Hz, the same at every call."""
     noise = np.fft.rfft(np.random.default_rng(len(t)).standard_normal(len(t)))
@@ -105,7 +113,7 @@ class Story:
     disc_early, disc_late : m, range of the disc's displacement
     sharp : 1/s, rate at which that grows in the last ten seconds before the first separation
     rate : Hz, stick releases
-    wanders : how much the intervals between releases vary
+    wanders : how much the intervals between releases vary, quasi-periodically unless `chaotic`
     stick, stick_before : share of time in stick, in the end and in the whole run
     signal : what the disc's point does
     swing : rad, how far the slider's swing is past its highest point where contact is lost
@@ -121,6 +129,7 @@ class Story:
     sharp: float = 0.0
     rate: float = 67.63
     wanders: float = 0.0
+    chaotic: bool = False
     stick: float = 0.3
     stick_before: float = 0.3
     signal: Signal = combinations
@@ -157,8 +166,8 @@ class Story:
     def releases(self, start: float, stop: float) -> np.ndarray:
         """Times of stick releases within a span, s."""
         count = int((stop - start) * self.rate)
-        intervals = 1 + self.wanders * np.sin(np.arange(count) * 2.399963)
-        times = start + 1e-3 + np.cumsum(intervals) / self.rate
+        varied = logistic(count) if self.chaotic else np.sin(np.arange(count) * 2.399963)
+        times = start + 1e-3 + np.cumsum(1 + self.wanders * varied) / self.rate
         return times[times < stop - 1 / self.rate]
 
 
@@ -274,12 +283,11 @@ def as_told() -> dict[str, Story]:
         "F13": GROWING.replace(first=54.45, signal=turns),
         "S43N0": Story(stick_before=0.0),
         "S43Ninf": Story(stick=1.0, stick_before=1.0),
-        "F21": Story(late=0.3, wanders=0.01, signal=erratic),
-        "F22": GROWING.replace(first=220.0, wanders=0.1),
+        "F21": Story(late=0.3, wanders=0.01, chaotic=True, signal=erratic),
+        "F17": WILD.replace(first=810.0),
+        "F22": GROWING.replace(first=220.0, wanders=0.1, chaotic=True),
         "F23": GROWING.replace(first=240.0, swing=math.pi),
-        **_separating(
-            {"F17": 810, "F18": 263, "F19": 51, "C4cp1": 40, "S43kp2e4": 100, "S43k2e4": 100, "S43k3e4": 200}
-        ),
+        **_separating({"F18": 263, "F19": 51, "C4cp1": 40, "S43kp2e4": 100, "S43k2e4": 100, "S43k3e4": 200}),
         **_separating({"P03l5": 54.4, "P03l6": 54.4, "P03l8": 54.5}),
         **_separating({"S43c126": 700, "S43c14": 700, "S43c145": 700, "S43c124": 1000}),
     }

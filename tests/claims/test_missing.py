@@ -11,7 +11,7 @@ import xarray as xr
 from disc_model import Parameters
 from disc_model.claims import growth, normalisation
 from disc_model.claims.ledger import CLAIMS
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim
 from tests.claims import made_up
 from tests.claims.damaged import DAMAGES, damaged
 
@@ -40,7 +40,9 @@ NOT_HELD = {
 
 def verdicts_of(cases: dict[str, CaseView], claims: Iterable[Claim]) -> list[str]:
     found = [claim.evaluate(cases).verdict for claim in claims]
-    assert all(verdict in (HOLDS, REMARK, FAILS) or verdict.startswith(f"{NOT_COMPUTED}: ") for verdict in found)
+    assert all(
+        verdict in (HOLDS, REMARK, FAILS, UNDECIDED) or verdict.startswith(f"{NOT_COMPUTED}: ") for verdict in found
+    )
     return found
 
 

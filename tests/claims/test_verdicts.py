@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
 
 from disc_model import Parameters
+from disc_model.analysis import classify
 from disc_model.claims import growth, measures, normalisation
 from disc_model.claims.growth import cycle_of
 from disc_model.claims.ledger import check_claims
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Missing
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Missing
 from disc_model.claims.pages import to_markdown
 from tests.claims import made_up
 
@@ -90,10 +92,25 @@ def test_few_releases_judge_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     stories |= {name: stories[name].replace(stick=0.0) for name in ("F02", "F22")}
     stories["F23"] = made_up.GROWING
     table = verdicts(monkeypatch, made_up.cycle_as_told, made_up.made_up(stories))
-    assert table.loc["A2", "verdict"] == f"{NOT_COMPUTED}: case F02 keeps fewer than 20 releases"
+    assert table.loc["A2", "verdict"] == f"{NOT_COMPUTED}: case F02 keeps fewer than 20 stick-slip cycles"
     assert table.loc["F22", "verdict"] == f"{NOT_COMPUTED}: case F22 keeps fewer than 20 stick-slip cycles"
     assert table.loc["F23", "verdict"] == FAILS
     assert table.loc["F05", "verdict"].startswith(f"{NOT_COMPUTED}: case F02")
+
+
+def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Motions that repeat after 45 and 180 releases used to be called irregular."""
+    stories = made_up.as_told()
+    tree = made_up.made_up({name: stories[name] for name in ("F02", "F07", "F22")})
+    repeated = np.tile(0.05 + 0.03 * np.random.default_rng(1).random(45), 40)
+    monkeypatch.setattr(measures, "release_intervals", lambda case: repeated)
+    table = verdicts(monkeypatch, made_up.cycle_as_told, tree)
+    assert set(table.loc[["F05", "F07", "A2", "F22", "F28"], "verdict"]) == {FAILS}
+    assert "repeats after 45 releases = " in table.loc["F07", "ours"]
+    monkeypatch.setattr(classify, "zero_one", lambda values: 0.5)
+    monkeypatch.setattr(measures, "release_intervals", lambda case: 0.1 + 0.01 * np.random.default_rng(1).random(400))
+    table = verdicts(monkeypatch, made_up.cycle_as_told, tree)
+    assert set(table.loc[["F05", "F07", "F22", "F28"], "verdict"]) == {UNDECIDED}
 
 
 def test_growth_is_that_of_the_cycle(told: xr.DataTree) -> None:
@@ -135,7 +152,7 @@ def test_the_two_normalisations_side_by_side(
     assert ratios.drop(1).between(0.2, 0.8).all()
     rows = cases.set_index("Case")
     assert rows.loc["F17", "First separation, as published"] == "810.00 s"
-    assert rows.loc["F17", "First separation, Eq. (17)"] == "none in 900 s"
+    assert rows.loc["F17", "First separation, Eq. (17)"] == "none in 1240 s"
     assert rows.loc["F04", "First separation, Eq. (17)"] == "ignored"
     assert rows.loc["F04", "Growth, Eq. (17) (1/s)"] == "–"
     assert rows.loc["T2kp18", "P in the end, Eq. (17) (N)"] == "–"

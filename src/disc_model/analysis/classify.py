@@ -1,8 +1,9 @@
 """Words for motions, each with a definition that a number decides.
 
 The in-plane motion is judged by the times between successive releases of stick, T_1, T_2, ...: a motion that repeats
-after n of them is periodic with period n. What does not repeat is quasi-periodic or irregular by the 0-1 test
-for chaos (Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009).
+after n of them is periodic with period n, however large n is, if the record holds two periods. What does not repeat
+within half the record is quasi-periodic or irregular by the 0-1 test for chaos (Gottwald and Melbourne, SIAM J. Appl.
+Dyn. Syst. 8, 129-145, 2009).
 """
 
 from __future__ import annotations
@@ -14,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-LONGEST_PERIOD = 12
-"""Most releases that a period is looked for over."""
+NEAR_RETURN = 1e-3
+"""A quasi-periodic motion, too, comes back: among its first n returns one misses by about 1/n of its spread. A period
+of n must close a thousand times better than that."""
 FEWEST = 20
 """Fewest intervals that a motion is judged by."""
 
@@ -38,6 +40,7 @@ class Motion(NamedTuple):
     period : number of releases after which it repeats, 0 if it does not
     spread : standard deviation over mean of the intervals; 0 for a motion with one release a period
     closure : s, largest difference of an interval and the one `period` (or one) later
+    longest : longest period that the record could have shown, in releases
     chaos : result of the 0-1 test, near 0 for regular and near 1 for chaotic motion; nan if it was not needed
     """
 
@@ -46,14 +49,15 @@ class Motion(NamedTuple):
     spread: float
     closure: float
     chaos: float
+    longest: int
 
     def __str__(self) -> str:
         if self.kind is Kind.PERIODIC:
-            return "periodic" if self.period == 1 else f"periodic, period {self.period}"
+            return "periodic" if self.period == 1 else f"periodic, repeats after {self.period} releases"
         return str(self.kind)
 
 
-def motion_of(intervals: Array, tolerance: float = 1e-6, longest: int = LONGEST_PERIOD) -> Motion:
+def motion_of(intervals: Array, tolerance: float = 1e-8, longest: int | None = None) -> Motion:
     """Classify a motion by the intervals between its releases.
 
     Parameters
@@ -61,7 +65,7 @@ def motion_of(intervals: Array, tolerance: float = 1e-6, longest: int = LONGEST_
     intervals : s, shape (n,)
     tolerance : s, how exactly a periodic motion has to repeat: above what is left of the approach to it, far below
         the intervals' own differences
-    longest : longest period looked for, in releases
+    longest : longest period looked for, in releases; by default half the record
 
     Raises
     ------
@@ -71,12 +75,13 @@ def motion_of(intervals: Array, tolerance: float = 1e-6, longest: int = LONGEST_
     if intervals.size < FEWEST:
         raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
     spread = irregularity(intervals)
+    longest = min(longest or intervals.size, intervals.size // 2)
     period = shortest_period(intervals, tolerance, longest)
     if period:
-        return Motion(Kind.PERIODIC, period, spread, closure(intervals, period), np.nan)
+        return Motion(Kind.PERIODIC, period, spread, closure(intervals, period), np.nan, longest)
     chaos = zero_one(intervals)
     kind = Kind.IRREGULAR if chaos > 0.7 else Kind.QUASI_PERIODIC if chaos < 0.3 else Kind.UNDECIDED
-    return Motion(kind, 0, spread, closure(intervals, 1), chaos)
+    return Motion(kind, 0, spread, closure(intervals, 1), chaos, longest)
 
 
 def irregularity(intervals: Array) -> float:
@@ -89,10 +94,22 @@ def closure(intervals: Array, period: int) -> float:
     return float(np.max(np.abs(intervals[period:] - intervals[:-period])))
 
 
-def shortest_period(intervals: Array, tolerance: float, longest: int = LONGEST_PERIOD) -> int:
-    """Least number of releases after which intervals repeat to `tolerance` s; 0 if none up to `longest`."""
-    longest = min(longest, intervals.size // 2)
-    return next((n for n in range(1, longest + 1) if closure(intervals, n) <= tolerance), 0)
+def shortest_period(intervals: Array, tolerance: float, longest: int | None = None) -> int:
+    """Least number of releases after which intervals repeat to `tolerance` s; 0 if none up to `longest`.
+
+    At most half the intervals, which is the default: a period must be seen twice. One that closes no better than
+    the near returns of a quasi-periodic motion do (see `NEAR_RETURN`) is none, but for a period of 1: from one release
+    to the next there is no near return, only a slow approach or drift, which `tolerance` is there to allow.
+    """
+    longest = min(longest or intervals.size, intervals.size // 2)
+    extent = float(np.ptp(intervals))
+    for n in range(1, longest + 1):
+        if abs(intervals[n] - intervals[0]) > tolerance:
+            continue
+        apart = closure(intervals, n)
+        if apart <= tolerance and (n == 1 or apart <= NEAR_RETURN * extent / n):
+            return n
+    return 0
 
 
 def zero_one(values: Array, n_frequencies: int = 101, seed: int = 0) -> float:

@@ -11,8 +11,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import FEWEST, Motion, closure, irregularity, motion_of, shortest_period
-from disc_model.claims.model import CaseView, Finding, Missing, finding
+from disc_model.analysis.classify import FEWEST, Kind, Motion, closure, irregularity, motion_of, shortest_period
+from disc_model.claims.model import CaseView, Finding, Missing, finding, undecided
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
 __all__ = ["closure", "irregularity", "shortest_period"]  # beside what is defined here
@@ -76,9 +76,51 @@ def release_intervals(case: CaseView) -> Array:
     return intervals
 
 
-def late_motion(case: CaseView, tolerance: float = 1e-6) -> Motion:
+def late_motion(case: CaseView, tolerance: float = 1e-8) -> Motion:
     """What the in-plane motion is within the events kept; see `disc_model.analysis.classify`."""
     return motion_of(release_intervals(case), tolerance)
+
+
+def said_motion(case: CaseView, motion: Motion) -> str:
+    """A motion in words: its period, in releases, separations and seconds, or what stands against one."""
+    intervals = release_intervals(case)
+    rate = f"{1 / intervals.mean():.1f} releases/s"
+    if not motion.period:
+        test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
+        return f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
+    length = float(intervals[: motion.period].sum())
+    apart = round(rate_of(case, "separation") * length)
+    releases = "1 release" if motion.period == 1 else f"{motion.period} releases"
+    after = f"{releases} = {apart} separations" if apart else releases
+    seen = f"to {motion.closure:.0e} s, in the last {intervals.sum():.0f} s"
+    return f"periodic: repeats after {after} = {length:.6g} s, {seen}"
+
+
+def is_quasi_periodic(case: CaseView) -> Finding:
+    """Whether the in-plane motion is quasi-periodic, as the paper says of several cases."""
+    motion = late_motion(case)
+    ours = said_motion(case, motion)
+    if motion.kind is Kind.UNDECIDED:
+        return undecided(ours, "the 0-1 test lies between regular and chaotic motion")
+    remark = ""
+    if motion.kind is Kind.PERIODIC:
+        remark = "it repeats, but only after a time that is long beside what the paper shows"
+    elif motion.kind is Kind.IRREGULAR:
+        remark = "it does not repeat within the record, nor is it quasi-periodic by the 0-1 test"
+    return finding(ours, motion.kind is Kind.QUASI_PERIODIC, remark)
+
+
+def steady(case: CaseView, name: str, last: float = 20.0, within: float = 0.01) -> bool:
+    """Whether a variable's range is the same in the last three stretches of `last` s each, to a share `within`."""
+    end = case["time_reached"]
+    widths = [range_within(case, name, end - (i + 1) * last, end - i * last).width for i in range(3)]
+    return max(widths) <= (1 + within) * min(widths)
+
+
+def said_steady(case: CaseView, name: str) -> str:
+    """The same in words."""
+    end = case["time_reached"]
+    return f"steady at {end:g} s" if steady(case, name) else f"not yet steady at {end:g} s"
 
 
 def rate_of(case: CaseView, kind: str) -> float:

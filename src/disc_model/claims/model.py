@@ -18,6 +18,7 @@ __all__ = ["Missing"]  # beside what is defined here
 HOLDS = "holds"
 REMARK = "holds with a remark"
 FAILS = "does not hold"
+UNDECIDED = "undecided"
 NOT_COMPUTED = "not computed"
 
 
@@ -95,6 +96,11 @@ def finding(ours: str, holds: bool, remark: str = "") -> Finding:
     if not holds:
         return Finding(ours, FAILS, remark)
     return Finding(ours, REMARK if remark else HOLDS, remark)
+
+
+def undecided(ours: str, why: str) -> Finding:
+    """What was found, where it decides nothing, and why not."""
+    return Finding(ours, UNDECIDED, why)
 
 
 Cases = Mapping[str, CaseView]

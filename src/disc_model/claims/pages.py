@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED
 from disc_model.data import markdown
 
 STYLE = """
@@ -25,7 +25,7 @@ th { background: var(--head); position: sticky; top: 0; }
 .small { color: var(--soft); font-size: 12px; } .verdict { font-weight: 600; }
 .good { color: var(--good); } .note { color: var(--note); } .bad { color: var(--bad); } .none { color: var(--soft); }
 """
-CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad"}
+CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad", UNDECIDED: "note"}
 
 
 def page(title: str, *body: str) -> str:

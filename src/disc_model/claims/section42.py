@@ -92,16 +92,8 @@ def onset(cases: Cases, claim: Claim) -> Finding:
     needs={"F13": Needed(F13.parameters, 110, separates=True)},
 )
 def later_periodic(cases: Cases, claim: Claim) -> Finding:
-    intervals = measures.release_intervals(cases["F13"])
-    period = measures.shortest_period(intervals, claim.bound)
-    ours = f"mean release rate {1 / intervals.mean():.2f} Hz, "
-    if not period:
-        return finding(f"{ours}no period of up to 8 releases", False)
-    length = f"{1e3 * period * intervals.mean():.3f} ms"
-    return finding(
-        f"{ours}repeats after {period} of them ({length}) to {measures.closure(intervals, period):.0e} s",
-        True,
-    )
+    motion = measures.late_motion(cases["F13"], claim.bound)
+    return finding(measures.said_motion(cases["F13"], motion), motion.period > 0)
 
 
 @claim(

@@ -6,10 +6,11 @@ import math
 
 import numpy as np
 
-from disc_model.analysis.classify import separation_location
+from disc_model.analysis.classify import Kind, separation_location
 from disc_model.claims import growth, measures
 from disc_model.claims.measures import first_separation
-from disc_model.claims.model import Cases, Claim, Finding, Missing, Needed, claim, finding
+from disc_model.claims.model import Cases, Claim, Finding, Missing, Needed, claim, finding, undecided
+from disc_model.claims.section41 import RETURNS
 
 F11 = Needed({"N": 385, "Omega": 15}, 190)
 F16 = Needed({"N": 50, "Omega": 15}, 290)
@@ -170,6 +171,24 @@ def separates(cases: Cases, claim: Claim) -> Finding:
 
 
 @claim(
+    "F17c",
+    "Sec. 4.3, Fig. 17",
+    "The same case: after separation the stick-slip vibration becomes very complicated",
+    paper="very complicated",
+    tolerance="no period of fewer than 4 releases",
+    reason="what 'very complicated' may mean beside one release a period before separation",
+    bound=4.0,
+    needs={"F17": Needed({"N": 200, "Omega": 15}, 850, separates=True)},
+)
+def complicated(cases: Cases, claim: Claim) -> Finding:
+    motion = measures.late_motion(cases["F17"])
+    remark = "periodic all the same" if motion.period else ""
+    return finding(
+        measures.said_motion(cases["F17"], motion), motion.period == 0 or motion.period >= claim.bound, remark
+    )
+
+
+@claim(
     "S43N",
     "Sec. 4.3, conclusion 4",
     "Preload is not monotonous at 15 rad/s: 50 N stable, 200 N separates, 385 N stable",
@@ -235,11 +254,10 @@ def disc_damping(cases: Cases, claim: Claim) -> Finding:
 )
 def inplane_damping(cases: Cases, claim: Claim) -> Finding:
     case = cases["F19"]
-    intervals = measures.release_intervals(case)
-    period = measures.shortest_period(intervals, claim.bound)
+    motion = measures.late_motion(case, claim.bound)
     ours = f"c_p = 0: {first_separation(cases['F11'])}; c_p = 0.5: {first_separation(case)}, then "
-    ours += f"one release per {1e3 * intervals.mean():.3f} ms, " + (f"period {period}" if period else "no period")
-    return finding(ours, not cases["F11"].separates and case.separates and period > 0)
+    ours += measures.said_motion(case, motion)
+    return finding(ours, not cases["F11"].separates and case.separates and motion.period > 0)
 
 
 @claim(
@@ -266,9 +284,8 @@ def normal_damping(cases: Cases, claim: Claim) -> Finding:
     "Sec. 4.3, Fig. 21",
     "E = 100 GPa, N = 200 N, Omega = 11 rad/s: unstable but bounded, irregular, no separation",
     paper="no separation",
-    tolerance="range at least doubles, then stays within a factor of 1.5; spread of the intervals above 0.001",
+    tolerance="range at least doubles, then stays within a factor of 1.5; no period, 0-1 test above 0.7",
     reason="what 'unstable', 'bounded' and 'irregular' may mean; the amplitude wanders",
-    bound=1e-3,
     needs={"F21": Needed({"N": 200, "Omega": 11, "E": 1e11}, 1000)},
 )
 def soft_disc(cases: Cases, claim: Claim) -> Finding:
@@ -276,13 +293,15 @@ def soft_disc(cases: Cases, claim: Claim) -> Finding:
     end = case["time_reached"]
     early = measures.early_range(case, "P")
     third, last = (measures.range_within(case, "P", a * end, b * end) for a, b in ((0.5, 0.75), (0.75, 1.0)))
-    spread = measures.irregularity(measures.release_intervals(case))
+    motion = measures.late_motion(case)
     ours = (
         f"{first_separation(case)}; P {early.low:.1f}..{early.high:.1f} N grows to "
-        f"{last.low:.0f}..{last.high:.0f} N; spread of the release intervals {spread:.2f}"
+        f"{last.low:.0f}..{last.high:.0f} N; then {measures.said_motion(case, motion)}"
     )
     bounded = max(third.width, last.width) < 1.5 * min(third.width, last.width)
-    return finding(ours, not case.separates and last.width > 2 * early.width and bounded and spread > claim.bound)
+    return finding(
+        ours, not case.separates and last.width > 2 * early.width and bounded and motion.kind is Kind.IRREGULAR
+    )
 
 
 @claim(
@@ -314,21 +333,18 @@ def normal_stiffness(cases: Cases, claim: Claim) -> Finding:
     "Sec. 4.3, Fig. 22",
     "k_p = 2e3 N/m, N = 300 N, Omega = 50 rad/s: separation, then an unpredictable wandering",
     paper="separation, wandering",
-    tolerance="spread of the release intervals above 0.05",
-    reason=SEEN,
-    bound=0.05,
+    tolerance="no period within half the record; 0-1 test above 0.7",
+    reason=RETURNS,
     needs={"F22": KP2E3},
 )
 def soft_inplane(cases: Cases, claim: Claim) -> Finding:
     case = cases["F22"]
-    releases = measures.times_of(case.events, "stick_to_slip")
-    ours = first_separation(case)
-    if releases.size < 20:
-        raise Missing(f"case {case.name} keeps fewer than 20 stick-slip cycles")
-    spread = measures.irregularity(np.diff(releases))
-    return finding(
-        f"{ours}; then spread of the release intervals {spread:.2f}", case.separates and spread > claim.bound
-    )
+    motion = measures.late_motion(case)
+    ours = f"{first_separation(case)}; then {measures.said_motion(case, motion)}"
+    if case.separates and motion.kind is Kind.UNDECIDED:
+        return undecided(ours, "the 0-1 test lies between regular and chaotic motion")
+    remark = "it wanders within a range, but repeats exactly" if motion.period else ""
+    return finding(ours, case.separates and motion.kind is Kind.IRREGULAR, remark)
 
 
 @claim(

@@ -69,9 +69,11 @@ def or_say_why(*axes: Axes) -> Iterator[None]:
             ax.text(0.5, 0.5, said, ha="center", va="center", transform=ax.transAxes, in_layout=False)
 
 
-def history(case: xr.DataTree) -> xr.Dataset:
-    """Ranges over the whole run; two bins say how long one is."""
-    return held.ranges(case, "history", at_least=2)
+def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
+    """Ranges over the run, as far as the paper shows it (until a time in s); two bins say how long one is."""
+    found = held.ranges(case, "history", at_least=2)
+    shown = found.sel(time=slice(None, until))
+    return shown if shown.sizes["time"] > 1 else found
 
 
 def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: float) -> TimeFrequency:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
@@ -12,6 +13,6 @@ from disc_model.figures.style import styled
 
 
 @styled
-def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
+def draw(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
     """(a) contact force, (b) disc at r_0 and a fixed angle."""
-    return force_and_disc(cases["F13"])
+    return force_and_disc(cases["F13"], until)

@@ -34,6 +34,7 @@ def draw(
     spectrum: str,
     zooms: Sequence[tuple[str, float]] = (),
     highest: bool = False,
+    until: float = np.inf,
 ) -> Figure:
     """(a) range over the run, with closer looks beside it if asked for, (b) spectrum in the window `spectrum`.
 
@@ -41,6 +42,7 @@ def draw(
     ----------
     zooms : windows and times in s at which a closer look begins
     highest : mark the disc's highest natural frequency
+    until : s, how much of the run (a) shows
     """
     tree = cases[case]
     figure = new_figure(PAGE, 2.7)
@@ -54,15 +56,15 @@ def draw(
         marked = stretch(found)
         _spectrum(right, shown, tree, found, highest)
     with parts.or_say_why(panels["whole"]):
-        _whole(panels["whole"], tree, variable, marked)
+        _whole(panels["whole"], tree, variable, marked, until)
     for i, (name, start) in enumerate(zooms):
         with parts.or_say_why(panels[f"zoom{i}"]):
             _closer(panels[f"zoom{i}"], held.samples(tree, name), variable, start, first=i == 0)
     return figure
 
 
-def _whole(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, float] | None) -> None:
-    history = parts.history(tree)
+def _whole(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, float] | None, until: float) -> None:
+    history = parts.history(tree, until)
     if marked is not None:
         ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
     parts.envelope(ax, history, variable, scale=SCALES[variable], color=COLOURS[variable])
