@@ -5,11 +5,11 @@ What is changed is read from the syntax tree, so that no formatting and no new t
     a + b, a - b, a += b, a -= b    the other sign; of a vector operation, the sign of its last argument
     -a                              a
     a**b                            a
-    2.0 (any float)                 twice that, and 1.0 for 0.0
+    2.0 in a sum or product         4.0 (any float)
     a < b, a == b, ...              the opposite
 
-Index arithmetic and messages of errors are left alone.  `FUNCTIONS` says which functions; `EQUIVALENT` lists, each
-with its reason, the changes that make no difference.
+Left alone are elements' numbers, messages of errors, and sizes (sums of abs(), by which rounding is judged).
+`FUNCTIONS` says which functions; `EQUIVALENT` lists, each with its reason, the changes that make no difference.
 """
 
 from __future__ import annotations
@@ -57,7 +57,10 @@ FUNCTIONS = {
     "plate.py": ("_modes", "_columns", "_coupling", "coupled_frequencies", "modal_damping"),
 }
 #: By the name of a mutant (as `Mutant` prints it): why it makes no difference.
-EQUIVALENT: dict[str, str] = {}
+EQUIVALENT: dict[str, str] = {
+    "engine/layout.py:build_model: 1.0 -> 2.0": "the unit of time is free",
+    "engine/stick_modes.py:_eigenmodes: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
+}
 
 VECTOR_OPERATIONS = ("fma", "mul", "add", "sub")
 STORAGE = ("load", "store", "spread")
@@ -140,6 +143,8 @@ def _changeable(node: ast.AST) -> Iterator[ast.AST]:
         return
     if called in VECTOR_OPERATIONS or _is_changeable(node):
         yield node
+    if isinstance(node, ast.BinOp):
+        yield from (side for side in (node.left, node.right) if _is_factor(side))
     for child in ast.iter_child_nodes(node):
         if not (called in STORAGE or called.startswith("_")) or not _is_index(child):
             yield from _changeable(child)
@@ -147,13 +152,23 @@ def _changeable(node: ast.AST) -> Iterator[ast.AST]:
 
 def _is_changeable(node: ast.AST) -> bool:
     match node:
-        case ast.BinOp(op=ast.Add() | ast.Sub() | ast.Pow()) | ast.AugAssign(op=ast.Add() | ast.Sub()):
+        case ast.BinOp(op=ast.Add() | ast.Sub(), right=other) | ast.AugAssign(op=ast.Add() | ast.Sub(), value=other):
+            return not _is_size(other)
+        case ast.BinOp(op=ast.Pow()):
             return True
-        case ast.UnaryOp(op=ast.USub()) | ast.Constant(value=float()):
+        case ast.UnaryOp(op=ast.USub()):
             return True
         case ast.Compare():
             return type(node.ops[0]) in OPPOSITE
     return False
+
+
+def _is_factor(side: ast.AST) -> bool:
+    return isinstance(side, ast.Constant) and isinstance(side.value, float) and side.value != 0.0
+
+
+def _is_size(term: ast.AST) -> bool:
+    return any(isinstance(part, ast.Call) and getattr(part.func, "id", "") == "abs" for part in ast.walk(term))
 
 
 def _is_index(argument: ast.AST) -> bool:
@@ -181,7 +196,7 @@ def flip(node: ast.AST) -> str:
         case ast.Compare():
             node.ops[0] = OPPOSITE[type(node.ops[0])]()
         case ast.Constant():
-            node.value = 2 * node.value or 1.0
+            node.value = 2 * node.value
         case ast.Call(func=function, args=[*_, last]):
             node.args[-1] = ast.UnaryOp(ast.USub(), last)
             return f"{ast.unparse(function)}(..., {ast.unparse(last)}) -> -"

@@ -14,8 +14,10 @@ BENCH_FIGURES = [
     *(f"work_precision_{scene}" for scene in SCENES),
     "failure_maps",
     "truncation",
+    "answers",
 ]
 BENCH_INPUTS = {
+    "answers": f"{BENCH}/answers.nc",
     "truncation": f"{BENCH}/truncation.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
 }
@@ -29,6 +31,7 @@ rule bench:
     input:
         f"{BENCH}/table.md",
         f"{BENCH}/table.csv",
+        f"{BENCH}/answers.md",
         collect(
             f"{BENCH}/figures/{{figure}}.{{suffix}}",
             figure=BENCH_FIGURES,
@@ -52,6 +55,22 @@ rule measure_work_precision:
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_work_precision.py {output.nc}"
         " --csv {output.csv} --md {output.md} > {log} 2>&1"
+
+
+rule measure_answers:
+    output:
+        nc=f"{BENCH}/answers.nc",
+        md=f"{BENCH}/answers.md",
+    log:
+        f"{BENCH}/logs/measure_answers.log",
+    conda:
+        "../envs/disc_model.yaml"
+    threads: 1024
+    params:
+        sources=sources_of("measure_answers", files=BENCH_DATA),
+    shell:
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_answers.py {output.nc}"
+        " --md {output.md} > {log} 2>&1"
 
 
 rule map_failures:

@@ -159,6 +159,58 @@ def _method_handles(part: xr.Dataset) -> list[Line2D]:
 
 
 # ----------------------------------------------------------------------------------------------------
+# What each answer costs
+
+ANSWERS = {
+    "first_separation": "First separation, error (s)",
+    "onset": "Speed of onset, error (rad/s)",
+    "growth_rate": "Growth rate, error (1/s)",
+}
+
+
+@styled
+def answers(dataset: xr.Dataset) -> Figure:
+    """Wall time against the error of each answer; dotted, with their numbers of nodal diameters, the errors of models.
+
+    Answers that a method does not find stand hollow at the right edge.
+    """
+    names = [name for name in ANSWERS if name in dataset["answer"].values]
+    figure = new_figure(PAGE, 2.9)
+    axes = np.ravel(figure.subplots(1, len(names), squeeze=False))
+    handles: dict[str, Line2D] = {}
+    for ax, name, letter in zip(axes, names, "abc", strict=False):
+        part = dataset.isel(row=dataset["answer"].values == name)
+        ax.set(xscale="log", yscale="log", xlabel=ANSWERS[name])
+        ax.set_title(f"({letter})", loc="left")
+        for line in dict.fromkeys(map(str, part["line"].values)):
+            points = part.isel(row=part["line"].values == line)
+            handles[line] = _answer_line(ax, points, counted=line == "modes")
+    axes[0].set_ylabel("Wall time (s)")
+    figure.legend(handles=list(handles.values()), loc="outside right center")
+    return figure
+
+
+def _answer_line(ax: Axes, points: xr.Dataset, *, counted: bool) -> Line2D:
+    """Draw a line; returns its legend entry."""
+    color, marker, dash = _look(points.isel(row=0))
+    x, y = points["error"].values, points["seconds"].values
+    right = np.isfinite(x)
+    size = 4.0
+    style: dict[str, Any] = {"color": color, "linestyle": dash, "marker": "" if counted else marker, "markersize": size}
+    # an error of exactly zero is below every rounding
+    drawn = np.maximum(x[right], np.finfo(float).eps)
+    ax.plot(drawn, y[right], linewidth=0.9, **style)
+    if counted:
+        for at_x, at_y, count in zip(drawn, y[right], points["setting"].values[right], strict=True):
+            ax.annotate(f"{int(count)}", (at_x, at_y), ha="center", va="center", fontsize=6.5, path_effects=_HALO)
+    elif not right.all():
+        edge = np.full(np.count_nonzero(~right), 0.97)
+        ax.plot(edge, y[~right], transform=ax.get_yaxis_transform(), linestyle="", marker=marker, color=color,
+                markerfacecolor="white", markersize=size)  # fmt: skip
+    return Line2D([], [], label=str(points["label"].values[0]), **style)
+
+
+# ----------------------------------------------------------------------------------------------------
 # Where methods fail
 
 
