@@ -71,6 +71,13 @@ def coupled(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
     return values + fuzz(t, 0.01) + np.where(t > 149.45, 0.3 * np.sin(2 * np.pi * 1000 * t), 0.0)
 
 
+def natural(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+    """Lines at natural frequencies with the slider attached, moved by the rotation, whatever the stick-slip rate is."""
+    drive = spec.parameters.Omega / (2 * np.pi)
+    lowest = slider_at_rest_frequencies(spec.parameters)[[0, 1, 3]] / (2 * np.pi)
+    return sum(np.cos(2 * np.pi * (f + side * 1.3 * drive) * t) for f in lowest for side in (-1, 1))
+
+
 def few(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
     """The drive and the stick-slip rate."""
     return np.cos(spec.parameters.Omega * t) + 0.01 * np.cos(2 * np.pi * rate * t)
@@ -111,6 +118,7 @@ class Story:
     first : s, the first loss of contact; nan for none
     early, late : range of the contact force over the preload, at first and in the end
     disc_early, disc_late : m, range of the disc's displacement
+    grows_on : 1/s, rate at which that grows after the first separation
     sharp : 1/s, rate at which that grows in the last ten seconds before the first separation
     rate : Hz, stick releases
     wanders : how much the intervals between releases vary, quasi-periodically unless `chaotic`
@@ -127,6 +135,7 @@ class Story:
     disc_early: float = 1e-3
     disc_late: float = 1e-3
     sharp: float = 0.0
+    grows_on: float = 0.0
     rate: float = 67.63
     wanders: float = 0.0
     chaotic: bool = False
@@ -156,6 +165,8 @@ class Story:
 
     def disc_range(self, t: np.ndarray, end: float) -> np.ndarray:
         width = self.disc_early + (self.disc_late - self.disc_early) * self._grown(t, end)
+        if self.grows_on:
+            width = width * np.exp(self.grows_on * np.clip(t - self.first, 0, None))
         if not self.sharp:
             return width
         # slow growth, ten seconds of sharp growth, then less of it, and none after the loss of contact
@@ -277,7 +288,7 @@ def as_told() -> dict[str, Story]:
         "F02": WILD.replace(first=480.0, signal=crowded),
         "F04": BONDED,
         "F06": BONDED,
-        "F07": WILD.replace(first=149.45, sharp=0.25, signal=coupled),
+        "F07": WILD.replace(first=149.45, sharp=0.25, signal=coupled, rate=71.1),
         "F08": BONDED,
         "F09": GROWING.replace(first=117.0, stick=0.0, stick_before=0.1),
         "F13": GROWING.replace(first=54.45, signal=turns),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from disc_model.claims import measures
 from disc_model.claims.measures import many
 from disc_model.claims.model import Cases, Claim, Finding, Needed, claim, finding
 from disc_model.parameters import Parameters
@@ -59,9 +60,11 @@ def truncation(cases: Cases, claim: Claim) -> Finding:
     first = {name: cases[name]["first_separation"] for name in ("F13", "P03l5", "P03l6", "P03l8")}
     shift = max(first.values()) - min(first.values())
     coupled = [slider_at_rest_frequencies(BASE.replace(n_diameters=n))[0] for n in (4, 8)]
+    late = [measures.range_within(cases[name], "w_point", 100, 120).width for name in ("F13", "P03l8")]
     remark = (
         f"qualitatively; up to 8 nodal diameters bring the first separation forward by {shift:.2f} s "
-        f"and the lowest coupled frequency from {coupled[0]:.2f} to {coupled[1]:.2f} rad/s"
+        f"and the lowest coupled frequency from {coupled[0]:.2f} to {coupled[1]:.2f} rad/s; "
+        f"after separation the disc's range is {1e3 * late[0]:.2f} and {1e3 * late[1]:.2f} mm"
     )
     return finding(f"{many(first.values())} s for l up to 4, 5, 6, 8", shift <= claim.bound, remark)
 
