@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
 
-.PHONY: report orthonormal gallery docs linkcheck drawings env reproduce gc test test-long coverage test-study lint format bench lock clean
+.PHONY: report orthonormal gallery docs linkcheck drawings env reproduce gc test test-portable test-long coverage test-study lint format bench lock clean
 
 env: $(STAMP)
 
@@ -56,6 +56,11 @@ drawings: env
 
 test: env
 	$(BIN)/pytest -m "not slow and not workflow"
+
+# The numbers once more, in the instructions that every processor has: no fused multiplication and addition, short vectors.
+test-portable: env
+	NUMBA_CACHE_DIR=$(VENV)/kernels-generic $(BIN)/python -m tests.instruction_sets generic \
+	  $(BIN)/pytest -m "not slow and not workflow" tests/engine tests/validation
 
 # With the rival integrators, so that their tests are not passed over.
 test-long: $(VENV)/.bench

@@ -44,7 +44,7 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
 
 
 @pytest.mark.parametrize("tol", [1e-10, 1e-14])
-@pytest.mark.parametrize("Omega", [0.5, 1.0, 2.0, 5.0])
+@pytest.mark.parametrize("Omega", [1.0, 5.0])
 @pytest.mark.parametrize("variant", [{}, {"c": 1.0, "D_star": 1e-3}, {"n_diameters": 7, "n_circles": 1}], ids=str)
 def test_both_ways_through_stick_agree_on_the_release(
     variant: dict[str, float], Omega: float, tol: float, monkeypatch: pytest.MonkeyPatch

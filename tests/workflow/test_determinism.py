@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests import instruction_sets
 from tests.workflow.conftest import Project, copy_repository
 from tests.workflow.faulty import CONFIG, products, write_study
 
@@ -103,7 +104,7 @@ def test_with_and_without_compilation(compiled: Found, tmp_path: Path) -> None:
 
 def test_another_processor(compiled: Found, tmp_path: Path) -> None:
     """One without fused multiplication and addition, and with short vectors."""
-    own = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    own = instruction_sets.environment("generic") | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
     check_close(one_second(tmp_path / "found", own), compiled)
 
 
