@@ -117,7 +117,7 @@ def _checked(
 
 
 def _value(name: str, value: Value, starts: Collection[str], path: tuple[str, ...], faults: Faults) -> Value:
-    if name == START and value not in starts:
+    if name == START and not (isinstance(value, str) and value in starts):
         faults.add(path, value, f"no such start (known: {', '.join(starts)})")
     elif name == "n_diameters" and value == AUTO:
         faults.add(path, value, "cannot be varied: give it in base, for all points")
