@@ -59,7 +59,7 @@ test: env
 
 # The numbers once more, in the instructions that every processor has: no fused multiplication and addition, short vectors.
 test-portable: env
-	NUMBA_CACHE_DIR=$(VENV)/kernels-generic $(BIN)/python -m tests.instruction_sets generic \
+	NUMBA_CACHE_DIR=$(CURDIR)/$(VENV)/kernels-generic $(BIN)/python -m tests.instruction_sets generic \
 	  $(BIN)/pytest -m "not slow and not workflow" tests/engine tests/validation
 
 # With the rival integrators, so that their tests are not passed over.
