@@ -6,8 +6,7 @@ import numpy as np
 
 from disc_model import Parameters
 from disc_model.engine import layout, saltation, switches, tangent, variational
-from disc_model.simulation.api import build_model
-from disc_model.simulation.bridge import write_state
+from disc_model.simulation.bridge import build_model, write_state
 from disc_model.simulation.result import State
 from disc_model.simulation.tolerance import series_order
 

@@ -15,9 +15,8 @@ from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import modal_damping, mode_arrays
 from disc_model.schema import TOLERANCES, is_number, limits_faults, shown
-from disc_model.simulation.bridge import read_state, write_state
+from disc_model.simulation.bridge import engine_case, fresh_states, read_state, write_state
 from disc_model.simulation.checkpoint import Checkpoint, Contents, faults, identity
 from disc_model.simulation.collector import Collector
 from disc_model.simulation.record import Record
@@ -31,6 +30,7 @@ AUDIT_EVERY = 64
 STEPS_PER_PAUSE = 100_000
 """Steps between two pauses of the engine, about 0.1 s of work, where a step costs least."""
 
+_EVENTS_ALONE = Record()
 _STATUS = {
     outcomes.TIME_OVER: Status.OK,
     outcomes.STOPPED: Status.STOPPED,
@@ -80,7 +80,7 @@ def simulate(
     ParameterError
         Bad input; the message names the argument, its value and the rule.
     """
-    record = Record() if record is None else record
+    record = _EVENTS_ALONE if record is None else record
     _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every))
     run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps)
     _warn_of_empty(record, 0.0 if initial_state is None else initial_state.time, t_end)
@@ -115,10 +115,11 @@ class _Run:
         max_steps: int | None,
     ) -> None:
         self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
-        self.model = model = build_model(p)
+        case = engine_case(p)
+        self.model = model = case.model
         self.order = series_order(tol)
         self.series = layout.build_series(model, self.order)
-        self.state, self.probe = layout.build_state(model), layout.build_state(model)
+        self.state, self.probe = fresh_states(case)
         if initial_state is not None:
             write_state(p, model, initial_state, self.state)
         start = float(self.state.x[layout.TIME])
@@ -209,30 +210,8 @@ def _compiled_for(model: layout.Model, _seen: set[int] = set()) -> bool:  # noqa
 
 def published_start(p: Parameters) -> State:
     """The published start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
-    model = build_model(p)
-    return read_state(p, model, layout.build_state(model))
-
-
-def build_model(p: Parameters) -> layout.Model:
-    """The engine's constants of a case."""
-    modes = mode_arrays(p)
-    return layout.build_model(
-        modes.diameters,
-        modes.omega,
-        modes.psi,
-        modal_damping(p),
-        N=p.N,
-        Omega=p.Omega,
-        k=p.k,
-        c=p.c,
-        m=p.m,
-        k_p=p.k_p,
-        c_p=p.c_p,
-        mu_s=p.mu_s,
-        mu_k=p.mu_k,
-        r_0=p.r_0,
-        bonded=p.contact == "bonded",
-    )
+    case = engine_case(p)
+    return read_state(p, case.model, case.start)
 
 
 def _check_arguments(
@@ -303,21 +282,23 @@ def _statistics(
 ) -> dict[str, float]:
     def relative(residual: int, scale: int, turnover: int) -> float:
         """Sum of the residuals over the largest energy present plus all energy exchanged."""
-        size = float(sums[scale] + sums[turnover])
+        size = total[scale] + total[turnover]
         if not energy:
             return math.nan
-        return abs(float(sums[residual])) / size if size > 0 else 0.0
+        return abs(total[residual]) / size if size > 0 else 0.0
 
+    count, total = counters.tolist(), sums.tolist()
+    stick, slip, separation = phase_times.tolist()
     return {
-        "steps": int(counters[machine.STEPS]),
-        "events": int(counters[machine.EVENTS]),
-        "separations": int(counters[machine.SEPARATIONS]),
-        "time_stick": float(phase_times[layout.STICK]),
-        "time_slip": float(phase_times[layout.SLIP]),
-        "time_separation": float(phase_times[layout.SEPARATION]),
-        "energy_residual": float(sums[audit.WORST]) if sums[audit.STEPS] else math.nan,
+        "steps": count[machine.STEPS],
+        "events": count[machine.EVENTS],
+        "separations": count[machine.SEPARATIONS],
+        "time_stick": stick,
+        "time_slip": slip,
+        "time_separation": separation,
+        "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
         "energy_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
         "energy_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
-        "audited_steps": int(sums[audit.STEPS]),
+        "audited_steps": int(total[audit.STEPS]),
         "wall_time": wall,
     }

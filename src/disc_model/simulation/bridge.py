@@ -1,35 +1,103 @@
-"""Between `State` (modes in the order of `plate_modes`) and the engine's lanes."""
+"""Between `Parameters` and `State` (modes in the order of `plate_modes`) and the engine's lanes."""
 
 from __future__ import annotations
 
 import math
+from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
 from disc_model.data.variables import PHASES
 from disc_model.engine import layout
+from disc_model.engine.lanes import aligned
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
+from disc_model.plate import modal_damping, mode_arrays
 from disc_model.schema import is_number, shown
 from disc_model.simulation.result import State
+
+CASES = 32
+"""Cases whose constants are kept: less than a megabyte each."""
+
+
+class Case(NamedTuple):
+    """What the engine is given of a case.  Shared by all runs of the case, and therefore never written.
+
+    model, start : the engine's constants, and the published start
+    pairs, single : rows of `plate_modes` with and without nodal diameters
+    lane : of the pairs' a
+    places : of a, b, alpha and beta of every mode in `layout.State.disc`; b and beta mean nothing for `single`
+    """
+
+    model: layout.Model
+    start: layout.State
+    pairs: np.ndarray
+    single: np.ndarray
+    lane: np.ndarray
+    places: np.ndarray
+
+
+@lru_cache(maxsize=CASES)
+def engine_case(p: Parameters) -> Case:
+    """The engine's constants of a case; what equal parameters have found before is found again."""
+    modes = mode_arrays(p)
+    model = layout.build_model(
+        modes.diameters,
+        modes.omega,
+        modes.psi,
+        modal_damping(p),
+        N=p.N,
+        Omega=p.Omega,
+        k=p.k,
+        c=p.c,
+        m=p.m,
+        k_p=p.k_p,
+        c_p=p.c_p,
+        mu_s=p.mu_s,
+        mu_k=p.mu_k,
+        r_0=p.r_0,
+        bonded=p.contact == "bonded",
+    )
+    pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)
+    lane, width = layout.pair_lanes(len(pairs)), len(model.shift)
+    places = np.zeros((4, len(modes.diameters)), np.intp)
+    places[:, pairs] = lane + np.array([[0], [layout.HALF], [width], [width + layout.HALF]])
+    places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
+    return Case(model, layout.build_state(model), pairs, single, lane, places)
+
+
+def fresh_states(case: Case) -> tuple[layout.State, layout.State]:
+    """Two states at the published start, a run's own: where it is, and where it looks ahead."""
+    n, width, n0 = len(case.start.disc), len(case.model.force), len(case.model.force0)
+    both = aligned(2 * n)  # in one piece, since to align takes longer than to cut
+    both[:n] = both[n:] = case.start.disc
+    return _state(both[:n], width, n0, case.start.x.copy()), _state(both[n:], width, n0, case.start.x.copy())
+
+
+def _state(disc: np.ndarray, width: int, n0: int, x: np.ndarray) -> layout.State:
+    y, g, end = 2 * width, 2 * width + n0, 2 * (width + n0)
+    return layout.State(disc, disc[:width], disc[width:y], disc[y:g], disc[g:end], x)
+
+
+def build_model(p: Parameters) -> layout.Model:
+    """The engine's constants of a case, not to be written."""
+    return engine_case(p).model
 
 
 def read_state(p: Parameters, model: layout.Model, state: layout.State) -> State:
     """The engine's state as a `State`."""
-    pairs, single, lane = _places(p)
-    modal = {name: np.zeros(len(pairs) + len(single)) for name in ("a", "b", "alpha", "beta")}
-    modal["a"][pairs], modal["b"][pairs] = state.z[lane], state.z[lane + layout.HALF]
-    modal["alpha"][pairs], modal["beta"][pairs] = state.e[lane], state.e[lane + layout.HALF]
-    modal["a"][single], modal["alpha"][single] = state.y[: len(single)], state.g[: len(single)]
+    case = engine_case(p)
+    modal = state.disc[case.places]
+    modal[1::2, case.single] = 0.0  # b and beta
+    modal.setflags(write=False)
+    a, b, alpha, beta = modal
     x = state.x
     phase = int(x[layout.PHASE])
     u, v = float(x[layout.U]), float(x[layout.U_VELOCITY])
     if phase != layout.SEPARATION:
         u = float(model.force @ state.z + model.force0 @ state.y)
         v = float(model.force @ state.e + model.force0 @ state.g + x[layout.SPEED] * (model.slope @ state.z))
-    for array in modal.values():
-        array.setflags(write=False)
     return State(
         time=float(x[layout.TIME]),
         time_low=float(x[layout.TIME_LOW]),
@@ -40,7 +108,10 @@ def read_state(p: Parameters, model: layout.Model, state: layout.State) -> State
         u=u,
         u_velocity=v,
         known=int(x[layout.KNOWN]),
-        **modal,
+        a=a,
+        b=b,
+        alpha=alpha,
+        beta=beta,
     )
 
 
@@ -52,7 +123,7 @@ def write_state(p: Parameters, model: layout.Model, given: State, state: layout.
     ParameterError
         If arrays have the wrong shape, numbers are not finite, or the phase contradicts the velocities.
     """
-    pairs, single, lane = _places(p)
+    _, _, pairs, single, lane, _ = engine_case(p)
     faults = _faults(given, len(pairs) + len(single))
     if faults:
         raise ParameterError(*faults)
@@ -68,13 +139,6 @@ def write_state(p: Parameters, model: layout.Model, given: State, state: layout.
     x[layout.U], x[layout.U_VELOCITY] = given.u, given.u_velocity
     x[layout.PHASE], x[layout.DIRECTION] = PHASES.index(given.phase), given.direction
     x[layout.KNOWN] = given.known
-
-
-def _places(p: Parameters) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Rows of the pairs, rows of the axisymmetric modes, lanes of the pairs' a."""
-    diameters = mode_arrays(p).diameters
-    pairs = np.flatnonzero(diameters > 0)
-    return pairs, np.flatnonzero(diameters == 0), layout.pair_lanes(len(pairs))
 
 
 def _faults(given: State, n_modes: int) -> list[str]:

@@ -16,6 +16,7 @@ from disc_model.simulation.record import Poincare, Record, Window
 Array = NDArray[np.float64]
 
 BUFFER = 1 << 15  # rows of a buffer: large enough that draining costs nothing, small enough to stay in the cache
+SMALL_BUFFER = 1 << 8  # of the rows of events at first: a large one takes longer to make than a short simulation
 _COLUMN = {name: i for i, name in enumerate(sampling.ROW)}
 _FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 
@@ -34,15 +35,15 @@ class Collector:
         longest = longest_step + sampling.SAME_INSTANT * t_end
         per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
         self.capacity = BUFFER if grids else 0
-        self.rows = np.zeros((self.capacity + per_step if grids else 0, len(sampling.ROW)))
-        self.event_rows = np.zeros((BUFFER, len(machine.EVENT_ROW)))
+        self.rows = np.empty((self.capacity + per_step if grids else 0, len(sampling.ROW)))
+        self.event_rows = np.empty((SMALL_BUFFER, len(machine.EVENT_ROW)))
         self._keep_events = record.events
         # what was kept, in the order in which it came: arrays are added to these lists and nothing else
         self._events: list[Array] = []
         self._parts: list[list[Array]] = [[] for _ in grids]
         self._rest: list[Array] = [np.zeros((0, len(sampling.ROW))) for _ in grids]
         self._poincare = record.poincare is not None
-        self._first_separation = np.full(1, math.nan)
+        self._first_separation = np.array([math.nan])
 
     @property
     def first_separation(self) -> float:
@@ -67,18 +68,23 @@ class Collector:
 
     def drain(self, counters: NDArray[np.int64]) -> None:
         """Take over what the buffers hold and empty them."""
-        events = self.event_rows[: counters[machine.EVENT_ROWS]]
+        n_events, n_rows = int(counters[machine.EVENT_ROWS]), int(counters[machine.SAMPLE_ROWS])
+        counters[machine.EVENT_ROWS] = counters[machine.SAMPLE_ROWS] = 0
+        if n_events:
+            self._take_events(self.event_rows[:n_events])
+        if n_events > len(self.event_rows) - machine.MAX_EVENTS_PER_STEP:  # it was full
+            self.event_rows = np.empty((BUFFER, len(machine.EVENT_ROW)))
+        rows = self.rows[:n_rows]
+        for i in range(len(self.sampled)):
+            self._take(i, rows[rows[:, 0] == i])
+
+    def _take_events(self, events: Array) -> None:
         if math.isnan(self.first_separation):
             lost = np.flatnonzero(events[:, 1] == machine.LOSS_OF_CONTACT)
             if lost.size:
                 self._first_separation[0] = events[lost[0], 0]
-        if self._keep_events and len(events):
+        if self._keep_events:
             self._events.append(events.copy())
-        counters[machine.EVENT_ROWS] = 0
-        rows = self.rows[: counters[machine.SAMPLE_ROWS]]
-        for i in range(len(self.samplers)):
-            self._take(i, rows[rows[:, 0] == i])
-        counters[machine.SAMPLE_ROWS] = 0
 
     def _take(self, i: int, rows: Array) -> None:
         if not len(rows):
@@ -99,6 +105,8 @@ class Collector:
 
     def events(self) -> Array:
         """All events kept, shape (n, len(EVENT_ROW))."""
+        if len(self._events) == 1:
+            return self._events[0]
         return np.concatenate([np.zeros((0, len(machine.EVENT_ROW))), *self._events])
 
     def finish(self) -> tuple[tuple[dict[str, Array], ...], dict[str, Array] | None]:

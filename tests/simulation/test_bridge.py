@@ -1,0 +1,71 @@
+"""Between parameters and the engine: constants that runs share, and states there and back."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, Record, Window, floquet, simulate
+from disc_model.simulation.bridge import engine_case, fresh_states, read_state, write_state
+
+P = Parameters(N=385, Omega=15.1)
+APART = Parameters(N=700, Omega=50, k=0, mu_s=1.4, mu_k=0.2, n_diameters=1)
+
+
+def contents(p: Parameters) -> list[bytes]:
+    """Every array that runs of a case share."""
+    case = engine_case(p)
+    parts = (*case, *case.model, *case.model.modes, *case.start)
+    return [part.tobytes() for part in parts if isinstance(part, np.ndarray)]
+
+
+@pytest.mark.parametrize("p", [P, APART], ids=["contact", "apart"])
+def test_runs_share_what_they_never_write(p: Parameters) -> None:
+    before = contents(p)
+    assert len(before) > 25
+    record = Record(windows=(Window(start=0, stop=0.1, rate=1000),), energy=True)
+    result = simulate(p, 0.1, record=record)
+    assert result.statistics["events"] > 1
+    simulate(p, 0.2, initial_state=result.final_state)
+    floquet(p)
+    assert contents(p) == before
+    assert engine_case(p.replace()) is engine_case(p)
+
+
+def test_a_case_seen_before_gives_the_same_to_the_last_bit() -> None:
+    seen = simulate(P, 0.1)
+    engine_case.cache_clear()
+    fresh = simulate(P, 0.1)
+    np.testing.assert_array_equal(seen.event_rows, fresh.event_rows)
+    for name in ("a", "b", "alpha", "beta"):
+        assert getattr(seen.final_state, name).tobytes() == getattr(fresh.final_state, name).tobytes()
+
+
+def test_two_runs_of_a_case_at_a_time_do_not_meet() -> None:
+    """A run's progress may start another run of the same case."""
+    alone = simulate(P, 0.5)
+    inner = []
+    outer = simulate(P, 0.5, progress=lambda _: inner.append(simulate(P, 0.5)))
+    assert inner
+    for result in (outer, *inner):
+        np.testing.assert_array_equal(result.event_rows, alone.event_rows)
+
+
+@pytest.mark.parametrize("p", [P, APART], ids=["contact", "apart"])
+def test_a_state_survives_the_way_there_and_back(p: Parameters) -> None:
+    state = simulate(p, 0.1).final_state
+    case = engine_case(p)
+    place, _ = fresh_states(case)
+    write_state(p, case.model, state, place)
+    back = read_state(p, case.model, place)
+    for name in ("a", "b", "alpha", "beta", "time", "psi", "f", "phase", "u"):
+        np.testing.assert_array_equal(getattr(back, name), getattr(state, name))
+    assert not back.b[case.single].any()
+    with pytest.raises(ValueError, match="read-only"):
+        back.a[0] = 1
+
+
+def test_events_beyond_the_first_small_buffer_are_all_kept() -> None:
+    result = simulate(P, 10.0)
+    assert len(result.event_rows) == result.statistics["events"] > 600
+    assert (np.diff(result.event_rows[:, 0]) >= 0).all()
