@@ -122,6 +122,11 @@ def disc_label(*windows: xr.Dataset) -> str:
     return rf"Disc at $r_0$, $\theta$ = {' and '.join(f'{angle:g}' for angle in angles)} (mm)"
 
 
+def disc_velocity_label(window: xr.Dataset) -> str:
+    """The axis of ``w_point_velocity``."""
+    return rf"Disc velocity at $r_0$, $\theta$ = {float(window.attrs['theta']):g} (m/s)"
+
+
 def mark_first_separation(ax: Axes, time: float) -> None:
     """A line at the first separation, with its time above it; nothing if there was none in the time shown."""
     low, high = ax.get_xlim()

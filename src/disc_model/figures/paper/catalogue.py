@@ -133,8 +133,8 @@ CATALOGUE: Mapping[str, Entry] = {
         "4.4",
         "Disc's spectrum in time above the critical speed",
         "Time-frequency spectrum of the disc's displacement at r_0 and {theta} in four stretches of the run, relative "
-        "to the strongest line of all four. Ticks on the right of (a): the frequencies of Table 2; its first "
-        "half second, half a window, is left out. Dashed: first separation.",
+        "to the strongest line of all four; below, the same up to 300 Hz, the lines of Table 2 named. The "
+        "first half second, half a window, is left out. Dashed: first separation.",
         {"F13": ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
     ),
     "fig26": Entry(

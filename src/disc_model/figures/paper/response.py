@@ -18,7 +18,7 @@ from disc_model.data.held import Missing
 from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
 from disc_model.figures.paper.spectrograms import colour_bar, mark_time, spectrogram, stretch
-from disc_model.figures.style import DISC, PAGE, SKY, SLIDER, new_figure, styled
+from disc_model.figures.style import BLACK, DISC, PAGE, SKY, SLIDER, new_figure, styled
 
 SCALES = {"psi": 1.0, "w_point": 1e3}
 """From SI to what the axes show."""
@@ -67,10 +67,26 @@ def _whole(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, floa
     history = parts.history(tree, until)
     if marked is not None:
         ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
+        if marked[1] - marked[0] < 0.02 * float(history["time"][-1]):
+            _point_out(ax, sum(marked) / 2)
     parts.envelope(ax, history, variable, scale=SCALES[variable], color=COLOURS[variable])
     parts.mark_first_separation(ax, float(tree["first_separation"]))
     ax.set(xlabel="Time (s)", ylabel=_label(variable, history))
     parts.letter(ax, "a")
+
+
+def _point_out(ax: Axes, time: float) -> None:
+    """A line where the stretch of (b) is too narrow to be seen."""
+    ax.axvline(time, color=BLACK, linewidth=0.8)
+    ax.annotate(
+        "(b)",
+        (time, 1),
+        (0, 2),
+        xycoords=("data", "axes fraction"),
+        textcoords="offset points",
+        ha="center",
+        va="bottom",
+    )
 
 
 def _label(variable: str, window: xr.Dataset) -> str:

@@ -17,6 +17,7 @@ from disc_model.analysis.poincare import Stages, stages
 from disc_model.data import held
 from disc_model.figures import parts
 from disc_model.figures.style import AFTER, BEFORE, PAGE, SEPARATED, new_figure, styled
+from disc_model.parameters import Parameters
 
 MARKS: dict[str, dict[str, Any]] = {
     "early": {"marker": "x", "color": BEFORE, "s": 9, "linewidths": 0.5},
@@ -50,26 +51,29 @@ def _sections(figure: Figure, slider: Axes, disc: Axes, case: xr.DataTree) -> No
     _scatter(slider, samples["psi"].values, samples["psi_velocity"].values, found)
     _scatter(disc, samples["w_point"].values * 1e3, samples["w_point_velocity"].values, found)
     slider.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
-    disc.set(xlabel=parts.disc_label(samples), ylabel="Its velocity (m/s)")
+    disc.set(xlabel=parts.disc_label(samples), ylabel=parts.disc_velocity_label(samples))
     parts.letter(slider, "a")
     parts.letter(disc, "b")
-    _legend(figure, disc, found, float(case["first_separation"]))
+    bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
+    _legend(figure, disc, found, float(case["first_separation"]), bonded)
 
 
 def _scatter(ax: Axes, x: np.ndarray, y: np.ndarray, found: Stages) -> None:
-    for name in ("early", "later", "separated"):
+    for order, name in enumerate(("early", "later", "separated")):  # the old stage never over the new
         shown = getattr(found, name)
-        ax.scatter(x[shown], y[shown], **MARKS[name], rasterized=bool(shown.sum() > 2000))
+        ax.scatter(x[shown], y[shown], **MARKS[name], zorder=2 + 0.1 * order, rasterized=bool(shown.sum() > 2000))
     for set_limits, values in ((ax.set_xlim, x), (ax.set_ylim, y)):
         low, high = float(values.min()), float(values.max())
         margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)
         set_limits(low - margin, high + margin)
 
 
-def _legend(figure: Figure, ax: Axes, found: Stages, first: float) -> None:
+def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool) -> None:
     labels = BY_SEPARATION if found.divided_by_separation else BY_HALVES
     names = [name for name in ("early", "later", "separated") if getattr(found, name).any()]
     handles = [ax.scatter([], [], label=labels[name], **(MARKS[name] | {"s": 14})) for name in names]
-    title = f"First separation at {first:.2f} s:" if found.divided_by_separation else "No separation:"
+    title = "Separation ignored:" if bonded else "No separation:"
+    if found.divided_by_separation:
+        title = f"First separation at {first:.2f} s:"
     blank = ax.scatter([], [], s=0, label=title)
     figure.legend(handles=[blank, *handles], loc="outside upper right", ncols=len(handles) + 1, handletextpad=0.2)

@@ -57,5 +57,5 @@ def mark_time(ax: Axes, time: float) -> None:
 def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) -> None:
     """The scale of power beside panels that share it."""
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06)
-    bar.set_label("Power (dB)")
+    bar.set_label("Power (dB re strongest line)")
     bar.outline.set_visible(False)
