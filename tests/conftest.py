@@ -2,9 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+
 import pytest
 
 from tests import needs, tally
+
+
+@pytest.fixture
+def follow_stick_by_series(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[], None]]:
+    """From its call on, stick is followed by its series and not in closed form; constants kept before are forgotten."""
+    from disc_model.engine import layout, stick_modes
+    from disc_model.simulation.bridge import engine_case
+
+    def change() -> None:
+        monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+        engine_case.cache_clear()
+
+    yield change
+    engine_case.cache_clear()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

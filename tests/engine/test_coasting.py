@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -127,11 +129,11 @@ def test_nothing_is_promised_where_nothing_is_sure() -> None:
     assert _coast(model, s, pulled, 0.0) == _coast(model, s, shaken, 0.0) == 0.0
 
 
-def test_events_are_those_of_the_series(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_events_are_those_of_the_series(follow_stick_by_series: Callable[[], None]) -> None:
     """Slow drive: stick is nearly all of the motion and coasts are long."""
     p = Parameters(N=385, Omega=1.0)
     closed = simulate(p, 2.0, tol=1e-14)
-    monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+    follow_stick_by_series()
     stepped = simulate(p, 2.0, tol=1e-14)
     assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
     assert list(closed.events["kind"]) == list(stepped.events["kind"])
@@ -140,12 +142,12 @@ def test_events_are_those_of_the_series(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 @pytest.mark.compiled
-def test_samples_and_audit_within_a_coast(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_samples_and_audit_within_a_coast(follow_stick_by_series: Callable[[], None]) -> None:
     """Samples that fall into a coast, and its energy balance, are as good as those of steps."""
     p = Parameters(N=385, Omega=1.0, c=1.0, D_star=1e-3)
     record = Record(windows=(Window(start=0.0, stop=0.3, rate=2000.0),), energy=True)
     closed = simulate(p, 0.3, tol=1e-14, record=record)
-    monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+    follow_stick_by_series()
     stepped = simulate(p, 0.3, tol=1e-14, record=record)
     assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
     for name, values in stepped.samples[0].items():

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.engine import layout, sampling, stick_modes
+from disc_model.engine import sampling
 from disc_model.simulation.result import EVENT_KINDS, PHASES
 from tests.references import printed
 
@@ -47,7 +49,7 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
 @pytest.mark.parametrize("Omega", [1.0, 5.0])
 @pytest.mark.parametrize("variant", [{}, {"c": 1.0, "D_star": 1e-3}, {"n_diameters": 7, "n_circles": 1}], ids=str)
 def test_both_ways_through_stick_agree_on_the_release(
-    variant: dict[str, float], Omega: float, tol: float, monkeypatch: pytest.MonkeyPatch
+    variant: dict[str, float], Omega: float, tol: float, follow_stick_by_series: Callable[[], None]
 ) -> None:
     """From rest stick ends at mu_s N / (r_0 k_p Omega), 0.077 s at 1 rad/s, whatever the disc; both ways round it."""
     p = Parameters(N=385, Omega=Omega, **variant)
@@ -55,7 +57,7 @@ def test_both_ways_through_stick_agree_on_the_release(
     record = Record(windows=(_window(release), _window(release * (1 + 1e-9))))
     for way in ("coast", "series"):
         if way == "series":
-            monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+            follow_stick_by_series()
         result = simulate(p, release + 2e-3, tol=tol, record=record)
         # or the samples would show nothing
         assert abs(result.events["time"].iloc[0] - release) < sampling.SAME_INSTANT * release

@@ -14,7 +14,7 @@ from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES
-from disc_model.engine import audit, layout, stick_modes, switches
+from disc_model.engine import audit, layout, switches
 from disc_model.plate import mode_arrays
 from disc_model.simulation.bridge import build_model, read_state, write_state
 from disc_model.simulation.result import State
@@ -63,9 +63,9 @@ def test_motion_of_each_phase(phase, direction, tol):
         assert result.statistics[name] < accuracy
 
 
-def test_motion_of_stick_step_by_step(monkeypatch):
+def test_motion_of_stick_step_by_step(follow_stick_by_series):
     """By its series; otherwise stick is followed in closed form."""
-    monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
+    follow_stick_by_series()
     test_motion_of_each_phase("stick", 0, 1e-13)
     test_motion_of_each_phase("stick", 0, 1e-6)
     test_release_conditions_of_stick()
