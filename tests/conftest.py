@@ -13,7 +13,7 @@ from tests import needs, tally
 def follow_stick_by_series(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[], None]]:
     """From its call on, stick is followed by its series and not in closed form; constants kept before are forgotten."""
     from disc_model.engine import layout, stick_modes
-    from disc_model.simulation.bridge import engine_case
+    from disc_model.simulation.result import engine_case
 
     def change() -> None:
         monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())

@@ -13,7 +13,7 @@ from disc_model import ParameterError, Parameters, Poincare, Record, Window, sim
 from disc_model.errors import Fault
 from disc_model.schema import Checked, CycleTolerance, Real, Strict, Tolerance
 from disc_model.studies.cases.schema import Case, Span
-from disc_model.studies.faults import Faults, validated
+from disc_model.studies.files import Faults, validated
 
 WINDOW = {"start": 0, "stop": 1, "rate": 100}
 

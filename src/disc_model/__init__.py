@@ -24,9 +24,9 @@ _HOMES = {
     "simulate": "simulation.api",
     "floquet": "stability.cycle",
     "steady_sliding": "stability.sliding",
-    "Record": "simulation.record",
-    "Window": "simulation.record",
-    "Poincare": "simulation.record",
+    "Record": "simulation.case",
+    "Window": "simulation.case",
+    "Poincare": "simulation.case",
     "Result": "simulation.result",
     "State": "simulation.result",
     "Status": "status",
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from disc_model.parameters import Parameters
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
     from disc_model.simulation.api import simulate
-    from disc_model.simulation.record import Poincare, Record, Window
+    from disc_model.simulation.case import Poincare, Record, Window
     from disc_model.simulation.result import Result, State
     from disc_model.stability.cycle import floquet
     from disc_model.stability.sliding import steady_sliding

@@ -26,7 +26,7 @@ from disc_model.parameters import Parameters
 from disc_model.schema import TOLERANCES, limits_rule, shown
 
 if TYPE_CHECKING:
-    from disc_model.simulation.record import Record
+    from disc_model.simulation.case import Record
     from disc_model.simulation.result import Result
 
 PLOT_POINTS = 4000
@@ -243,14 +243,14 @@ def _plot_faults(path: Path) -> Iterator[str]:
 
 
 def _checkpoint_faults(path: Path) -> Iterator[str]:
-    from disc_model.simulation.checkpoint import faults
+    from disc_model.simulation.kept import faults
 
     return faults(path, 0)
 
 
 def _plot_record(t_end: float) -> Record:
     """The whole run, as an envelope if long, and its end in detail; the size does not grow with `t_end`."""
-    from disc_model.simulation.record import Record, Window
+    from disc_model.simulation.case import Record, Window
 
     bins = math.ceil(PLOT_RATE * t_end / PLOT_POINTS)
     whole = Window(start=0.0, stop=t_end, rate=PLOT_RATE, envelope=bins if bins > 1 else None)

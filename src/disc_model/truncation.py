@@ -136,8 +136,9 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], float | None
     rest = {name: value for name, value in values.items() if name != "truncation_tolerance"}
     given = values.get("truncation_tolerance", TOLERANCE)
     if rest.get("n_diameters") != AUTO:
-        fault = Fault(("truncation_tolerance",), shown(given), f"is used with n_diameters={AUTO!r} only")
-        return rest, None, [fault] if "truncation_tolerance" in values else []
+        if "truncation_tolerance" not in values:
+            return rest, None, []
+        return rest, None, [Fault(("truncation_tolerance",), shown(given), f"is used with n_diameters={AUTO!r} only")]
     del rest["n_diameters"]
     tolerance, faults = _checked("truncation_tolerance", given)
     return rest, None if faults else tolerance, faults

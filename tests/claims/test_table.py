@@ -22,7 +22,7 @@ from disc_model.studies.cases.schema import parse_study
 
 def tree_of(**cases: dict[str, Any]) -> xr.DataTree:
     """Merged cases of a study with these cases."""
-    from disc_model.studies.cases.merge import merge_cases
+    from disc_model.data.inputs import merge_cases
 
     study = parse_study({"study": "x", "cases": {name: {"title": ""} | case for name, case in cases.items()}})
     return merge_cases({name: run_case(spec) for name, spec in study.specs.items()}, study.labels)

@@ -16,11 +16,11 @@ import xarray as xr
 
 from disc_model import ParameterError, Parameters, Poincare, Record, Result, Status, StepLimit, Window, simulate
 from disc_model.data.dataset import load, save
+from disc_model.data.inputs import merge_cases
 from disc_model.data.variables import STATUSES, attributes, flag_names
+from disc_model.simulation.case import CaseSpec
 from disc_model.studies.cases import run as batch
-from disc_model.studies.cases.merge import merge_cases
 from disc_model.studies.cases.run import run_case
-from disc_model.studies.cases.spec import CaseSpec
 
 P = Parameters(N=385, Omega=15.1)
 T_END = 0.5

@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.data.dataset import load, save
-from disc_model.data.files import DamagedFile, WriteError, check_whole, write_whole
+from disc_model.data.dataset import DamagedFile, WriteError, check_whole, load, save, write_whole
 from disc_model.data.inputs import InputsError, load_inputs
 from tests.tally import tried
 

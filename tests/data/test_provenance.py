@@ -19,7 +19,7 @@ def names(*modules: str) -> set[str]:
 def test_a_simulation_depends_on_the_whole_engine_and_on_no_figure_or_claim() -> None:
     found = names("disc_model.studies.cases.run")
     imported = {path.relative_to(PACKAGE).as_posix() for path in (PACKAGE / "engine").glob("*.py")}
-    simulation = {f"simulation/{name}.py" for name in ("api", "record", "result", "collector")}
+    simulation = {f"simulation/{name}.py" for name in ("api", "case", "result", "kept")}
     assert {"parameters.py", "plate.py", "data/dataset.py", *simulation} <= found
     assert "engine/machine.py" in found
     unused = imported - found

@@ -10,7 +10,7 @@ import pytest
 from snakemake.persistence.file import FilePersistence
 from snakemake.settings.enums import PersistenceBackend
 
-from disc_model.data.records import unrecorded, why_unknown
+from disc_model.data.provenance import unrecorded, why_unknown
 
 
 def test_results_without_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes, slider_at_rest_frequencies
 from disc_model.data.variables import SCALARS, SERIES, attributes
-from disc_model.simulation.bridge import build_model
+from disc_model.simulation.result import build_model
 from tests.references import equations
 from tests.references.printed import MOTIONS, THETA, P, Printed, lively
 

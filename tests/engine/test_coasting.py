@@ -11,7 +11,7 @@ from disc_model import Parameters, Record, Window, simulate
 from disc_model.engine import coasting, dense_output, layout, outcomes, series, stick_modes
 from disc_model.engine.switches import stick_force
 from disc_model.simulation.api import _Run
-from disc_model.simulation.bridge import build_model
+from disc_model.simulation.result import build_model
 from tests.engine.compiled import kernel
 
 ORDER = 40

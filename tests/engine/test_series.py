@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.engine import layout, series
-from disc_model.simulation.bridge import build_model
+from disc_model.simulation.result import build_model
 from tests.engine.compiled import kernel
 from tests.references import plain
 

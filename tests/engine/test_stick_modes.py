@@ -9,7 +9,7 @@ from scipy.linalg import expm
 from disc_model import Parameters, plate_modes
 from disc_model.engine import layout
 from disc_model.engine.switches import stick_force
-from disc_model.simulation.bridge import build_model
+from disc_model.simulation.result import build_model
 
 P = Parameters(N=300, Omega=5, n_diameters=2, c=20.0, D_star=1e-2)
 

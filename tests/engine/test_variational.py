@@ -7,9 +7,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes
 from disc_model.engine import layout, outcomes, saltation, switches, tangent, variational
-from disc_model.simulation.bridge import build_model, write_state
-from disc_model.simulation.result import State
-from disc_model.simulation.tolerance import series_order
+from disc_model.simulation.result import State, build_model, series_order, write_state
 from disc_model.stability.return_map import PARAMETERS, ReturnMap
 from tests.references.divergence import divergence
 from tests.references.printed import MOTIONS, SPAN, Printed, lively

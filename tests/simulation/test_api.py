@@ -17,7 +17,7 @@ P = Parameters(N=200, Omega=50, n_diameters=1)
 def test_small_buffers_and_many_pauses_change_nothing(monkeypatch):
     record = Record(windows=(Window(start=0, stop=0.05, rate=20_000),))
     whole = simulate(P, 0.05, tol=1e-9, record=record)
-    monkeypatch.setattr("disc_model.simulation.collector.BUFFER", 16)
+    monkeypatch.setattr("disc_model.simulation.kept.BUFFER", 16)
     monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 3)
     seen = []
     again = simulate(P, 0.05, tol=1e-9, record=record, progress=seen.append)

@@ -6,9 +6,7 @@ import numpy as np
 
 from disc_model import Parameters
 from disc_model.engine import layout, saltation, switches, tangent, variational
-from disc_model.simulation.bridge import build_model, write_state
-from disc_model.simulation.result import State
-from disc_model.simulation.tolerance import series_order
+from disc_model.simulation.result import State, build_model, series_order, write_state
 
 
 class Full:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from disc_model.studies.faults import StudyError
+from disc_model.studies.files import StudyError
 
 
 def faults_of(parse: Callable[..., object], *arguments: Any) -> list[str]:

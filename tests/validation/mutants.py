@@ -40,7 +40,7 @@ FUNCTIONS = {
         *("_slider_forces", "_path_change", "_apply_force", "tangent_series"),
     ),
     "engine/variational.py": ("section_map",),
-    "simulation/bridge.py": ("read_state",),
+    "simulation/result.py": ("read_state",),
     "stability/return_map.py": ("ReturnMap._set_changes", "ReturnMap.state", "ReturnMap.contact_force"),
     "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),
     "benchmarks/methods/physics.py": (

@@ -16,8 +16,7 @@ from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, switches
 from disc_model.plate import mode_arrays
-from disc_model.simulation.bridge import build_model, read_state, write_state
-from disc_model.simulation.result import State
+from disc_model.simulation.result import State, build_model, read_state, write_state
 from disc_model.stability.sliding import _jacobian
 from tests.references.literal import literal_of
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively

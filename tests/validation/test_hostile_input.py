@@ -22,9 +22,8 @@ import disc_model.simulation.api  # noqa: F401 - replaced by name below
 from disc_model import ParameterError, Parameters
 from disc_model.cli import main
 from disc_model.studies.cases.schema import parse_study
-from disc_model.studies.faults import StudyError
+from disc_model.studies.files import StudyError, read_yaml
 from disc_model.studies.grids.schema import parse_grid
-from disc_model.studies.reading import read_yaml
 from tests.tally import tried
 
 ROOT = Path(__file__).parents[2]

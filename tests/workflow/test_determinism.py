@@ -51,7 +51,7 @@ import sys
 from disc_model import Parameters, Poincare, Window
 from disc_model.data.dataset import save
 from disc_model.studies.cases.run import run_case
-from disc_model.studies.cases.spec import CaseSpec
+from disc_model.simulation.case import CaseSpec
 
 windows = (("history", Window(start=0, stop=1, rate=1000)),)
 spec = CaseSpec(Parameters(N=385, Omega=15.1), 1.0, 1e-10, None, windows, Poincare(), (0.0, 1.0), True)

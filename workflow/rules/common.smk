@@ -12,9 +12,9 @@ from snakemake.shell import shell
 
 from disc_model.figures.paper.catalogue import CATALOGUE, STYLE, module_of
 from disc_model.data.provenance import source_hash
-from disc_model.studies.reading import read_file
+from disc_model.studies.files import read_file
 from disc_model.studies.grids.schema import load_grids
-from disc_model.data.records import unrecorded, why_unknown
+from disc_model.data.provenance import unrecorded, why_unknown
 from disc_model.studies.cases.schema import StudyError, study_from_config
 
 PAPER = Path("config/paper.yaml")

@@ -10,7 +10,7 @@ import pandas as pd
 from disc_model.claims.model import CaseView
 from disc_model.claims.pages import table_page
 from disc_model.claims.paper_tables import table_1, table_2
-from disc_model.data import markdown
+from disc_model.data.dataset import markdown_table
 from disc_model.data.inputs import load_inputs
 from disc_model.errors import exit_on_error
 
@@ -57,7 +57,7 @@ def _markdown(name: str, table: pd.DataFrame) -> str:
     lines = [f"# {TITLES[name]}", "", NOTES[name], ""]
     head = [NAMES[str(column)] for column in table.columns]
     rows = ([f"{x:g}" if isinstance(x, float) else x for x in row] for row in table.itertuples(index=False))
-    lines += markdown.table(head, rows)
+    lines += markdown_table(head, rows)
     return "\n".join(lines) + "\n"
 
 

@@ -7,9 +7,8 @@ import json
 from pathlib import Path
 
 from disc_model.data.dataset import save
-from disc_model.data.inputs import load_cases
+from disc_model.data.inputs import load_cases, merge_cases
 from disc_model.errors import exit_on_error
-from disc_model.studies.cases.merge import merge_cases
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""Simulate one case, given as the text of `disc_model.studies.cases.spec.CaseSpec.canonical`, and save it.
+"""Simulate one case, given as the text of `disc_model.simulation.case.CaseSpec.canonical`, and save it.
 
 A job that was killed goes on when it is run again: from a hidden file beside its output, which Snakemake, not knowing
 of it, leaves alone when it removes what a failed job has written.
@@ -11,9 +11,9 @@ import logging
 from pathlib import Path
 
 from disc_model.data.dataset import save
-from disc_model.simulation.checkpoint import SET_ASIDE
+from disc_model.simulation.case import CaseSpec
+from disc_model.simulation.kept import SET_ASIDE
 from disc_model.studies.cases.run import run_case
-from disc_model.studies.cases.spec import CaseSpec
 
 
 def main() -> None:

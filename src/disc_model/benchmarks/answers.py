@@ -30,8 +30,7 @@ from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS, Outcome, Problem
 from disc_model.benchmarks.scenes import static_start
 from disc_model.benchmarks.work_precision import LOOK
-from disc_model.data.dataset import json_attribute
-from disc_model.data.markdown import table
+from disc_model.data.dataset import json_attribute, markdown_table
 from disc_model.data.provenance import versions
 from disc_model.errors import ParameterError
 from disc_model.figures.style import BLACK
@@ -210,7 +209,7 @@ def to_markdown(dataset: xr.Dataset) -> str:
         names = ("label", "setting", "found", "error", "seconds")
         rows = [[_short(value) for value in row] for row in zip(*(part[name].values for name in names), strict=True)]
         head = ("line", "setting", f"found ({UNITS[answer]})", "error", "wall time (s)")
-        text += [f"## {answer.replace('_', ' ')}", "", *table(head, rows), ""]
+        text += [f"## {answer.replace('_', ' ')}", "", *markdown_table(head, rows), ""]
     return "\n".join(text)
 
 

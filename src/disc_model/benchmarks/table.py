@@ -13,7 +13,7 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import VERDICT_WORDS, Verdict
-from disc_model.data import markdown
+from disc_model.data.dataset import markdown_table
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) that the others have to reach as well."""
@@ -149,7 +149,7 @@ def to_markdown(dataset: xr.Dataset) -> str:
             )
             for row in frame[frame["scene"] == scene].itertuples()
         )
-        text += [*markdown.table(HEAD, rows), ""]
+        text += [*markdown_table(HEAD, rows), ""]
     return "\n".join(text)
 
 

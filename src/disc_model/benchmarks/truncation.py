@@ -38,7 +38,7 @@ import xarray as xr
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.simulation.api import simulate
-from disc_model.simulation.record import Record, Window
+from disc_model.simulation.case import Record, Window
 from disc_model.stability.cycle import floquet
 from disc_model.truncation import BAND, RICH, frequency_error, real_modes
 

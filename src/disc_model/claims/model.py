@@ -8,8 +8,8 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.data import held
-from disc_model.data.held import Missing
+from disc_model.data import inputs
+from disc_model.data.inputs import Missing
 from disc_model.data.variables import STATUSES
 from disc_model.parameters import Parameters
 
@@ -74,15 +74,15 @@ class CaseView:
     @property
     def events(self) -> xr.Dataset:
         """Switches kept; raises `Missing` if the case keeps none."""
-        return self._held(held.events)
+        return self._held(inputs.events)
 
     def samples(self, window: str, at_least: int = 2) -> xr.Dataset:
         """Samples of a window, or of the section ``poincare``; raises `Missing`."""
-        return self._held(held.samples, window, at_least)
+        return self._held(inputs.samples, window, at_least)
 
     def ranges(self, window: str) -> xr.Dataset:
         """Least and greatest values within the bins of a window; raises `Missing`."""
-        return self._held(held.ranges, window)
+        return self._held(inputs.ranges, window)
 
     def _held(self, ask: Callable[..., xr.Dataset], *args: Any) -> xr.Dataset:
         try:

@@ -14,7 +14,7 @@ from disc_model.claims import growth, measures
 from disc_model.claims.ledger import check_claims
 from disc_model.claims.model import FAILS, CaseView, Missing
 from disc_model.claims.pages import page, table_html
-from disc_model.data import markdown
+from disc_model.data.dataset import markdown_table
 from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
@@ -33,7 +33,7 @@ class Comparison:
     def markdown(self) -> str:
         lines = [f"# {self.title}", ""]
         for heading, text, table in self.sections:
-            lines += [f"## {heading}", "", text, "", *markdown.table(table.columns, table.itertuples(index=False)), ""]
+            lines += [f"## {heading}", "", text, "", *markdown_table(table.columns, table.itertuples(index=False)), ""]
         return "\n".join(lines)
 
     def html(self) -> str:
@@ -42,7 +42,7 @@ class Comparison:
 
 
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
-    """Compare merged cases (see `disc_model.studies.cases.merge`) of the two normalisations."""
+    """Compare merged cases (see `disc_model.data.inputs`) of the two normalisations."""
     old, new = (
         {name: CaseView(name, node) for name, node in tree.children.items()} for tree in (published, orthonormal)
     )

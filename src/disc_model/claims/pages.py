@@ -10,7 +10,7 @@ from typing import Any
 import pandas as pd
 
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED
-from disc_model.data import markdown
+from disc_model.data.dataset import markdown_table
 
 STYLE = """
 :root { color-scheme: light dark; --text: #1b1b1b; --back: #ffffff; --line: #cccccc; --head: #f2f2f2; --soft: #555555;
@@ -42,7 +42,7 @@ def to_markdown(table: pd.DataFrame) -> str:
     summary = ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
     header = [name.replace("_", " ").replace("ours", "computed") for name in map(str, table.columns)]
     lines = ["# The paper's claims", "", f"{len(table)} claims; {summary}.", ""]
-    lines += markdown.table(header, table.itertuples(index=False))
+    lines += markdown_table(header, table.itertuples(index=False))
     return "\n".join(lines) + "\n"
 
 

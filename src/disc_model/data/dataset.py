@@ -1,4 +1,4 @@
-"""How results become files: the table of variables, CF attributes, encoding, and saving in one piece.
+"""How results become files: groups of a case, CF attributes, encoding, and saving in one piece.
 
 A case is a tree of groups, which is also how its file is laid out:
 
@@ -7,15 +7,21 @@ A case is a tree of groups, which is also how its file is laid out:
 - every recorded window is a group under its name, along `time`; so is ``poincare``. Their attribute ``theta`` is the
   angle in rad at which ``w_point`` was taken.
 
-`disc_model.studies.cases.merge` puts many cases into one file. Nothing here holds a time stamp or a duration that
+`disc_model.data.inputs` reads files, and puts many cases into one. Nothing here holds a time stamp or a duration that
 differs from run to run, so that equal runs give equal bytes.
+
+Files are whole or not there, and end in a checksum, which readers of netCDF and HDF5 pass over: HDF5 notices a changed
+byte in compressed arrays only, and reads a changed scalar or attribute as if nothing had happened.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
-from collections.abc import Mapping
+import os
+import secrets
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +29,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.data.files import check_whole, write_whole
 from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
+from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 
 CONVENTIONS = "CF-1.11"
@@ -109,7 +115,7 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
 
     Raises
     ------
-    disc_model.data.files.WriteError
+    disc_model.data.dataset.WriteError
         If the disk is full.
     """
     encoding = _encoding(tree)
@@ -122,7 +128,7 @@ def load(path: str | Path) -> xr.DataTree:
 
     Raises
     ------
-    disc_model.data.files.DamagedFile
+    disc_model.data.dataset.DamagedFile
         If it is not what was written.
     """
     check_whole(Path(path))
@@ -147,3 +153,97 @@ def _encode(variable: xr.Variable) -> dict[str, Any]:
     if variable.ndim and variable.size:
         encoding |= {"zlib": True, "complevel": 1, "shuffle": True}
     return encoding
+
+
+# ----------------------------------------------------------------------------------------------------
+# Whole files
+
+_LABEL = b"\nsha256 of the rest: "
+_LENGTH = len(_LABEL) + 65
+
+
+class WriteError(DiscModelError, OSError):
+    """A file could not be written."""
+
+
+class DamagedFile(DiscModelError):
+    """A file that is not what was once written."""
+
+
+def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
+    """Write a file in one piece, with a checksum at its end: `path` is either what it was before or complete.
+
+    Parameters
+    ----------
+    write : called with the name of a new file in the same folder, which it shall write
+    size : bytes that the file will roughly have, to find out about a full disk
+
+    Raises
+    ------
+    WriteError
+        If the disk is full, or the file may not be that large.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    # made by `write`, so that the umask says who may read it
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}.tmp")
+    try:
+        write(str(temporary))
+        _append_checksum(temporary)
+        os.replace(temporary, path)
+    except Exception:
+        if refusal := _refusal(temporary, size):
+            reason = refusal.strerror or str(refusal)
+            raise WriteError(f"{path}: cannot be written: {reason} ({size / 1e6:.1f} MB needed)") from None
+        raise
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def check_whole(path: Path) -> None:
+    """Compare a file with the checksum at its end.
+
+    Raises
+    ------
+    DamagedFile
+        If it does not match or is not there.
+    """
+    content = path.read_bytes()
+    body, end = content[:-_LENGTH], content[-_LENGTH:]
+    if end != _checksum(body):
+        raise DamagedFile(f"{path}: damaged or not written by this version of disc_model (its checksum does not match)")
+
+
+def _append_checksum(path: Path) -> None:
+    end = _checksum(path.read_bytes())
+    with path.open("ab") as file:
+        file.write(end)
+        file.flush()
+        os.fsync(file.fileno())  # else a crash of the machine may leave the new name with nothing in it
+
+
+def _checksum(body: bytes) -> bytes:
+    return _LABEL + hashlib.sha256(body).hexdigest().encode() + b"\n"
+
+
+def _refusal(temporary: Path, size: int) -> OSError | None:
+    """Why so many bytes cannot be written; the netCDF library only says that they were not."""
+    try:
+        with temporary.open("wb") as file:
+            file.write(bytes(size))
+    except OSError as error:
+        return error
+    return None
+
+
+# ----------------------------------------------------------------------------------------------------
+# Tables in Markdown
+
+
+def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> list[str]:
+    """Lines of a table: its head, the rule below it, a line a row; a | within a cell is kept apart."""
+    names = list(head)
+    return [_line(names), _line(["---"] * len(names)), *map(_line, rows)]
+
+
+def _line(cells: Iterable[object]) -> str:
+    return "| " + " | ".join(str(cell).replace("|", r"\|") for cell in cells) + " |"

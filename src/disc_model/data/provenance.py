@@ -1,4 +1,4 @@
-"""Where a result comes from: which sources, versions and commit produced it.
+"""Where a result comes from: which sources, versions and commit produced it, and which Snakemake has no record of.
 
 A source hash covers a module or a script and everything of this package that it imports, found by reading the
 sources, so that no list has to be kept by hand: a module that `disc_model.simulation.api` begins to use is in it from
@@ -11,11 +11,14 @@ import ast
 import functools
 import hashlib
 import importlib.metadata
+import json
+import os
 import platform
 import subprocess
+from base64 import urlsafe_b64encode
 from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 PACKAGE = Path(__file__).resolve().parents[1]
 VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
@@ -156,3 +159,51 @@ def _text(node: ast.AST, imports: list[tuple[int, str, tuple[str, ...]]]) -> str
         elif value is not None:
             said.append(f"{name}={value!r}")
     return f"({' '.join(said)})"
+
+
+# ----------------------------------------------------------------------------------------------------
+# Which results Snakemake has no record of
+
+_EXAMPLE = "results/paper/cases/F02.nc"
+
+
+def unrecorded(files: Iterable[str], folder: Path = Path(".snakemake")) -> list[str]:
+    """Those of the files that are there without a readable record.
+
+    What an interrupted run left unfinished is not among them: Snakemake knows of it.
+    """
+    return [
+        file
+        for file in files
+        if Path(file).exists()
+        and not _readable(folder / "metadata" / _record(file))
+        and not (folder / "incomplete" / _record(file)).exists()
+    ]
+
+
+def why_unknown(workflow: Any) -> str:
+    """What of Snakemake is not as `unrecorded` takes it to be, of the running ``workflow``; "" if all is."""
+    try:
+        from snakemake.persistence.file import FilePersistence
+        from snakemake.settings.enums import PersistenceBackend
+
+        if workflow.workflow_settings.persistence_backend != PersistenceBackend.FILE:
+            return "they are in a database"
+        store = FilePersistence.__new__(FilePersistence)  # which makes no folders
+        store._max_len = 255
+        place = store._record_path("metadata", _EXAMPLE)
+    except (ImportError, AttributeError, TypeError) as error:
+        return str(error)
+    return "" if place == os.path.join("metadata", _record(_EXAMPLE)) else f"one is called {place}"
+
+
+def _record(file: str) -> str:
+    return urlsafe_b64encode(file.encode()).decode()
+
+
+def _readable(record: Path) -> bool:
+    try:
+        json.loads(record.read_bytes())
+    except (OSError, ValueError):
+        return False
+    return True

@@ -13,8 +13,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from disc_model.analysis.spectra import TimeFrequency, time_frequency
-from disc_model.data import held
-from disc_model.data.held import Missing
+from disc_model.data import inputs
+from disc_model.data.inputs import Missing
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures.style import BLACK, SEPARATED
 
@@ -71,14 +71,14 @@ def or_say_why(*axes: Axes) -> Iterator[None]:
 
 def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
     """Ranges over the run, as far as the paper shows it (until a time in s); two bins say how long one is."""
-    found = held.ranges(case, "history", at_least=2)
+    found = inputs.ranges(case, "history", at_least=2)
     shown = found.sel(time=slice(None, until))
     return shown if shown.sizes["time"] > 1 else found
 
 
 def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: float) -> TimeFrequency:
     """Short-time Fourier transform of a window's variable, see `disc_model.analysis.spectra`."""
-    samples = held.samples(case, window)
+    samples = inputs.samples(case, window)
     try:
         found = time_frequency(samples["time"].values, samples[variable].values, **options)
     except ValueError as error:

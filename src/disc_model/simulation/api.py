@@ -1,4 +1,4 @@
-"""`simulate`: the engine behind one function."""
+"""`simulate`: the engine behind one function; and the states in which motions start."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ import os
 import time as clock
 import warnings
 from collections.abc import Callable
+from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,14 +17,25 @@ from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
 from disc_model.schema import TOLERANCES, is_number, limits_faults, shown
-from disc_model.simulation.bridge import engine_case, fresh_states, read_state, write_state
-from disc_model.simulation.checkpoint import Checkpoint, Contents, faults, identity
-from disc_model.simulation.collector import Collector
-from disc_model.simulation.record import Record
-from disc_model.simulation.result import Result, State
-from disc_model.simulation.tolerance import series_order, series_tolerance
+from disc_model.simulation.case import Record
+from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
+from disc_model.simulation.result import (
+    Result,
+    State,
+    engine_case,
+    fresh_states,
+    read_state,
+    series_order,
+    series_tolerance,
+    write_state,
+)
 from disc_model.status import Status
+
+if TYPE_CHECKING:
+    from disc_model.simulation.case import Start
+
 
 log = logging.getLogger(__name__)
 
@@ -302,3 +315,55 @@ def _statistics(
         "audited_steps": int(total[audit.STEPS]),
         "wall_time": wall,
     }
+
+
+# ----------------------------------------------------------------------------------------------------
+# Where a motion starts
+
+
+def prepared(p: Parameters, start: Start, tol: float) -> State | None:
+    """The state that a motion of case `p` starts from, at time 0; None is the published start.
+
+    Raises
+    ------
+    SimulationError, ParameterError
+        If the other motion ends early, or its parameters are not right.
+    """
+    kick = {name: value for name, value in start.kick.items() if value}
+    state = None
+    if start.prepare is not None:
+        state = _end_of(p.replace(**start.prepare.parameters), start.prepare.time, tol)
+    return kicked(p, published_start(p) if state is None else state, **kick) if kick else state
+
+
+def kicked(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0) -> State:
+    """A state with something added to the slider's coordinates, the disc under it going along.
+
+    Parameters
+    ----------
+    u : m, in the shape in which the disc gives way to a steady force at the slider: a_l grows by
+        u (psi_l/omega_l^2) / sum psi^2/omega^2
+    u_velocity : m/s, as a blow at the slider leaves it: alpha_l grows by u_velocity psi_l / sum psi^2
+    f : rad/s; a slider that sticks then slips, one that is stopped then sticks
+    """
+    modes = mode_arrays(p)
+    give = modes.psi / modes.omega**2
+    speed = state.f + f
+    phase, direction = state.phase, state.direction
+    if f and phase != "separation":
+        phase, direction = ("slip" if speed else "stick"), int(np.sign(speed))
+    return state.replace(
+        a=state.a + u * give / (modes.psi @ give),
+        alpha=state.alpha + u_velocity * modes.psi / (modes.psi @ modes.psi),
+        u=state.u + u,
+        u_velocity=state.u_velocity + u_velocity,
+        f=speed,
+        phase=phase,
+        direction=direction,
+        known=0,
+    )
+
+
+@lru_cache(maxsize=8)
+def _end_of(p: Parameters, time: float, tol: float) -> State:
+    return simulate(p, time, tol=tol).raise_for_status().final_state.replace(time=0.0, time_low=0.0)

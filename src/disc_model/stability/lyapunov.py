@@ -17,9 +17,7 @@ from disc_model.engine import layout, outcomes, tangent, variational
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.bridge import build_model, read_state, write_state
-from disc_model.simulation.result import State
-from disc_model.simulation.tolerance import series_order, series_tolerance
+from disc_model.simulation.result import State, build_model, read_state, series_order, series_tolerance, write_state
 from disc_model.status import StatusBase
 
 Array = NDArray[np.float64]

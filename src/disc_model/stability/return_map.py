@@ -17,9 +17,7 @@ from numpy.typing import NDArray
 from disc_model.engine import layout, outcomes, variational
 from disc_model.engine import tangent as columns
 from disc_model.parameters import Parameters
-from disc_model.simulation.bridge import build_model, read_state, write_state
-from disc_model.simulation.result import State
-from disc_model.simulation.tolerance import series_order, series_tolerance
+from disc_model.simulation.result import State, build_model, read_state, series_order, series_tolerance, write_state
 
 Array = NDArray[np.float64]
 

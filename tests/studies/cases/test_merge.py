@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 
+from disc_model.data.inputs import merge_cases
 from disc_model.parameters import Parameters
-from disc_model.studies.cases.merge import merge_cases
+from disc_model.simulation.case import CaseSpec
 from disc_model.studies.cases.run import run_case
-from disc_model.studies.cases.spec import CaseSpec
 
 
 def test_attributes_of_cases_that_differ_become_a_list() -> None:

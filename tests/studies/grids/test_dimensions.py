@@ -9,7 +9,7 @@ import pytest
 
 from disc_model.data.variables import KICKS
 from disc_model.parameters import Parameters
-from disc_model.studies.faults import StudyError
+from disc_model.studies.files import StudyError
 from disc_model.studies.grids.dimensions import RELATED
 from disc_model.studies.grids.schema import GridStudy, parse_grid
 

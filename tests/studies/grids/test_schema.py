@@ -12,7 +12,7 @@ import pytest
 from disc_model import Parameters, floquet, truncation
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
-from disc_model.studies.faults import StudyError
+from disc_model.studies.files import StudyError
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import GridStudy, load_grid, load_grids, parse_grid

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from disc_model.figures import STYLE
 from disc_model.parameters import Parameters
-from disc_model.simulation.record import Poincare, Window
+from disc_model.simulation.case import Poincare, Window
 
 __all__ = ["CATALOGUE", "STYLE", "Entry", "caption", "module_of"]
 

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data import held
+from disc_model.data import inputs
 from disc_model.figures import parts
 from disc_model.figures.style import FORCE, PAGE, new_figure, styled
 
@@ -42,7 +42,7 @@ def _show_zero(ax: Axes, case: xr.DataTree) -> None:
 
 
 def _zoom(ax: Axes, case: xr.DataTree) -> None:
-    window = held.samples(case, "zoom")
+    window = inputs.samples(case, "zoom")
     parts.letter(ax, "b")
     time = window["time"].values
     start = float(time[0])

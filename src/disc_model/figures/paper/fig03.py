@@ -8,8 +8,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data import held
-from disc_model.data.held import Missing
+from disc_model.data import inputs
+from disc_model.data.inputs import Missing
 from disc_model.figures import parts
 from disc_model.figures.style import BLACK, COLUMN, DISC, SLIDER, new_figure, styled
 
@@ -33,7 +33,7 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _around_a_separation(both: Axes, gap: Axes, case: xr.DataTree) -> None:
-    window = held.samples(case, "zoom")
+    window = inputs.samples(case, "zoom")
     found = parts.complete_separations(window)
     if not found:
         raise Missing("has no complete separation in zoom")

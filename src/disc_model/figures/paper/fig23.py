@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data import held
+from disc_model.data import inputs
 from disc_model.figures import parts
 from disc_model.figures.style import COLUMN, DISC, SEPARATED, SLIDER, new_figure, styled
 
@@ -28,7 +28,7 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _motion(ax: Axes, case: xr.DataTree) -> None:
-    window = held.samples(case, "zoom")
+    window = inputs.samples(case, "zoom")
     start = float(window["time"][0])
     found = parts.complete_separations(window)
     if found:

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data import held
+from disc_model.data import inputs
 from disc_model.data.variables import PHASES
 from disc_model.figures import parts
 from disc_model.figures.style import COLUMN, PHASE_COLOURS, new_figure, styled
@@ -22,7 +22,7 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
     figure = new_figure(COLUMN, 2.7)
     ax = figure.subplots()
     with parts.or_say_why(ax):
-        _orbit(ax, held.samples(case, "orbit"))
+        _orbit(ax, inputs.samples(case, "orbit"))
     return figure
 
 

@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from disc_model.analysis.spectra import TimeFrequency
-from disc_model.data import held
-from disc_model.data.held import Missing
+from disc_model.data import inputs
+from disc_model.data.inputs import Missing
 from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
 from disc_model.figures.paper.spectrograms import colour_bar, mark_time, spectrogram, stretch
@@ -59,7 +59,7 @@ def draw(
         _whole(panels["whole"], tree, variable, marked, until)
     for i, (name, start) in enumerate(zooms):
         with parts.or_say_why(panels[f"zoom{i}"]):
-            _closer(panels[f"zoom{i}"], held.samples(tree, name), variable, start, first=i == 0)
+            _closer(panels[f"zoom{i}"], inputs.samples(tree, name), variable, start, first=i == 0)
     return figure
 
 

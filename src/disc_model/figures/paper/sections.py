@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.analysis.poincare import Stages, stages
-from disc_model.data import held
+from disc_model.data import inputs
 from disc_model.figures import parts
 from disc_model.figures.style import AFTER, BEFORE, PAGE, SEPARATED, new_figure, styled
 from disc_model.parameters import Parameters
@@ -41,7 +41,7 @@ def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _sections(figure: Figure, slider: Axes, disc: Axes, case: xr.DataTree) -> None:
-    samples = held.samples(case, "poincare", at_least=1)
+    samples = inputs.samples(case, "poincare", at_least=1)
     found = stages(
         samples["time"].values,
         samples["phase"].values,

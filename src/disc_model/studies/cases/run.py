@@ -10,10 +10,8 @@ import xarray as xr
 from disc_model.data.dataset import failed_groups, json_attribute, to_tree
 from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.errors import DiscModelError
-from disc_model.simulation.api import simulate
-from disc_model.studies.cases.spec import CaseSpec
-from disc_model.studies.preparation import prepared
-from disc_model.studies.start import Start
+from disc_model.simulation.api import prepared, simulate
+from disc_model.simulation.case import CaseSpec, Start
 
 log = logging.getLogger(__name__)
 

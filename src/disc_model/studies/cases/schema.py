@@ -19,9 +19,8 @@ from disc_model.errors import DiscModelError, ParameterError
 from disc_model.figures.paper.catalogue import CATALOGUE, faults_of
 from disc_model.parameters import Parameters
 from disc_model.schema import Real, Strict, Tolerance
-from disc_model.simulation.record import Poincare, Window
-from disc_model.studies.cases.spec import CaseSpec
-from disc_model.studies.faults import (
+from disc_model.simulation.case import CaseSpec, Poincare, Start, Window
+from disc_model.studies.files import (
     Faults,
     Origin,
     StudyError,
@@ -29,10 +28,10 @@ from disc_model.studies.faults import (
     inherit,
     is_name,
     mapping,
+    read_file,
+    shown_path,
     validated,
 )
-from disc_model.studies.reading import read_file, shown_path
-from disc_model.studies.start import Start
 from disc_model.truncation import AUTO, read_parameters
 
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]

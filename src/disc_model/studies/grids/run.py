@@ -17,8 +17,8 @@ from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, KICKS, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
+from disc_model.simulation.case import START, Start
 from disc_model.studies.grids.quantities.table import Column, Quantity, compute
-from disc_model.studies.start import START, Start
 from disc_model.truncation import AUTO, read_parameters
 
 log = logging.getLogger(__name__)
@@ -28,7 +28,7 @@ SCHEMA = "disc_model.studies.grids.quantities.schema"
 
 
 def run_batch(text: str) -> xr.Dataset:
-    """Compute a batch, given as a text of `disc_model.studies.grids.spec.batch_texts`.
+    """Compute a batch, given as a text of `disc_model.studies.grids.schema.batch_texts`.
 
     The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
     """

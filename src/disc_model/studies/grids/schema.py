@@ -1,45 +1,114 @@
-"""Grid studies: files under config/studies/, checked all at once. What batches they expand to is said in `spec`."""
+"""Grid studies: files under config/studies/, checked all at once, and the batches of points they expand to.
+
+A batch is one text; a workflow job is given one. Dimensions named in ``batch.over`` are cut into batches, by position
+and only inside a block; of the others, every value has batches of its own. The text holds all that its result depends
+on, and the batch is named by the text's hash, so that a batch whose content is the same is not computed again, wherever
+and however the file now says it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from pydantic import Field
 
+from disc_model.data.provenance import source_hash
 from disc_model.data.variables import KICKS
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, Plot, Values
 from disc_model.parameters import Parameters
-from disc_model.schema import Strict
+from disc_model.schema import Count, Strict
+from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
 from disc_model.studies.cases.schema import Name
-from disc_model.studies.cases.spec import canonical_json, content_key
-from disc_model.studies.faults import (
+from disc_model.studies.files import (
     Faults,
     StudyError,
     add_parameter_faults,
     inherit,
     is_name,
     mapping,
+    read_file,
+    shown_path,
     validated,
 )
-from disc_model.studies.grids.axes import Value
 from disc_model.studies.grids.dimensions import (
     PUBLISHED,
     Dimension,
+    Value,
     asked,
     check_points,
     check_size,
     n_points,
     parse_dimensions,
 )
-from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity
-from disc_model.studies.grids.spec import BatchSpec, batch_texts
-from disc_model.studies.reading import read_file, shown_path
-from disc_model.studies.start import START, SomeParameters, Start
+from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
 from disc_model.truncation import AUTO, asked_modes
+
+# ----------------------------------------------------------------------------------------------------
+# Batches
+
+RUNNER = "disc_model.studies.grids.run"
+
+
+class BatchSpec(Strict):
+    """How points are gathered into jobs.
+
+    over : dimensions that are cut; of the others every value has batches of its own. The last dimension if not given
+    size : points in a batch, at most; 20 to 60 s of work keep the cost of starting a job below a few per cent
+    """
+
+    over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
+    size: Annotated[Count, Field(ge=1)] = 20
+
+
+def batch_texts(
+    quantity: str,
+    options: Strict,
+    base: Mapping[str, Any],
+    starts: Mapping[str, Start],
+    dims: Sequence[Dimension],
+    batch: BatchSpec,
+) -> dict[str, str]:
+    """The text of each batch by its name, 12 hexadecimal digits."""
+    shared: dict[str, Any] = {
+        "quantity": quantity,
+        "options": options.model_dump(),
+        "base": base,
+        "names": [name for dim in dims for name in dim.names],
+        "sources": source_hash(module_of(quantity), RUNNER),
+    }
+    texts = [
+        canonical_json({**shared, **_used(starts, shared["names"], points), "points": points})
+        for points in _chunks(dims, batch)
+    ]
+    return {content_key(text): text for text in texts}
+
+
+def _used(starts: Mapping[str, Start], names: Sequence[str], points: Sequence[Sequence[Value]]) -> dict[str, Any]:
+    """The starts that points name, if they do."""
+    if START not in names:
+        return {}
+    used = {str(point[names.index(START)]) for point in points}
+    return {"starts": {name: starts[name].model_dump() for name in sorted(used)}}
+
+
+def _chunks(dims: Sequence[Dimension], batch: BatchSpec) -> Iterator[list[list[Value]]]:
+    """Points of each batch, a list of values in the order of the dimensions."""
+    over = set(batch.over or [dims[-1].name])
+    # a dimension that is not cut is taken as blocks of one value each
+    blocks = [dim.blocks if dim.name in over else tuple((value,) for value in dim.values) for dim in dims]
+    for chosen in product(*blocks):
+        points = [[value for part in point for value in part] for point in product(*chosen)]
+        for i in range(0, len(points), batch.size):
+            yield points[i : i + batch.size]
+
+
+# ----------------------------------------------------------------------------------------------------
+# Studies
 
 REQUIRED = ("N", "Omega")
 """Parameters without a base value."""

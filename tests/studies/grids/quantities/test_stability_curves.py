@@ -8,7 +8,7 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.grids.curves import curves_of
-from disc_model.studies.faults import StudyError
+from disc_model.studies.files import StudyError
 from disc_model.studies.grids.schema import parse_grid
 from tests.stability.toy_map import fold_at, outside
 from tests.studies.grids.conftest import computed

@@ -10,7 +10,7 @@ from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.settling import late_stretch, numbers
-from disc_model.studies.grids.axes import values_of
+from disc_model.studies.grids.dimensions import values_of
 from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from typing import Annotated, Literal, NamedTuple, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from disc_model.schema import Count, CycleTolerance, Finite, Positive, Real, Strict, Tolerance
-from disc_model.studies.grids.axes import MOST, Range
-from disc_model.studies.start import Start
+from disc_model.simulation.case import Start
+from disc_model.studies.grids.dimensions import MOST, Range
 
 Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
 
@@ -34,7 +34,7 @@ class SettlingOptions(Strict):
 
 
 class Lead(Start):
-    """Where a motion starts, see `disc_model.studies.start`, and how it is computed."""
+    """Where a motion starts, see `disc_model.simulation.case`, and how it is computed."""
 
     tol: Tolerance = 1e-10
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, floquet, simulate
-from disc_model.simulation.bridge import engine_case, fresh_states, read_state, write_state
+from disc_model.simulation.result import engine_case, fresh_states, read_state, write_state
 
 P = Parameters(N=385, Omega=15.1)
 APART = Parameters(N=700, Omega=50, k=0, mu_s=1.4, mu_k=0.2, n_diameters=1)

@@ -26,11 +26,11 @@ from disc_model import ParameterError, Parameters, Poincare, Record, Window
 from disc_model.cli import main
 from disc_model.data.dataset import load
 from disc_model.engine import machine
-from disc_model.simulation import checkpoint
+from disc_model.simulation import kept
 from disc_model.simulation.api import simulate
+from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.result import EVENT_ROW, Result, State
 from disc_model.studies.cases.run import run_case
-from disc_model.studies.cases.spec import CaseSpec
 from tests.workflow.conftest import Project, copy_repository
 
 ROOT = Path(__file__).parents[2]
@@ -237,7 +237,7 @@ class TestNotTrusted:
         name: str,
     ) -> None:
         interrupt(3, P, 55, initial_state=separating, checkpoint=tmp_path / "x")
-        monkeypatch.setattr(checkpoint, function, lambda *_: "another")
+        monkeypatch.setattr(kept, function, lambda *_: "another")
         begun: list[float] = []
         simulate(P, 55, initial_state=separating, checkpoint=tmp_path / "x", progress=begun.append)
         assert f"(other {name})" in caplog.text
@@ -247,7 +247,7 @@ class TestNotTrusted:
         from disc_model.data.provenance import source_files
 
         found = {path.name for path in source_files("disc_model.simulation.api")}
-        assert {"machine.py", "series.py", "plate.py", "collector.py", "checkpoint.py"} <= found
+        assert {"machine.py", "series.py", "plate.py", "case.py", "kept.py"} <= found
 
     @pytest.mark.parametrize("share", [0.0, 0.001, 0.1, 0.5, 0.9, 0.9999])
     def test_a_file_that_was_cut_off(
@@ -306,7 +306,7 @@ class TestArguments:
         self, separating: State, tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
     ) -> None:
         """The disk is full for a while, half-way through a record."""
-        write, calls = checkpoint._write, []
+        write, calls = kept._write, []
 
         def failing(file: Any, *args: Any) -> None:
             calls.append(file.tell())
@@ -316,7 +316,7 @@ class TestArguments:
                 raise OSError(28, "No space left on device")
 
         options = {"initial_state": separating, "record": ALL, "checkpoint": tmp_path / "x"}
-        monkeypatch.setattr(checkpoint, "_write", failing)
+        monkeypatch.setattr(kept, "_write", failing)
         interrupt(4, P, 55.6, **options)
         interrupt(4, P, 55.6, **options)
         assert caplog.text.count("not written: [Errno 28]") == 2

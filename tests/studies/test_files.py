@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from disc_model.studies.reading import read_yaml
+from disc_model.studies.files import read_yaml
 from tests.studies.refused import faults_of
 
 

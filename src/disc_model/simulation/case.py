@@ -1,0 +1,232 @@
+"""What a simulation is asked for: where it starts, what it keeps, and one case of a study as a text."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, create_model, field_validator, model_validator
+
+from disc_model.errors import Fault, ParameterError
+from disc_model.parameters import Parameters
+from disc_model.schema import Checked, Finite, Positive, Real, Strict, shown
+
+# ----------------------------------------------------------------------------------------------------
+# What is kept
+
+Time = Annotated[Real, Field(ge=0, allow_inf_nan=False)]
+
+
+class Window(Checked):
+    """Uniform samples at ``rate`` in [start, stop].
+
+    What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
+    before.  So it is 6e-14 of the time later, because the time of a switch is rounded.  A sample at the start of a run
+    shows the state from which the run starts.
+
+    Parameters
+    ----------
+    start, stop : s, absolute times
+    rate : Hz
+    theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
+    envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
+        samples that do not fill a bin are left out
+    """
+
+    start: Time
+    stop: Time
+    rate: Annotated[Real, Field(gt=0, allow_inf_nan=False)]
+    theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
+    envelope: Annotated[int, Field(ge=2)] | None = None
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.start < self.stop:
+            raise ParameterError(Fault(("start",), shown(self.start), f"must be < stop={shown(self.stop)}"))
+        return self
+
+    @property
+    def count(self) -> int:
+        """Number of samples before any folding."""
+        return int(math.floor((self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9)) + 1
+
+
+class Poincare(Checked):
+    """Samples at the drive's period, t = i 2 pi/Omega (i whole), within [start, stop]; ``theta`` as in `Window`."""
+
+    start: Time = 0.0
+    stop: Annotated[Real, Field(gt=0)] = math.inf
+    theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.start < self.stop:
+            raise ParameterError(Fault(("start",), shown(self.start), f"must be < stop={shown(self.stop)}"))
+        return self
+
+
+class Record(Checked):
+    """What a simulation keeps; by default the events and the statistics alone.
+
+    Parameters
+    ----------
+    windows : uniform samples
+    poincare : samples at the drive's period
+    events : whether to keep the table of events (they are counted in any case)
+    energy : audit both energy balances on every step instead of every 64th (costs a factor of about ten in time)
+    """
+
+    windows: tuple[Window, ...] = ()
+    poincare: Poincare | None = None
+    events: bool = True
+    energy: bool = False
+
+
+# ----------------------------------------------------------------------------------------------------
+# Where a motion starts
+
+START = "start"
+"""The axis of a grid along which motions start in different ways, by name."""
+Coordinate = Literal["u", "u_velocity", "f"]
+
+_OPTIONAL: dict[str, Any] = {
+    name: (Annotated[field.annotation, field], None) for name, field in Parameters.model_fields.items()
+}
+SomeParameters = create_model("SomeParameters", __base__=Parameters, **_OPTIONAL)
+"""Parameters of which any may be left out; rules between several are checked if all of them are there."""
+
+
+class Preparation(Strict):
+    """Another case, and how long it is simulated from the published start: its last state is where the motion starts.
+
+    parameters : those that differ from the motion's own
+    time : s
+    """
+
+    parameters: dict[str, Any]
+    time: Positive
+
+    @field_validator("parameters")
+    @classmethod
+    def _checked(cls, given: dict[str, Any]) -> dict[str, Any]:
+        """As `Parameters` understands them: floats, whole numbers, words."""
+        if given.get("n_diameters") == "auto":
+            raise ParameterError(Fault(("n_diameters",), "'auto'", "must be a whole number, that of the points"))
+        checked = SomeParameters(**given)
+        return {name: getattr(checked, name) for name in given}
+
+
+class Start(Strict):
+    """Where a motion starts; the published start if nothing is given.
+
+    prepare : after another motion, such as one that has separated
+    kick : what is added to a coordinate: ``u`` (m) and ``u_velocity`` (m/s) of the slider and of the disc under it,
+        ``f`` (rad/s), the slider's angular velocity
+    """
+
+    prepare: Preparation | None = None
+    kick: dict[Coordinate, Finite] = Field({})
+
+    def kicked(self, more: dict[str, float]) -> Self:
+        """With further kicks added to its own."""
+        kick = {name: self.kick.get(name, 0.0) + more.get(name, 0.0) for name in {*self.kick, *more}}  # type: ignore[call-overload]
+        return self.model_copy(update={"kick": kick})
+
+
+# ----------------------------------------------------------------------------------------------------
+# One case ready to be run, and its content address
+
+
+@dataclass(frozen=True)
+class CaseSpec:
+    """A case ready to be run: everything a simulation depends on, and nothing else (no titles)."""
+
+    parameters: Parameters
+    t_end: float
+    tol: float
+    stop_at: Literal["first_separation"] | None
+    windows: tuple[tuple[str, Window], ...]
+    poincare: Poincare | None
+    events: tuple[float, float] | None
+    energy: bool
+    start: Start = field(default_factory=Start)
+    truncation: str = ""
+    """How the number of modes was chosen, as JSON; empty if it was given."""
+
+    @property
+    def record(self) -> Record:
+        """What `disc_model.simulation.api` is asked to keep."""
+        return Record(
+            windows=tuple(window for _, window in self.windows),
+            poincare=self.poincare,
+            events=self.events is not None,
+            energy=self.energy,
+        )
+
+    @property
+    def sections(self) -> dict[str, Window | Poincare | None]:
+        """Windows by name, and the Poincare section as ``poincare``."""
+        return {**dict(self.windows), "poincare": self.poincare}
+
+    @property
+    def canonical(self) -> str:
+        """JSON text, equal for equal cases however they were written; `from_canonical` reads it."""
+        return canonical_json(
+            {
+                "parameters": self.parameters.model_dump(),
+                "t_end": self.t_end,
+                "tol": self.tol,
+                "stop_at": self.stop_at,
+                "windows": [[name, window.model_dump()] for name, window in self.windows],
+                "poincare": self.poincare and self.poincare.model_dump(),
+                "events": self.events,
+                "energy": self.energy,
+            }
+            | ({"start": self.start.model_dump()} if self.start != Start() else {})
+            | ({"truncation": self.truncation} if self.truncation else {})
+        )
+
+    @property
+    def key(self) -> str:
+        """First 12 hexadecimal digits of the sha256 of `canonical`."""
+        return content_key(self.canonical)
+
+    @classmethod
+    def from_canonical(cls, text: str) -> CaseSpec:
+        data = json.loads(text)
+        return cls(
+            parameters=Parameters(**data["parameters"]),
+            t_end=data["t_end"],
+            tol=data["tol"],
+            stop_at=data["stop_at"],
+            windows=tuple((name, Window(**window)) for name, window in data["windows"]),
+            poincare=data["poincare"] and Poincare(**data["poincare"]),
+            events=data["events"] and tuple(data["events"]),
+            energy=data["energy"],
+            start=Start.model_validate(data.get("start", {})),
+            truncation=data.get("truncation", ""),
+        )
+
+
+def content_key(text: str) -> str:
+    """First 12 hexadecimal digits of the sha256 of a text."""
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def canonical_json(value: Any) -> str:
+    """JSON with sorted keys; infinities as text, since JSON has none; -0.0 as 0.0."""
+
+    def plain(item: Any) -> Any:
+        if isinstance(item, Mapping):
+            return {str(key): plain(value) for key, value in item.items()}
+        if isinstance(item, list | tuple):
+            return [plain(value) for value in item]
+        if isinstance(item, float):
+            return item + 0.0 if math.isfinite(item) else str(item)
+        return item
+
+    return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)
