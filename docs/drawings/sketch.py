@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Annulus, Arc, Rectangle
 
-from disc_model.figures.style import BLACK, BLUE, GREEN, VERMILION
+from disc_model.figures.parts import BLACK, BLUE, GREEN, VERMILION
 
 GREY = "0.55"
 FONT = {"font.size": 11, "mathtext.fontset": "cm", "svg.hashsalt": "sketch", "font.family": "DejaVu Sans"}

@@ -13,7 +13,7 @@ from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.methods.base import MethodResult
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.figures import benchmark as figures
-from disc_model.figures.style import save
+from disc_model.figures.parts import save
 
 
 def available() -> set[int]:

@@ -9,7 +9,7 @@ from disc_model import Parameters, plate_modes, simulate
 from disc_model.benchmarks import truncation
 from disc_model.benchmarks.truncation import truncation_study
 from disc_model.figures import benchmark as figures
-from disc_model.figures.style import save
+from disc_model.figures.parts import save
 
 P = Parameters(N=385.0, Omega=15.1)
 

@@ -33,12 +33,10 @@ def test_a_figure_depends_on_its_module_and_the_style_but_not_on_the_solver(figu
         return module_of(name).removeprefix("disc_model.").replace(".", "/") + ".py"
 
     found = names(module_of(figure))
-    assert {file_of(figure), "figures/style.py"} <= found
+    assert {file_of(figure), "figures/parts.py"} <= found
     assert not {name for name in found if name.startswith(("engine/", "claims/")) or name == "simulation/api.py"}
     # figures of one kind share a module; another kind's module must not make this one be drawn again
-    own_parts = {file_of(figure), *(f"figures/paper/{name}.py" for name in ("sections", "response", "spectrograms"))}
-    own_parts |= {file_of("fig24")} if figure == "fig25" else set()  # the segments that Fig. 24 marks
-    assert not ({file_of(other) for other in CATALOGUE} - own_parts) & found
+    assert not ({file_of(other) for other in CATALOGUE} - {file_of(figure)}) & found
 
 
 def test_imports_of_every_kind_are_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

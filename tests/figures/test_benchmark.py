@@ -8,7 +8,7 @@ from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.register import SCENES
 from disc_model.figures import benchmark as figures
-from disc_model.figures.style import save
+from disc_model.figures.parts import save
 from tests.benchmarks.conftest import dataset, known
 
 __all__ = ["dataset", "known"]

@@ -104,14 +104,14 @@ def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
-        ("src/disc_model/figures/paper/fig13.py", {"draw_figure:fig13"}),
+        ("src/disc_model/figures/paper/histories.py", FIGURES),
         ("src/disc_model/figures/disc_model.mplstyle", FIGURES),
         ("src/disc_model/figures/parts.py", FIGURES),
         ("workflow/scripts/draw_figure.py", FIGURES),
         ("src/disc_model/claims/section42.py", {"check_claims"}),
         # the provenance page and the ledger are laid out alike
         ("src/disc_model/claims/pages.py", {"check_claims", "describe_study"}),
-        ("src/disc_model/studies/cases/merge.py", TABLES),
+        ("src/disc_model/data/inputs.py", FIGURES | TABLES),
         ("workflow/scripts/simulate_case.py", SIMULATIONS | FIGURES | TABLES),
         ("src/disc_model/cli.py", set()),
         ("src/disc_model/studies/cases/schema.py", set()),

@@ -1,7 +1,7 @@
 # One job per figure, from the files of the cases it shows: another case's change does not draw it again.
 import json
 
-from disc_model.figures.paper.catalogue import SECTIONS, caption, label
+from disc_model.figures.paper.catalogue import SECTIONS, caption, function_of, label
 
 
 rule draw_figure:
@@ -35,12 +35,13 @@ rule draw_figure:
             CATALOGUE[wildcards.figure].options, sort_keys=True
         ),
         module=lambda wildcards: module_of(wildcards.figure),
+        function=lambda wildcards: function_of(wildcards.figure),
         made_of=lambda wildcards: cases_made_of(CATALOGUE[wildcards.figure].cases),
         sources=lambda wildcards: sources_of(
             "draw_figure", module_of(wildcards.figure), files=[STYLE]
         ),
     shell:
-        "python workflow/scripts/draw_figure.py {params.module} --options {params.options:q}"
+        "python workflow/scripts/draw_figure.py {params.module} {params.function} --options {params.options:q}"
         " --title {params.caption:q} --out {output.pdf} --out {output.png} {input} > {log} 2>&1"
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from disc_model.data.inputs import load_inputs
 from disc_model.errors import exit_on_error
 from disc_model.figures import benchmark
-from disc_model.figures.style import save
+from disc_model.figures.parts import save
 
 PREFIX = "work_precision_"
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from disc_model.data.inputs import load_inputs
 from disc_model.errors import exit_on_error
 from disc_model.figures.grids.kinds import PLOTS
-from disc_model.figures.style import save
+from disc_model.figures.parts import save
 
 
 def main() -> None:

@@ -33,7 +33,7 @@ from disc_model.benchmarks.work_precision import LOOK
 from disc_model.data.dataset import json_attribute, markdown_table
 from disc_model.data.provenance import versions
 from disc_model.errors import ParameterError
-from disc_model.figures.style import BLACK
+from disc_model.figures.parts import BLACK
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.continuation import continue_cycle

@@ -20,7 +20,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 from disc_model.figures import parts
-from disc_model.figures.style import (
+from disc_model.figures.parts import (
     BLACK,
     BLUE,
     GREEN,

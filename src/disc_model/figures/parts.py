@@ -1,24 +1,89 @@
-"""What several figures share: envelopes of long histories, shading of separations, panel letters, points of grids."""
+"""The common style, and what several figures share: labels, envelopes of long histories, points of grids."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import wraps
+from pathlib import Path
 from textwrap import fill
-from typing import Literal
+from typing import Any, Literal, ParamSpec
 
+import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from disc_model.analysis.spectra import TimeFrequency, time_frequency
 from disc_model.data import inputs
 from disc_model.data.inputs import Missing
-from disc_model.data.variables import PHASES, flag_names
-from disc_model.figures.style import BLACK, SEPARATED
+from disc_model.data.variables import flag_names
+from disc_model.figures import STYLE
 
-SEPARATION = PHASES.index("separation")
+# ----------------------------------------------------------------------------------------------------
+# Style: widths, colours, and saving without time stamps
+
+P = ParamSpec("P")
+COLUMN = 89 / 25.4
+"""Width of one column, inch."""
+PAGE = 183 / 25.4
+"""Width of both columns, inch."""
+
+BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK = (
+    "#0072B2",
+    "#D55E00",
+    "#009E73",
+    "#CC79A7",
+    "#E69F00",
+    "#56B4E9",
+    "#000000",
+)
+GREY, BROWN = "#8a8a8a", "#7A4B12"
+
+# One colour a quantity in the whole set; what is lost with contact is always vermilion.
+DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"
+"""Motion of the disc; of the slider, normal to the disc (u) and in its plane (psi); contact force."""
+STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
+PHASE_COLOURS = {"stick": STICK, "slip": SLIP, "separation": SEPARATED}
+BEFORE, AFTER = SKY, BLACK
+"""Stages of a run: in contact before and after the first separation."""
+
+
+def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
+    """Let a function draw in the common style, whatever the user's settings are."""
+
+    @wraps(draw)
+    def wrapped(*args: P.args, **kwargs: P.kwargs) -> Figure:
+        with mpl.rc_context():
+            mpl.rcdefaults()
+            mpl.style.use(STYLE)
+            return draw(*args, **kwargs)
+
+    return wrapped
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """An empty figure of a size in inch, outside of pyplot's state."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save(figure: Figure, path: str | Path, title: str = "") -> None:
+    """Write a figure in the format of the path's suffix, its title within; equal figures give equal bytes."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    metadata: dict[str, Any] = {"CreationDate": None} if path.suffix == ".pdf" else {"Software": None}
+    if title:
+        metadata["Title"] = title
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.style.use(STYLE)
+        figure.savefig(path, metadata=metadata)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Parts
+
 SYMBOLS = {
     "N": ("Preload N", "N", 1.0),
     "Omega": ("Speed Ω", "rad/s", 1.0),
@@ -74,18 +139,6 @@ def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
     found = inputs.ranges(case, "history", at_least=2)
     shown = found.sel(time=slice(None, until))
     return shown if shown.sizes["time"] > 1 else found
-
-
-def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: float) -> TimeFrequency:
-    """Short-time Fourier transform of a window's variable, see `disc_model.analysis.spectra`."""
-    samples = inputs.samples(case, window)
-    try:
-        found = time_frequency(samples["time"].values, samples[variable].values, **options)
-    except ValueError as error:
-        raise Missing(f"recorded too little in {window}: {error}") from None
-    if not found.power.any():
-        raise Missing(f"did not vibrate in {window}")
-    return found
 
 
 MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes"}
@@ -144,31 +197,6 @@ def mark_first_separation(ax: Axes, time: float) -> None:
         fontsize=7,
         color=SEPARATED,
     )
-
-
-def shade(ax: Axes, spans: list[tuple[float, float]], label: str) -> None:
-    """Shade stretches of the horizontal axis; the label stands in the legend once."""
-    for i, (start, stop) in enumerate(spans):
-        ax.axvspan(start, stop, color=SEPARATED, alpha=0.25, label=label if i == 0 else "_nolegend_")
-
-
-def separations(window: xr.Dataset) -> list[tuple[float, float]]:
-    """Stretches of separation in a window of samples, s; those that the window cuts off included."""
-    apart = np.concatenate([[False], window["phase"].values == SEPARATION, [False]])
-    edges = np.flatnonzero(np.diff(apart.astype(int)))
-    time = window["time"].values
-    return [(float(time[a]), float(time[b - 1])) for a, b in edges.reshape(-1, 2)]
-
-
-def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
-    """Those separations that begin and end inside the window."""
-    time = window["time"].values
-    return [(a, b) for a, b in separations(window) if a > time[0] and b < time[-1]]
-
-
-def legend_above(ax: Axes) -> None:
-    """A legend in one row above the right end of the axes, where it hides nothing."""
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, ncols=4)
 
 
 def letter(ax: Axes, text: str) -> None:

@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids.kinds import Bifurcation
-from disc_model.figures.style import save
+from disc_model.figures.parts import save
 from tests.studies.grids.conftest import SMALL, computed, made_up_samples, with_failed
 
 

@@ -7,7 +7,7 @@ import xarray as xr
 
 from disc_model.figures.grids import critical_speed as curves
 from disc_model.figures.grids.kinds import CriticalSpeed
-from disc_model.figures.style import save
+from disc_model.figures.parts import save
 from tests.studies.grids.conftest import growth_over
 
 

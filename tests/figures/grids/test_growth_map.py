@@ -7,9 +7,9 @@ import xarray as xr
 from matplotlib.colors import AsinhNorm
 
 from disc_model.figures.grids import growth_map, stability_map
-from disc_model.figures.grids.growth_colours import GREATEST
 from disc_model.figures.grids.kinds import GrowthMap, StabilityMap
-from disc_model.figures.style import save
+from disc_model.figures.grids.stability_map import GREATEST
+from disc_model.figures.parts import save
 from tests.studies.grids.conftest import growth_over
 
 

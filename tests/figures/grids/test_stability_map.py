@@ -10,7 +10,7 @@ import xarray as xr
 
 from disc_model.figures.grids import stability_map as maps
 from disc_model.figures.grids.kinds import Mark, StabilityMap
-from disc_model.figures.style import save
+from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import outcome
 
 OUTCOMES = {"flag_meanings": " ".join(outcome.OUTCOMES)}

@@ -10,7 +10,7 @@ from disc_model.figures.grids import thresholds
 from disc_model.figures.grids.curves import Curve
 from disc_model.figures.grids.kinds import Thresholds
 from disc_model.figures.grids.thresholds import threshold_chart
-from disc_model.figures.style import BLUE, save
+from disc_model.figures.parts import BLUE, save
 from tests.studies.grids.conftest import growth_over
 
 SPEEDS, LOADS = np.linspace(5, 50, 6), np.linspace(50, 600, 5)

@@ -13,9 +13,9 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window
-from disc_model.figures import parts
-from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, module_of, number_of
-from disc_model.figures.style import COLUMN, PAGE, save
+from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, function_of, label, module_of, number_of
+from disc_model.figures.paper.separations import complete_separations, separations
+from disc_model.figures.parts import COLUMN, PAGE, save
 from tests.claims.damaged import DAMAGES, damaged
 
 
@@ -86,7 +86,12 @@ OPTIONS = {
 
 def draw(name: str, *, separates: bool = True) -> Figure:
     cases = {case: made_up_case(separates=separates) for case in CATALOGUE[name].cases}
-    figure: Figure = importlib.import_module(module_of(name)).draw(cases, **OPTIONS.get(name, CATALOGUE[name].options))
+    return drawn(name, cases)
+
+
+def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
+    function = getattr(importlib.import_module(module_of(name)), function_of(name))
+    figure: Figure = function(cases, **OPTIONS.get(name, CATALOGUE[name].options))
     return figure
 
 
@@ -138,12 +143,12 @@ def test_users_settings_do_not_change_a_figure() -> None:
 
 def test_separations_of_a_window() -> None:
     window = xr.Dataset({"phase": ("time", [2, 2, 1, 2, 2, 2, 0, 2])}, coords={"time": np.arange(8.0)})
-    assert parts.separations(window) == [(0, 1), (3, 5), (7, 7)]
-    assert parts.complete_separations(window) == [(3, 5)]
+    assert separations(window) == [(0, 1), (3, 5), (7, 7)]
+    assert complete_separations(window) == [(3, 5)]
 
 
 def test_first_separation_is_marked() -> None:
-    from disc_model.figures.style import VERMILION
+    from disc_model.figures.parts import VERMILION
 
     texts = [text.get_text() for text in draw("fig13").findobj(mpl.text.Text)]
     assert "first separation 40.00 s" in texts
@@ -174,7 +179,7 @@ def test_the_disc_is_named_at_the_angle_that_was_recorded(name: str) -> None:
 def test_two_angles_are_both_named() -> None:
     cases = {name: made_up_case() for name in ("F02", "F04")}
     cases["F04"]["history"].attrs["theta"] = 2.0
-    figure = importlib.import_module(module_of("fig10")).draw(cases)
+    figure = drawn("fig10", cases)
     assert figure.axes[0].get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 and 2 (mm)"
 
 
@@ -209,11 +214,11 @@ def test_every_figure_has_its_place() -> None:
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("damage", DAMAGES)
-@pytest.mark.parametrize("name", {module_of(name): name for name in CATALOGUE}.values())
+@pytest.mark.parametrize("name", {entry.drawn_by: name for name, entry in CATALOGUE.items()}.values())
 def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
     """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""
     cases = {case: damaged(made_up_case(), DAMAGES[damage]) for case in CATALOGUE[name].cases}
-    figure = importlib.import_module(module_of(name)).draw(cases, **OPTIONS.get(name, CATALOGUE[name].options))
+    figure = drawn(name, cases)
     figure.draw_without_rendering()
     said = [text.get_text().replace("\n", " ") for text in figure.findobj(mpl.text.Text)]
     reasons = [text for text in said if text.startswith("not shown: the case ")]

@@ -12,7 +12,7 @@ from disc_model.benchmarks.methods.phases import GUARD, Ended, IntegrationFailed
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
 from disc_model.data.variables import PHASES
-from disc_model.figures.style import GREY
+from disc_model.figures.parts import GREY
 
 MAX_STEPS = 10_000_000
 ROOT_FOUND = 2

@@ -32,7 +32,7 @@ from disc_model.benchmarks.methods.base import (
 )
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
-from disc_model.figures.style import ORANGE
+from disc_model.figures.parts import ORANGE
 from disc_model.simulation.result import State
 
 PENALTY = 1e7

@@ -16,7 +16,7 @@ from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
-from disc_model.figures.style import BLACK
+from disc_model.figures.parts import BLACK
 
 STABILITY_LIMIT = 2.0 * math.sqrt(2.0)
 """Largest omega h at which RK4 does not let an undamped oscillation grow."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem, decades
-from disc_model.figures.style import VERMILION
+from disc_model.figures.parts import VERMILION
 from disc_model.simulation.api import simulate
 from disc_model.status import Status
 

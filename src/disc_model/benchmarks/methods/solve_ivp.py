@@ -22,7 +22,7 @@ from disc_model.benchmarks.methods.phases import (
 )
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.data.variables import PHASES
-from disc_model.figures.style import BLUE, GREEN, PURPLE, SKY
+from disc_model.figures.parts import BLUE, GREEN, PURPLE, SKY
 
 Function = Callable[[float, Array], Any]
 

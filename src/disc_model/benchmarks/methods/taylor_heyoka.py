@@ -16,7 +16,7 @@ import numpy as np
 from disc_model.benchmarks.methods.base import MAP_TOLERANCES, Meter, Method, MethodResult, Problem, decades
 from disc_model.benchmarks.methods.phases import GUARD, Ended, IntegrationFailed, Phase, run_phases, switch_kinds
 from disc_model.benchmarks.methods.physics import Array, Physics
-from disc_model.figures.style import BROWN
+from disc_model.figures.parts import BROWN
 from disc_model.parameters import Parameters
 
 STEPS_PER_LOOK = 100_000

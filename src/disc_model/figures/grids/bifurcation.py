@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import Bifurcation
-from disc_model.figures.style import BLACK, BLUE, GREY, ORANGE, PAGE, PHASE_COLOURS, VERMILION, new_figure, styled
+from disc_model.figures.parts import BLACK, BLUE, GREY, ORANGE, PAGE, PHASE_COLOURS, VERMILION, new_figure, styled
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import CriticalSpeed
-from disc_model.figures.style import BLACK, BLUE, COLUMN, GREEN, ORANGE, PAGE, SKY, VERMILION, new_figure, styled
+from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, ORANGE, PAGE, SKY, VERMILION, new_figure, styled
 
 COLORS = (SKY, BLUE, BLACK, GREEN, ORANGE)
 MARKERS = "o^sDv"

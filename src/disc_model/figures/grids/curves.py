@@ -10,8 +10,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.parts import axis_of
-from disc_model.figures.style import BLACK
+from disc_model.figures.parts import BLACK, axis_of
 from disc_model.stability.tongue import Tongue
 
 Array = NDArray[np.float64]

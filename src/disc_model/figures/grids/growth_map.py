@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import parts
 from disc_model.figures.grids.curves import DASHED, LOAD, SPEED, Curve, curves_of, draw_curve, span
-from disc_model.figures.grids.growth_colours import growth_bar, growth_mesh, no_cycle_patch
 from disc_model.figures.grids.kinds import GrowthMap
-from disc_model.figures.style import BLACK, COLUMN, PAGE, new_figure, styled
+from disc_model.figures.grids.stability_map import growth_bar, growth_mesh, no_cycle_patch
+from disc_model.figures.parts import BLACK, COLUMN, PAGE, new_figure, styled
 
 
 @styled

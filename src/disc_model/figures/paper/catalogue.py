@@ -9,7 +9,7 @@ from disc_model.figures import STYLE
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window
 
-__all__ = ["CATALOGUE", "STYLE", "Entry", "caption", "module_of"]
+__all__ = ["CATALOGUE", "STYLE", "Entry", "caption", "function_of", "module_of"]
 
 Windows = Mapping[str, Mapping[str, Window | Poincare | None]]
 
@@ -23,15 +23,15 @@ class Entry(NamedTuple):
     title : a few words for lists
     caption : what it shows; `caption` fills in numbers and adds the parameters
     needs : the windows it needs, by case; the Poincare section goes by the name ``poincare``
-    module : in `disc_model.figures`; by default the figure's own name
-    options : keyword arguments of its function ``draw``
+    drawn_by : a module beside this one and its function, such as ``"spectra.response"``
+    options : keyword arguments of that function
     """
 
     section: str
     title: str
     caption: str
     needs: Mapping[str, tuple[str, ...]]
-    module: str = ""
+    drawn_by: str
     options: Mapping[str, Any] = {}
 
     @property
@@ -53,7 +53,7 @@ def _section(section: str, case: str, title: str, what: str) -> Entry:
         "Poincare sections, one point each drive period 2π/Ω: (a) in-plane motion of the slider relative to the drive "
         f"point, (b) disc at r_0 and {{theta}}. {what}"
     )
-    return Entry(section, f"Poincare sections, {title}", text, {case: ()}, "sections")
+    return Entry(section, f"Poincare sections, {title}", text, {case: ()}, "sections.sections")
 
 
 BEFORE = (
@@ -73,6 +73,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "Contact force",
         "Contact force: (a) its range over the whole run, (b) {zoom} of it, separations shaded.",
         {"F02": ("history", "zoom")},
+        "separations.contact_force",
     ),
     "fig03": Entry(
         "4.1",
@@ -80,6 +81,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "Disc and slider during one separation and reattachment: (a) displacements from static equilibrium, (b) the "
         "gap between them.",
         {"F02": ("zoom",)},
+        "separations.one_separation",
     ),
     "fig04": _section("4.1", "F04", "separation ignored", IGNORED),
     "fig05": _section("4.1", "F02", "with separation", STAGES),
@@ -92,12 +94,14 @@ CATALOGUE: Mapping[str, Entry] = {
         "Disc, with separation and without",
         "Range of the disc's displacement at r_0 and {theta}, with separation ignored and with separation.",
         {"F02": ("history",), "F04": ("history",)},
+        "histories.with_and_without",
     ),
     "fig11": Entry(
         "4.2",
         "Histories below the critical speed",
         "(a) Contact force, (b) disc at r_0 and {theta}, as ranges.",
         {"F11": ("history",)},
+        "histories.force_and_disc",
     ),
     "fig12": _section("4.2", "F11", "below the critical speed", QUIET),
     "fig13": Entry(
@@ -105,6 +109,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "Histories above the critical speed",
         "(a) Contact force, (b) disc at r_0 and {theta}, as ranges.",
         {"F13": ("history",)},
+        "histories.force_and_disc",
         options=ABOVE,
     ),
     "fig14": _section("4.2", "F13", "above the critical speed", STAGES),
@@ -121,12 +126,14 @@ CATALOGUE: Mapping[str, Entry] = {
         "Disc and slider around separations of a light slider, displacements from static equilibrium; separations "
         "shaded.",
         {"F23": ("zoom",)},
+        "separations.light_slider",
     ),
     "fig24": Entry(
         "4.4",
         "Disc's vibration above the critical speed",
         "Range of the disc's displacement at r_0 and {theta}; the stretches of Fig. 25 are marked.",
         {"F13": ("history", "spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
+        "spectra.with_stretches",
         options=ABOVE,
     ),
     "fig25": Entry(
@@ -136,6 +143,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "to the strongest line of all four; below, the same up to 300 Hz, the lines of Table 2 named. The "
         "first half second, half a window, is left out. Dashed: first separation.",
         {"F13": ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
+        "spectra.four_stretches",
     ),
     "fig26": Entry(
         "4.4",
@@ -143,7 +151,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
         "the first separation, (b) its time-frequency spectrum. Dashed: first separation.",
         {"F13": ("history", "spectrum_c", "spectrum_d")},
-        "response",
+        "spectra.response",
         {
             "case": "F13",
             "variable": "psi",
@@ -158,7 +166,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum. Dashed: first "
         "separation.",
         {"F07": ("history", "spectrum_d")},
-        "response",
+        "spectra.response",
         {"case": "F07", "variable": "w_point", "spectrum": "spectrum_d", "until": 200.0},
     ),
     "fig28": Entry(
@@ -167,7 +175,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
         "the first separation, (b) its time-frequency spectrum. Dashed: first separation.",
         {"F07": ("history", "spectrum_d")},
-        "response",
+        "spectra.response",
         {
             "case": "F07",
             "variable": "psi",
@@ -182,7 +190,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum. Dotted: the disc's "
         "highest natural frequency.",
         {"F21": ("history", "spectrum_d")},
-        "response",
+        "spectra.response",
         {"case": "F21", "variable": "w_point", "spectrum": "spectrum_d", "highest": True},
     ),
     "figA1": Entry(
@@ -190,14 +198,14 @@ CATALOGUE: Mapping[str, Entry] = {
         "Phase portrait, separation ignored",
         "Phase portrait of the slider relative to the drive point, {orbit}, separation ignored.",
         {"F04": ("orbit",)},
-        "portrait",
+        "sections.portrait",
     ),
     "figA2": Entry(
         "A",
         "Phase portrait, with separation",
         "Phase portrait of the slider relative to the drive point, {orbit}, by phase.",
         {"F02": ("orbit",)},
-        "portrait",
+        "sections.portrait",
     ),
 }
 
@@ -231,8 +239,13 @@ def faults_of(figure: str, name: str, window: Window) -> list[str]:
 
 
 def module_of(name: str) -> str:
-    """Module that draws a figure: ``draw(cases, **options)`` takes trees of `disc_model.data.dataset.load` by case."""
-    return f"disc_model.figures.paper.{CATALOGUE[name].module or name}"
+    """Module that draws a figure; its function takes trees of `disc_model.data.dataset.load` by case, and options."""
+    return f"{__package__}.{CATALOGUE[name].drawn_by.partition('.')[0]}"
+
+
+def function_of(name: str) -> str:
+    """Name of that function."""
+    return CATALOGUE[name].drawn_by.partition(".")[2]
 
 
 def number_of(name: str) -> str:

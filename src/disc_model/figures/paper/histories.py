@@ -1,6 +1,8 @@
-"""Contact force and disc vibration of one case, one above the other; figures 11 and 13 are made of it."""
+"""Ranges over a whole run: the contact force and the disc's vibration; figures 10, 11 and 13 of the paper."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
@@ -8,11 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
-from disc_model.figures.style import COLUMN, DISC, FORCE, new_figure
+from disc_model.figures.parts import COLUMN, DISC, FORCE, GREY, new_figure, styled
 
 
-def force_and_disc(case: xr.DataTree, until: float = np.inf) -> Figure:
+@styled
+def force_and_disc(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
     """(a) contact force, (b) disc at r_0 and a fixed angle, as ranges until a time in s; first separation marked."""
+    (case,) = cases.values()
     figure = new_figure(COLUMN, 3.4)
     force, disc = figure.subplots(2, 1, sharex=True)
     with parts.or_say_why(force, disc):
@@ -32,3 +36,23 @@ def _ranges(force: Axes, disc: Axes, case: xr.DataTree, until: float) -> None:
     disc.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
     parts.letter(force, "a")
     parts.letter(disc, "b")
+
+
+@styled
+def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Range of the disc's displacement at r_0 and a fixed angle over the run: contact enforced, and separable."""
+    figure = new_figure(COLUMN, 2.4)
+    ax = figure.subplots()
+    with parts.or_say_why(ax):
+        _both(ax, cases)
+    return figure
+
+
+def _both(ax: Axes, cases: Mapping[str, xr.DataTree]) -> None:
+    histories = {name: parts.history(cases[name]) for name in ("F04", "F02")}
+    for name, color, label in (("F04", GREY, "separation ignored"), ("F02", DISC, "with separation")):
+        parts.envelope(ax, histories[name], "w_point", scale=1e3, color=color, label=label)
+    ax.set(xlabel="Time (s)", ylabel=parts.disc_label(*histories.values()))
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.25 * (high - low))
+    ax.legend(loc="upper left")

@@ -1,6 +1,6 @@
-"""Poincare sections of one case: the in-plane motion of the slider and the motion of a point of the disc.
+"""Poincare sections and phase portraits of one case: the slider in the disc's plane, and a point of the disc.
 
-Figures 4 to 9, 12, 14 and 16 to 22 of the paper.
+Figures 4 to 9, 12, 14, 16 to 22, A1 and A2 of the paper.
 """
 
 from __future__ import annotations
@@ -15,9 +15,13 @@ from matplotlib.figure import Figure
 
 from disc_model.analysis.poincare import Stages, stages
 from disc_model.data import inputs
+from disc_model.data.variables import PHASES
 from disc_model.figures import parts
-from disc_model.figures.style import AFTER, BEFORE, PAGE, SEPARATED, new_figure, styled
+from disc_model.figures.parts import AFTER, BEFORE, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, new_figure, styled
 from disc_model.parameters import Parameters
+
+# ----------------------------------------------------------------------------------------------------
+# Sections
 
 MARKS: dict[str, dict[str, Any]] = {
     "early": {"marker": "x", "color": BEFORE, "s": 9, "linewidths": 0.5},
@@ -30,7 +34,7 @@ BY_HALVES = {"early": "first half", "later": "second half", "separated": "separa
 
 
 @styled
-def draw(cases: Mapping[str, xr.DataTree]) -> Figure:
+def sections(cases: Mapping[str, xr.DataTree]) -> Figure:
     """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle."""
     (case,) = cases.values()
     figure = new_figure(PAGE, 2.75)
@@ -77,3 +81,34 @@ def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool)
         title = f"First separation at {first:.2f} s:"
     blank = ax.scatter([], [], s=0, label=title)
     figure.legend(handles=[blank, *handles], loc="outside upper right", ncols=len(handles) + 1, handletextpad=0.2)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Phase portraits
+
+
+@styled
+def portrait(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """psi' over psi in the window `orbit`, coloured by phase."""
+    (case,) = cases.values()
+    figure = new_figure(COLUMN, 2.7)
+    ax = figure.subplots()
+    with parts.or_say_why(ax):
+        _orbit(ax, inputs.samples(case, "orbit"))
+    return figure
+
+
+def _orbit(ax: Axes, window: xr.Dataset) -> None:
+    psi, velocity, phase = (window[name].values for name in ("psi", "psi_velocity", "phase"))
+    for i, name in enumerate(PHASES):
+        inside = phase == i
+        if not inside.any():
+            continue
+        # a line broken where the phase changes, so that no chord is drawn across others
+        shown = np.where(inside, velocity, np.nan)
+        colour = PHASE_COLOURS[name]
+        ax.plot(psi, shown, color=colour, linewidth=0.5, rasterized=True)
+        ax.plot([], [], color=colour, linewidth=1.5, label=name)
+    ax.margins(0.04)
+    ax.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, ncols=3)

@@ -1,0 +1,171 @@
+"""The slider leaves the disc and meets it again, over a run and close up; figures 2, 3 and 23 of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.data import inputs
+from disc_model.data.inputs import Missing
+from disc_model.data.variables import PHASES
+from disc_model.figures import parts
+from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, PAGE, SEPARATED, SLIDER, new_figure, styled
+
+SEPARATION = PHASES.index("separation")
+
+
+def shade(ax: Axes, spans: list[tuple[float, float]], label: str) -> None:
+    """Shade stretches of the horizontal axis; the label stands in the legend once."""
+    for i, (start, stop) in enumerate(spans):
+        ax.axvspan(start, stop, color=SEPARATED, alpha=0.25, label=label if i == 0 else "_nolegend_")
+
+
+def separations(window: xr.Dataset) -> list[tuple[float, float]]:
+    """Stretches of separation in a window of samples, s; those that the window cuts off included."""
+    apart = np.concatenate([[False], window["phase"].values == SEPARATION, [False]])
+    edges = np.flatnonzero(np.diff(apart.astype(int)))
+    time = window["time"].values
+    return [(float(time[a]), float(time[b - 1])) for a, b in edges.reshape(-1, 2)]
+
+
+def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
+    """Those separations that begin and end inside the window."""
+    time = window["time"].values
+    return [(a, b) for a, b in separations(window) if a > time[0] and b < time[-1]]
+
+
+def legend_above(ax: Axes) -> None:
+    """A legend in one row above the right end of the axes, where it hides nothing."""
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, ncols=4)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Figure 2: the contact force grows until the slider leaves the disc again and again
+
+
+@styled
+def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """(a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
+    case = cases["F02"]
+    figure = new_figure(PAGE, 2.3)
+    whole, zoom = figure.subplots(1, 2)
+    with parts.or_say_why(whole):
+        _whole(whole, case)
+    with parts.or_say_why(zoom):
+        _zoom(zoom, case)
+    return figure
+
+
+def _whole(ax: Axes, case: xr.DataTree) -> None:
+    parts.letter(ax, "a")
+    parts.envelope(ax, parts.history(case), "P", color=FORCE)
+    _show_zero(ax, case)
+    parts.mark_first_separation(ax, float(case["first_separation"]))
+    ax.set(xlabel="Time (s)", ylabel="Contact force (N)")
+
+
+def _show_zero(ax: Axes, case: xr.DataTree) -> None:
+    """Where contact is lost, zero is shown; a force that hardly changes is shown close up."""
+    if np.isfinite(float(case["first_separation"])):
+        ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
+
+
+def _zoom(ax: Axes, case: xr.DataTree) -> None:
+    window = inputs.samples(case, "zoom")
+    parts.letter(ax, "b")
+    time = window["time"].values
+    start = float(time[0])
+    spans = [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(window)]
+    shade(ax, spans, "separation")
+    ax.plot((time - start) * 1e3, window["P"].values, color=FORCE)
+    _show_zero(ax, case)
+    ax.set(xlabel=f"Time after {start:.3f} s (ms)", ylabel="Contact force (N)")
+    if spans:
+        legend_above(ax)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Figure 3: the slider leaves the rising disc, flies, and meets it again
+
+MARGIN = 0.5
+"""Time shown before and after, as a share of the separation."""
+
+
+@styled
+def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
+
+    The paper shows (a); the gap is a hundredth of the motion, so that it needs an axis of its own to be seen.
+    """
+    case = cases["F02"]
+    figure = new_figure(COLUMN, 3.2)
+    both, gap = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
+    with parts.or_say_why(both, gap):
+        _around_a_separation(both, gap, case)
+    figure.align_ylabels()
+    return figure
+
+
+def _around_a_separation(both: Axes, gap: Axes, case: xr.DataTree) -> None:
+    window = inputs.samples(case, "zoom")
+    found = complete_separations(window)
+    if not found:
+        raise Missing("has no complete separation in zoom")
+    start, stop = found[0]
+    margin = MARGIN * (stop - start)
+    part = window.sel(time=slice(start - margin, stop + margin))
+    time = (part["time"].values - start) * 1e3
+    u, w, rest = part["u"].values, part["w"].values, float(case["u_0"])
+    for ax in (both, gap):
+        shade(ax, [(0.0, (stop - start) * 1e3)], "separation")
+    both.plot(time, (w - rest) * 1e3, color=DISC, label="disc")
+    both.plot(time, (u - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
+    gap.plot(time, (u - w) * 1e6, color=BLACK)
+    both.set(ylabel="From equilibrium (mm)")
+    gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
+    parts.letter(both, "a")
+    parts.letter(gap, "b")
+    legend_above(both)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Figure 23: a light slider leaves the disc near the lowest point of its swing
+
+SHOWN = 0.025
+"""Length of the stretch shown, s."""
+
+
+@styled
+def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Slider and disc from static equilibrium; losses of contact are marked."""
+    figure = new_figure(COLUMN, 2.5)
+    ax = figure.subplots()
+    with parts.or_say_why(ax):
+        _around_losses(ax, cases["F23"])
+    return figure
+
+
+def _around_losses(ax: Axes, case: xr.DataTree) -> None:
+    window = inputs.samples(case, "zoom")
+    start = float(window["time"][0])
+    found = complete_separations(window)
+    if found:
+        start = found[0][0] - 0.1 * SHOWN
+    part = window.sel(time=slice(start, start + SHOWN))
+    time = (part["time"].values - start) * 1e3
+    rest = float(case["u_0"])
+    shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(part)], "separation")
+    ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
+    ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
+    losses = np.array([a for a, _ in separations(part) if a > start])
+    if losses.size:
+        height = part["w"].sel(time=losses, method="nearest").values
+        ax.plot(
+            (losses - start) * 1e3, (height - rest) * 1e3, "o", color=SEPARATED, markersize=3.5, label="contact lost"
+        )
+    ax.set(xlabel=f"Time after {start:.4f} s (ms)", ylabel="From equilibrium (mm)")
+    legend_above(ax)

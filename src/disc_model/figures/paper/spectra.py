@@ -1,0 +1,283 @@
+"""How frequencies change with time, and the vibration they were taken of; figures 24 to 29 of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import cmcrameri.cm as cmc
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure, FigureBase, SubFigure
+from matplotlib.ticker import MaxNLocator
+
+from disc_model.analysis.spectra import TimeFrequency, time_frequency
+from disc_model.data import inputs
+from disc_model.data.inputs import Missing
+from disc_model.figures import parts
+from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
+from disc_model.figures.parts import BLACK, DISC, PAGE, SKY, SLIDER, new_figure, styled
+
+# ----------------------------------------------------------------------------------------------------
+# Power over time and frequency
+
+FLOOR = -100.0
+"""Least power shown, dB below the reference."""
+POWERS = cmc.lipari
+
+
+def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: float) -> TimeFrequency:
+    """Short-time Fourier transform of a window's variable, see `disc_model.analysis.spectra`."""
+    samples = inputs.samples(case, window)
+    try:
+        found = time_frequency(samples["time"].values, samples[variable].values, **options)
+    except ValueError as error:
+        raise Missing(f"recorded too little in {window}: {error}") from None
+    if not found.power.any():
+        raise Missing(f"did not vibrate in {window}")
+    return found
+
+
+def decibel(power: np.ndarray, reference: float) -> np.ndarray:
+    """Power relative to a reference, dB, no less than `FLOOR` - 20."""
+    return np.asarray(10 * np.log10(np.maximum(power / reference, 10 ** (FLOOR / 10 - 2))))
+
+
+def spectrogram(ax: Axes, found: TimeFrequency, reference: float, highest: float) -> QuadMesh:
+    """Draw power in dB relative to a reference, up to a frequency in Hz."""
+    shown = found.frequency <= highest
+    mesh = ax.pcolormesh(
+        found.time,
+        found.frequency[shown],
+        decibel(found.power[shown], reference),
+        cmap=POWERS,
+        vmin=FLOOR,
+        vmax=0,
+        shading="nearest",
+        rasterized=True,
+    )
+    ax.set_facecolor(POWERS(0.0))
+    ax.set_xlim(*stretch(found))
+    ax.set_ylim(0, highest)
+    return mesh
+
+
+def stretch(found: TimeFrequency) -> tuple[float, float]:
+    """The stretch of time that a panel stands for, s; one at the start of a run begins at 0."""
+    start, stop = round(float(found.time[0]), 1), round(float(found.time[-1]), 1)
+    return (0.0 if start < 1 else start), stop
+
+
+def mark_time(ax: Axes, time: float) -> None:
+    """A dashed line at a time, if the panel shows it."""
+    low, high = ax.get_xlim()
+    if np.isfinite(time) and low < time < high:
+        ax.axvline(time, color="white", linewidth=0.9, linestyle=(0, (4, 2)))
+
+
+def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) -> None:
+    """The scale of power beside panels that share it."""
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06)
+    bar.set_label("Power (dB re strongest line)")
+    bar.outline.set_visible(False)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Figure 24: the disc's vibration, with the four stretches that figure 25 analyses
+
+WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
+
+
+@styled
+def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
+    """Range of the disc's displacement at r_0 and a fixed angle."""
+    figure = new_figure(PAGE, 2.2)
+    ax = figure.subplots()
+    with parts.or_say_why(ax):
+        _range(ax, cases["F13"], until)
+    return figure
+
+
+def _range(ax: Axes, case: xr.DataTree, until: float) -> None:
+    for name in WINDOWS:
+        start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
+        ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
+        ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
+    history = parts.history(case, until)
+    parts.envelope(ax, history, "w_point", scale=1e3, color=DISC)
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.15 * (high - low))
+    parts.mark_first_separation(ax, float(case["first_separation"]))
+    ax.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
+
+
+# ----------------------------------------------------------------------------------------------------
+# Figure 25: how the disc's frequencies change, N = 385 N, Omega = 15.1 rad/s
+
+CLOSE = 300.0
+"""Highest frequency of the closer view, Hz."""
+TABLE_2 = {
+    r"$f_\Omega$": (2.4,),
+    "$f_{h1}$, $f_{h2}$": (65.5, 70.0),
+    "$f_1$, $f_2$": (133.0, 138.0),
+    "$f_3$, $f_4$": (200.0, 206.0),
+    "$f_5$, $f_6$": (269.0, 273.0),
+}
+"""Lines that the paper lists, Hz; pairs are too near to be named apart."""
+
+
+@styled
+def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Power of the disc's displacement at r_0 and a fixed angle over time and frequency, four stretches.
+
+    The lower row is the same up to `CLOSE` Hz, with the lines of Table 2 named.
+    """
+    case = cases["F13"]
+    figure = new_figure(PAGE, 4.6)
+    axes = figure.subplots(2, len(WINDOWS), sharex="col", sharey="row")
+    found: dict[str, TimeFrequency] = {}
+    for name, column in zip(WINDOWS, axes.T, strict=True):
+        with parts.or_say_why(*column):
+            found[name] = spectrum_in_time(case, name, "w_point")
+    reference = max((float(each.power.max()) for each in found.values()), default=1.0)
+    for name, column in zip(WINDOWS, axes.T, strict=True):
+        if name not in found:
+            continue
+        for ax, highest in zip(column, (HIGHEST, CLOSE), strict=True):
+            mesh = spectrogram(ax, found[name], reference, highest)
+            mark_time(ax, float(case["first_separation"]))
+        parts.letter(column[0], name[-1])
+        column[1].set_xlabel("Time (s)")
+        column[1].xaxis.set_major_locator(MaxNLocator(3))
+    for ax in axes[:, 0]:
+        ax.set_ylabel("Frequency (Hz)")
+    for ax in axes[:, 1:].flat:
+        ax.set_label("shares the axis to its left")
+    if found:
+        _name_lines(axes[1, -1])
+        colour_bar(figure, mesh, list(axes.flat))
+    return figure
+
+
+def _name_lines(ax: Axes) -> None:
+    """Ticks at the frequencies of Table 2, with the paper's symbols."""
+    right = ax.secondary_yaxis("right")
+    right.set_yticks([float(np.mean(pair)) for pair in TABLE_2.values()], labels=list(TABLE_2))
+    right.set_yticks([line for pair in TABLE_2.values() for line in pair], minor=True)
+    right.tick_params(length=0)
+    right.tick_params(which="minor", length=3, width=0.6)
+    right.spines["right"].set_visible(False)
+    right.set_label("shares the axis to its left")
+
+
+# ----------------------------------------------------------------------------------------------------
+# Figures 26 to 29: one variable of one case, its range over the run and its spectrum in one stretch
+
+SCALES = {"psi": 1.0, "w_point": 1e3}
+"""From SI to what the axes show."""
+COLOURS = {"psi": SLIDER, "w_point": DISC}
+
+
+@styled
+def response(
+    cases: Mapping[str, xr.DataTree],
+    *,
+    case: str,
+    variable: str,
+    spectrum: str,
+    zooms: Sequence[tuple[str, float]] = (),
+    highest: bool = False,
+    until: float = np.inf,
+) -> Figure:
+    """(a) range over the run, with closer looks beside it if asked for, (b) spectrum in the window `spectrum`.
+
+    Parameters
+    ----------
+    zooms : windows and times in s at which a closer look begins
+    highest : mark the disc's highest natural frequency
+    until : s, how much of the run (a) shows
+    """
+    tree = cases[case]
+    figure = new_figure(PAGE, 2.7)
+    layout = [["whole"] * max(len(zooms), 1)] + ([[f"zoom{i}" for i in range(len(zooms))]] if zooms else [])
+    left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
+    panels = left.subplot_mosaic(layout)
+    shown = right.subplots()
+    marked = None
+    with parts.or_say_why(shown):
+        found = spectrum_in_time(tree, spectrum, variable)
+        marked = stretch(found)
+        _spectrum(right, shown, tree, found, highest)
+    with parts.or_say_why(panels["whole"]):
+        _whole_run(panels["whole"], tree, variable, marked, until)
+    for i, (name, start) in enumerate(zooms):
+        with parts.or_say_why(panels[f"zoom{i}"]):
+            _closer(panels[f"zoom{i}"], inputs.samples(tree, name), variable, start, first=i == 0)
+    return figure
+
+
+def _whole_run(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, float] | None, until: float) -> None:
+    history = parts.history(tree, until)
+    if marked is not None:
+        ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
+        if marked[1] - marked[0] < 0.02 * float(history["time"][-1]):
+            _point_out(ax, sum(marked) / 2)
+    parts.envelope(ax, history, variable, scale=SCALES[variable], color=COLOURS[variable])
+    parts.mark_first_separation(ax, float(tree["first_separation"]))
+    ax.set(xlabel="Time (s)", ylabel=_label(variable, history))
+    parts.letter(ax, "a")
+
+
+def _point_out(ax: Axes, time: float) -> None:
+    """A line where the stretch of (b) is too narrow to be seen."""
+    ax.axvline(time, color=BLACK, linewidth=0.8)
+    ax.annotate(
+        "(b)",
+        (time, 1),
+        (0, 2),
+        xycoords=("data", "axes fraction"),
+        textcoords="offset points",
+        ha="center",
+        va="bottom",
+    )
+
+
+def _label(variable: str, window: xr.Dataset) -> str:
+    return parts.disc_label(window) if variable == "w_point" else "ψ (rad)"
+
+
+def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first: bool) -> None:
+    part = window.sel(time=slice(start, start + ZOOM))
+    if part.sizes["time"] < 2:
+        raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
+    ax.plot(
+        (part["time"].values - start) * 1e3,
+        part[variable].values * SCALES[variable],
+        color=COLOURS[variable],
+        linewidth=0.6,
+    )
+    ax.set_xlabel(f"Time after {start:g} s (ms)")
+    ax.set_xlim(0, ZOOM * 1e3)
+    if first:
+        ax.set_ylabel(_label(variable, window))
+    else:
+        ax.set_label("shares the axis to its left")
+
+
+def _spectrum(figure: SubFigure, ax: Axes, tree: xr.DataTree, found: TimeFrequency, highest: bool) -> None:
+    mesh = spectrogram(ax, found, float(found.power.max()), HIGHEST)
+    mark_time(ax, float(tree["first_separation"]))
+    if highest:
+        ax.axhline(_highest_natural(tree), color="white", linewidth=0.9, linestyle=(0, (1, 2)))
+    ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
+    parts.letter(ax, "b")
+    colour_bar(figure, mesh, ax)
+
+
+def _highest_natural(tree: xr.DataTree) -> float:
+    from disc_model.parameters import Parameters
+    from disc_model.plate import plate_modes
+
+    p = Parameters.model_validate_json(tree.attrs["parameters"])
+    return float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
