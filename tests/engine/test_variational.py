@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes
 from disc_model.engine import layout, outcomes, saltation, switches, tangent, variational
-from disc_model.simulation.result import State, build_model, series_order, write_state
+from disc_model.simulation.result import State, engine_case, series_order, write_state
 from disc_model.stability.return_map import PARAMETERS, ReturnMap
 from tests.references.divergence import divergence
 from tests.references.printed import MOTIONS, SPAN, Printed, lively
@@ -77,9 +77,10 @@ class Full:
     """The engine with a column for every coordinate: those of the modes, psi, f; u and u' too in separation."""
 
     def __init__(self, p: Parameters, start: State) -> None:
-        self.model, self.order = build_model(p), series_order(1e-14)
+        case, self.order = engine_case(p), series_order(1e-14)
+        self.model = case.model
         self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
-        write_state(p, self.model, start, self.state)
+        write_state(case, start, self.state)
         width, n0 = len(self.model.force), len(self.model.force0)
         used, single, tail = np.flatnonzero(self.model.shift), np.arange(n0), 2 * width + 2 * n0
         scalars = 4 if start.phase == "separation" else 1 if start.phase == "stick" else 2
@@ -239,7 +240,7 @@ def test_changes_of_the_switch_functions_by_parameters(switch: str) -> None:
     start = lively(phase, direction, LIVELY)
     map_ = ReturnMap(LIVELY, parameters=PARAMETERS)
     model, state, t = map_.model, layout.build_state(map_.model), map_._tangent
-    write_state(LIVELY, model, start, state)
+    write_state(engine_case(LIVELY), start, state)
     t.now[:] = 0.0
     # a change of every coordinate in the first column: it has a rate, whatever the switch function
     t.now.reshape(-1, tangent.n_rows(model), 8)[0, :, 0] = 1.0

@@ -56,8 +56,8 @@ def test_a_state_survives_the_way_there_and_back(p: Parameters) -> None:
     state = simulate(p, 0.1).final_state
     case = engine_case(p)
     place, _ = fresh_states(case)
-    write_state(p, case.model, state, place)
-    back = read_state(p, case.model, place)
+    write_state(case, state, place)
+    back = read_state(case, place)
     for name in ("a", "b", "alpha", "beta", "time", "psi", "f", "phase", "u"):
         np.testing.assert_array_equal(getattr(back, name), getattr(state, name))
     assert not back.b[case.single].any()

@@ -6,14 +6,15 @@ import numpy as np
 
 from disc_model import Parameters
 from disc_model.engine import layout, saltation, switches, tangent, variational
-from disc_model.simulation.result import State, build_model, series_order, write_state
+from disc_model.simulation.result import State, engine_case, series_order, write_state
 
 
 class Full:
     """The engine with a column for every coordinate of the full system: modal ones, psi, f."""
 
     def __init__(self, p: Parameters, start: State, tol: float = 1e-14):
-        self.model, self.order, self.tol = build_model(p), series_order(tol), tol
+        case, self.order, self.tol = engine_case(p), series_order(tol), tol
+        self.model = case.model
         width, n0 = len(self.model.force), len(self.model.force0)
         used, single = np.flatnonzero(self.model.shift), np.arange(n0)
         psi = 2 * width + 2 * n0
@@ -21,7 +22,7 @@ class Full:
         self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
         self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
         self.n_rows = tangent.n_rows(self.model)
-        write_state(p, self.model, start, self.state)
+        write_state(case, start, self.state)
         self.set_columns(np.eye(len(self.rows)))
 
     def set_columns(self, columns):

@@ -16,7 +16,7 @@ from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, switches
 from disc_model.plate import mode_arrays
-from disc_model.simulation.result import State, build_model, read_state, write_state
+from disc_model.simulation.result import State, build_model, engine_case, read_state, write_state
 from disc_model.stability.sliding import _jacobian
 from tests.references.literal import literal_of
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
@@ -34,10 +34,10 @@ def close(got, expected, accuracy=ACCURACY, names=None):
 
 def engine_state(p, state):
     """The engine's model and state."""
-    model = build_model(p)
-    inside = layout.build_state(model)
-    write_state(p, model, state, inside)
-    return model, inside
+    case = engine_case(p)
+    inside = layout.build_state(case.model)
+    write_state(case, state, inside)
+    return case.model, inside
 
 
 # ------------------------------------------------------------------------------------------------ the engine
@@ -93,8 +93,8 @@ def test_spring_force():
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_states_pass_the_engine_unchanged(phase, direction):
     start = lively(phase, direction)
-    model, state = engine_state(P, start)
-    back = read_state(P, model, state)
+    _, state = engine_state(P, start)
+    back = read_state(engine_case(P), state)
     close(vars(back), Printed(P, start).described(0.0, Printed(P, start).y), 1e-12, ("a", "b", "alpha", "beta"))
     assert (back.phase, back.direction) == (phase, direction)
     assert back.u == pytest.approx(start.u, rel=1e-12)
@@ -108,7 +108,7 @@ def test_impact():
     model, state = engine_state(P, start)
     before = audit.transverse_energy(model, state, layout.SEPARATION)
     impulse = switches.impact(model, state)
-    close(vars(read_state(P, model, state)), expected, 1e-12, ("a", "b", "alpha", "beta", "psi", "f"))
+    close(vars(read_state(engine_case(P), state)), expected, 1e-12, ("a", "b", "alpha", "beta", "psi", "f"))
     w, velocity, slope = switches.disc_point(model, state)
     assert state.x[layout.U_VELOCITY] == pytest.approx(expected["u_velocity"], rel=1e-12)
     assert (state.x[layout.U], state.x[layout.U_VELOCITY]) == (w, velocity)
@@ -157,7 +157,7 @@ def test_energies():
 def test_static_equilibrium():
     """The published start: nothing moves, and the contact force is the preload."""
     model = build_model(P)
-    start = read_state(P, model, layout.build_state(model))
+    start = read_state(engine_case(P), layout.build_state(model))
     assert (start.phase, start.f, start.psi) == ("stick", 0, 0)
     printed = Printed(P, start)
     assert printed.force() == pytest.approx(P.N, rel=1e-12)

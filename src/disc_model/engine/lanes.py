@@ -25,6 +25,15 @@ def aligned(n):
     return raw[skip : skip + n]
 
 
+def aligned_pieces(*sizes):
+    """Zeros of these sizes, multiples of a block each: one piece of memory cut up, since to align takes ten cuts."""
+    block, pieces, start = aligned(sum(sizes)), [], 0
+    for size in sizes:
+        pieces.append(block[start : start + size])
+        start += size
+    return pieces
+
+
 if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
 
     def load(array, i):

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .lanes import WIDTH, aligned
+from .lanes import WIDTH, aligned, aligned_pieces
 from .stick_modes import StickModes, build_stick_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
@@ -32,14 +32,18 @@ E, SCRATCH = ROWS, 2 * ROWS
 SLIDER_ROWS = ("f", "psi", "P", "u", "v", "switch", "switch2", "powers", "up", "down")
 F, PSI_SERIES, P, U_SERIES, V_SERIES, SWITCH, SWITCH2, POWERS, UP, DOWN = (ROWS * i for i in range(len(SLIDER_ROWS)))
 HALF = WIDTH // 2
+# Rows of Series.roots; the numbers that integrate and differentiate powers.
+ROOT_ROWS = 7 * WIDTH
+_FROM_1 = np.arange(1.0, ROWS + 1.0)
 
 
 class Model(NamedTuple):
     """Constants of one case.  Lane arrays have shape (pair lanes,), those ending in 0 (axisymmetric modes,).
 
-    The lane arrays are views of ``lanes``, one after the other in the order of ``LANE_ROWS``: hot kernels address them
-    through that one pointer.  ``more_blocks`` is (0, 0) if there is one block of lanes and (number of further blocks,)
-    otherwise: the length of a tuple is known when kernels are compiled, so the usual case has no loop over blocks.
+    ``lanes`` holds the rows of ``LANE_ROWS`` one after the other: hot kernels address them through that one pointer.
+    The lane arrays are views of the first of them.  ``more_blocks`` is (0, 0) if there is one block of lanes, and
+    (number of further blocks,) otherwise: the length of a tuple is known when kernels are compiled, so the usual case
+    has no loop over blocks.
     """
 
     lanes: np.ndarray
@@ -50,8 +54,6 @@ class Model(NamedTuple):
     force: np.ndarray  # psi_l in a-lanes, 0 in b-lanes
     slope: np.ndarray  # l psi_l in b-lanes, 0 in a-lanes: sum(slope z) = dw/dtheta under the slider
     bend: np.ndarray  # -l^2 psi_l in a-lanes: sum(bend z) = d2w/dtheta2 there
-    minus_force_damping: np.ndarray
-    minus_force_stiffness: np.ndarray
     stiffness0: np.ndarray
     damping0: np.ndarray
     force0: np.ndarray
@@ -163,7 +165,7 @@ def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, 
     return Model(
         lanes=lanes,
         more_blocks=(more,) if more else (0, 0),
-        **row,
+        **{name: row[name] for name in LANE_ROWS[:MINUS_FORCE_DAMPING]},
         stiffness0=omega[single] ** 2,
         damping0=damping[single],
         force0=psi[single],
@@ -192,22 +194,15 @@ def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, 
 def build_series(model: Model, order: int) -> Series:
     """Empty series of degree ``order`` for ``model``."""
     width, n0 = len(model.shift), len(model.force0)
-    modes, slider = aligned((2 * ROWS + 5) * width), aligned(len(SLIDER_ROWS) * ROWS)
-    rows = dict(zip(SLIDER_ROWS, slider.reshape(-1, ROWS), strict=True))
-    k = np.arange(1.0, ROWS + 1.0)
-    rows["up"][:], rows["down"][:] = model.unit / k, k / model.unit
-    return Series(
-        modes,
-        slider,
-        z=modes[: E * width],
-        e=modes[E * width : SCRATCH * width],
-        y=aligned(ROWS * n0),
-        g=aligned(ROWS * n0),
-        **rows,
-        scratch=modes[SCRATCH * width :],
-        roots=np.zeros((56, order + 4)),
-        amplitudes=aligned(4 * len(model.modes.gain)),
-    )
+    modes, slider, y, g, amplitudes, roots = aligned_pieces(
+        (2 * ROWS + 5) * width, len(SLIDER_ROWS) * ROWS, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
+        ROOT_ROWS * (order + 4),
+    )  # fmt: skip
+    rows = slider.reshape(-1, ROWS)
+    np.divide(model.unit, _FROM_1, out=rows[UP // ROWS])
+    np.divide(_FROM_1, model.unit, out=rows[DOWN // ROWS])
+    z, e, scratch = modes[: E * width], modes[E * width : SCRATCH * width], modes[SCRATCH * width :]
+    return Series._make((modes, slider, z, e, y, g, *rows, scratch, roots.reshape(ROOT_ROWS, -1), amplitudes))
 
 
 def build_state(model: Model) -> State:

@@ -128,13 +128,13 @@ class _Run:
         max_steps: int | None,
     ) -> None:
         self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
-        case = engine_case(p)
+        self.case = case = engine_case(p)
         self.model = model = case.model
         self.order = series_order(tol)
         self.series = layout.build_series(model, self.order)
         self.state, self.probe = fresh_states(case)
         if initial_state is not None:
-            write_state(p, model, initial_state, self.state)
+            write_state(case, initial_state, self.state)
         start = float(self.state.x[layout.TIME])
         self.collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_COAST * model.unit)
         self.counters, self.phase_times = np.zeros(machine.N_COUNTERS, np.int64), np.zeros(3)
@@ -159,7 +159,7 @@ class _Run:
         began = clock.perf_counter()
         code = self._call(self.max_steps)
         self.collector.drain(self.counters)
-        self.wall_time += clock.perf_counter() - began
+        self.wall_time[0] += clock.perf_counter() - began
         return code
 
     def _call(self, max_steps: int) -> int:
@@ -203,7 +203,7 @@ class _Run:
             message=_message(status, self.state, self.model),
             event_rows=self.collector.events(),
             first_separation=self.collector.first_separation,
-            final_state=read_state(self.p, self.model, self.state),
+            final_state=read_state(self.case, self.state),
             u_0=self.model.u_0,
             statistics=_statistics(
                 self.counters, self.phase_times, self.sums, self.record.energy, float(self.wall_time[0])
@@ -224,7 +224,7 @@ def _compiled_for(model: layout.Model, _seen: set[int] = set()) -> bool:  # noqa
 def published_start(p: Parameters) -> State:
     """The published start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
     case = engine_case(p)
-    return read_state(p, case.model, case.start)
+    return read_state(case, case.start)
 
 
 def _check_arguments(

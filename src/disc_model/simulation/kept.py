@@ -243,6 +243,7 @@ BUFFER = 1 << 15  # rows of a buffer: large enough that draining costs nothing, 
 SMALL_BUFFER = 1 << 8  # of the rows of events at first: a large one takes longer to make than a short simulation
 _COLUMN = {name: i for i, name in enumerate(sampling.ROW)}
 _FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
+_FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max")))
 
 
 class Collector:
@@ -253,7 +254,9 @@ class Collector:
         grids = [_uniform(window, start, t_end) for window in record.windows]
         if record.poincare is not None:
             grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
-        self.samplers: Array = np.array([(*grid, t_end) for grid in grids], dtype=float).reshape(-1, 5)
+        self.samplers: Array = np.zeros((len(grids), 5))
+        for row, grid in zip(self.samplers, grids, strict=True):
+            row[:] = *grid, t_end
         self.sampled = np.zeros(len(grids), np.int64)
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + sampling.SAME_INSTANT * t_end
@@ -295,15 +298,15 @@ class Collector:
         n_events, n_rows = int(counters[machine.EVENT_ROWS]), int(counters[machine.SAMPLE_ROWS])
         counters[machine.EVENT_ROWS] = counters[machine.SAMPLE_ROWS] = 0
         if n_events:
-            self._take_events(self.event_rows[:n_events])
+            self._take_events(self.event_rows[:n_events], separated=counters[machine.SEPARATIONS] > 0)
         if n_events > len(self.event_rows) - machine.MAX_EVENTS_PER_STEP:  # it was full
             self.event_rows = np.empty((BUFFER, len(machine.EVENT_ROW)))
         rows = self.rows[:n_rows]
         for i in range(len(self.sampled)):
             self._take(i, rows[rows[:, 0] == i])
 
-    def _take_events(self, events: Array) -> None:
-        if math.isnan(self.first_separation):
+    def _take_events(self, events: Array, separated: bool) -> None:
+        if separated and math.isnan(self.first_separation):
             lost = np.flatnonzero(events[:, 1] == machine.LOSS_OF_CONTACT)
             if lost.size:
                 self._first_separation[0] = events[lost[0], 0]
@@ -335,9 +338,9 @@ class Collector:
 
     def finish(self) -> tuple[tuple[dict[str, Array], ...], dict[str, Array] | None]:
         """Samples of each window, and the Poincare samples."""
-        folded = ["time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max"))]
         shaped = [
-            _columns(parts, sampling.ROW if self._fold_of(i) is None else folded) for i, parts in enumerate(self._parts)
+            _columns(parts, sampling.ROW if self._fold_of(i) is None else _FOLDED_ROW)
+            for i, parts in enumerate(self._parts)
         ]
         for samples in shaped:
             samples.pop("sampler", None)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.engine import layout
-from disc_model.engine.lanes import aligned
+from disc_model.engine.lanes import aligned_pieces
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import modal_damping, mode_arrays
@@ -199,7 +199,9 @@ class Case(NamedTuple):
     model, start : the engine's constants, and the published start
     pairs, single : rows of `plate_modes` with and without nodal diameters
     lane : of the pairs' a
-    places : of a, b, alpha and beta of every mode in `layout.State.disc`; b and beta mean nothing for `single`
+    places : of a, b, alpha and beta of every mode in `layout.State.disc`, shape (4, n_modes)
+    absent : b and beta of `single`, which mean nothing: where they stand in the flat `places`
+    point : u, u' (but for the slope's share) and slope B of the disc under the slider from `layout.State.disc`
     """
 
     model: layout.Model
@@ -208,6 +210,8 @@ class Case(NamedTuple):
     single: np.ndarray
     lane: np.ndarray
     places: np.ndarray
+    absent: np.ndarray
+    point: np.ndarray
 
 
 @lru_cache(maxsize=CASES)
@@ -236,15 +240,27 @@ def engine_case(p: Parameters) -> Case:
     places = np.zeros((4, len(modes.diameters)), np.intp)
     places[:, pairs] = lane + np.array([[0], [layout.HALF], [width], [width + layout.HALF]])
     places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
-    return Case(model, layout.build_state(model), pairs, single, lane, places)
+    absent = np.concatenate([row * places.shape[1] + single for row in (1, 3)])
+    return Case(model, layout.build_state(model), pairs, single, lane, places, absent, _point(model))
+
+
+def _point(model: layout.Model) -> np.ndarray:
+    """See `Case`."""
+    width, n0 = len(model.force), len(model.force0)
+    point = np.zeros((3, layout.disc_size(width, n0)))
+    u, v, slope = point[:, : 2 * (width + n0)]
+    u[:width], u[2 * width : 2 * width + n0] = model.force, model.force0
+    v[width : 2 * width], v[2 * width + n0 :] = model.force, model.force0
+    slope[:width] = model.slope
+    return point
 
 
 def fresh_states(case: Case) -> tuple[layout.State, layout.State]:
     """Two states at the published start, a run's own: where it is, and where it looks ahead."""
-    n, width, n0 = len(case.start.disc), len(case.model.force), len(case.model.force0)
-    both = aligned(2 * n)  # in one piece, since to align takes longer than to cut
-    both[:n] = both[n:] = case.start.disc
-    return _state(both[:n], width, n0, case.start.x.copy()), _state(both[n:], width, n0, case.start.x.copy())
+    start, width, n0 = case.start, len(case.model.force), len(case.model.force0)
+    here, ahead = aligned_pieces(len(start.disc), len(start.disc))
+    here[:] = ahead[:] = start.disc
+    return _state(here, width, n0, start.x.copy()), _state(ahead, width, n0, start.x.copy())
 
 
 def _state(disc: np.ndarray, width: int, n0: int, x: np.ndarray) -> layout.State:
@@ -257,37 +273,35 @@ def build_model(p: Parameters) -> layout.Model:
     return engine_case(p).model
 
 
-def read_state(p: Parameters, model: layout.Model, state: layout.State) -> State:
+def read_state(case: Case, state: layout.State) -> State:
     """The engine's state as a `State`."""
-    case = engine_case(p)
     modal = state.disc[case.places]
-    modal[1::2, case.single] = 0.0  # b and beta
+    modal.put(case.absent, 0.0)
     modal.setflags(write=False)
-    a, b, alpha, beta = modal
-    x = state.x
-    phase = int(x[layout.PHASE])
-    u, v = float(x[layout.U]), float(x[layout.U_VELOCITY])
+    x = state.x.tolist()
+    phase, f = int(x[layout.PHASE]), x[layout.SPEED]
+    u, v = x[layout.U], x[layout.U_VELOCITY]
     if phase != layout.SEPARATION:
-        u = float(model.force @ state.z + model.force0 @ state.y)
-        v = float(model.force @ state.e + model.force0 @ state.g + x[layout.SPEED] * (model.slope @ state.z))
+        u, v, slope = case.point.dot(state.disc).tolist()
+        v += f * slope
     return State(
-        time=float(x[layout.TIME]),
-        time_low=float(x[layout.TIME_LOW]),
+        time=x[layout.TIME],
+        time_low=x[layout.TIME_LOW],
         phase=PHASES[phase],
         direction=int(x[layout.DIRECTION]),
-        psi=float(x[layout.PSI]),
-        f=float(x[layout.SPEED]),
+        psi=x[layout.PSI],
+        f=f,
         u=u,
         u_velocity=v,
         known=int(x[layout.KNOWN]),
-        a=a,
-        b=b,
-        alpha=alpha,
-        beta=beta,
+        a=modal[0],
+        b=modal[1],
+        alpha=modal[2],
+        beta=modal[3],
     )
 
 
-def write_state(p: Parameters, model: layout.Model, given: State, state: layout.State) -> None:
+def write_state(case: Case, given: State, state: layout.State) -> None:
     """Put ``given`` into the engine's state.
 
     Raises
@@ -295,7 +309,7 @@ def write_state(p: Parameters, model: layout.Model, given: State, state: layout.
     ParameterError
         If arrays have the wrong shape, numbers are not finite, or the phase contradicts the velocities.
     """
-    _, _, pairs, single, lane, _ = engine_case(p)
+    pairs, single, lane = case.pairs, case.single, case.lane
     faults = _faults(given, len(pairs) + len(single))
     if faults:
         raise ParameterError(*faults)

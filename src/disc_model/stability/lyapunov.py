@@ -17,7 +17,15 @@ from disc_model.engine import layout, outcomes, tangent, variational
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.result import State, build_model, read_state, series_order, series_tolerance, write_state
+from disc_model.simulation.result import (
+    Case,
+    State,
+    engine_case,
+    read_state,
+    series_order,
+    series_tolerance,
+    write_state,
+)
 from disc_model.status import StatusBase
 
 Array = NDArray[np.float64]
@@ -107,10 +115,11 @@ def lyapunov_exponents(
         start = run.final_state
         if not run.status.complete:
             return _nothing(LyapunovStatus(run.status.value), count, 0.0, start)
-    model, order, tolerance = build_model(p), series_order(tol), series_tolerance(tol)
+    case, order, tolerance = engine_case(p), series_order(tol), series_tolerance(tol)
+    model = case.model
     series, state = layout.build_series(model, order), layout.build_state(model)
     if start is not None:
-        write_state(p, model, start, state)
+        write_state(case, start, state)
     t = tangent.build_tangent(model, layout.WIDTH, order)
     metric, rows = _metric(model), tangent.n_rows(model)
     columns = t.now.reshape(rows, layout.WIDTH)
@@ -136,12 +145,11 @@ def lyapunov_exponents(
             with np.errstate(divide="ignore"):
                 logs[i] = np.log(size)
             done = i + 1
-    return _summary(p, model, state, t, status, logs[:done], duration / steps)
+    return _summary(case, state, t, status, logs[:done], duration / steps)
 
 
 def _summary(
-    p: Parameters,
-    model: layout.Model,
+    case: Case,
     state: layout.State,
     t: tangent.Tangent,
     status: LyapunovStatus,
@@ -151,14 +159,14 @@ def _summary(
     count = logs.shape[1]
     covered = len(logs) * interval
     if len(logs) < _BLOCKS:
-        return _nothing(status, count, covered, read_state(p, model, state))
+        return _nothing(status, count, covered, read_state(case, state))
     history = np.array([np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)])
     exponents = np.sum(logs, axis=0) / covered
     order = np.argsort(-exponents, kind="stable")
     errors = np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS)
     separations = int(t.log[variational.SEPARATIONS])
     return Lyapunov(
-        status, exponents[order], errors[order], covered, separations, history[:, order], read_state(p, model, state)
+        status, exponents[order], errors[order], covered, separations, history[:, order], read_state(case, state)
     )
 
 

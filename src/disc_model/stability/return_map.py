@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from disc_model.engine import layout, outcomes, variational
 from disc_model.engine import tangent as columns
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import State, build_model, read_state, series_order, series_tolerance, write_state
+from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 
 Array = NDArray[np.float64]
 
@@ -68,7 +68,8 @@ class ReturnMap:
 
     def __init__(self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = ()) -> None:
         self.parameters = p
-        self.model = model = build_model(p)
+        self._case = engine_case(p)
+        self.model = model = self._case.model
         self.order, self.tolerance = series_order(tol), series_tolerance(tol)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
         width, n0 = len(model.force), len(model.force0)
@@ -161,7 +162,7 @@ class ReturnMap:
 
     def next_release(self, start: State, *, may_separate: bool = True) -> tuple[int, Array]:
         """The point of the section that the motion from `start` reaches first, and how it got there (`RETURNED`)."""
-        write_state(self.parameters, self.model, start, self._state)
+        write_state(self._case, start, self._state)
         course = variational.Course(
             self.order, self.tolerance, math.inf, self.longest, 1, may_separate=may_separate, tangent=False
         )
@@ -170,7 +171,7 @@ class ReturnMap:
 
     def point(self, state: State) -> Array:
         """The point of the section at which a state, such as `state` gave, lies."""
-        write_state(self.parameters, self.model, state, self._state)
+        write_state(self._case, state, self._state)
         return self._coordinates()
 
     def state(self, x: Array) -> State:
@@ -180,7 +181,7 @@ class ReturnMap:
         s.x[:] = 0.0
         s.x[layout.PHASE] = layout.STICK
         s.x[layout.PSI] = (p.mu_s * force / p.r_0 - p.c_p * p.Omega) / p.k_p
-        return read_state(p, self.model, s)
+        return read_state(self._case, s)
 
     def contact_force(self, x: Array) -> float:
         """P in stick at the point `x` of the section, N."""
