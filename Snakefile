@@ -19,17 +19,18 @@ include: "workflow/rules/housekeeping.smk"
 
 
 PRODUCTS = [
-    *rules.merge_cases.output,
-    *rules.check_claims.output,
-    *rules.describe_study.output,
     *collect(rules.make_table.output, table=TABLES),
-    *collect(rules.draw_figure.output, figure=STUDY.figures),
-    *collect(rules.publish_study.output, study=GRIDS),
+    *collect(rules.draw_figure.output, figure=[*STUDY.figures, *STUDY.plots]),
+    *collect(rules.publish_study.output, study=ASKED),
     *chain.from_iterable(
-        collect(rules.draw_plot.output, study=name, plot=study.plots)
-        for name, study in GRIDS.items()
+        collect(rules.draw_plot.output, study=name, plot=GRIDS[name].plots)
+        for name in ASKED
     ),
 ]
+if STUDY.specs:
+    PRODUCTS += [*rules.merge_cases.output, *rules.describe_study.output]
+if STUDY.claims:
+    PRODUCTS += rules.check_claims.output
 if HAS_FIGURE_15:
     PRODUCTS += rules.show_figure_15.output
 refuse_unrecorded([*map(case_file, STUDY.specs), *PRODUCTS])

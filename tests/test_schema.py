@@ -58,14 +58,18 @@ def test_a_number_is_shown_alike_however_it_was_written(value: Any) -> None:
         (Window, WINDOW | {"rate": "fast"}, ["rate='fast': must be a number"]),
         (Window, WINDOW | {"envelope": 1.5}, ["envelope=1.5: must be a whole number"]),
         (Window, WINDOW | {"envelope": 1}, ["envelope=1: must be >= 2"]),
-        (Window, WINDOW | {"Rate": 2}, ["Rate=2: unknown key, did you mean rate?"]),
+        (
+            Window,
+            WINDOW | {"Rate": 2},
+            ["Rate=2: unknown key, did you mean rate? (known: start, stop, rate, theta, envelope)"],
+        ),
         (Window, {}, ["start: is required", "stop: is required", "rate: is required"]),
         (Poincare, {"start": -1, "theta": "inf"}, ["start=-1: must be >= 0", "theta=inf: must be finite"]),
         (Record, {"windows": [WINDOW, WINDOW | {"rate": 0}]}, ["windows.1.rate=0: must be > 0"]),
         (Record, {"windows": 3}, ["windows=3: must be a list"]),
         (Record, {"poincare": {"start": 2, "stop": 1}}, ["poincare.start=2: must be < stop=1"]),
         (Record, {"energy": "maybe"}, ["energy='maybe': must be true or false"]),
-        (Outer, {"inner": {"sise": 1}}, ["inner.sise=1: unknown key"]),
+        (Outer, {"inner": {"sise": 1}}, ["inner.sise=1: unknown key, did you mean size? (known: size)"]),
         (Outer, {"inner": 3}, ["inner=3: must be a mapping"]),
         (Outer, {"tol": 0.1}, ["tol=0.1: must be within 1e-15 and 0.01"]),
         (Outer, {"tol": "nan"}, ["tol='nan': must be within 1e-15 and 0.01"]),
@@ -81,7 +85,7 @@ def test_faults_of_values_made_in_python(make: Any, values: dict[str, Any], faul
 def test_a_path_keeps_names_that_pydantic_gives_to_branches_of_a_union(name: str) -> None:
     """Steps called "Span", "bool" or "[key]" were dropped from the path, wherever they stood."""
     assert said(Outer, several={name: {"size": "big"}}) == [f"several.{name}.size='big': must be a number"]
-    assert f"choice.{name}=3: unknown key" in said(Outer, choice={name: 3, "size": 1})
+    assert f"choice.{name}=3: unknown key (known: size)" in said(Outer, choice={name: 3, "size": 1})
     assert said(Outer, choice={name: 3, "size": "big"})[1] == "choice.size='big': must be a number"
 
 

@@ -11,8 +11,8 @@ from disc_model import ParameterError, Parameters, choose_modes, truncation
 from disc_model.errors import DiscModelError
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.cases.run import run_case
-from disc_model.studies.cases.schema import parse_study
 from disc_model.studies.files import StudyError
+from disc_model.studies.schema import parse_study
 from disc_model.truncation import RICH, frequency_error, read_parameters
 
 P = Parameters(N=385.0, Omega=15.1)

@@ -7,7 +7,7 @@ import json
 import math
 import numbers
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self, get_args
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
@@ -101,7 +101,7 @@ class Checked(Strict):
         try:
             super().__init__(**data)
         except ValidationError as error:
-            faults += faults_of(error, data, type(self).model_fields, self._word)
+            faults += faults_of(error, data, type(self), self._word)
         faults += self._more_faults(data)
         if faults:
             raise ParameterError(*faults) from None
@@ -145,13 +145,13 @@ class Checked(Strict):
 # Faults
 
 
-def faults_of(error: ValidationError, raw: Any, known: Collection[str] = (), word: str = "key") -> Iterator[Fault]:
+def faults_of(error: ValidationError, raw: Any, model: type[BaseModel], word: str = "key") -> Iterator[Fault]:
     """Pydantic's faults as this package says them.
 
     Parameters
     ----------
     raw : what was validated
-    known : names of the fields, to suggest one for an unknown name
+    model : as what; an unknown name is told with those that its fields have
     word : what the names name
     """
     for item in error.errors(include_url=False):
@@ -164,8 +164,8 @@ def faults_of(error: ValidationError, raw: Any, known: Collection[str] = (), wor
         elif kind == "missing":
             yield Fault(path, "", "is required")
         elif kind == "extra_forbidden":
-            hint = _suggestion(path[-1], known) if len(path) == 1 else ""
-            yield Fault(path, shown(value), f"unknown {word}{hint}")
+            known = _fields_at(model, item["loc"][:-1])
+            yield Fault(path, shown(value), f"unknown {word}{_suggestion(path[-1], known, all_of_them=word == 'key')}")
         else:
             yield Fault(path, _shown_faulty(kind, value), _rule(item))
 
@@ -210,12 +210,30 @@ def shown(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _suggestion(name: str, known: Collection[str]) -> str:
-    if not known:
-        return ""
+def _suggestion(name: str, known: Collection[str], all_of_them: bool) -> str:
+    """What may have been meant, and what there is; of many names only the one that comes close, if one does."""
     folded = {field.lower(): field for field in known}
     close = difflib.get_close_matches(name.lower(), folded, n=1, cutoff=0.6)
-    return f", did you mean {folded[close[0]]}?" if close else f" (known: {', '.join(known)})"
+    meant = f", did you mean {folded[close[0]]}?" if close else ""
+    return meant + (f" (known: {', '.join(known)})" if known and (all_of_them or not close) else "")
+
+
+def _fields_at(model: type[BaseModel], place: Sequence[Any]) -> list[str]:
+    """Names of the fields of the models that lie at a place inside a model; names of branches are passed over."""
+    here = [model]
+    for step in place:
+        inside = [
+            each for one in here if step in one.model_fields for each in _models(one.model_fields[step].annotation)
+        ]
+        here = inside or here
+    return list(dict.fromkeys(name for one in here for name in one.model_fields))
+
+
+def _models(annotation: Any) -> list[type[BaseModel]]:
+    """Models that a type mentions."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for part in get_args(annotation) for model in _models(part)]
 
 
 def _path(item: Any, raw: Any) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
 from disc_model.plate import slider_at_rest_frequencies
 from disc_model.simulation.case import CaseSpec, Window
-from disc_model.studies.cases.schema import load_study
+from disc_model.studies.schema import load_study
 
 PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
 STICK, SLIP, SEPARATION = range(len(PHASES))

@@ -17,7 +17,7 @@ from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDE
 from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import events_dataset
 from disc_model.studies.cases.run import run_case
-from disc_model.studies.cases.schema import parse_study
+from disc_model.studies.schema import parse_study
 
 
 def tree_of(**cases: dict[str, Any]) -> xr.DataTree:

@@ -14,10 +14,10 @@ from disc_model.simulation.api import kicked, prepared, published_start, simulat
 from disc_model.simulation.case import CaseSpec, Start
 from disc_model.simulation.result import State
 from disc_model.studies.cases.run import run_case
-from disc_model.studies.cases.schema import parse_study
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.quantities.schema import BifurcationOptions
 from disc_model.studies.grids.schema import parse_grid
+from disc_model.studies.schema import parse_study
 from tests.studies.grids.conftest import computed
 
 AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}, "transient": 1}

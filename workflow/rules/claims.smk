@@ -27,11 +27,12 @@ rule check_claims:
         " > {log} 2>&1"
 
 
-# The cases and windows that Tables 1 and 2 are made of may be missing from a study.
+# The case and the window that Tables 1 and 2 are made of may be missing from a study.
 TABLES = [
     f"table{n}"
     for n in (1, 2)
-    if "spectrum_a"
+    if STUDY.claims
+    and "spectrum_a"
     in (dict(STUDY.specs["F13"].windows) if "F13" in STUDY.specs else {})
 ]
 

@@ -2,7 +2,6 @@
 import hashlib
 import json
 import sys
-from glob import glob
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -12,10 +11,9 @@ from snakemake.shell import shell
 
 from disc_model.figures.paper.catalogue import CATALOGUE, STYLE, module_of
 from disc_model.data.provenance import source_hash
-from disc_model.studies.files import read_file
-from disc_model.studies.grids.schema import load_grids
+from disc_model.studies.files import StudyError, read_file
 from disc_model.data.provenance import unrecorded, why_unknown
-from disc_model.studies.cases.schema import StudyError, study_from_config
+from disc_model.studies.schema import study_from_config
 
 PAPER = Path("config/paper.yaml")
 # A study named with --configfile replaces the paper's instead of being mixed with it.
@@ -30,15 +28,9 @@ if not workflow.configfiles:
 
 try:
     STUDY = study_from_config(config, workflow.configfiles)
-    GRIDS = load_grids(
-        [
-            path
-            for pattern in STUDY.studies
-            for path in sorted(glob(pattern)) or [pattern]
-        ],
-        config.get("overrides"),
-        config.get("resolution", 1),
-        taken={STUDY.name, "compiled", "bench"},
+    # ASKED are those whose figures are wanted; others are there because a figure shows them as well.
+    GRIDS, ASKED = STUDY.grids(
+        [Path(), *(Path(file).parent for file in workflow.configfiles)]
     )
 except StudyError as error:
     raise WorkflowError(str(error)) from None
@@ -57,8 +49,7 @@ wildcard_constraints:
     batch=r"[0-9a-f]{12}",
     key=r"[0-9a-f]{12}",
     plot=r"[A-Za-z][A-Za-z0-9_]*",
-    case=r"[A-Za-z][A-Za-z0-9_]*",
-    figure=r"fig[A0-9]+",
+    case="|".join(STUDY.specs) or "none",
 
 
 def sources_of(script, *modules, files=()):

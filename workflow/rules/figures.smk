@@ -1,51 +1,98 @@
 # One job per figure, from the files of the cases it shows: another case's change does not draw it again.
 import json
 
-from disc_model.figures.paper.catalogue import SECTIONS, caption, function_of, label
+from disc_model.figures.cases.kinds import MODULE
+from disc_model.figures.paper.catalogue import (
+    SECTIONS,
+    caption,
+    function_of,
+    label,
+    said_parameters,
+)
+
+
+def cases_of(figure):
+    plot = STUDY.plots.get(figure)
+    return list(CATALOGUE[figure].cases if plot is None else plot.cases)
+
+
+def drawn_by(figure):
+    """The module and the function that draw a figure, the options it is given, and what the figure's file says of it."""
+    if figure in STUDY.plots:
+        plot = STUDY.plots[figure]
+        said = said_parameters(STUDY.specs[plot.case].parameters)
+        return (
+            MODULE,
+            "draw",
+            plot.model_dump(),
+            f"{plot.title or figure}: {plot.case}, {said}",
+        )
+    text = caption(
+        figure,
+        {name: spec.parameters for name, spec in STUDY.specs.items()},
+        {name: spec.sections for name, spec in STUDY.specs.items()},
+    )
+    return module_of(figure), function_of(figure), CATALOGUE[figure].options, text
 
 
 rule draw_figure:
     input:
-        lambda wildcards: map(case_file, CATALOGUE[wildcards.figure].cases),
+        lambda wildcards: map(case_file, cases_of(wildcards.figure)),
     output:
         pdf=f"{RESULTS}/figures/{{figure}}.pdf",
         png=report(
             f"{RESULTS}/figures/{{figure}}.png",
             caption="../report/figure.rst",
-            category="Figures of the paper",
-            subcategory=lambda wildcards: SECTIONS[
-                CATALOGUE[wildcards.figure].section
-            ],
+            category=lambda wildcards: (
+                "Figures of cases"
+                if wildcards.figure in STUDY.plots
+                else "Figures of the paper"
+            ),
+            subcategory=lambda wildcards: (
+                STUDY.plots[wildcards.figure].case
+                if wildcards.figure in STUDY.plots
+                else SECTIONS[CATALOGUE[wildcards.figure].section]
+            ),
             # One label only: Snakemake 9.27's report breaks on two results that differ in two labels.
-            labels=lambda wildcards: {"figure": label(wildcards.figure)},
+            labels=lambda wildcards: {
+                "figure": (
+                    wildcards.figure
+                    if wildcards.figure in STUDY.plots
+                    else label(wildcards.figure)
+                )
+            },
         ),
     log:
         f"{RESULTS}/logs/draw_figure/{{figure}}.log",
     wildcard_constraints:
-        figure="|".join(CATALOGUE),
+        figure="|".join(STUDY.drawable) or "none",
     conda:
         "../envs/disc_model.yaml"
     params:
-        caption=lambda wildcards: caption(
-            wildcards.figure,
-            {name: spec.parameters for name, spec in STUDY.specs.items()},
-            {name: spec.sections for name, spec in STUDY.specs.items()},
-        ),
+        caption=lambda wildcards: drawn_by(wildcards.figure)[3],
         options=lambda wildcards: json.dumps(
-            CATALOGUE[wildcards.figure].options, sort_keys=True
+            drawn_by(wildcards.figure)[2], sort_keys=True
         ),
-        module=lambda wildcards: module_of(wildcards.figure),
-        function=lambda wildcards: function_of(wildcards.figure),
-        made_of=lambda wildcards: cases_made_of(CATALOGUE[wildcards.figure].cases),
+        module=lambda wildcards: drawn_by(wildcards.figure)[0],
+        function=lambda wildcards: drawn_by(wildcards.figure)[1],
+        made_of=lambda wildcards: cases_made_of(cases_of(wildcards.figure)),
         sources=lambda wildcards: sources_of(
-            "draw_figure", module_of(wildcards.figure), files=[STYLE]
+            "draw_figure", drawn_by(wildcards.figure)[0], files=[STYLE]
         ),
     shell:
         "python workflow/scripts/draw_figure.py {params.module} {params.function} --options {params.options:q}"
         " --title {params.caption:q} --out {output.pdf} --out {output.png} {input} > {log} 2>&1"
 
 
-HAS_FIGURE_15 = "fig15" in getattr(GRIDS.get("critical_speed"), "plots", ())
+# A study of cases and a grid of the same name share a folder of figures.
+ruleorder: draw_figure > draw_plot
+
+
+HAS_FIGURE_15 = (
+    STUDY.claims
+    and "critical_speed" in ASKED
+    and "fig15" in GRIDS["critical_speed"].plots
+)
 
 if HAS_FIGURE_15:
 

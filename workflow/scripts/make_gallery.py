@@ -8,7 +8,7 @@ from pathlib import Path
 from PIL import Image
 
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
-from disc_model.studies.cases.schema import load_study
+from disc_model.studies.schema import load_study
 
 SHOWN = ("fig13", "fig02", "fig03", "fig05", "fig09", "fig10", "fig14", "fig25", "fig27", "fig28", "figA1", "figA2")
 OTHERS = {

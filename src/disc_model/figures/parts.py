@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import wraps
 from pathlib import Path
@@ -149,6 +149,41 @@ def axis_of(name: str) -> tuple[str, float]:
     """Label of a parameter's axis, and the factor from SI to its unit."""
     label, unit, factor = SYMBOLS[name]
     return (f"{label} ({unit})" if unit else label), factor
+
+
+def label_of(variable: xr.DataArray) -> tuple[str, float]:
+    """Label of the axis of any variable or coordinate, and the factor from SI to its unit."""
+    if variable.name in SYMBOLS:
+        return axis_of(str(variable.name))
+    words = str(variable.attrs.get("long_name", variable.name))
+    unit = str(variable.attrs.get("units", "1")).replace("s-1", "/s").replace(" /", "/")
+    said = fill(words[0].upper() + words[1:], 48)
+    return (f"{said} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else said), 1.0
+
+
+def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.DataArray:
+    """A variable of a grid study at values of some dimensions; what is left with one value is no dimension any more."""
+    words = {dim: value for dim, value in at.items() if isinstance(value, str)}
+    numbers = {dim: value for dim, value in at.items() if not isinstance(value, str)}
+    return study[name].sel(words).sel(numbers, method="nearest").squeeze()
+
+
+def value_said(one: xr.DataArray, by: str) -> str:
+    """What a panel or a line stands for."""
+    value = one[by].item()
+    if isinstance(value, str):
+        return MODES.get(value, value)
+    label, factor = label_of(one[by])
+    name, _, unit = label.rpartition(" (")
+    return f"{name} = {value * factor:g} {unit.rstrip(')')}" if name else f"{label} = {value * factor:g}"
+
+
+def spaced_by_factor(values: np.ndarray) -> bool:
+    """Whether values are a logarithmic range."""
+    if len(values) < 3 or values[0] <= 0:
+        return False
+    steps = np.diff(np.log(values))
+    return bool(np.allclose(steps, steps[0], rtol=1e-6))
 
 
 def envelope(

@@ -73,7 +73,7 @@ def validated(model: type[M], raw: Any, path: tuple[str, ...], faults: Faults, p
     try:
         return model.model_validate(raw)
     except ValidationError as error:
-        for fault in faults_of(error, raw, model.model_fields):
+        for fault in faults_of(error, raw, model):
             where = place.of(fault.path) if place and fault.path else (*path, *fault.path)
             faults.add_text(_said(where, fault))
         return None

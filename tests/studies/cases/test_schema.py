@@ -11,8 +11,8 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.cases.schema import Study, load_study, parse_study, study_from_config
 from disc_model.studies.files import StudyError
+from disc_model.studies.schema import Study, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[3]

@@ -280,7 +280,127 @@ class Bifurcation(Plot):
         return "disc_model.figures.grids.bifurcation"
 
 
+MOST_PANELS, MOST_LINES = 4, 12
+"""Values of a dimension that a general figure has room for."""
+
+
+class General(Plot):
+    """Any variable of any quantity over dimensions of the study, those of the quantity's own included.
+
+    at : values at which the dimensions that are not shown are taken; those of one value need none
+    by : a dimension with a panel, or a line, for each of its values; normalization if it varies
+    log : whether the scale of the variable is logarithmic
+    """
+
+    variable: str
+    x: str
+    at: dict[str, Number | str] = Field({})
+    by: str | None = None
+    log: bool = False
+
+    @property
+    def axes(self) -> dict[str, str]:
+        """Dimensions by the axis that they lie along."""
+        return {"x": self.x}
+
+    @property
+    def room(self) -> int:
+        """How many values `by` may have."""
+        return MOST_PANELS
+
+    def faults_among(
+        self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Sequence[str]]
+    ) -> Iterator[Fault]:
+        """What keeps it from being drawn.
+
+        Parameters
+        ----------
+        dims : values along each dimension, the quantity's own included; of a zip, tuples; none if it has faults
+        variables : dimensions of each variable
+        """
+        if self.variable not in variables:
+            yield Fault(("variable",), self.variable, f"unknown variable (known: {', '.join(variables)})")
+            return
+        own = {name: dims[name] for name in variables[self.variable] if name in dims}
+        places = self.axes | ({"by": self.by} if self.by is not None else {})
+        for place, name in places.items():
+            yield from self._wrong_place(place, name, own)
+        used = [*places.values()]
+        for name in sorted({name for name in used if used.count(name) > 1}):
+            yield Fault(
+                ("y" if self.axes.get("y") == name else "by",), name, "must differ from the other dimensions shown"
+            )
+        for name, value in self.at.items():
+            if name not in own or name in used:
+                rest = ", ".join(other for other in own if other not in used)
+                yield Fault(("at", name), value, f"is no dimension that remains (known: {rest or 'none'})")
+            elif own[name] and not any(_same(value, one) for one in own[name]):
+                yield Fault(("at", name), value, f"must be one of {_listed(own[name])}")
+        for name, values in own.items():
+            if name not in used and name not in self.at and len(values) > 1:
+                if self.by is None and name == NORM and len(values) <= self.room:
+                    continue
+                yield Fault(("at", name), "", f"is required, or by: {name}; one of {_listed(values)}")
+
+    def _wrong_place(self, place: str, name: str, own: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
+        if name not in own:
+            yield Fault((place,), name, f"is no dimension of {self.variable} (known: {', '.join(own)})")
+        elif place == "by":
+            if len(own[name]) > self.room:
+                yield Fault((place,), name, f"has {len(own[name])} values, and there is room for {self.room}")
+        elif any(isinstance(value, str | tuple) for value in own[name]):
+            yield Fault((place,), name, "must be one parameter, and a number")
+        elif len(own[name]) == 1:
+            yield Fault((place,), name, "must have two values or more")
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, str) or isinstance(other, str | tuple):
+        return bool(one == other)
+    return math.isclose(one, other, rel_tol=1e-12)
+
+
+def _listed(values: Sequence[Any]) -> str:
+    """A few values as messages show them."""
+    said = [
+        value if isinstance(value, str) else str(value) if isinstance(value, tuple) else f"{value:g}"
+        for value in values
+    ]
+    return ", ".join(said if len(said) <= 12 else [*said[:6], "...", said[-1]])
+
+
+class HeatMap(General):
+    """A variable in colour over two dimensions; a panel for each value of a third, if wanted."""
+
+    kind: Literal["heat_map"] = "heat_map"
+    y: str
+
+    @property
+    def axes(self) -> dict[str, str]:
+        return {"x": self.x, "y": self.y}
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.heat_map"
+
+
+class CurvePlot(General):
+    """A variable against one dimension; a line for each value of a second, if wanted."""
+
+    kind: Literal["curve"] = "curve"
+
+    @property
+    def room(self) -> int:
+        return MOST_LINES
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.curve"
+
+
 PLOTS: dict[str, type[Plot]] = {
+    "heat_map": HeatMap,
+    "curve": CurvePlot,
     "stability_map": StabilityMap,
     "critical_speed": CriticalSpeed,
     "thresholds": Thresholds,

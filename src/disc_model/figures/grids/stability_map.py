@@ -35,13 +35,17 @@ HATCH = "//////"
 """How it looks where there is no cycle."""
 
 
+def growth_norm() -> AsinhNorm:
+    """About linear near 0, about logarithmic beyond."""
+    return AsinhNorm(linear_width=LINEAR, vmin=-GREATEST, vmax=GREATEST)
+
+
 def growth_mesh(ax: Axes, growth: xr.Dataset, x: str, y: str) -> QuadMesh:
     """`growth_rate` (1/s, nan without a cycle) over two parameters in colour; hatched where there is no cycle."""
     across, up = (growth[name].values * axis_of(name)[1] for name in (x, y))
     rate = np.ma.masked_invalid(growth["growth_rate"].transpose(y, x).values)
-    norm = AsinhNorm(linear_width=LINEAR, vmin=-GREATEST, vmax=GREATEST)
     ax.patch.set(facecolor="white", hatch=HATCH, edgecolor=GREY, linewidth=0)
-    return ax.pcolormesh(across, up, rate, cmap=cm.vik, norm=norm, shading="nearest", rasterized=True)
+    return ax.pcolormesh(across, up, rate, cmap=cm.vik, norm=growth_norm(), shading="nearest", rasterized=True)
 
 
 def growth_bar(figure: Figure, mesh: QuadMesh, axes: list[Axes]) -> None:

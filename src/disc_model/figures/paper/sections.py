@@ -94,21 +94,23 @@ def portrait(cases: Mapping[str, xr.DataTree]) -> Figure:
     figure = new_figure(COLUMN, 2.7)
     ax = figure.subplots()
     with parts.or_say_why(ax):
-        _orbit(ax, inputs.samples(case, "orbit"))
+        window = inputs.samples(case, "orbit")
+        orbit(ax, window, window["psi"].values, window["psi_velocity"].values)
+        ax.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
     return figure
 
 
-def _orbit(ax: Axes, window: xr.Dataset) -> None:
-    psi, velocity, phase = (window[name].values for name in ("psi", "psi_velocity", "phase"))
+def orbit(ax: Axes, window: xr.Dataset, x: np.ndarray, y: np.ndarray) -> None:
+    """y over x at a window's samples, coloured by the phase there."""
+    phase = window["phase"].values
     for i, name in enumerate(PHASES):
         inside = phase == i
         if not inside.any():
             continue
         # a line broken where the phase changes, so that no chord is drawn across others
-        shown = np.where(inside, velocity, np.nan)
+        shown = np.where(inside, y, np.nan)
         colour = PHASE_COLOURS[name]
-        ax.plot(psi, shown, color=colour, linewidth=0.5, rasterized=True)
+        ax.plot(x, shown, color=colour, linewidth=0.5, rasterized=True)
         ax.plot([], [], color=colour, linewidth=1.5, label=name)
     ax.margins(0.04)
-    ax.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, ncols=3)

@@ -1,35 +1,27 @@
-"""Study files: what a YAML file under config/ may say, checked all at once, and the cases it expands to.
+"""Named cases: what a study file may say of them, and what they expand to.
 
-A study of named cases has a name, base values, things to record by default, and the cases; each case inherits
-the base and may override any of it. `load_study` reads such a file, `parse_study` takes the mapping itself;
-both raise one `StudyError` that lists every fault with its path.
+Each case inherits the study's base values and what is recorded by default, and may override any of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, StringConstraints, model_validator
 
 from disc_model.data.variables import SCALARS
 from disc_model.errors import DiscModelError, ParameterError
-from disc_model.figures.paper.catalogue import CATALOGUE, faults_of
 from disc_model.parameters import Parameters
 from disc_model.schema import Real, Strict, Tolerance
 from disc_model.simulation.case import CaseSpec, Poincare, Start, Window
 from disc_model.studies.files import (
     Faults,
     Origin,
-    StudyError,
     add_parameter_faults,
     inherit,
     is_name,
     mapping,
-    read_file,
-    shown_path,
     validated,
 )
 from disc_model.truncation import AUTO, read_parameters
@@ -102,82 +94,15 @@ class Case(Strict):
     record: RecordSpec = RecordSpec()
 
 
-class _Header(Strict):
-    """The parts of a study file that are not cases. `cases` is checked case by case."""
-
-    study: Name
-    title: str = ""
-    base: dict[str, Any] = Field({})
-    tol: Any = 1e-10
-    record: dict[str, Any] = Field({})
-    cases: Annotated[dict[str, Any], Field(min_length=1)]
-    figures: tuple[str, ...] = ()
-    studies: tuple[str, ...] = ()
-    # of the grid studies; see disc_model.studies.grids.schema.load_grids
-    overrides: dict[str, Any] = Field({})
-    resolution: Any = 1
-
-
-@dataclass(frozen=True)
-class Study:
-    """A checked study file. `cases` and `specs` have the same keys, in the order of the file.
-
-    `studies` are files of grid studies that a run computes as well; * stands for any part of a name.
-    """
-
-    name: str
-    title: str
-    cases: Mapping[str, Case]
-    specs: Mapping[str, CaseSpec]
-    figures: tuple[str, ...]
-    studies: tuple[str, ...]
-
-    @property
-    def labels(self) -> dict[str, dict[str, str]]:
-        """What is written about the cases and does not change their results."""
-        return {name: {"title": case.title, "reference": case.reference} for name, case in self.cases.items()}
-
-
-def load_study(path: str | Path) -> Study:
-    """Read and check a study file.
-
-    Raises
-    ------
-    StudyError
-        Listing every fault: wrong YAML, keys given twice, unknown keys, values that break a rule.
-    """
-    raw, faults = read_file(Path(path))
-    return _with_more_faults(raw, faults, str(path))
-
-
-def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
-    """The study that Snakemake read from files, later ones over earlier ones, and its command line.
-
-    Raises
-    ------
-    StudyError
-        As `load_study`; keys given twice are looked for in the files, since the mapping no longer shows them.
-    """
-    paths = [Path(file) for file in files]
-    faults = [fault for path in paths for fault in read_file(path)[1]]
-    return _with_more_faults(config, faults, ", ".join(map(shown_path, paths)))
-
-
-def parse_study(raw: Any) -> Study:
-    """Check the mapping a study file holds; raises `StudyError` listing every fault."""
-    faults = Faults()
-    header = validated(_Header, raw, (), faults)
-    raw = raw if isinstance(raw, Mapping) else {}
+def parse_cases(raw: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Case], dict[str, CaseSpec]]:
+    """The cases of a study that are right, and what each amounts to; adds to `faults` what is wrong with the others."""
     cases: dict[str, Case] = {}
     specs: dict[str, CaseSpec] = {}
     for name, own in mapping(raw.get("cases")).items():
         case, spec = _parse_case(raw, str(name), own, faults)
         if case is not None and spec is not None:
             cases[str(name)], specs[str(name)] = case, spec
-    _check_figures(raw, specs, faults)
-    if faults or header is None:
-        raise StudyError(*faults)
-    return Study(header.study, header.title, cases, specs, header.figures, header.studies)
+    return cases, specs
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -255,44 +180,3 @@ def _resolve_events(case: Case, place: Origin, faults: Faults) -> tuple[float, f
     except ValueError as error:
         faults.add(place.of(("record", "events")), "", str(error))
         return None
-
-
-def _check_figures(raw: Mapping[str, Any], specs: Mapping[str, CaseSpec], faults: Faults) -> None:
-    """Figures must exist and find their cases and windows in the study."""
-    listed = raw.get("figures") or ()
-    if isinstance(listed, str) or not isinstance(listed, Iterable):
-        return
-    known = set(mapping(raw.get("cases")))
-    for i, name in enumerate(listed):
-        path = ("figures", str(i))
-        if not isinstance(name, str) or name not in CATALOGUE:
-            faults.add(path, name, f"unknown figure (known: {', '.join(CATALOGUE)})")
-            continue
-        for case, windows in CATALOGUE[name].needs.items():
-            if case not in known:
-                faults.add(path, name, f"needs a case {case}")
-            elif case in specs:
-                recorded = dict(specs[case].windows)
-                for window in windows:
-                    if window not in recorded:
-                        faults.add(path, name, f"needs a window {window} in cases.{case}.record.windows")
-                        continue
-                    for fault in faults_of(name, window, recorded[window]):
-                        faults.add(path, name, f"cases.{case}.record.windows.{window} {fault}")
-                if not windows and specs[case].poincare is None:
-                    faults.add(path, name, f"needs cases.{case}.record.poincare")
-
-
-# ----------------------------------------------------------------------------------------------------
-# Plain helpers
-
-
-def _with_more_faults(raw: Any, more: list[str], source: str) -> Study:
-    """`parse_study`, with faults found already and the name of the file in the error."""
-    try:
-        study = parse_study(raw)
-    except StudyError as error:
-        raise StudyError(*more, *error.faults, source=source) from None
-    if more:
-        raise StudyError(*more, source=source)
-    return study

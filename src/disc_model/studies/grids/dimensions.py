@@ -102,7 +102,7 @@ def parse_blocks(raw: Any, path: tuple[str, ...], faults: Faults, resolution: in
     """
     if isinstance(raw, Mapping) and "blocks" in raw:
         for key in raw.keys() - {"blocks"}:
-            faults.add((*path, str(key)), raw[key], "unknown key")
+            faults.add((*path, str(key)), raw[key], "unknown key (known: blocks)")
         if not isinstance(raw["blocks"], list) or not raw["blocks"]:
             faults.add((*path, "blocks"), raw["blocks"], "must be a list of lists or ranges")
             return None

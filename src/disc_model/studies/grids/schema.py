@@ -8,18 +8,21 @@ and however the file now says it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+import importlib
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import Field
 
 from disc_model.data.provenance import source_hash
 from disc_model.data.variables import KICKS
 from disc_model.errors import ParameterError
-from disc_model.figures.grids.kinds import PLOTS, Plot, Values
+from disc_model.figures.grids.kinds import PLOTS, General, Plot, Values
+from disc_model.figures.grids.kinds import Fault as PlotFault
 from disc_model.parameters import Parameters
 from disc_model.schema import Count, Strict
 from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
@@ -112,6 +115,8 @@ def _chunks(dims: Sequence[Dimension], batch: BatchSpec) -> Iterator[list[list[V
 
 REQUIRED = ("N", "Omega")
 """Parameters without a base value."""
+GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "batch", "starts"})
+"""What a study file says of a grid alone."""
 
 
 class _Header(Strict):
@@ -195,7 +200,12 @@ def load_grid(path: str | Path, overrides: Mapping[str, Any] | None = None, reso
 
 
 def load_grids(
-    paths: Sequence[str | Path], overrides: Any = None, resolution: Any = 1, taken: Collection[str] = ()
+    paths: Sequence[str | Path],
+    overrides: Any = None,
+    resolution: Any = 1,
+    taken: Collection[str] = (),
+    own: Mapping[str, GridStudy] | None = None,
+    asked: Collection[str] | None = None,
 ) -> dict[str, GridStudy]:
     """Read several grid studies; raises one `StudyError` for all faults of all of them.
 
@@ -203,9 +213,11 @@ def load_grids(
     ----------
     overrides : by study, as for `load_grid`
     taken : names that no study may have
+    own : a grid that is there without a file
+    asked : names of those whose figures are to be drawn, so that what these show must be there; all if not given
     """
     faults: list[str] = []
-    studies: dict[str, GridStudy] = {}
+    studies: dict[str, GridStudy] = dict(own or {})
     overrides = mapping(overrides)
     for path in paths:
         name = Path(path).stem
@@ -221,16 +233,16 @@ def load_grids(
         if study.name in taken:
             faults.append(f"{path}: study = {study.name!r}: is the name of another folder of results")
         studies[name] = study
-    known = {Path(path).stem for path in paths}
+    known = {*(own or {}), *(Path(path).stem for path in paths)}
     faults += [
         f"overrides.{name}: no such study (known: {', '.join(sorted(known))})" for name in overrides.keys() - known
     ]
     for study in studies.values():
-        for plot_name, plot in study.plots.items():
+        for plot_name, plot in study.plots.items() if asked is None or study.name in asked else ():
             for role, other in plot.others.items():
                 where = f"{study.name}: figures.{plot_name}.others.{role} = {other!r}"
                 if other not in known:
-                    faults.append(f"{where}: no such study")
+                    faults.append(f"{where}: no such study (known: {', '.join(sorted(known))})")
                 elif other in studies:
                     faults += [f"{where}: {rule}" for rule in plot.misfits_of(role, study, studies[other])]
     if faults:
@@ -260,7 +272,7 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     check_size(dims, faults)
     # what is only meant to be a dimension, and has faults, counts as one without values
     values: Values = dict.fromkeys(sorted(asked(raw) - set(varied)), ()) | {dim.name: dim.values for dim in dims}
-    plots = _plots(mapping(raw.get("figures")), raw.get("quantity"), values, faults)
+    plots = _plots(mapping(raw.get("figures")), raw.get("quantity"), options, values, faults)
     if faults or header is None or quantity is None or options is None:
         raise StudyError(*faults)
     varied_first = {name: value for dim in dims for name, value in zip(dim.names, dim.values[0], strict=True)}
@@ -378,7 +390,9 @@ def _check_names(
             faults.add(("batch", "over"), name, f"must name dimensions (known: {', '.join(known)})")
 
 
-def _plots(raw: Mapping[Any, Any], quantity: Any, values: Values, faults: Faults) -> dict[str, Plot]:
+def _plots(
+    raw: Mapping[Any, Any], quantity: Any, options: Strict | None, values: Values, faults: Faults
+) -> dict[str, Plot]:
     plots = {}
     for name, given in raw.items():
         path = ("figures", str(name))
@@ -389,10 +403,23 @@ def _plots(raw: Mapping[Any, Any], quantity: Any, values: Values, faults: Faults
         plot = validated(PLOTS[kind], given, path, faults)
         if plot is None:
             continue
-        if plot.quantity != quantity:
-            faults.add((*path, "kind"), kind, f"needs the quantity {plot.quantity}")
-            continue
-        for place, value, rule in plot.faults(values):
+        found: Iterable[PlotFault]
+        if isinstance(plot, General):
+            found = () if options is None or quantity not in QUANTITIES else _general(plot, quantity, options, values)
+        elif plot.quantity == quantity:
+            found = plot.faults(values)
+        else:
+            found = (PlotFault(("kind",), kind, f"needs the quantity {plot.quantity}"),)
+        for place, value, rule in found:
             faults.add((*path, *place), value, rule)
         plots[str(name)] = plot
     return plots
+
+
+def _general(plot: General, quantity: str, options: Strict, values: Values) -> Iterator[PlotFault]:
+    """What keeps a general figure from being drawn: the quantity's module knows its variables and dimensions."""
+    module = importlib.import_module(module_of(quantity))
+    grid = {name: [one[0] if len(one) == 1 else one for one in along] for name, along in values.items()}
+    own = {name: np.asarray(along).tolist() for name, (along, _) in module.coordinates(options).items()}
+    variables = {name: (*grid, *column.dims) for name, column in module.COLUMNS.items()}
+    return plot.faults_among(grid | own, variables)

@@ -1,0 +1,1 @@
+"""Figures of any named case, by kind."""

@@ -1,0 +1,109 @@
+"""Heat maps and curves of any variable: what is shown where, and on what scale."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
+from matplotlib.figure import Figure
+
+from disc_model.figures.grids import curve, heat_map
+from disc_model.figures.grids.kinds import MOST_PANELS, CurvePlot, HeatMap
+from disc_model.figures.parts import save
+
+
+@pytest.fixture
+def study() -> xr.Dataset:
+    """Three variables over friction, damping and normalization: of both signs, of one, and words."""
+    mu_k, c_p = np.array([0.1, 0.2, 0.3]), np.array([0.01, 0.1, 1.0, 10.0])
+    both = np.subtract.outer(mu_k, 0.2)[:, None, None] * np.ones((1, 4, 2)) + np.arange(2) * 0.01
+    both[0, 0, 0] = np.nan
+    dims = ("mu_k", "c_p", "normalization")
+    words = {"flag_meanings": "ok no_cycle"}
+    return xr.Dataset(
+        {
+            "growth_rate": (dims, both, {"long_name": "growth rate of disturbances", "units": "s-1"}),
+            "drift": (dims, both, {"long_name": "drift", "units": "m s-1"}),
+            "period": (dims, np.abs(both) + 1, {"long_name": "period", "units": "s"}),
+            "status": (dims, (both > 0).astype(np.int8), words),
+        },
+        {"mu_k": mu_k, "c_p": c_p, "normalization": ["as_published", "orthonormal"]},
+    )
+
+
+def mapped(study: xr.Dataset, variable: str, **said: Any) -> Figure:
+    return heat_map.draw(study, {}, HeatMap(variable=variable, x="c_p", y="mu_k", **said))
+
+
+def mesh(figure: Figure) -> Any:
+    return figure.axes[0].collections[0]
+
+
+def test_a_heat_map_has_a_panel_for_each_normalization(study: xr.Dataset, tmp_path: Path) -> None:
+    figure = mapped(study, "drift")
+    assert [ax.get_title(loc="left") for ax in figure.axes[:2]] == ["modes as published", "orthonormal modes"]
+    shown = mesh(figure).get_array()
+    assert shown.shape == (3, 4)
+    assert np.ma.getmaskarray(shown)[0, 0]
+    assert shown[2, 3] == pytest.approx(0.1)
+    assert figure.axes[-1].get_ylabel() == "Drift (m/s)"
+    assert figure.legends[0].get_texts()[0].get_text() == "no value"
+    save(figure, tmp_path / "map.png")
+
+
+def test_one_value_of_a_dimension_can_be_shown(study: xr.Dataset) -> None:
+    figure = mapped(study, "drift", at={"normalization": "orthonormal"})
+    assert len(figure.axes) == 2  # one panel and its scale
+    assert not figure.legends
+
+
+def test_a_range_by_factors_has_an_axis_by_factors(study: xr.Dataset) -> None:
+    ax = mapped(study, "drift").axes[0]
+    assert (ax.get_xscale(), ax.get_yscale()) == ("log", "linear")
+    assert ax.get_xlim() == (0.01, 10)
+
+
+def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
+    both = mesh(mapped(study, "drift")).norm
+    assert both.vmin == pytest.approx(-both.vmax)
+    assert isinstance(mesh(mapped(study, "growth_rate")).norm, AsinhNorm), "that of all growth maps"
+    one = mesh(mapped(study, "period")).norm
+    assert (one.vmin, one.vmax) == pytest.approx((1.0, 1.11))
+    assert isinstance(mesh(mapped(study, "period", log=True)).norm, LogNorm)
+    figure = mapped(study, "status")
+    assert isinstance(mesh(figure).norm, BoundaryNorm)
+    assert [text.get_text() for text in figure.axes[-1].get_yticklabels()] == ["ok", "no cycle"]
+
+
+def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) -> None:
+    plot = CurvePlot(variable="growth_rate", x="mu_k", by="c_p", at={"normalization": "as_published"})
+    figure = curve.draw(study, {}, plot)
+    ax = figure.axes[0]
+    lines = {line.get_label(): line for line in ax.lines if not line.get_label().startswith("_")}
+    assert list(lines)[:4] == ["In-plane damper $c_p$ = 0.01 N s/m", "In-plane damper $c_p$ = 0.1 N s/m",
+                               "In-plane damper $c_p$ = 1 N s/m", "In-plane damper $c_p$ = 10 N s/m"]  # fmt: skip
+    assert np.allclose(lines["In-plane damper $c_p$ = 1 N s/m"].get_ydata(), [-0.1, 0, 0.1])
+    assert lines["failed"].get_xdata() == [0.1], "a cross where one has no value"
+    assert ax.get_ylabel() == "Growth rate of disturbances (1/s)"
+    save(figure, tmp_path / "curve.png")
+
+
+def test_a_curve_of_words_names_them(study: xr.Dataset) -> None:
+    plot = CurvePlot(variable="status", x="c_p", at={"normalization": "as_published", "mu_k": 0.3})
+    ax = curve.draw(study, {}, plot).axes[0]
+    assert [text.get_text() for text in ax.get_yticklabels()] == ["ok", "no cycle"]
+    assert ax.get_xscale() == "log"
+
+
+def test_what_has_too_many_values_for_panels_is_refused() -> None:
+    plot = HeatMap(variable="v", x="a", y="b", by="c")
+    many = {"a": [1, 2], "b": [1, 2], "c": list(range(MOST_PANELS + 1))}
+    (fault,) = plot.faults_among(many, {"v": tuple(many)})
+    assert (fault.place, fault.rule) == (("by",), "has 5 values, and there is room for 4")
+    assert not list(plot.faults_among(many | {"c": [1]}, {"v": tuple(many)}))
+    words = [*plot.faults_among(many | {"a": ["x", "y"], "b": [1], "c": [1]}, {"v": tuple(many)})]
+    assert [fault.rule for fault in words] == ["must be one parameter, and a number", "must have two values or more"]
