@@ -28,8 +28,7 @@ WHAT = {
     "parameters": "one case: a plain value",
     "schema": "numbers that may be read, and how faults are said",
     "engine": "equations, series, roots, switches: numbers and arrays only",
-    "status": "how a computation may end",
-    "errors": "what is raised on purpose",
+    "errors": "how a computation may end, and what is raised on purpose",
 }
 """A few words for each part of a floor."""
 COLOURS = ("#e8f1f8", "#d3e4f2")

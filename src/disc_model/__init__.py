@@ -29,7 +29,7 @@ _HOMES = {
     "Poincare": "simulation.case",
     "Result": "simulation.result",
     "State": "simulation.result",
-    "Status": "status",
+    "Status": "errors",
     "DiscModelError": "errors",
     "ParameterError": "errors",
     "ModeError": "errors",
@@ -51,6 +51,7 @@ if TYPE_CHECKING:
         ParameterError,
         SimulationError,
         Stalled,
+        Status,
         StepLimit,
     )
     from disc_model.flexibility import residual_flexibility
@@ -61,7 +62,6 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result, State
     from disc_model.stability.cycle import floquet
     from disc_model.stability.sliding import steady_sliding
-    from disc_model.status import Status
     from disc_model.truncation import choose_modes
 
 

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims import growth, normalisation
+from disc_model.claims import growth, ledger
 from disc_model.claims.ledger import CLAIMS
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim
 from tests.claims import made_up
@@ -76,7 +76,7 @@ def test_a_failed_case_counts_for_neither_normalisation(told: xr.DataTree) -> No
     tree = xr.DataTree.from_dict(other)
     tree["F17"] = damaged(tree["F17"], DAMAGES["failed"])
     tree["F17"].attrs["parameters"] = other["/F17"].attrs["parameters"]
-    found = normalisation.compare(told, tree)
+    found = ledger.compare(told, tree)
     text, table = found.sections[1][1:]
     assert "No longer: none." in text
     assert text.endswith("Without a result: F17.")

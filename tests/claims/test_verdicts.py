@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.analysis import classify
-from disc_model.claims import growth, measures, normalisation
+from disc_model.claims import growth, ledger, measures
 from disc_model.claims.growth import cycle_of
 from disc_model.claims.ledger import check_claims
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Missing
@@ -172,7 +172,7 @@ def test_the_two_normalisations_side_by_side(
         return made_up.cycle_as_told(p)
 
     monkeypatch.setattr(growth, "cycle_of", cycle)
-    found = normalisation.compare(told, orthonormal(contrary))
+    found = ledger.compare(told, orthonormal(contrary))
     modes, cases, instead, changed = (table for _, _, table in found.sections)
     ratios = modes["ratio"].astype(float)
     assert ratios[1] == pytest.approx(14, abs=1)  # how much too strong the mode with one nodal diameter is
@@ -192,7 +192,7 @@ def test_the_two_normalisations_side_by_side(
         assert f"## {heading}" in text
         assert f"<h2>{heading}</h2>" in page
         assert text.count("\n| ") >= len(table)
-    without = normalisation.compare(told, orthonormal(told).drop_nodes("X30"))
+    without = ledger.compare(told, orthonormal(told).drop_nodes("X30"))
     assert [heading for heading, _, _ in without.sections] == [found.sections[i][0] for i in (0, 1, 3)]
     # the same motions, but other natural frequencies with the slider attached
     assert [text.partition(":")[0] for text in without.sections[2][2]["Statement"]] == ["F27b"]

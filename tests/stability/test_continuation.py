@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters
-from disc_model.stability import borders, continuation, cycle_problem
-from disc_model.stability.borders import _correct_on_curve, _OnCurve, _Ways, continue_fold, continue_neutral
-from disc_model.stability.continuation import continue_cycle
+from disc_model.stability import continuation
+from disc_model.stability.branch import CycleProblem, Lost
+from disc_model.stability.continuation import (
+    _correct_on_curve,
+    _OnCurve,
+    _Ways,
+    continue_cycle,
+    continue_fold,
+    continue_neutral,
+)
 from disc_model.stability.curves import stability_curves
 from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
 
@@ -60,7 +67,7 @@ def test_where_a_branch_ends_is_said(start, bounds, why):
 
 def test_a_fold_that_cannot_be_located_ends_the_branch(monkeypatch):
     def lost(*_):
-        raise cycle_problem.Lost("Newton's method does not converge")
+        raise Lost("Newton's method does not converge")
 
     monkeypatch.setattr(continuation, "_locate_fold", lost)
     branch = continue_cycle(P, "Omega", (12.0, 17.0))
@@ -74,14 +81,14 @@ def test_a_fold_that_cannot_be_located_ends_the_branch(monkeypatch):
 
 
 def test_where_the_motion_does_not_return_there_is_no_branch(monkeypatch):
-    problem = cycle_problem.CycleProblem(P, ("Omega",), None, 1e-12)
-    with pytest.raises(cycle_problem.Lost, match="does not return: lost_contact"):
+    problem = CycleProblem(P, ("Omega",), None, 1e-12)
+    with pytest.raises(Lost, match="does not return: lost_contact"):
         problem.evaluate(np.array([1.0, 0, 0, 31 / problem.scales[0]]))
-    with pytest.raises(cycle_problem.Lost, match="vanishes"):
+    with pytest.raises(Lost, match="vanishes"):
         problem.evaluate(np.array([1.0, 0, 0, 0.0]))
-    with pytest.raises(cycle_problem.Lost, match="Omega=-1"):
+    with pytest.raises(Lost, match="Omega=-1"):
         problem.evaluate(np.array([1.0, 0, 0, -1 / problem.scales[0]]))
-    with pytest.raises(cycle_problem.Lost, match="does not converge"):
+    with pytest.raises(Lost, match="does not converge"):
         # beyond the fold there is nothing to converge to
         problem.correct(
             np.array([1.0, 0, 0, 17 / problem.scales[0]]), np.eye(4)[3:], np.array([17 / problem.scales[0]])
@@ -90,20 +97,20 @@ def test_where_the_motion_does_not_return_there_is_no_branch(monkeypatch):
 
 def test_a_singular_matrix_is_no_convergence():
     """Rows that ask for nothing used to end in an error of numpy's."""
-    problem = cycle_problem.CycleProblem(P, ("Omega", "N"), None, 1e-12)
+    problem = CycleProblem(P, ("Omega", "N"), None, 1e-12)
     z = problem.unknowns(cycle_at(15, 300))
-    with pytest.raises(cycle_problem.Lost, match="its matrix is singular"):
+    with pytest.raises(Lost, match="its matrix is singular"):
         problem.correct(z, np.zeros((2, 5)), np.ones(2))
 
 
 def test_a_corrector_without_gradient_is_lost(monkeypatch):
     """F = 0, test = 0 and the plane then leave a direction free."""
-    problem = cycle_problem.CycleProblem(P, ("Omega", "N"), None, 1e-12)
+    problem = CycleProblem(P, ("Omega", "N"), None, 1e-12)
     point = problem.evaluate(problem.unknowns(cycle_at(15, 300)))
     along = problem.tangents(point)[0]
     ways = _Ways(along, np.zeros(5), np.zeros(5, complex))
-    monkeypatch.setattr(borders, "_ways", lambda *_: ways)
-    with pytest.raises(cycle_problem.Lost, match="its matrix is singular"):
+    monkeypatch.setattr(continuation, "_ways", lambda *_: ways)
+    with pytest.raises(Lost, match="its matrix is singular"):
         _correct_on_curve(problem, _OnCurve(point, along, 1j, ways), 1e-3, lambda _, former: (1e-3, former))
 
 

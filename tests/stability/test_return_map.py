@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, simulate
-from disc_model.stability.newton import _solve, newton
-from disc_model.stability.return_map import PARAMETERS, RETURNED, Flight, ReturnMap
+from disc_model.stability.return_map import PARAMETERS, RETURNED, Flight, ReturnMap, _solve, newton
 from tests.references.printed import Printed
 
 P = Parameters(N=200, Omega=20, n_diameters=1)

@@ -18,8 +18,8 @@ import numpy as np
 import pytest
 
 from disc_model.parameters import Parameters
+from disc_model.stability import branch
 from disc_model.stability import cycle as floquet
-from disc_model.stability import cycle_problem
 from disc_model.stability.return_map import Flight
 
 PERIOD, ANGLE = 0.015, 1.2
@@ -97,5 +97,5 @@ class ToyMap:
 @pytest.fixture
 def toy(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cycles are those of the toy."""
-    for module in (cycle_problem, floquet):
+    for module in (branch, floquet):
         monkeypatch.setattr(module, "ReturnMap", ToyMap)

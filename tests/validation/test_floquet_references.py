@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, floquet, simulate
-from disc_model.stability.borders import continue_fold, continue_neutral
-from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.continuation import continue_cycle, continue_fold, continue_neutral
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.resonances import nearest_tongue
 from disc_model.stability.return_map import RETURNED, ReturnMap

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from disc_model.claims.normalisation import compare
+from disc_model.claims.ledger import compare
 from disc_model.data.inputs import load_inputs
 from disc_model.errors import exit_on_error
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.benchmarks.flops import vector_flops
+from disc_model.benchmarks.machine import vector_flops
 from disc_model.benchmarks.table import DEFAULT, JUDGED, table, to_markdown
 from disc_model.benchmarks.work_precision import Point, work_precision
 from disc_model.data.dataset import save

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.status import Status
 
 PHASES = ("stick", "slip", "separation")
 EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")

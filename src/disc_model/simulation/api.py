@@ -15,7 +15,7 @@ import numpy as np
 
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault, ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.schema import TOLERANCES, is_number, limits_faults, shown
@@ -31,7 +31,6 @@ from disc_model.simulation.result import (
     series_tolerance,
     write_state,
 )
-from disc_model.status import Status
 
 if TYPE_CHECKING:
     from disc_model.simulation.case import Start

@@ -15,12 +15,11 @@ from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.engine import layout
 from disc_model.engine.lanes import aligned_pieces
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault, ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.plate import modal_damping, mode_arrays
 from disc_model.schema import is_number, shown
 from disc_model.simulation.case import Record
-from disc_model.status import Status
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disc_model.errors import ParameterError
+from disc_model.errors import ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Poincare, Record
 from disc_model.simulation.result import State
-from disc_model.status import Status
 
 if TYPE_CHECKING:
     import xarray as xr

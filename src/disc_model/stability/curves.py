@@ -16,14 +16,11 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.stability.borders import continue_fold, continue_neutral
-from disc_model.stability.branch import Branch
-from disc_model.stability.continuation import UNLOCATED, continue_cycle
+from disc_model.stability.branch import Branch, default_scale
+from disc_model.stability.continuation import UNLOCATED, continue_cycle, continue_fold, continue_neutral
 from disc_model.stability.cycle import find_cycle
-from disc_model.stability.cycle_problem import default_scale
-from disc_model.stability.resonances import nearest_tongue
+from disc_model.stability.resonances import Tongue, nearest_tongue
 from disc_model.stability.return_map import ReturnMap
-from disc_model.stability.tongue import Tongue
 
 Array = NDArray[np.float64]
 

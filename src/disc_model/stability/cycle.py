@@ -14,15 +14,22 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import DiscModelError, ParameterError
+from disc_model.errors import DiscModelError, ParameterError, StatusBase
 from disc_model.parameters import Parameters
 from disc_model.schema import CYCLE_TOLERANCES, limits_faults
 from disc_model.simulation.result import State
-from disc_model.stability.multipliers import growth_rate, kind_of, multipliers
-from disc_model.stability.newton import FixedPoint, newton
-from disc_model.stability.return_map import OUTCOMES, RETURNED, Flight, ReturnMap
+from disc_model.stability.return_map import (
+    OUTCOMES,
+    RETURNED,
+    FixedPoint,
+    Flight,
+    ReturnMap,
+    growth_rate,
+    kind_of,
+    multipliers,
+    newton,
+)
 from disc_model.stability.sliding import SteadySliding, steady_sliding
-from disc_model.status import StatusBase
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import layout, outcomes, tangent, variational
-from disc_model.errors import ParameterError
+from disc_model.errors import ParameterError, StatusBase
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import (
@@ -26,7 +26,6 @@ from disc_model.simulation.result import (
     series_tolerance,
     write_state,
 )
-from disc_model.status import StatusBase
 
 Array = NDArray[np.float64]
 

@@ -22,13 +22,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
-from disc_model.status import Status
 
 Array = NDArray[np.float64]
 

@@ -17,10 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError
+from disc_model.errors import ParameterError, StatusBase
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
-from disc_model.status import StatusBase
 
 Array = NDArray[np.float64]
 

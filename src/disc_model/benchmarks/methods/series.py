@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem, decades
+from disc_model.errors import Status
 from disc_model.figures.parts import VERMILION
 from disc_model.simulation.api import simulate
-from disc_model.status import Status
 
 STEPS_PER_SECOND = 300_000
 """What the budget of seconds is turned into: the engine stops by steps, not by the clock."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.parts import BLACK, axis_of
-from disc_model.stability.tongue import Tongue
+from disc_model.stability.resonances import Tongue
 
 Array = NDArray[np.float64]
 

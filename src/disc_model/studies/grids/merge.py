@@ -19,8 +19,7 @@ import xarray as xr
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
-from disc_model.studies.grids.quantities.table import STATUSES
-from disc_model.studies.grids.run import POINT, describe
+from disc_model.studies.grids.run import POINT, STATUSES, describe
 
 
 class MergeError(DiscModelError):

@@ -10,11 +10,11 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.status import Status
 from disc_model.studies.grids.quantities import critical_speed
 from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions
-from disc_model.studies.grids.quantities.table import STATUSES, compute
+from disc_model.studies.grids.run import STATUSES, compute
 from tests.studies.grids.conftest import SCAN
 
 

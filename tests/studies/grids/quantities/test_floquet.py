@@ -9,7 +9,7 @@ from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.studies.grids.quantities import floquet
 from disc_model.studies.grids.quantities.schema import FloquetOptions
-from disc_model.studies.grids.quantities.table import compute
+from disc_model.studies.grids.run import compute
 from tests.studies.grids.conftest import SMALL, computed
 
 

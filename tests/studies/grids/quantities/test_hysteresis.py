@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability.settling import Late
-from disc_model.status import Status
 from disc_model.studies.grids.quantities import hysteresis
 from disc_model.studies.grids.quantities.schema import HysteresisOptions
-from disc_model.studies.grids.quantities.table import compute
+from disc_model.studies.grids.run import compute
 from tests.studies.grids.conftest import SCAN
 
 

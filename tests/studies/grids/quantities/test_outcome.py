@@ -11,14 +11,14 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability import settling
 from disc_model.stability.settling import Settling, follow
-from disc_model.status import Status
 from disc_model.studies.grids.quantities import floquet, outcome
 from disc_model.studies.grids.quantities.schema import FloquetOptions, OutcomeOptions, SettlingOptions
-from disc_model.studies.grids.quantities.table import STATUSES, compute
+from disc_model.studies.grids.run import STATUSES, compute
 from tests.studies.grids.conftest import SMALL, computed
 
 

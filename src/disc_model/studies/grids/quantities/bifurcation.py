@@ -10,7 +10,7 @@ from disc_model.data.variables import PHASES, SCALARS, SERIES, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
-from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column
+from disc_model.studies.grids.run import STATUS, STATUSES, Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import BifurcationOptions

@@ -13,7 +13,7 @@ from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.settling import follow
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.quantities.table import STATUS, Column
+from disc_model.studies.grids.run import STATUS, Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions

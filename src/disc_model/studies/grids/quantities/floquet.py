@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import CycleStatus, floquet
-from disc_model.studies.grids.quantities.table import Column
+from disc_model.studies.grids.run import Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import FloquetOptions

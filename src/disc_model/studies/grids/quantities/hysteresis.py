@@ -11,7 +11,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.settling import late_stretch, numbers
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column
+from disc_model.studies.grids.run import STATUS, STATUSES, Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import HysteresisOptions

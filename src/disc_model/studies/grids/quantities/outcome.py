@@ -8,7 +8,7 @@ from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared
 from disc_model.stability.settling import Followed, follow, late_stretch, numbers
-from disc_model.studies.grids.quantities.table import STATUS, Column
+from disc_model.studies.grids.run import STATUS, Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import OutcomeOptions

@@ -10,7 +10,7 @@ from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.curves import StabilityCurve, stability_curves
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.quantities.table import STATUS, Column
+from disc_model.studies.grids.run import STATUS, Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import StabilityCurvesOptions

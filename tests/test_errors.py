@@ -7,10 +7,10 @@ import pickle
 import pytest
 
 from disc_model import Status
+from disc_model.errors import StatusBase
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.lyapunov import LyapunovStatus
 from disc_model.stability.sliding import SlidingStatus
-from disc_model.status import StatusBase
 
 ALL = [status for kind in (Status, CycleStatus, LyapunovStatus, SlidingStatus) for status in kind]
 

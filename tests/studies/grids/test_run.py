@@ -14,7 +14,7 @@ from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
 from disc_model.studies.grids.quantities.schema import QUANTITIES
-from disc_model.studies.grids.quantities.table import STATUS, STATUSES, Column, compute
+from disc_model.studies.grids.run import STATUS, STATUSES, Column, compute
 from tests.studies.grids.conftest import SCAN
 
 P = Parameters(N=1, Omega=1)
