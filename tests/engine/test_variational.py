@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes
-from disc_model.engine import layout, outcomes, saltation, switches, tangent, variational
-from disc_model.simulation.result import State, engine_case, series_order, write_state
+from disc_model.engine import layout, outcomes, saltation, switches, tangent
+from disc_model.simulation.result import State, engine_case, write_state
 from disc_model.stability.return_map import PARAMETERS, ReturnMap
+from tests.engine.full_system import Full
 from tests.references.divergence import divergence
 from tests.references.printed import MOTIONS, SPAN, Printed, lively
 
@@ -73,63 +74,37 @@ def test_derivatives_of_a_flight_by_parameters(flight: str) -> None:
         assert np.linalg.norm(by[:, i] - expected) < 1e-5 * np.linalg.norm(expected), name
 
 
-class Full:
-    """The engine with a column for every coordinate: those of the modes, psi, f; u and u' too in separation."""
+class Disturbed(Full):
+    """A start whose coordinates may be moved: u and u' are some in separation, f is none in stick."""
 
     def __init__(self, p: Parameters, start: State) -> None:
-        case, self.order = engine_case(p), series_order(1e-14)
-        self.model = case.model
-        self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
-        write_state(case, start, self.state)
-        width, n0 = len(self.model.force), len(self.model.force0)
-        used, single, tail = np.flatnonzero(self.model.shift), np.arange(n0), 2 * width + 2 * n0
-        scalars = 4 if start.phase == "separation" else 1 if start.phase == "stick" else 2
-        rows = [used, width + used, 2 * width + single, 2 * width + n0 + single, tail + np.arange(scalars)]
-        self.rows = np.concatenate(rows)
-        self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
-
-    @property
-    def coordinates(self) -> np.ndarray:
-        s = self.state
-        return np.concatenate([s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.U_VELOCITY + 1]])[self.rows]
+        super().__init__(p, start, scalars={"stick": 1, "slip": 2, "separation": 4}[start.phase])
 
     def moved(self, change: np.ndarray) -> None:
-        s, all_ = self.state, np.zeros(tangent.n_rows(self.model))
+        s, all_ = self.state, np.zeros(self.n_rows)
         all_[self.rows] = change
         width, n0 = len(s.z), len(s.y)
         parts = np.split(all_, np.cumsum([width, width, n0, n0]))
         for array, part in zip((s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.U_VELOCITY + 1]), parts, strict=True):
             array += part
 
-    def fly(self, tangent: bool) -> None:
-        course = variational.Course(self.order, 1e-14, 2.0, SPAN, 0, may_separate=True, tangent=tangent)
-        outcome = variational.fly(self.model, self.series, self.state, self.tangent, course)
-        assert outcome == outcomes.TIME_OVER
-
-    def columns(self) -> np.ndarray:
-        """Derivatives of the coordinates at the end by those at the start."""
-        n_rows, C = tangent.n_rows(self.model), self.tangent.columns
-        now = np.zeros((n_rows, C))
-        now[self.rows, np.arange(len(self.rows))] = 1.0
-        self.tangent.now[:] = now.reshape(n_rows, -1, 8).transpose(1, 0, 2).ravel()
-        self.fly(tangent=True)
-        end = self.tangent.now.reshape(-1, n_rows, 8).transpose(1, 0, 2).reshape(n_rows, C)
-        return end[self.rows, : len(self.rows)]
+    def at_end(self, tangent: bool = False) -> np.ndarray:
+        """The coordinates at the end of the span, or their derivatives by those at the start."""
+        assert self.fly(SPAN, tangent=tangent) == outcomes.TIME_OVER
+        return self.columns if tangent else self.coordinates
 
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_columns_along_one_phase(phase: str, direction: int) -> None:
     start = lively(phase, direction, LIVELY)
-    run = Full(LIVELY, start)
-    got = run.columns()
+    got = Disturbed(LIVELY, start).at_end(tangent=True)
 
     def end(change: np.ndarray) -> np.ndarray:
-        other = Full(LIVELY, start)
+        other = Disturbed(LIVELY, start)
         other.moved(change)
-        other.fly(tangent=False)
-        return other.coordinates
+        return other.at_end()
 
-    steps = 1e-3 * np.maximum(np.abs(Full(LIVELY, start).coordinates), 1e-4)
+    steps = 1e-3 * np.maximum(np.abs(Disturbed(LIVELY, start).coordinates), 1e-4)
     expected = np.array([differences(lambda s, i=i: end(s * np.eye(len(steps))[i]), h) for i, h in enumerate(steps)]).T
     size = np.abs(got) + np.abs(expected) + 1e-4 * np.max(np.abs(expected), axis=1, keepdims=True)
     assert np.max(np.abs(got - expected) / size) < 1e-5
@@ -138,29 +113,25 @@ def test_columns_along_one_phase(phase: str, direction: int) -> None:
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_rates_are_those_of_the_paper(phase: str, direction: int) -> None:
     start = lively(phase, direction, LIVELY)
-    run, wanted = Full(LIVELY, start), Printed(LIVELY, start).rates()
-    out = np.zeros(tangent.n_rows(run.model) * 8)
-    saltation.rates(run.model, run.state, out)
+    got, wanted = Disturbed(LIVELY, start).rates, Printed(LIVELY, start).rates()
     pair = plate_modes(LIVELY)["diameters"].to_numpy() > 0
     modal = [wanted["a"][pair], wanted["b"][pair], wanted["alpha"][pair], wanted["beta"][pair]]
     expected = [*modal, wanted["a"][~pair], wanted["alpha"][~pair], [wanted["psi"], wanted["f"]]]
     names = ["u", "u_velocity"] if phase == "separation" else []
     expected = np.concatenate([*expected, [wanted[name] for name in names]])
-    got = out[::8][run.rows]
     np.testing.assert_allclose(got, expected[: len(got)], rtol=1e-10, atol=1e-10)
 
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_divergence_is_the_trace(phase: str, direction: int) -> None:
     start = lively(phase, direction, LIVELY)
-    run = Full(LIVELY, start)
+    run = Disturbed(LIVELY, start)
     n = len(run.rows) - (2 if phase == "separation" else 0)
 
     def rate(i: int, h: float) -> float:
-        other, out = Full(LIVELY, start), np.zeros(tangent.n_rows(run.model) * 8)
+        other = Disturbed(LIVELY, start)
         other.moved(h * np.eye(len(run.rows))[i])
-        saltation.rates(other.model, other.state, out)
-        return float(out[::8][run.rows][i])
+        return float(other.rates[i])
 
     steps = 1e-3 * np.maximum(np.abs(run.coordinates), 1e-4)
     trace = sum(differences(lambda h, i=i: rate(i, h), steps[i]) for i in range(n))
@@ -208,12 +179,11 @@ def test_changes_of_the_switch_functions(switch: str) -> None:
     """By every coordinate.  Where P falls to zero they cancel in the columns, since no rate jumps there."""
     cause, phase, direction = SWITCHES[switch]
     start = lively(phase, direction, LIVELY)
-    run = Full(LIVELY, start)
-    n, C, rows = len(run.rows), run.tangent.columns, tangent.n_rows(run.model)
-    now = np.zeros((rows, C))
-    now[run.rows, np.arange(n)] = 1.0
-    now[:, 0] += now[:, 1:n].sum(axis=1)
-    run.tangent.now[:] = now.reshape(rows, -1, 8).transpose(1, 0, 2).ravel()
+    run = Disturbed(LIVELY, start)
+    n = len(run.rows)
+    columns = np.eye(n)
+    columns[:, 0] += columns[:, 1:].sum(axis=1)
+    run.set_columns(columns)
     got = changes(run.model, run.state, run.tangent, cause)[:n]
     got[0] -= got[1:].sum()
     modes = plate_modes(LIVELY)

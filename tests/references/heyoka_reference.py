@@ -10,24 +10,18 @@ begins from rest: there is no guard interval.
 Regenerate the stored data (about five minutes)::
 
     python -m tests.references.heyoka_reference
-
-Time heyoka as a competent user would run it (double precision, native terminal events)::
-
-    python -m tests.references.heyoka_reference time
 """
 
 from __future__ import annotations
 
 import json
-import sys
-import time as clock
 from math import comb
 
 import heyoka as hy
 import numpy as np
 
 from tests.references.modes import modes_mpmath
-from tests.references.stored import BASE, DATA, Case, State, case_of, load
+from tests.references.stored import BASE, DATA, Case, State
 
 LONG = np.longdouble
 
@@ -483,154 +477,5 @@ def regenerate():
     print("first separation", data["time_decimal"], data["shift_per_unit_in_last_place"])
 
 
-# -------------------------------------------------------------------------- heyoka as users run it
-class NativeHeyoka:
-    """heyoka in double precision, not compact, fast_math, native terminal events: what a competent user
-    would write.
-
-    After a separation begins the gap has a triple root, on which native event detection fails: `guard` (s)
-    is the hand-tuned interval that is crossed without looking.
-    """
-
-    def __init__(self, case, tol=1e-12, guard=2e-5):
-        self.case, self.guard = case, guard
-        self.q = q = case.numbers(float)
-        n = self.n = len(case.omega)
-        self.shape, self.ordinal = np.array(q["shape"]), np.arange(n)
-        options = {"tol": tol, "compact_mode": False, "fast_math": True}
-        falling, rising = hy.event_direction.negative, hy.event_direction.positive
-
-        def split(phase):
-            rows = equations(case, phase, float)
-            return rows, rows[-1][1]
-
-        rows, P = split("stick")
-        pull = q["r_0"] * (q["k_p"] * hy.expression("psi") + q["c_p"] * q["Omega"])
-        self.stick = hy.taylor_adaptive(
-            rows[:-1],
-            np.zeros(4 * n),
-            **options,
-            t_events=[
-                hy.t_event(P, direction=falling),
-                hy.t_event(q["mu_s"] * P - pull, direction=falling),
-                hy.t_event(q["mu_s"] * P + pull, direction=falling),
-            ],
-        )
-        rows, P = split("slip")
-        self.slip = {
-            sign: hy.taylor_adaptive(
-                rows[:-1],
-                np.zeros(4 * n),
-                **options,
-                pars=[float(sign)],
-                t_events=[
-                    hy.t_event(P, direction=falling),
-                    hy.t_event(hy.expression("f"), direction=falling if sign > 0 else rising),
-                ],
-            )
-            for sign in (1, -1)
-        }
-        rows, _ = split("separation")
-        gap = hy.expression("u") - hy.sum([self.shape[i] * hy.expression(f"a{i}") for i in range(n)])
-        self.quiet = hy.taylor_adaptive(rows, np.zeros(4 * n + 2), **options)
-        self.separation = hy.taylor_adaptive(
-            rows, np.zeros(4 * n + 2), **options, t_events=[hy.t_event(gap, direction=falling)]
-        )
-
-    def _force_at_rest(self, x):
-        q, n = self.q, self.n
-        a, alpha = x[:n], x[n : 2 * n]
-        A = -self.shape @ (np.array(q["damping"]) * alpha + np.array(q["omega"]) ** 2 * a)
-        top = q["N"] + q["k"] * (self.shape @ a - q["u_0"]) + q["c"] * (self.shape @ alpha) + q["m"] * A
-        return top / (1 + q["m"] * q["S2"])
-
-    def _disc_velocity(self, x):
-        n = self.n
-        b = x[2 * n : 3 * n - 1]
-        return self.shape @ x[n : 2 * n] + x[4 * n - 1] * ((self.ordinal * self.shape)[1:] @ b)
-
-    def run(self, state, t_end):
-        """Events as a list of (time, kind) from `state` (in contact) to `t_end`."""
-        q, n, events = self.q, self.n, []
-        x = np.array([*state.a, *state.alpha, *state.b[1:], *state.beta[1:], state.psi, state.f], dtype=float)
-        t, phase, sign = float(state.time), state.phase, int(state.direction)
-        origin, t = t, 0.0
-        end = t_end - origin
-        while True:
-            if phase == "separation":
-                quiet, watch = self.quiet, self.separation
-                quiet.time, quiet.state[:] = t, x
-                quiet.propagate_until(min(t + self.guard, end))
-                x, t = quiet.state, quiet.time
-            else:
-                watch = self.stick if phase == "stick" else self.slip[sign]
-            watch.time, watch.state[:] = t, x
-            watch.reset_cooldowns()
-            outcome = watch.propagate_until(end)[0]
-            t, x = watch.time, watch.state.copy()
-            if outcome == hy.taylor_outcome.time_limit:
-                return events
-            index = -int(outcome) - 1
-            if phase == "separation":
-                p = (self._disc_velocity(x) - x[-1]) / (q["S2"] + 1 / q["m"])
-                x[n : 2 * n] -= self.shape * p
-                x = x[: 4 * n]
-                phase, sign, kind = "slip", 1 if x[-1] > 0 else -1, "reattachment"
-            elif index == 0:
-                x = np.concatenate([x, [self.shape @ x[:n], self._disc_velocity(x)]])
-                phase, kind = "separation", "separation"
-            elif phase == "stick":
-                phase, sign, kind = "slip", 1 if index == 1 else -1, "stick_to_slip"
-            else:
-                x[4 * n - 1] = 0.0
-                F = q["k_p"] * x[4 * n - 2] + q["c_p"] * q["Omega"]
-                if q["r_0"] * abs(F) < q["mu_s"] * self._force_at_rest(x):
-                    phase, kind = "stick", "slip_to_stick"
-                else:
-                    sign, kind = (1 if F > 0 else -1), "slip_reversal"
-            events.append((origin + t, kind))
-
-
-def time_case(name="A", tol=1e-12, repeats=20, guard=2e-5, native=None):
-    """Time heyoka on stored case A, B or C (compile time left out).
-
-    Returns dict: `ms_per_second` (best of `repeats`), `median_ms_per_second`, `error` (largest event-time
-    error, s; nan if events are missing), `events`, `expected`. Pass the `native` of an earlier result to
-    alternate with another engine.
-    """
-    data = load(name)
-    case = case_of(data)
-    native = native or NativeHeyoka(case, tol, guard)
-    start = data["start"] or equilibrium(case, float)
-    walls = []
-    for _ in range(repeats):
-        begin = clock.perf_counter()
-        events = native.run(start, data["t_end"])
-        walls.append(clock.perf_counter() - begin)
-    span = data["t_end"] - float(start.time)
-    same = [kind for _, kind in events] == [e["kind"] for e in data["events"]]
-    error = max(abs(t - e["time"]) for (t, _), e in zip(events, data["events"], strict=True)) if same else float("nan")
-    return {
-        "ms_per_second": 1e3 * min(walls) / span,
-        "median_ms_per_second": 1e3 * float(np.median(walls)) / span,
-        "error": error,
-        "events": len(events),
-        "expected": len(data["events"]),
-        "tol": tol,
-        "native": native,
-    }
-
-
-def main():
-    if sys.argv[1:] == ["time"]:
-        for name in ("A", "B", "C"):
-            for tol in (1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13):
-                result = time_case(name, tol)
-                result.pop("native")
-                print(name, result)
-    else:
-        regenerate()
-
-
 if __name__ == "__main__":
-    main()
+    regenerate()

@@ -22,8 +22,8 @@ from disc_model.stability.cycle import (
     kind_of,
 )
 from disc_model.stability.return_map import Flight, ReturnMap
+from tests.engine.full_system import Full
 from tests.references.divergence import divergence
-from tests.stability.full_system import Full
 from tests.stability.test_return_map import central_differences
 
 P = Parameters(N=200, Omega=20, n_diameters=1)

@@ -11,7 +11,7 @@ from disc_model import Parameters, plate_modes, steady_sliding
 from disc_model.engine import outcomes
 from disc_model.simulation.result import State
 from disc_model.stability.sliding import SlidingStatus
-from tests.stability.full_system import Full
+from tests.engine.full_system import Full
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
 

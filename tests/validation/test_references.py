@@ -224,14 +224,3 @@ def test_stored_data_can_be_regenerated():
     assert [e["kind"] for e in run.events] == stored.kinds_of(data)[:n]
     difference = np.abs(np.array([e["time"] for e in run.events]) - stored.times_of(data)[:n]).max()
     assert difference < 1e-16
-
-
-@needs.MPMATH.mark
-@pytest.mark.parametrize("name", ["A", "C"])
-def test_native_heyoka_agrees(name):
-    """heyoka's own event detection in double precision, with its guard interval, finds the same."""
-    from tests.references import heyoka_reference
-
-    result = heyoka_reference.time_case(name, tol=1e-12, repeats=1)
-    assert result["events"] == result["expected"]
-    assert result["error"] < 2e-13

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,6 +22,18 @@ from tests.stability.toy_map import fold_at, outside, toy
 
 __all__ = ["toy"]
 SMALL = {"n_diameters": 1}
+
+
+def study(**changes: Any) -> dict[str, Any]:
+    """A small study, with some keys changed."""
+    raw = {
+        "study": "small",
+        "quantity": "outcome",
+        "options": {"horizon": 2, "late": 0.2, "after_separation": 0.2},
+        "axes": {"N": [100, 200, 300], "Omega": {"start": 10, "stop": 20, "count": 3}},
+        "batch": {"over": ["Omega"], "size": 2},
+    }
+    return {**raw, **changes}
 
 
 def computed(**raw) -> xr.Dataset:

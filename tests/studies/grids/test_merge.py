@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +12,7 @@ import xarray as xr
 from disc_model.studies.grids.merge import MergeError, failures, merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import parse_grid
+from tests.studies.grids.conftest import study
 
 #: The slider stays where it is on the disc: nothing has to be computed.
 STILL = {"study": "still", "quantity": "floquet", "base": {"k_p": 0}, "axes": {"N": [100, 200], "Omega": [10, 20]}}
@@ -52,18 +52,6 @@ def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
     other["extra"] = ("sample", [0.0, 1.0])
     with pytest.raises(MergeError, match="do not fit together"):
         merge_batches([odd[0], other], study.grid, {})
-
-
-def study(**changes: Any) -> dict[str, Any]:
-    """A small study, with some keys changed."""
-    raw = {
-        "study": "small",
-        "quantity": "outcome",
-        "options": {"horizon": 2, "late": 0.2, "after_separation": 0.2},
-        "axes": {"N": [100, 200, 300], "Omega": {"start": 10, "stop": 20, "count": 3}},
-        "batch": {"over": ["Omega"], "size": 2},
-    }
-    return {**raw, **changes}
 
 
 @pytest.mark.compiled

@@ -16,21 +16,10 @@ from disc_model.studies.files import StudyError
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import GridStudy, load_grid, load_grids, parse_grid
+from tests.studies.grids.conftest import study
 from tests.studies.refused import faults_of
 
 STUDIES = sorted((Path(__file__).parents[3] / "config" / "studies").glob("*.yaml"))
-
-
-def study(**changes: Any) -> dict[str, Any]:
-    """A small study, with some keys changed."""
-    raw = {
-        "study": "small",
-        "quantity": "outcome",
-        "options": {"horizon": 2, "late": 0.2, "after_separation": 0.2},
-        "axes": {"N": [100, 200, 300], "Omega": {"start": 10, "stop": 20, "count": 3}},
-        "batch": {"over": ["Omega"], "size": 2},
-    }
-    return {**raw, **changes}
 
 
 def points(grid: GridStudy) -> list[list[list[Any]]]:

@@ -10,15 +10,18 @@ from disc_model.simulation.result import State, engine_case, series_order, write
 
 
 class Full:
-    """The engine with a column for every coordinate of the full system: modal ones, psi, f."""
+    """The engine with a column for every coordinate: those of the modes, psi, f; u and u' too if asked for.
 
-    def __init__(self, p: Parameters, start: State, tol: float = 1e-14):
+    scalars : how many of psi, f, u, u' are coordinates
+    """
+
+    def __init__(self, p: Parameters, start: State, tol: float = 1e-14, scalars: int = 2):
         case, self.order, self.tol = engine_case(p), series_order(tol), tol
         self.model = case.model
         width, n0 = len(self.model.force), len(self.model.force0)
         used, single = np.flatnonzero(self.model.shift), np.arange(n0)
-        psi = 2 * width + 2 * n0
-        self.rows = np.concatenate([used, width + used, 2 * width + single, 2 * width + n0 + single, [psi, psi + 1]])
+        rows = [used, width + used, 2 * width + single, 2 * width + n0 + single, 2 * (width + n0) + np.arange(scalars)]
+        self.rows = np.concatenate(rows)
         self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
         self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
         self.n_rows = tangent.n_rows(self.model)
@@ -38,7 +41,7 @@ class Full:
     @property
     def coordinates(self):
         s = self.state
-        return np.concatenate([s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.SPEED + 1]])[self.rows]
+        return np.concatenate([s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.U_VELOCITY + 1]])[self.rows]
 
     @property
     def rates(self):
