@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
 
-.PHONY: report orthonormal gallery docs linkcheck drawings env reproduce gc test test-portable test-long coverage test-study lint format bench lock clean
+.PHONY: report explore orthonormal gallery docs linkcheck drawings env reproduce gc test test-portable test-long coverage test-study lint format bench lock clean
 
 env: $(STAMP)
 
@@ -27,6 +27,10 @@ gc: env
 # One HTML file with every figure, the ledger and the provenance, from results that are there.
 report: env
 	$(BIN)/snakemake --report results/paper/report.html all $(wildcard results/paper/normalisation.html)
+
+# One HTML page to look at every grid point, at motions and at the figures: results/paper/explorer.html.
+explore: env
+	$(BIN)/snakemake -j$(CORES) explorer
 
 # The paper's cases with modes normalised as Eq. (17) says, and what that changes.
 orthonormal: reproduce

@@ -14,6 +14,7 @@ include: "workflow/rules/grids.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/explorer.smk"
 include: "workflow/rules/benchmark.smk"
 include: "workflow/rules/housekeeping.smk"
 

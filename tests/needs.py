@@ -67,7 +67,7 @@ SLURM = Need(
 )
 BROWSER = Need(
     "Chromium and its driver",
-    "the report, opened and clicked through",
+    "the report and the explorer, opened and clicked through",
     debian="chromium chromium-driver",
     programs=(("chromium", "google-chrome", "chrome"), ("chromedriver",)),
 )

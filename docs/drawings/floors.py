@@ -16,6 +16,7 @@ WHAT = {
     "cli": "commands: words to and from the functions below",
     "benchmarks": "speed against accuracy, rivals included",
     "claims": "what the paper says, checked against datasets",
+    "explorer": "one page to look at datasets, motions, figures",
     "studies": "YAML to jobs, jobs to results, results to one dataset",
     "figures": "datasets to pictures; never simulates",
     "stability": "cycles, their growth rates, curves, exponents",

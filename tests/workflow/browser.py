@@ -64,6 +64,32 @@ class Page:
             text,
         )
 
+    def resize(self, width: int, height: int) -> None:
+        """Show the page as a window, or a telephone, of that size would (CSS pixels)."""
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
+        self.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride", "params": metrics})
+
+    def prefer(self, scheme: str) -> None:
+        """What the reader's system asks for: "light" or "dark"."""
+        features = [{"name": "prefers-color-scheme", "value": scheme}]
+        command = {"cmd": "Emulation.setEmulatedMedia", "params": {"features": features}}
+        self.call("POST", "/goog/cdp/execute", command)
+
+    def point(self, x: float, y: float, *, click: bool = False) -> None:
+        """Move the pointer to a place in the window, and click there."""
+        steps: list[dict[str, Any]] = [{"type": "pointerMove", "x": round(x), "y": round(y), "duration": 0}]
+        if click:
+            steps += [{"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]
+        self._act({"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": steps})
+
+    def press(self, *keys: str) -> None:
+        """Press keys, one after the other, as WebDriver calls them."""
+        steps = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]
+        self._act({"type": "key", "id": "keyboard", "actions": steps})
+
+    def _act(self, source: dict[str, Any]) -> None:
+        self.call("POST", "/actions", {"actions": [source]})
+
     def messages(self) -> list[dict[str, Any]]:
         """What the page wrote to the console since this was last asked."""
         found: list[dict[str, Any]] = self.call("POST", "/se/log", {"type": "browser"})

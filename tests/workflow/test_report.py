@@ -106,9 +106,7 @@ def test_pages_are_readable_on_light_and_dark(finished: Project, tmp_path: Path)
             return (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05); }));"""
     with browser(tmp_path / "profile") as page:
         for scheme in ("light", "dark"):
-            features = [{"name": "prefers-color-scheme", "value": scheme}]
-            command = {"cmd": "Emulation.setEmulatedMedia", "params": {"features": features}}
-            page.call("POST", "/goog/cdp/execute", command)
+            page.prefer(scheme)
             for name in ("claims.html", "provenance.html"):
                 page.open(finished.folder / "results" / "tiny" / name)
                 assert page.run(contrast) >= 4.5, (scheme, name)

@@ -9,7 +9,13 @@ from snakemake.logging import logger
 from snakemake.settings.types import DeploymentMethod
 from snakemake.shell import shell
 
-from disc_model.figures.paper.catalogue import CATALOGUE, STYLE, module_of
+from disc_model.figures.paper.catalogue import (
+    CATALOGUE,
+    SECTIONS,
+    STYLE,
+    label,
+    module_of,
+)
 from disc_model.data.provenance import source_hash
 from disc_model.studies.files import StudyError, read_file
 from disc_model.data.provenance import unrecorded, why_unknown
@@ -137,3 +143,34 @@ def shown_by(wildcards):
     """Merged files of the further studies that a figure shows, by role."""
     plot = GRIDS[wildcards.study].plots[wildcards.plot]
     return {role: merged_file(name) for role, name in sorted(plot.others.items())}
+
+
+def motion_file(study, key):
+    return f"results/{study}/motions/{key}.nc"
+
+
+def motions_of(study):
+    """The one file of motions of a study, or none."""
+    return [motion_file(study, key) for key in GRIDS[study].motions]
+
+
+def explorer_pictures():
+    """The report's figures, in its order."""
+    for name in [*STUDY.figures, *STUDY.plots]:
+        own = name in STUDY.plots
+        yield {
+            "heading": (
+                "Figures of cases" if own else SECTIONS[CATALOGUE[name].section]
+            ),
+            "title": name if own else label(name),
+            "caption": drawn_by(name)[3],
+            "file": f"{RESULTS}/figures/{name}.png",
+        }
+    for name in ASKED:
+        for plot in GRIDS[name].plots:
+            yield {
+                "heading": "Maps and curves",
+                "title": f"{GRIDS[name].title or name}: {plot}",
+                "caption": f"From the grid study {name}.",
+                "file": f"results/{name}/figures/{plot}.png",
+            }

@@ -12,7 +12,7 @@ rule gc:
     params:
         kept=json.dumps(
             {
-                name: [*study.batches, study.key]
+                name: [*study.batches, *study.motions, study.key]
                 for name, study in sorted(GRIDS.items())
             }
         ),

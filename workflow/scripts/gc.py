@@ -1,6 +1,6 @@
 """Remove files of grid studies to which no study refers any more, and say how much that was.
 
-What to keep is read from standard input as JSON: by study, names of batches and merged files.
+What to keep is read from standard input as JSON: by study, names of batches, motions and merged files.
 """
 
 from __future__ import annotations
@@ -9,6 +9,8 @@ import argparse
 import json
 import sys
 from pathlib import Path
+
+RULES = ("compute_batch", "merge_batches", "compute_motions")
 
 
 def main() -> None:
@@ -27,7 +29,7 @@ def main() -> None:
 
 
 def _files(study: Path) -> list[Path]:
-    folders = ("batches", "merged", "logs/compute_batch", "logs/merge_batches")
+    folders = ("batches", "merged", "motions", *(f"logs/{rule}" for rule in RULES))
     return sorted(path for folder in folders for path in (study / folder).glob("*.*") if path.is_file())
 
 

@@ -335,6 +335,12 @@ def prepared(p: Parameters, start: Start, tol: float) -> State | None:
     return kicked(p, published_start(p) if state is None else state, **kick) if kick else state
 
 
+def after(p: Parameters, start: Start, time: float, tol: float) -> State:
+    """The state of case `p` a while (s) after its start; raises `SimulationError` if the motion did not get there."""
+    run = simulate(p, time, tol=tol, initial_state=prepared(p, start, tol), record=Record(events=False))
+    return run.raise_for_status().final_state
+
+
 def kicked(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0) -> State:
     """A state with something added to the slider's coordinates, the disc under it going along.
 

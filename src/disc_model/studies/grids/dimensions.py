@@ -175,6 +175,15 @@ def n_points(dims: Sequence[Dimension]) -> int:
     return math.prod(len(dim.values) for dim in dims)
 
 
+def thinned(dim: Dimension, most: int) -> Dimension:
+    """A dimension of at most so many of its values, evenly spread by place and both ends among them; all, of words."""
+    values = dim.values
+    if len(values) > most and not any(isinstance(part, str) for value in values for part in value):
+        last = len(values) - 1
+        values = tuple(values[round(i * last / max(most - 1, 1))] for i in range(most))
+    return Dimension(dim.names, (values,))
+
+
 def parse_dimensions(
     raw: Mapping[str, Any], resolution: int, starts: Collection[str], faults: Faults
 ) -> tuple[Dimension, ...]:

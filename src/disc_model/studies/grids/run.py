@@ -36,10 +36,19 @@ def run_batch(text: str) -> xr.Dataset:
 
     The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
     """
+    return run_as(text, quantity_of(text))
+
+
+def quantity_of(text: str) -> Any:
+    """The module that computes a batch's quantity."""
+    return importlib.import_module(importlib.import_module(SCHEMA).module_of(json.loads(text)["quantity"]))
+
+
+def run_as(text: str, quantity: Quantity) -> xr.Dataset:
+    """As `run_batch`, with another quantity computed at the points, from the options of the batch's own."""
     data = json.loads(text)
     names, points = data["names"], data["points"]
     schema = importlib.import_module(SCHEMA)
-    quantity: Quantity = importlib.import_module(schema.module_of(data["quantity"]))
     options = schema.QUANTITIES[data["quantity"]].options.model_validate(data["options"])
     varied = [dict(zip(names, point, strict=True)) for point in points]
     parameters = [_made(data["base"] | _only(Parameters.model_fields, values)) for values in varied]

@@ -47,6 +47,7 @@ from disc_model.studies.grids.dimensions import (
     check_size,
     n_points,
     parse_dimensions,
+    thinned,
 )
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
 from disc_model.truncation import AUTO, asked_modes
@@ -55,6 +56,7 @@ from disc_model.truncation import AUTO, asked_modes
 # Batches
 
 RUNNER = "disc_model.studies.grids.run"
+MOTIONS = "disc_model.studies.grids.motions"
 
 
 class BatchSpec(Strict):
@@ -75,20 +77,33 @@ def batch_texts(
     starts: Mapping[str, Start],
     dims: Sequence[Dimension],
     batch: BatchSpec,
+    runner: str = RUNNER,
 ) -> dict[str, str]:
-    """The text of each batch by its name, 12 hexadecimal digits."""
+    """The text of each batch by its name, 12 hexadecimal digits; ``runner`` is the module that will compute it."""
     shared: dict[str, Any] = {
         "quantity": quantity,
         "options": options.model_dump(),
         "base": base,
         "names": [name for dim in dims for name in dim.names],
-        "sources": source_hash(module_of(quantity), RUNNER),
+        "sources": source_hash(module_of(quantity), runner),
     }
     texts = [
         canonical_json({**shared, **_used(starts, shared["names"], points), "points": points})
         for points in _chunks(dims, batch)
     ]
     return {content_key(text): text for text in texts}
+
+
+def motion_texts(
+    quantity: str, options: Strict, base: Mapping[str, Any], starts: Mapping[str, Start], dims: Sequence[Dimension]
+) -> dict[str, str]:
+    """The same for `disc_model.studies.grids.motions`: one batch of a few points; none for some quantities."""
+    most = QUANTITIES[quantity].motions
+    if not most:
+        return {}
+    few = [thinned(dim, most) for dim in dims]
+    batch = BatchSpec(over=tuple(dim.name for dim in few), size=n_points(few))
+    return batch_texts(quantity, options, base, starts, few, batch, MOTIONS)
 
 
 def _used(starts: Mapping[str, Start], names: Sequence[str], points: Sequence[Sequence[Value]]) -> dict[str, Any]:
@@ -142,6 +157,7 @@ class GridStudy:
     ----------
     dims : in the order of `VARIED`
     batches : JSON text of each batch by its name, 12 hexadecimal digits
+    motions : the same of the points whose motion can be looked at
     """
 
     name: str
@@ -152,6 +168,7 @@ class GridStudy:
     dims: tuple[Dimension, ...]
     batches: Mapping[str, str]
     plots: Mapping[str, Plot]
+    motions: Mapping[str, str]
 
     @property
     def key(self) -> str:
@@ -285,7 +302,8 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     for name in first:
         del complete[name]
     batches = batch_texts(header.quantity, options, complete, starts, dims, header.batch)
-    return GridStudy(header.study, header.title, header.quantity, options, complete, dims, batches, plots)
+    motions = motion_texts(header.quantity, options, complete, starts, dims)
+    return GridStudy(header.study, header.title, header.quantity, options, complete, dims, batches, plots, motions)
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -8,7 +8,8 @@ import numpy as np
 
 from disc_model.data.variables import PHASES, SCALARS, SERIES, Variable
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import prepared
+from disc_model.simulation.api import after, prepared
+from disc_model.simulation.result import State
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
 from disc_model.studies.grids.run import STATUS, STATUSES, Column
 
@@ -24,6 +25,8 @@ COLUMNS = {
     "separations": Column(Variable("1", "number of separations, transient included"), whole=True),
     "stick_fraction": Column(Variable("1", "share of the time spent sticking, transient included")),
 }
+MOTION = "After the transient."
+"""Where `state_at` lets the motion go on."""
 
 
 def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
@@ -48,3 +51,8 @@ def at(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]
     values: dict[str, Any] = {name: data[name].values for name in COLUMNS if name not in ("status", "phase")}
     values |= {"status": status, "phase": data["phase"].values + 1}
     return values, "" if status == "ok" else f"the simulation ended early: {status}"
+
+
+def state_at(p: Parameters, options: BifurcationOptions) -> State:
+    """Where the transient ends; raises `SimulationError` if the motion did not get there."""
+    return after(p, options, options.transient, options.tol)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
+from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, floquet
 from disc_model.studies.grids.run import Column
 
@@ -23,6 +24,8 @@ COLUMNS = {
     "multiplier_im": Column(Variable("1", "imaginary part of the leading multiplier")),
     "sliding_growth_rate": Column(Variable("s-1", "growth rate of disturbances of steady sliding")),
 }
+MOTION = "The stick-slip cycle itself, stable or not."
+"""Where `state_at` lets the motion go on."""
 
 
 def coordinates(options: FloquetOptions) -> dict[str, Any]:
@@ -44,3 +47,10 @@ def at(p: Parameters, options: FloquetOptions) -> tuple[dict[str, Any], str]:
         "sliding_growth_rate": cycle.sliding.growth_rate,
     }
     return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
+
+
+def state_at(p: Parameters, options: FloquetOptions) -> State:
+    """A state on the cycle, stable or not; raises `CycleError` if there is none."""
+    state = floquet(p, tol=options.tol).raise_for_status().state
+    assert state is not None
+    return state

@@ -8,7 +8,8 @@ import numpy as np
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import prepared
+from disc_model.simulation.api import after, prepared
+from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
 from disc_model.studies.grids.run import STATUS, Column
 
@@ -22,6 +23,8 @@ COLUMNS = {
     "covered": Column(Variable("s", "time over which the rates are averaged")),
     "separations": Column(Variable("1", "number of separations in that time"), whole=True),
 }
+MOTION = "After the transient."
+"""Where `state_at` lets the motion go on."""
 
 
 def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:
@@ -48,3 +51,8 @@ def at(p: Parameters, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
         "separations": found.separations,
     }
     return values, "" if found.status is LyapunovStatus.OK else found.status.advice
+
+
+def state_at(p: Parameters, options: LyapunovOptions) -> State:
+    """Where the transient ends; raises `SimulationError` if the motion did not get there."""
+    return after(p, options, options.transient, options.tol)

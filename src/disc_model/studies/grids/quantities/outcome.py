@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared
-from disc_model.stability.settling import Followed, follow, late_stretch, numbers
+from disc_model.simulation.result import Result, State
+from disc_model.stability.settling import Followed, Late, follow, late_stretch, numbers
 from disc_model.studies.grids.run import STATUS, Column
 
 if TYPE_CHECKING:
@@ -34,6 +35,10 @@ COLUMNS = {
     "share_separation": Column(Variable("1", "share of the late stretch spent separated")),
     "separation_rate": Column(Variable("s-1", "separations per second over the late stretch")),
 }
+MOTION = (
+    "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
+)
+"""Where `state_at` lets the motion go on."""
 
 
 def coordinates(options: OutcomeOptions) -> dict[str, Any]:
@@ -43,22 +48,8 @@ def coordinates(options: OutcomeOptions) -> dict[str, Any]:
 
 def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     """The late stretch of a point that separates lies ``after_separation`` later."""
-    followed = follow(
-        p,
-        options.horizon,
-        tol=options.tol,
-        settled=options.settled,
-        near=options.near,
-        late=options.late,
-        initial_state=prepared(p, options, options.tol),
-    )
-    result, late = followed.result, followed.late
-    separated = result.status.value == "stopped"
-    if separated:
-        result, late = late_stretch(p, result.final_state, options.after_separation, options.late, options.tol)
-    elif followed.settled and followed.orbit is not None:
-        # what the motion tends to is known exactly
-        result, late = late_stretch(p, followed.orbit, options.late, options.late, options.tol)
+    followed, result, late = _late(p, options)
+    separated = followed.result.status.value == "stopped"
     values = {
         "status": "ok" if result.status.complete else result.status.value,
         "outcome": _outcome(followed),
@@ -75,6 +66,32 @@ def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     if late is not None:
         values |= numbers(late)
     return values, "" if result.status.complete else result.message
+
+
+def state_at(p: Parameters, options: OutcomeOptions) -> State:
+    """Where the late stretch ends; raises `SimulationError` if the motion did not get there."""
+    _, result, _ = _late(p, options)
+    return result.raise_for_status().final_state
+
+
+def _late(p: Parameters, options: OutcomeOptions) -> tuple[Followed, Result, Late | None]:
+    """The motion as it was followed, the last run of it, and its late stretch, None if it did not get there."""
+    followed = follow(
+        p,
+        options.horizon,
+        tol=options.tol,
+        settled=options.settled,
+        near=options.near,
+        late=options.late,
+        initial_state=prepared(p, options, options.tol),
+    )
+    result, late = followed.result, followed.late
+    if result.status.value == "stopped":
+        result, late = late_stretch(p, result.final_state, options.after_separation, options.late, options.tol)
+    elif followed.settled and followed.orbit is not None:
+        # what the motion tends to is known exactly
+        result, late = late_stretch(p, followed.orbit, options.late, options.late, options.tol)
+    return followed, result, late
 
 
 def _outcome(followed: Followed) -> str:

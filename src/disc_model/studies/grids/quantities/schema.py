@@ -185,13 +185,15 @@ class StabilityCurvesOptions(Strict):
 
 
 class Quantity(NamedTuple):
-    """An entry: the schema of the options, and the parameters that the quantity varies by itself.
+    """An entry: the schema of the options, the parameters that the quantity varies by itself, and its motions.
 
-    Options with a property ``scans`` name those parameters themselves.
+    Options with a property ``scans`` name those parameters themselves. ``motions`` is how many values of each axis get
+    a motion to be looked at (`disc_model.studies.grids.motions`): the fewer, the more one costs. 0: none.
     """
 
     options: type[Strict]
     scans: tuple[str, ...] = ()
+    motions: int = 0
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
         """Parameters that the quantity varies by itself, given its options."""
@@ -204,12 +206,12 @@ class Quantity(NamedTuple):
 
 
 QUANTITIES = {
-    "outcome": Quantity(OutcomeOptions),
+    "outcome": Quantity(OutcomeOptions, motions=4),
     "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
-    "floquet": Quantity(FloquetOptions),
+    "floquet": Quantity(FloquetOptions, motions=8),
     "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),
-    "bifurcation": Quantity(BifurcationOptions),
-    "lyapunov": Quantity(LyapunovOptions),
+    "bifurcation": Quantity(BifurcationOptions, motions=12),
+    "lyapunov": Quantity(LyapunovOptions, motions=12),
     "stability_curves": Quantity(StabilityCurvesOptions),
 }
 

@@ -1,0 +1,146 @@
+"""What the page is told of each study, as plain values for JSON: numbers in base64, words as they are."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+TRACES = ("P", "u", "psi")
+LEVELS = 65535
+"""Steps between the least and the greatest value of a stored history."""
+
+
+def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None) -> dict[str, Any]:
+    """A merged study.
+
+    Parameters
+    ----------
+    study : as `disc_model.studies.grids.merge.merge_batches` makes it
+    motions : as `disc_model.studies.grids.motions.run_motions` makes it
+
+    Returns
+    -------
+    dict with the dimensions, each variable that lies along one (numbers as 32-bit floats, flags as bytes with their
+    words), messages, and motions.
+    """
+    dims = [_dimension(study, str(dim)) for dim in study.sizes]
+    order = [dim["name"] for dim in dims]
+    variables = [_variable(study[name], order) for name in study.data_vars if _shown(study[name])]
+    said = study.get("message")
+    return {
+        "name": name,
+        "title": str(study.attrs.get("title", "")) or name,
+        "quantity": str(study.attrs.get("quantity", "")),
+        "fixed": json.loads(str(study.attrs.get("base", "{}"))),
+        "dims": dims,
+        "variables": variables,
+        "messages": None if said is None else _messages(said, order),
+        "motions": None if motions is None else motion_contents(motions),
+    }
+
+
+def motion_contents(motions: xr.Dataset) -> dict[str, Any]:
+    """Histories along `point` and `sample`; those that failed are left out. 16 bits a sample, phases as runs."""
+    there = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
+    names = [str(name) for name in there.coords if there[name].dims == ("point",)]
+    phases = there["phase"].attrs["flag_meanings"].split()
+    return {
+        "said": str(motions.attrs.get("motion", "")),
+        "names": names,
+        "phases": phases,
+        "units": {name: str(there[name].attrs["units"]) for name in TRACES},
+        "titles": {name: str(there[name].attrs["long_name"]) for name in TRACES},
+        "points": [
+            {
+                "at": [there[name].values[i].item() if there[name].dtype.kind != "O" else there[name].values[i]
+                       for name in names],
+                "length": float(there["length"][i]),
+                "traces": {name: trace(there[name].values[i]) for name in TRACES},
+                "phase": runs(there["phase"].values[i]),
+            }
+            for i in range(there.sizes["point"])
+        ],
+    }  # fmt: skip
+
+
+def trace(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
+    """A history in 16 bits a sample: ``least + step * n`` is right to half a step, 8e-6 of its range."""
+    least, greatest = float(values.min()), float(values.max())
+    step = (greatest - least) / LEVELS
+    numbers = np.rint((values.astype(float) - least) / step) if step else np.zeros(values.shape)
+    return {"least": least, "step": step, "data": encoded(numbers, "<u2")}
+
+
+def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
+    """Stretches of equal values: where each begins, and its value."""
+    begins = np.flatnonzero(np.diff(values, prepend=values[0] + 1))
+    return [[int(i), int(values[i])] for i in begins]
+
+
+def encoded(values: NDArray[Any], kind: str) -> str:
+    """An array as base64 of its bytes, last dimension fastest."""
+    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
+
+
+def _shown(variable: xr.DataArray) -> bool:
+    return variable.ndim > 0 and variable.dtype.kind in "biuf"
+
+
+def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
+    """Values along a dimension; of a zip, which has no coordinate of its own, all that varies along it, in words."""
+    if dim in study.coords:
+        coordinate = study[dim]
+        values = _plain(coordinate.values)
+        title, unit = str(coordinate.attrs.get("long_name", dim)), str(coordinate.attrs.get("units", ""))
+        return {"name": dim, "title": title, "unit": unit, "values": values, "parts": {dim: values}}
+    along = {str(name): _plain(study[name].values) for name in study.coords if study[name].dims == (dim,)}
+    columns = along or {dim: list(range(study.sizes[dim]))}
+    words = [", ".join(f"{name} = {_said(value)}" for name, value in zip(columns, row, strict=True))
+             for row in zip(*columns.values(), strict=True)]  # fmt: skip
+    return {"name": dim, "title": ", ".join(columns), "unit": "", "values": words, "parts": columns}
+
+
+def _variable(variable: xr.DataArray, order: Iterable[str]) -> dict[str, Any]:
+    """A variable with its dimensions in the order of the study's."""
+    dims = [dim for dim in order if dim in variable.dims]
+    values = variable.transpose(*dims).values
+    found: dict[str, Any] = {
+        "name": str(variable.name),
+        "title": str(variable.attrs.get("long_name", variable.name)),
+        "unit": str(variable.attrs.get("units", "")),
+        "dims": dims,
+    }
+    if "flag_meanings" in variable.attrs:
+        words = flag_words(variable.attrs)
+        codes = np.array(sorted(words))
+        places = np.searchsorted(codes, values)
+        return found | {"flags": [words[int(code)] for code in codes], "data": encoded(places, "u1")}
+    return found | {"data": encoded(values, "<f4")}
+
+
+def flag_words(attrs: Mapping[str, Any]) -> dict[int, str]:
+    """The word of each value of a flag."""
+    words = str(attrs["flag_meanings"]).split()
+    values = np.atleast_1d(attrs.get("flag_values", range(len(words))))
+    return {int(value): word for value, word in zip(values, words, strict=True)}
+
+
+def _messages(variable: xr.DataArray, order: Iterable[str]) -> dict[str, Any]:
+    """What was said at each point, as numbers of words; most points share theirs."""
+    dims = [dim for dim in order if dim in variable.dims]
+    words, places = np.unique(variable.transpose(*dims).values.astype(str), return_inverse=True)
+    return {"dims": dims, "words": words.tolist(), "data": encoded(places, "<u2")}
+
+
+def _plain(values: NDArray[Any]) -> list[Any]:
+    return values.astype(str).tolist() if values.dtype.kind in "OUS" else values.tolist()
+
+
+def _said(value: Any) -> str:
+    return value if isinstance(value, str) else f"{value:g}"

@@ -1,0 +1,116 @@
+"""The page itself: contents, pictures, style and script put into one file."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+from collections.abc import Mapping, Sequence
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from cmcrameri import cm
+from matplotlib.colors import to_hex
+from PIL import Image
+
+from disc_model.figures.parts import (
+    BLACK,
+    BLUE,
+    BROWN,
+    GREEN,
+    GREY,
+    ORANGE,
+    PHASE_COLOURS,
+    PURPLE,
+    SKY,
+    VERMILION,
+)
+
+PICTURE_WIDTH = 1100
+"""Pixels of a figure as wide as a page; narrower ones are as much smaller."""
+PAGE_WIDTH = 2161
+"""Pixels of such a figure as it was drawn."""
+QUALITY = 80
+SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")
+"""In the order in which they use each other."""
+PALETTE = (BLUE, ORANGE, SKY, GREEN, PURPLE, BROWN, GREY, VERMILION)
+"""Of flags whose words have no colour of their own, told apart by colour-blind readers too."""
+WORDS = {**PHASE_COLOURS, "ok": SKY, "stable": BLUE, "unstable": ORANGE, "failed": BLACK}
+
+
+class Picture(NamedTuple):
+    """A figure of the report."""
+
+    heading: str
+    title: str
+    caption: str
+    file: Path
+
+
+def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Picture]) -> str:
+    """The whole page.
+
+    Parameters
+    ----------
+    studies : as `disc_model.explorer.contents.study_contents` makes them
+    pictures : those with the same heading together
+    """
+    contents = {
+        "studies": studies,
+        "maps": {"sequential": _colours("batlow"), "diverging": _colours("vik")},
+        "palette": PALETTE,
+        "words": WORDS,
+    }
+    parts = {
+        "title": escape(title),
+        "style": _part("page.css"),
+        "figures": gallery(pictures),
+        "contents": _json(contents),
+        "script": "\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
+    }
+    # in one pass over the template, so that what is put in is not searched
+    first, *rest = _part("page.html").split("@")
+    return first + "".join(parts[text] if i % 2 == 0 else text for i, text in enumerate(rest))
+
+
+def gallery(pictures: Sequence[Picture]) -> str:
+    """Figures below their headings, each a button that shows it large."""
+    lines: list[str] = []
+    heading = None
+    for picture in pictures:
+        if picture.heading != heading:
+            lines += [] if heading is None else ["</div>"]
+            heading = picture.heading
+            lines += [f"<h3>{escape(heading)}</h3>", '<div class="pictures">']
+        lines.append(
+            f'<figure><button type="button"><span class="paper"><img loading="lazy" alt="{escape(picture.title)}" '
+            f'src="{embedded(picture.file)}"></span>{escape(picture.title)}</button>'
+            f"<figcaption>{escape(picture.caption)}</figcaption></figure>"
+        )
+    return "\n".join([*lines, "</div>" if pictures else "<p>None were made.</p>"])
+
+
+def embedded(file: Path) -> str:
+    """A picture made smaller, as a data URL."""
+    with Image.open(file) as picture:
+        scale = min(1.0, PICTURE_WIDTH / PAGE_WIDTH)
+        size = (max(1, round(picture.width * scale)), max(1, round(picture.height * scale)))
+        small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+    buffer = io.BytesIO()
+    small.save(buffer, "WEBP", quality=QUALITY, method=6)
+    return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
+
+
+def _colours(name: str) -> list[str]:
+    return [to_hex(colour) for colour in getattr(cm, name)(range(256))]
+
+
+def _json(contents: Mapping[str, Any]) -> str:
+    """JSON that no text in it can end early, as the element it stands in."""
+    return json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+
+
+def _part(name: str) -> str:
+    return files(__package__).joinpath("static", name).read_text(encoding="utf-8")

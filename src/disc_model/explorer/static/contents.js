@@ -1,0 +1,64 @@
+// What the page holds: stored numbers, and how they are said in words.
+
+const contents = JSON.parse(document.getElementById("contents").textContent);
+const element = (id) => document.getElementById(id);
+const NONE = "";
+
+// Words and numbers
+
+const SUPERSCRIPTS = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+const raised = (text) => [...String(text)].map((sign) => SUPERSCRIPTS[sign] ?? sign).join("");
+const unitOf = (unit) => (unit === "1" ? "" : unit.replace(/(?<=[A-Za-z])-?\d+/g, raised));
+
+function number(value, digits = 5) {
+  if (typeof value === "string") return value;
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? "no number" : String(value);
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-3 || size >= 1e6)) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+    return `${Number(mantissa)}·10${raised(Number(exponent))}`.replace("-", "−");
+  }
+  return String(Number(value.toPrecision(digits))).replace("-", "−");
+}
+
+const withUnit = (text, unit) => (unitOf(unit) ? `${text} ${unitOf(unit)}` : text);
+const heading = (thing) => (unitOf(thing.unit) ? `${thing.name} (${unitOf(thing.unit)})` : thing.name);
+
+// Stored numbers
+
+function decoded(text, Kind) {
+  const bytes = Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
+  return new Kind(bytes.buffer);
+}
+
+function numbersOf(stored, Kind) {
+  stored.numbers ??= decoded(stored.data, Kind);
+  return stored.numbers;
+}
+
+/** The stored number of a variable at a place, given by a mapping of dimensions to indices. */
+function stored(study, variable, place, Kind) {
+  const numbers = numbersOf(variable, Kind);
+  let at = 0;
+  for (const dim of variable.dims) at = at * study.sizes[dim] + place[dim];
+  return numbers[at];
+}
+
+const value = (study, variable, place) => stored(study, variable, place, variable.flags ? Uint8Array : Float32Array);
+
+function shown(study, variable, place) {
+  const found = value(study, variable, place);
+  return variable.flags ? variable.flags[found] : withUnit(number(found), Number.isNaN(found) ? "1" : variable.unit);
+}
+
+function messageAt(study, place) {
+  const messages = study.messages;
+  return messages ? messages.words[stored(study, messages, place, Uint16Array)] : "";
+}
+
+for (const study of contents.studies) {
+  study.sizes = Object.fromEntries(study.dims.map((dim) => [dim.name, dim.values.length]));
+  study.dim = Object.fromEntries(study.dims.map((dim) => [dim.name, dim]));
+  study.status = study.variables.find((variable) => variable.name === "status" && variable.flags);
+  for (const dim of study.dims) dim.words = typeof dim.values[0] === "string";
+}

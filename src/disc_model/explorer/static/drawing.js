@@ -1,0 +1,143 @@
+// What all drawings share: scales, colours, axes.
+
+// Scales
+
+const MOST_TICKS = 6;
+const log10 = (x) => Math.log10(x);
+const identity = (x) => x;
+const gaps = (values) => values.slice(1).map((x, i) => x - values[i]);
+const even = (values) => Math.min(...gaps(values)) * values.length * 6 >= values[values.length - 1] - values[0];
+
+/** Where values of a dimension lie: by themselves, by their logarithms, or by their places; and their cells' borders. */
+function scaleOf(dim) {
+  const count = dim.values.length;
+  let kind = "place";
+  if (!dim.words && (count === 1 || even(dim.values))) kind = "linear";
+  else if (!dim.words && dim.values.every((x) => x > 0) && even(dim.values.map(log10))) kind = "log";
+  const to = kind === "log" ? log10 : identity;
+  const at = kind === "place" ? dim.values.map((_, i) => i) : dim.values.map(to);
+  const middle = gaps(at).map((gap, i) => at[i] + gap / 2);
+  const first = count > 1 ? at[0] - (at[1] - at[0]) / 2 : at[0] - 0.5;
+  const last = count > 1 ? at[count - 1] + (at[count - 1] - at[count - 2]) / 2 : at[0] + 0.5;
+  return { kind, at, borders: [first, ...middle, last], ticks: () => ticksOf(dim, kind, first, last, at) };
+}
+
+function ticksOf(dim, kind, first, last, at) {
+  if (kind === "linear") return roundTicks(first, last).map((x) => [x, number(x, 4)]);
+  if (kind === "log") {
+    const found = [];
+    for (let power = Math.floor(first); power <= Math.ceil(last); power++)
+      for (const digit of last - first > 2.5 ? [1] : [1, 2, 5]) found.push(digit * 10 ** power);
+    const inside = found.filter((x) => log10(x) >= first && log10(x) <= last);
+    return inside.map((x) => [log10(x), number(x, 4)]);
+  }
+  const every = Math.ceil(at.length / MOST_TICKS);
+  return at.filter((i) => i % every === 0).map((i) => [i, number(dim.values[i], 3)]);
+}
+
+function roundTicks(first, last, most = MOST_TICKS) {
+  const rough = (last - first) / most || 1;
+  const power = 10 ** Math.floor(log10(rough));
+  const step = power * [1, 2, 5, 10].find((digit) => digit * power >= rough);
+  const found = [];
+  for (let i = Math.ceil(first / step - 1e-9); i * step <= last + 1e-9 * step; i++) found.push(i * step);
+  return found;
+}
+
+// Colours
+
+const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+const flagColour = (variable, code) =>
+  contents.words[variable.flags[code]] ?? contents.palette[code % contents.palette.length];
+
+/** Colours of numbers: `colour(x)`, and `value(share)` for the ticks of the bar. */
+function colouring(numbers) {
+  const finite = numbers.filter(Number.isFinite).sort((a, b) => a - b);
+  if (!finite.length) return null;
+  const [least, greatest] = [finite[0], finite[finite.length - 1]];
+  const both = least < 0 && greatest > 0;
+  const zero = both ? 0 : least;
+  const size = both ? Math.max(-least, greatest) : greatest - least;
+  const sizes = finite.map((x) => Math.abs(x - zero)).sort((a, b) => a - b);
+  const quarter = sizes[Math.floor(sizes.length / 4)] || size / 100;
+  const stretched = view.colours === "stretched" || (view.colours === "auto" && size > 40 * quarter);
+  const width = stretched ? Math.max(quarter, 1e-6 * size) : 0;
+  const share = (x) => (stretched ? Math.asinh(x / width) / Math.asinh(size / width) : x / size);
+  const back = (s) => (stretched ? width * Math.sinh(s * Math.asinh(size / width)) : s * size);
+  const map = both ? contents.maps.diverging : contents.maps.sequential;
+  const place = (x) => (size === 0 ? 0.5 : both ? (1 + share(x)) / 2 : share(x - zero));
+  return {
+    map,
+    least,
+    greatest,
+    colour: (x) => map[Math.round(Math.min(1, Math.max(0, place(x))) * (map.length - 1))],
+    value: (at) => (size === 0 ? least : both ? back(2 * at - 1) : zero + back(at)),
+  };
+}
+
+// Canvas
+
+function prepared(canvas) {
+  const { width, height } = canvas.getBoundingClientRect();
+  const ratio = window.devicePixelRatio || 1;
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(height * ratio);
+  const ink = canvas.getContext("2d");
+  ink.scale(ratio, ratio);
+  ink.font = "13px system-ui, sans-serif";
+  ink.fillStyle = ink.strokeStyle = style("--text");
+  return { ink, width, height };
+}
+
+function write(ink, text, x, y, align = "center", baseline = "middle") {
+  ink.textAlign = align;
+  ink.textBaseline = baseline;
+  ink.fillText(text, x, y);
+}
+
+/** A pattern for points without a result. */
+function hatching(ink) {
+  const tile = document.createElement("canvas");
+  tile.width = tile.height = 8;
+  const own = tile.getContext("2d");
+  own.strokeStyle = style("--text");
+  own.lineWidth = 1;
+  own.beginPath();
+  for (const shift of [-8, 0, 8]) own.moveTo(shift, 8), own.lineTo(shift + 8, 0);
+  own.stroke();
+  return ink.createPattern(tile, "repeat");
+}
+
+function xAxis(ink, box, ticks, position, title) {
+  ink.strokeStyle = style("--line");
+  let free = -Infinity;
+  for (const [at, text] of ticks) {
+    const x = position(at);
+    const half = ink.measureText(text).width / 2;
+    line(ink, x, box.bottom, x, box.bottom + 4);
+    if (x - half > free + 6) {
+      write(ink, text, x, box.bottom + 7, "center", "top");
+      free = x + half;
+    }
+  }
+  write(ink, title, (box.left + box.right) / 2, box.bottom + 26, "center", "top");
+}
+
+function yAxis(ink, box, ticks, position, title) {
+  ink.strokeStyle = style("--line");
+  for (const [at, text] of ticks) {
+    const y = position(at);
+    line(ink, box.left - 4, y, box.left, y);
+    write(ink, text, box.left - 7, y, "right");
+  }
+  write(ink, title, box.left, box.top - 10, "left", "alphabetic");
+}
+
+function line(ink, x0, y0, x1, y1) {
+  ink.beginPath();
+  ink.moveTo(x0, y0);
+  ink.lineTo(x1, y1);
+  ink.stroke();
+}
+
+const widest = (ink, ticks) => Math.max(...ticks.map(([, text]) => ink.measureText(text).width), 0);

@@ -1,0 +1,118 @@
+// The motion at the chosen point, or at the nearest one that has one stored.
+
+/** Places of a motion along the study's dimensions; what it does not lie along is left out. */
+function motionPlaces(study, motion) {
+  motion.places ??= Object.fromEntries(
+    study.dims
+      .filter((dim) => Object.keys(dim.parts).every((name) => study.motions.names.includes(name)))
+      .map((dim) => [dim.name, dim.values.findIndex((_, i) =>
+        Object.entries(dim.parts).every(([name, along]) => along[i] === motion.at[study.motions.names.indexOf(name)]))]),
+  );
+  return motion.places;
+}
+
+/** The stored motion nearest the chosen point, by places along the axes; words have to agree. */
+function nearestMotion() {
+  const { study, place } = view;
+  if (!study.motions) return null;
+  let [best, least] = [null, Infinity];
+  for (const motion of study.motions.points) {
+    const places = motionPlaces(study, motion);
+    let far = 0;
+    for (const [name, at] of Object.entries(places)) {
+      const apart = at - place[name];
+      const words = typeof Object.values(study.dim[name].parts)[0][0] === "string";
+      far += words && apart ? Infinity : (apart / Math.max(1, study.sizes[name] - 1)) ** 2;
+    }
+    if (far < least) [best, least] = [motion, far];
+  }
+  if (best) best.exact = least === 0;
+  return best;
+}
+
+const PANEL = { gap: 34, top: 20, bottom: 44, right: 12 };
+let motionDrawn = null;
+
+function drawMotion() {
+  const { study } = view;
+  const motion = nearestMotion();
+  const canvas = element("motion");
+  canvas.hidden = !motion;
+  element("motion-hovered").textContent = "";
+  element("phases").replaceChildren();
+  motionDrawn = null;
+  if (!motion) {
+    element("motion-said").textContent = study.motions
+      ? "No motion is stored that is computed as this point is."
+      : "Of this quantity no motions are stored.";
+    return;
+  }
+  const dims = study.dims.filter((dim) => motion.places[dim.name] !== undefined);
+  const far = motion.exact ? "At this point" : `Nearest stored motion, at ${where(motion.places, dims)} (ring in the map)`;
+  element("motion-said").textContent = `${far}. ${study.motions.said}`;
+  const { ink, width, height } = prepared(canvas);
+  const names = Object.keys(study.motions.units);
+  const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (names.length - 1)) / names.length;
+  const histories = names.map((name) => history(motion.traces[name]));
+  const axes = histories.map((numbers) => rangeOf(numbers));
+  const left = Math.max(...axes.map((axis) => widest(ink, axis.ticks))) + 14;
+  const last = histories[0].length - 1;
+  const horizontal = linear(0, last, left, width - PANEL.right);
+  names.forEach((name, n) => {
+    const top = PANEL.top + n * (each + PANEL.gap);
+    const box = { left, right: width - PANEL.right, top, bottom: top + each };
+    const vertical = linear(axes[n].least, axes[n].greatest, box.bottom, box.top);
+    const unit = unitOf(study.motions.units[name]);
+    yAxis(ink, box, axes[n].ticks, vertical, `${name} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`);
+    ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
+    ink.strokeStyle = style("--accent");
+    polyline(ink, [...histories[n]].map((x, i) => [horizontal(i), vertical(x)]), true);
+  });
+  const bottom = height - PANEL.bottom;
+  phaseBand(ink, study.motions, motion, horizontal, last, bottom - 10, bottom);
+  ink.fillStyle = style("--text");
+  const ms = 1e3 * motion.length;
+  const ticks = roundTicks(0, ms).map((t) => [(t / ms) * last, number(t, 4)]);
+  xAxis(ink, { left, right: width - PANEL.right, bottom }, ticks, horizontal, "time (ms)");
+  motionDrawn = { histories, names, horizontal, last, ms };
+}
+
+const history = (trace) => Float64Array.from(numbersOf(trace, Uint16Array), (n) => trace.least + trace.step * n);
+
+/** Axis of a history: its range, a power of ten taken out of its labels, and ticks. */
+function rangeOf(numbers) {
+  const [low, high] = [Math.min(...numbers), Math.max(...numbers)];
+  const middle = Math.max(Math.abs(low), Math.abs(high));
+  // what 16 bits cannot tell from a constant is drawn as one
+  const room = Math.max((high - low) / 15, middle * 1e-9, 1e-300);
+  const [least, greatest] = [low - room, high + room];
+  const size = Math.floor(log10(middle || 1));
+  const power = size < -2 || size > 4 ? 3 * Math.floor(size / 3) : 0;
+  const steps = roundTicks(least, greatest, 4);
+  const digits = Math.max(2, Math.ceil(log10((middle || 1) / (greatest - least))) + 3);
+  return { least, greatest, power, ticks: steps.map((x) => [x, number(x / 10 ** power, digits)]) };
+}
+
+function phaseBand(ink, motions, motion, horizontal, last, top, bottom) {
+  const seen = new Map();
+  motion.phase.forEach(([begin, code], n) => {
+    const end = n + 1 < motion.phase.length ? motion.phase[n + 1][0] : last;
+    const word = motions.phases[code];
+    const colour = contents.words[word] ?? style("--empty");
+    seen.set(word, colour);
+    ink.fillStyle = colour;
+    ink.fillRect(horizontal(begin), top, horizontal(end) - horizontal(begin), bottom - top);
+  });
+  element("phases").replaceChildren(...[...seen].map(([word, colour]) => legendEntry([colour, word])));
+}
+
+function hoverMotion(event) {
+  if (!motionDrawn) return;
+  const { histories, names, horizontal, last, ms } = motionDrawn;
+  const x = event.clientX - element("motion").getBoundingClientRect().left;
+  const i = Math.round(((x - horizontal(0)) / (horizontal(last) - horizontal(0))) * last);
+  const { units } = view.study.motions;
+  element("motion-hovered").textContent =
+    i < 0 || i > last ? "" : [`${number((i / last) * ms, 4)} ms`,
+      ...names.map((name, n) => `${name} ${withUnit(number(histories[n][i]), units[name])}`)].join(", ");
+}

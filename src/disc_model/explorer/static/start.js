@@ -1,0 +1,48 @@
+// Figures, and the beginning of it all.
+
+function enlarge(button) {
+  const [image, caption] = [button.querySelector("img"), button.nextElementSibling];
+  element("large-title").textContent = button.textContent.trim();
+  element("large-image").src = image.src;
+  element("large-image").alt = image.alt;
+  element("large-caption").textContent = caption.textContent;
+  if (!element("large").open) element("large").showModal();
+  element("large").dataset.index = pictures.indexOf(button);
+}
+
+const pictures = [...document.querySelectorAll(".pictures button")];
+for (const button of pictures) button.addEventListener("click", () => enlarge(button));
+element("large").addEventListener("keydown", (event) => {
+  const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+  const next = step && pictures[Number(element("large").dataset.index) + step];
+  if (next) enlarge(next);
+});
+
+function update() {
+  fillControls();
+  drawMap();
+  hover(null);
+  showPoint();
+  drawMotion();
+}
+
+function redraw() {
+  drawMap();
+  drawMotion();
+}
+
+if (contents.studies.length) {
+  const map = element("map");
+  map.addEventListener("pointermove", (event) => hover(cellAt(map, event)));
+  map.addEventListener("pointerleave", () => hover(null));
+  map.addEventListener("click", (event) => {
+    const place = cellAt(map, event);
+    if (place) choose(place);
+  });
+  map.addEventListener("keydown", move);
+  element("motion").addEventListener("pointermove", hoverMotion);
+  window.addEventListener("resize", redraw);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  chooseStudy(contents.studies[0].name);
+  update();
+} else element("grids").hidden = true;

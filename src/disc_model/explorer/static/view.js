@@ -1,0 +1,104 @@
+// What is looked at, and the controls that choose it.
+
+const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: "auto", mark: NONE, hovered: null };
+
+const long = (study) => study.dims.filter((dim) => dim.values.length > 1);
+const along = (variable, ...dims) => dims.every((dim) => dim === NONE || variable.dims.includes(dim));
+const selectors = () =>
+  view.study.dims.filter((dim) => ![view.x, view.y].includes(dim.name) && view.variable.dims.includes(dim.name));
+
+function chooseStudy(name) {
+  const study = contents.studies.find((one) => one.name === name);
+  const numeric = long(study).filter((dim) => !dim.words);
+  const axes = numeric.length ? numeric : long(study).length ? long(study) : study.dims;
+  // the speed goes across, as in the figures
+  const across = axes.find((dim) => dim.name === "Omega") ?? axes[0];
+  const up = axes.find((dim) => dim !== across);
+  const kept = view.place;
+  Object.assign(view, { study, x: across.name, y: up ? up.name : NONE, variable: null, mark: NONE });
+  view.place = Object.fromEntries(
+    study.dims.map((dim) => [dim.name, dim.words ? Math.min(kept[dim.name] ?? 0, dim.values.length - 1) : 0]),
+  );
+  for (const dim of [across, ...(up ? [up] : [])]) view.place[dim.name] = Math.floor((dim.values.length - 1) / 2);
+  chooseAxes();
+}
+
+/** After another choice of axes: a variable along both of them, the one before if it will do. */
+function chooseAxes() {
+  const { study } = view;
+  if (!variablesShown().length) view.y = NONE;
+  const fitting = variablesShown();
+  if (!fitting.includes(view.variable)) view.variable = fitting.find((one) => one !== study.status) ?? fitting[0];
+  const computed = marks().find(([, , word]) => word === "computed");
+  view.mark = computed ? computed[0] : NONE;
+}
+
+const variablesShown = () => view.study.variables.filter((variable) => along(variable, view.x, view.y));
+
+/** Flags that points can be marked by: key, variable, word. */
+function marks() {
+  return variablesShown().flatMap((variable) =>
+    variable.flags ? variable.flags.map((word) => [`${variable.name}=${word}`, variable, word]) : [],
+  );
+}
+
+// Controls
+
+function choice(label, options, chosen, act) {
+  const box = document.createElement("label");
+  box.textContent = label;
+  const select = document.createElement("select");
+  select.name = label;
+  for (const [key, text] of options) select.add(new Option(text, key, false, key === chosen));
+  select.addEventListener("change", () => {
+    act(select.value);
+    update();
+    element("controls").elements.namedItem(label)?.focus();
+  });
+  box.append(select);
+  return box;
+}
+
+function fillControls() {
+  const { study } = view;
+  const axes = long(study).length ? long(study) : study.dims;
+  const named = (dim) => [dim.name, dim.name === dim.title ? dim.name : `${dim.name}: ${dim.title}`];
+  const boxes = [
+    choice("Study", contents.studies.map((one) => [one.name, `${one.name}: ${one.title}`]), study.name, chooseStudy),
+    choice("Across", axes.map(named), view.x, (name) => {
+      if (name === view.y) view.y = view.x;
+      view.x = name;
+      chooseAxes();
+    }),
+    choice("Up", [...axes.filter((dim) => dim.name !== view.x).map(named), [NONE, "none: a curve"]], view.y, (name) => {
+      view.y = name;
+      chooseAxes();
+    }),
+    choice("Variable", variablesShown().map(named), view.variable.name, (name) => {
+      view.variable = variablesShown().find((one) => one.name === name);
+    }),
+    ...selectors().filter((dim) => dim.values.length > 1).map((dim) =>
+      choice(
+        dim.name,
+        dim.values.map((one, i) => [String(i), withUnit(number(one), dim.unit)]),
+        String(view.place[dim.name]),
+        (i) => (view.place[dim.name] = Number(i)),
+      ),
+    ),
+  ];
+  if (view.y !== NONE && !view.variable.flags)
+    boxes.push(
+      choice(
+        "Colours",
+        [["auto", "automatic"], ["linear", "linear"], ["stretched", "small values spread"]],
+        view.colours,
+        (name) => (view.colours = name),
+      ),
+    );
+  if (marks().length)
+    boxes.push(
+      choice("Dots", [[NONE, "none"], ...marks().map(([key, , word]) => [key, `${key.split("=")[0]}: ${word}`])],
+        view.mark, (key) => (view.mark = key)),
+    );
+  element("controls").replaceChildren(...boxes);
+}

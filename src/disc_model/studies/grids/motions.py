@@ -1,0 +1,80 @@
+"""Short histories of the motion at a few points of a grid, for the page on which they are looked at.
+
+They begin where what the quantity says of the point ends: after the late stretch of an outcome, on the cycle whose
+stability is asked for, after the transient.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.variables import PHASES, SERIES, Variable
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Record, Window
+from disc_model.simulation.result import State
+from disc_model.studies.grids.run import STATUS, Column, quantity_of, run_as
+
+SAMPLES = 256
+"""In a history: some six in an oscillation of the disc's fastest mode of the paper over the longest."""
+CYCLES = 2
+"""How many stick-slip cycles a history shows."""
+LONGEST = 0.05
+"""Of a cycle, s, where stick lasts very long or nothing pulls the slider back."""
+LOOK = 0.5
+"""Over how long stick releases are counted, s."""
+SHOWN = ("P", "u", "psi")
+TOLERANCE = 1e-10
+_ALONG = ("sample",)
+
+
+class Motions:
+    """The histories in place of what the quantity itself computes; a `Quantity` as that of `run`."""
+
+    COLUMNS: Mapping[str, Column] = {
+        "status": Column(STATUS),
+        "length": Column(Variable("s", "length of the history")),
+        **{name: Column(SERIES[name], _ALONG) for name in SHOWN},
+        "phase": Column(Variable("1", "phase of the motion", ("none", *PHASES)), _ALONG),
+    }
+
+    def __init__(self, quantity: Any) -> None:
+        self.quantity = quantity
+
+    def coordinates(self, options: Any) -> dict[str, Any]:
+        """Numbers of the samples, evenly spread from the beginning to the end."""
+        return {"sample": (np.arange(SAMPLES), Variable("1", "number of the sample"))}
+
+    def at(self, p: Parameters, options: Any) -> tuple[dict[str, Any], str]:
+        """One history."""
+        start = self.quantity.state_at(p, options).replace(time=0.0, time_low=0.0)
+        length = CYCLES * cycle_length(p, start)
+        record = Record(windows=(Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length),), events=False)
+        result = simulate(p, length, tol=TOLERANCE, initial_state=start, record=record).raise_for_status()
+        samples = result.samples[0]
+        values = {"status": "ok", "length": length, "phase": samples["phase"] + 1}
+        return values | {name: samples[name] for name in SHOWN}, ""
+
+
+def run_motions(text: str) -> xr.Dataset:
+    """Histories, along `point` and `sample`, of a text of `disc_model.studies.grids.schema.motion_texts`."""
+    quantity = quantity_of(text)
+    found = run_as(text, Motions(quantity)).assign_attrs(motion=quantity.MOTION)
+    return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
+
+
+def cycle_length(p: Parameters, state: State) -> float:
+    """Mean time between two stick releases after a state (time 0), s; at least the free period in the plane.
+
+    The latter is all there is where the slider no longer sticks.
+    """
+    free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
+    events = simulate(p, LOOK, tol=TOLERANCE, initial_state=state).events
+    released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
+    between = np.ptp(released) / (len(released) - 1) if len(released) > 1 else 0.0
+    return min(max(float(between), free), LONGEST)

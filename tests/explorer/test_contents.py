@@ -1,0 +1,87 @@
+"""What the page is told of studies and motions."""
+
+from __future__ import annotations
+
+import base64
+import json
+
+import numpy as np
+import pytest
+
+from disc_model.explorer.contents import LEVELS, motion_contents, runs, study_contents, trace
+from disc_model.studies.grids.motions import SAMPLES
+from tests.explorer import made_up
+
+
+def numbers(stored, kind: str) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(stored["data"]), kind)
+
+
+@pytest.fixture
+def contents():
+    return study_contents("plane", made_up.plane(), made_up.motions())
+
+
+def test_every_number_comes_through(contents):
+    study = made_up.plane()
+    told = {variable["name"]: variable for variable in contents["variables"]}
+    assert set(told) == set(study.data_vars) - {"message"}
+    shape = {dim["name"]: len(dim["values"]) for dim in contents["dims"]}
+    for name in ("growth_rate", "releases"):
+        found = numbers(told[name], "<f4").reshape([shape[dim] for dim in told[name]["dims"]])
+        # 24 bits of a float
+        np.testing.assert_allclose(found, study[name].transpose(*told[name]["dims"]), rtol=2**-24)
+    assert told["growth_rate"]["unit"] == "s-1"
+    assert told["growth_rate"]["title"] == "growth rate"
+
+
+def test_flags_are_said_by_their_words_whatever_numbers_stand_for_them(contents):
+    told = {variable["name"]: variable for variable in contents["variables"]}
+    words = np.array(told["outcome"]["flags"])[numbers(told["outcome"], "u1")]
+    expected = np.where(made_up.plane()["outcome"].values == 0, "separation", "stable")
+    assert words.tolist() == expected.ravel().tolist()
+
+
+def test_messages_of_points(contents):
+    messages = contents["messages"]
+    said = np.array(messages["words"])[numbers(messages, "<u2")].reshape(3, 4, 2)
+    assert said[tuple(made_up.FAILED.values())] == made_up.MESSAGE
+    assert (said != "").sum() == 1
+
+
+def test_a_zip_is_one_dimension_of_words():
+    (dim,) = study_contents("line", made_up.line())["dims"]
+    assert dim["values"][0] == "N = 100, Omega = 20"
+    assert dim["parts"] == {"N": made_up.N, "Omega": [20.0, 15.1, 12.0]}
+
+
+def test_motions_that_failed_are_left_out(contents):
+    motions = contents["motions"]
+    assert [motion["at"] for motion in motions["points"]] == [[100, 5, "as_published"], [385, 20, "as_published"]]
+    assert motions["units"] == {"P": "N", "u": "m", "psi": "rad"}
+    assert motions["points"][0]["phase"] == [[0, 1], [SAMPLES // 4, 2], [SAMPLES // 2, 3], [3 * SAMPLES // 4, 1]]
+
+
+def test_a_history_is_right_to_half_a_step(contents):
+    for motion in contents["motions"]["points"]:
+        told = motion["traces"]["P"]
+        found = told["least"] + told["step"] * numbers(told, "<u2")
+        expected = made_up.force(motion["at"][0]).astype(float)
+        # half a step, and rounding of what is about 600
+        assert np.abs(found - expected).max() <= np.ptp(expected) / LEVELS / 2 + 1e-12
+
+
+def test_a_constant_history():
+    told = trace(np.full(7, -0.0088))
+    assert (told["least"], told["step"]) == (-0.0088, 0)
+    assert not numbers(told, "<u2").any()
+
+
+def test_runs():
+    assert runs(np.array([2, 2, 2, 1, 1, 2])) == [[0, 2], [3, 1], [5, 2]]
+    assert runs(np.array([0])) == [[0, 0]]
+
+
+def test_contents_are_json(contents):
+    assert json.loads(json.dumps(contents, allow_nan=False)) == contents
+    assert motion_contents(made_up.motions()) == contents["motions"]

@@ -1,0 +1,276 @@
+"""The explorer in a real browser, as wide as a screen and as narrow as a telephone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from disc_model.explorer.contents import LEVELS, study_contents
+from disc_model.explorer.page import WORDS, Picture, page
+from tests import needs
+from tests.explorer import made_up
+from tests.workflow.browser import Page, browser
+
+pytestmark = [pytest.mark.slow, needs.BROWSER.mark]
+
+SIZES = {"wide": (1400, 1000), "narrow": (360, 740)}
+LEFT, UP, RIGHT, ENTER, ESCAPE = "\ue012", "\ue013", "\ue014", "\ue007", "\ue00c"
+"""Keys as WebDriver calls them."""
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("explorer")
+    Image.new("RGB", (1200, 500), "#0072B2").save(folder / "one.png")
+    Image.new("RGB", (1200, 900), "#D55E00").save(folder / "two.png")
+    pictures = [Picture("Figures", name, f"The caption of {name}.", folder / f"{name}.png") for name in ("one", "two")]
+    studies = [study_contents("plane", made_up.plane(), made_up.motions()), study_contents("line", made_up.line())]
+    (folder / "explorer.html").write_text(page("Made up", studies, pictures), encoding="utf-8")
+    return folder / "explorer.html"
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    with browser(tmp_path_factory.mktemp("profile")) as opened:
+        yield opened
+
+
+@pytest.fixture(params=SIZES)
+def shown(request: pytest.FixtureRequest, session: Page, file: Path) -> Iterator[Page]:
+    """The page, opened anew; the console stays clean."""
+    session.resize(*SIZES[request.param])
+    session.prefer("light")
+    session.open(file)
+    yield session
+    assert [message for message in session.messages() if message["level"] == "SEVERE"] == []
+
+
+def text(shown: Page, id_: str) -> str:
+    found: str = shown.run("return document.getElementById(arguments[0]).innerText", id_)
+    return found
+
+
+def choose(shown: Page, label: str, option: str) -> None:
+    shown.run(
+        """const select = document.getElementById("controls").elements.namedItem(arguments[0]);
+           if (![...select.options].some(one => one.value === arguments[1])) throw Error(arguments[1]);
+           select.value = arguments[1];
+           select.dispatchEvent(new Event("change"));""",
+        label,
+        option,
+    )
+
+
+def options(shown: Page, label: str) -> list[str]:
+    found: list[str] = shown.run(
+        "return [...document.getElementById('controls').elements.namedItem(arguments[0]).options].map(x => x.value)",
+        label,
+    )
+    return found
+
+
+def centre(shown: Page, i: int, j: int) -> tuple[float, float]:
+    """The middle of a cell, in the window; the map is brought into view."""
+    x, y = shown.run(
+        """const map = document.getElementById("map");
+           map.scrollIntoView({block: "center", behavior: "instant"});
+           const {left, top} = map.getBoundingClientRect();
+           const {xs, ys, horizontal, vertical} = drawn;
+           return [left + horizontal(xs.at[arguments[0]]), top + vertical(ys.at[arguments[1]])];""",
+        i,
+        j,
+    )
+    return x, y
+
+
+def colour(shown: Page, i: int, j: int) -> str:
+    """The colour a little below and left of a cell's middle, where no ring and no dot is."""
+    red, green, blue = shown.run(
+        """const {xs, ys, horizontal, vertical} = drawn;
+           const quarter = (scale, position, n) => (position(scale.at[n]) + position(scale.borders[n])) / 2;
+           const at = [quarter(xs, horizontal, arguments[0]), quarter(ys, vertical, arguments[1])].map(Math.round);
+           return [...document.getElementById("map").getContext("2d").getImageData(...at, 1, 1).data].slice(0, 3);""",
+        i,
+        j,
+    )
+    return f"#{red:02x}{green:02x}{blue:02x}"
+
+
+def test_it_fits_the_window_and_needs_no_network(shown: Page) -> None:
+    assert shown.run("return document.documentElement.scrollWidth <= window.innerWidth")
+    loaded = shown.run("return performance.getEntriesByType('resource').map(x => x.name)")
+    assert [name for name in loaded if not name.startswith("data:")] == []
+    sizes = shown.run(
+        """return [...document.querySelectorAll("p, li, td, th, label, select, button, figcaption")]
+             .filter(x => x.innerText).map(x => parseFloat(getComputedStyle(x).fontSize))"""
+    )
+    # small type of books, in CSS pixels
+    assert min(sizes) >= 12
+
+
+def test_every_choice_draws_something(shown: Page) -> None:
+    drawn = set()
+    for study in options(shown, "Study"):
+        choose(shown, "Study", study)
+        for across in options(shown, "Across"):
+            choose(shown, "Across", across)
+            for up in options(shown, "Up"):
+                choose(shown, "Up", up)
+                for variable in options(shown, "Variable"):
+                    choose(shown, "Variable", variable)
+                    drawn.add((study, across, up, variable))
+                    colours = shown.run(
+                        """const map = document.getElementById("map"), ink = map.getContext("2d");
+                           const {data} = ink.getImageData(0, 0, map.width, map.height);
+                           return new Set(new Uint32Array(data.buffer)).size;"""
+                    )
+                    assert colours > 4, (study, across, up, variable)
+                    assert text(shown, "point")
+    planes = {(across, up) for study, across, up, _ in drawn if study == "plane" and up}
+    assert planes == {(a, b) for a in made_up.plane().sizes for b in made_up.plane().sizes if a != b}
+    # a variable without one of the two dimensions is not among those of the plane
+    assert ("plane", "Omega", "N", "releases") in drawn
+    assert ("plane", "Omega", "normalization", "releases") not in drawn
+    assert ("line", "N_Omega", "", "period") in drawn
+
+
+def test_pointing_says_the_value(shown: Page) -> None:
+    choose(shown, "Variable", "growth_rate")
+    study = made_up.plane()
+    for i, j in ((0, 0), (3, 1), (2, 2)):
+        shown.point(*centre(shown, i, j))
+        value = float(study["growth_rate"].isel(Omega=i, N=j, normalization=0))
+        said = text(shown, "hovered")
+        assert f"Omega = {study['Omega'].values[i]:g} rad s⁻¹" in said
+        assert f"N = {study['N'].values[j]:g} N" in said
+        assert f"growth_rate {value:.5g} s⁻¹".replace("-", "−") in said
+
+
+def test_the_normalisation_is_chosen(shown: Page) -> None:
+    choose(shown, "Variable", "growth_rate")
+    before = colour(shown, 3, 1)
+    choose(shown, "normalization", "1")
+    assert "orthonormal" in text(shown, "map-title")
+    assert colour(shown, 3, 1) != before
+    shown.point(*centre(shown, 0, 0), click=True)
+    value = float(made_up.plane()["growth_rate"].isel(Omega=0, N=0, normalization=1))
+    assert f"growth_rate {value:.5g}".replace("-", "−") in text(shown, "point")
+
+
+def test_flags_have_their_colours(shown: Page) -> None:
+    choose(shown, "Variable", "outcome")
+    assert colour(shown, 0, 0) == WORDS["stable"].lower()
+    assert colour(shown, 3, 2) == WORDS["separation"].lower()
+    assert "stable" in text(shown, "legend")
+
+
+def test_a_point_that_failed_says_so(shown: Page) -> None:
+    shown.point(*centre(shown, made_up.FAILED["Omega"], made_up.FAILED["N"]), click=True)
+    assert text(shown, "message") == f"failed: {made_up.MESSAGE}"
+    assert "no result" in text(shown, "legend")
+    assert "failed" in text(shown, "values")
+    shown.point(*centre(shown, 0, 0), click=True)
+    assert text(shown, "message") == ""
+
+
+def test_what_was_computed_is_marked(shown: Page) -> None:
+    """Points whose flag says that they lie in a cell that was not divided have no dot."""
+    middle = """const {xs, ys, horizontal, vertical} = drawn;
+        const at = [horizontal(xs.at[arguments[0]]), vertical(ys.at[arguments[1]])].map(Math.round);
+        return [...document.getElementById("map").getContext("2d").getImageData(...at, 1, 1).data].slice(0, 3);"""
+    assert "whether the value was computed: computed" in text(shown, "legend")
+    assert shown.run(middle, 0, 0) == [255, 255, 255]
+    assert shown.run(middle, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]) != [255, 255, 255]
+    choose(shown, "Dots", "origin=undivided")
+    assert shown.run(middle, 0, 0) != [255, 255, 255]
+    choose(shown, "Variable", "origin")
+    shown.point(*centre(shown, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]))
+    assert "origin undivided" in text(shown, "hovered")
+
+
+def history(shown: Page) -> np.ndarray:
+    found: Any = shown.run("return motionDrawn && [...motionDrawn.histories[0]]")
+    return np.array(found)
+
+
+def test_a_click_shows_the_motion(shown: Page) -> None:
+    shown.point(*centre(shown, 0, 0), click=True)
+    assert text(shown, "motion-said") == "At this point. After the transient."
+    expected = made_up.force(100.0)
+    # half a step of 16 bits, and rounding to float
+    np.testing.assert_allclose(history(shown), expected, atol=np.ptp(expected) / LEVELS / 2 + 1e-4)
+    assert text(shown, "phases").split() == ["stick", "slip", "separation"]
+    # the point next to the last has none of its own
+    shown.point(*centre(shown, 2, 2), click=True)
+    said = text(shown, "motion-said")
+    assert said.startswith("Nearest stored motion, at N = 385 N, Omega = 20 rad s⁻¹, as_published (ring in the map).")
+    np.testing.assert_allclose(history(shown).mean(), made_up.force(385.0).mean(), rtol=1e-4)
+    x, y = shown.run(
+        """const motion = document.getElementById("motion");
+           motion.scrollIntoView({block: "center", behavior: "instant"});
+           const {left, top, height} = motion.getBoundingClientRect();
+           return [left + motionDrawn.horizontal(0), top + height / 2];"""
+    )
+    shown.point(x, y)
+    assert text(shown, "motion-hovered").startswith("0 ms, P 385 N, u −0.0088 m, psi 0 rad")
+
+
+def test_where_no_motion_is_stored_the_page_says_so(shown: Page) -> None:
+    choose(shown, "normalization", "1")
+    assert text(shown, "motion-said").startswith("No motion is stored")
+    assert shown.run("return document.getElementById('motion').hidden")
+    choose(shown, "Study", "line")
+    assert text(shown, "motion-said").startswith("Of this quantity")
+
+
+def test_the_keyboard_will_do(shown: Page) -> None:
+    choose(shown, "Variable", "growth_rate")
+    shown.point(*centre(shown, 1, 1), click=True)
+    shown.run("document.getElementById('map').focus()")
+    shown.press(RIGHT, RIGHT, RIGHT, UP, UP)
+    assert "N = 385 N, Omega = 20 rad s⁻¹" in text(shown, "point")
+    assert "Omega = 20" in text(shown, "hovered")
+    shown.press(LEFT)
+    assert "Omega = 15.1" in text(shown, "point")
+    # a choice leaves the focus where it was
+    shown.run("document.getElementById('controls').elements.namedItem('Variable').focus()")
+    choose(shown, "Variable", "outcome")
+    assert shown.run("return document.activeElement.name") == "Variable"
+
+
+def test_figures_are_enlarged(shown: Page) -> None:
+    shown.run("document.querySelector('.pictures button').focus()")
+    shown.press(ENTER)
+    large = "const image = document.getElementById('large-image'); return image.complete && image.naturalWidth"
+    shown.wait_for(large)
+    assert shown.run("return document.getElementById('large').open")
+    assert text(shown, "large-caption") == "The caption of one."
+    shown.press(RIGHT)
+    assert text(shown, "large-title") == "two"
+    shown.press(ESCAPE)
+    assert not shown.run("return document.getElementById('large').open")
+
+
+def test_text_is_readable_in_light_and_dark(session: Page, file: Path) -> None:
+    contrast = """
+        const parse = text => text.match(/[0-9.]+/g).slice(0, 3).map(Number);
+        const light = c => { const [r, g, b] = parse(c).map(x => x / 255)
+            .map(x => x <= 0.03928 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
+            return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+        const behind = x => { for (; x; x = x.parentElement) { const c = getComputedStyle(x).backgroundColor;
+            if (c !== "rgba(0, 0, 0, 0)") return light(c); } return 1; };
+        return Math.min(...[...document.querySelectorAll("p, li, td, th, label, select, button, figcaption, a, h1")]
+            .filter(x => x.innerText).map(x => { const text = light(getComputedStyle(x).color), back = behind(x);
+            return (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05); }));"""
+    for scheme in ("light", "dark"):
+        session.prefer(scheme)
+        session.open(file)
+        # what the guidelines for accessible pages ask for
+        assert session.run(contrast) >= 4.5, scheme
+        back = session.run("return getComputedStyle(document.body).backgroundColor")
+        assert (back == "rgb(255, 255, 255)") == (scheme == "light")

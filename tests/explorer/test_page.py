@@ -1,0 +1,96 @@
+"""The page as text: all in it, nothing fetched, nothing that breaks out of its place."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from disc_model.explorer import page as page_module
+from disc_model.explorer.contents import study_contents
+from disc_model.explorer.page import PAGE_WIDTH, PICTURE_WIDTH, SCRIPTS, Picture, page
+from tests.explorer import made_up
+
+CAPTION = 'A curve of f < 0 & "more"'
+
+
+@pytest.fixture
+def figure(tmp_path: Path) -> Path:
+    file = tmp_path / "fig.png"
+    Image.new("RGB", (PAGE_WIDTH, 500), "#0072B2").save(file)
+    return file
+
+
+@pytest.fixture
+def text(figure: Path) -> str:
+    studies = [study_contents("plane", made_up.plane(), made_up.motions()), study_contents("line", made_up.line())]
+    pictures = [Picture("Sec. 1", "One", CAPTION, figure), Picture("Sec. 2", "Two", CAPTION, figure)]
+    return page("A <title>", studies, pictures)
+
+
+class Reader(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.scripts: list[str] = []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_data(self, data):
+        if self.tags and self.tags[-1][0] == "script" and self.lasttag == "script":
+            self.scripts.append(data)
+
+
+def test_nothing_is_fetched(text):
+    reader = Reader()
+    reader.feed(text)
+    addresses = [value for _, attrs in reader.tags for name, value in attrs.items() if name in ("src", "href")]
+    assert len(addresses) >= 4
+    assert all(re.match(r"data:|#", str(address)) for address in addresses)
+    assert not re.search(r"url\(|@import|fetch\(|XMLHttpRequest|https?://", "".join([*reader.scripts, _style(text)]))
+
+
+def _style(text: str) -> str:
+    found = re.search(r"<style>(.*?)</style>", text, re.DOTALL)
+    assert found
+    return found[1]
+
+
+def test_texts_of_studies_stay_in_their_place(text):
+    """A message that ends a script, a title with a tag."""
+    reader = Reader()
+    reader.feed(text)
+    told = json.loads(next(script for script in reader.scripts if script.startswith("{")))
+    assert made_up.MESSAGE in told["studies"][0]["messages"]["words"]
+    assert [tag for tag, _ in reader.tags].count("script") == 2
+    assert "<title>A &lt;title&gt;</title>" in text
+
+
+def test_figures_have_pictures_and_captions(text):
+    (data, other) = re.findall(r'src="data:image/webp;base64,([^"]+)"', text)
+    assert data == other
+    with Image.open(io.BytesIO(base64.b64decode(data))) as picture:
+        assert picture.size == (PICTURE_WIDTH, round(500 * PICTURE_WIDTH / PAGE_WIDTH))
+        # a lossy format: a few steps of 256
+        assert all(
+            abs(a - b) < 8 for a, b in zip(picture.convert("RGB").getpixel((9, 9)), (0, 0x72, 0xB2), strict=True)
+        )
+    assert text.count("<figcaption>A curve of f &lt; 0 &amp; &quot;more&quot;</figcaption>") == 2
+    assert text.index("<h3>Sec. 1</h3>") < text.index("<h3>Sec. 2</h3>")
+
+
+def test_every_part_of_the_script_is_used():
+    there = {path.stem for path in (Path(page_module.__file__).parent / "static").glob("*.js")}
+    assert there == set(SCRIPTS)
+
+
+def test_equal_contents_give_equal_bytes(figure):
+    pictures = [Picture("a", "b", "c", figure)]
+    assert page("t", [], pictures) == page("t", [], pictures)

@@ -1,0 +1,117 @@
+"""Motions of which histories are kept for the explorer."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import published_start, simulate
+from disc_model.simulation.case import Record, Window
+from disc_model.stability.cycle import floquet
+from disc_model.studies.grids.dimensions import Dimension, thinned
+from disc_model.studies.grids.motions import CYCLES, LONGEST, SAMPLES, cycle_length, run_motions
+from disc_model.studies.grids.quantities import outcome
+from disc_model.studies.grids.quantities.schema import QUANTITIES, OutcomeOptions
+from disc_model.studies.grids.schema import parse_grid
+
+AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 21}, "normalization": ["as_published"]}
+
+
+def texts(quantity: str, **more) -> dict[str, str]:
+    raw = {"study": "small", "quantity": quantity, "axes": AXES} | more
+    return dict(parse_grid(raw).motions)
+
+
+def histories(quantity: str, **more):
+    (text,) = texts(quantity, **more).values()
+    return run_motions(text)
+
+
+def test_few_values_of_an_axis_are_taken_both_ends_among_them():
+    dim = Dimension(("Omega",), (tuple((float(x),) for x in range(11)),))
+    assert thinned(dim, 4).values == ((0.0,), (3.0,), (7.0,), (10.0,))
+    assert thinned(dim, 11).values == thinned(dim, 99).values == dim.values
+    assert thinned(dim, 1).values == ((0.0,),)
+
+
+def test_words_are_all_taken():
+    dim = Dimension(("start",), (tuple((word,) for word in "abcde"),))
+    assert thinned(dim, 2).values == dim.values
+
+
+@pytest.mark.parametrize("quantity", ["critical_speed", "hysteresis", "stability_curves"])
+def test_some_quantities_have_no_motions(quantity):
+    assert QUANTITIES[quantity].motions == 0
+
+
+def test_points_of_a_study_and_the_name_of_their_file():
+    ((name, text),) = texts("floquet").items()
+    points = json.loads(text)["points"]
+    assert len(points) == 3 * QUANTITIES["floquet"].motions
+    assert points[0] == [100.0, 10.0, "as_published"]
+    assert points[-1] == [385.0, 20.0, "as_published"]
+    assert texts("floquet") == {name: text}
+    assert name not in texts("floquet", options={"tol": 1e-11})
+    assert name not in parse_grid({"study": "small", "quantity": "floquet", "axes": AXES}).batches
+
+
+def test_a_history_of_the_cycle_repeats():
+    axes = {"N": [200, 300], "Omega": [20], "normalization": ["as_published"]}
+    found = histories("floquet", axes=axes)
+    for i, N in enumerate((200.0, 300.0)):
+        cycle = floquet(Parameters(N=N, Omega=20, normalization="as_published"))
+        # one release a period, counted over half a second in which the unstable cycle hardly grows
+        assert float(found["length"][i]) == pytest.approx(CYCLES * cycle.period, rel=1e-6)
+        # begins and ends at a release, where P jumps a little; all move by much more in between
+        for name, most in (("P", 1e-2), ("u", 1e-3), ("psi", 1e-3)):
+            values = found[name].values[i]
+            assert abs(values[-1] - values[0]) < most * np.ptp(values)
+    assert found.attrs["motion"]
+
+
+def test_the_history_goes_on_from_the_late_stretch():
+    """The contact force stays in the range that the dataset gives for the late stretch of a settled motion."""
+    p = Parameters(N=200, Omega=5, normalization="as_published")
+    options = OutcomeOptions(horizon=200)
+    row, _ = outcome.at(p, options)
+    assert row["outcome"] == "stable"
+    found = histories(
+        "outcome", options={"horizon": 200}, axes={"N": [200], "Omega": [5], "normalization": ["as_published"]}
+    )
+    # another phase of sampling finds extremes to a thousandth of the range
+    room = 1e-2 * (row["P_max"] - row["P_min"])
+    assert row["P_min"] - room <= found["P"].min() <= found["P"].max() <= row["P_max"] + room
+    assert np.ptp(found["P"].values) > 0.9 * (row["P_max"] - row["P_min"])
+
+
+def test_samples_are_those_of_the_motion():
+    axes = {"N": [385], "Omega": [15.1], "normalization": ["as_published"]}
+    found = histories("bifurcation", axes=axes, options={"transient": 2.0, "samples": 1}).isel(point=0)
+    p = Parameters(N=385, Omega=15.1, normalization="as_published")
+    length = float(found["length"])
+    window = Window(start=2.0, stop=2.0 + length, rate=1e6)
+    (samples,) = simulate(p, 2.0 + length, record=Record(windows=(window,), events=False)).samples
+    times = 2.0 + np.linspace(0, length, SAMPLES)
+    for name in ("P", "u", "psi"):
+        expected = np.interp(times, samples["time"], samples[name])
+        # one sample may fall on a jump of P at a switch, on either side
+        close = np.isclose(found[name], expected, atol=1e-4 * np.ptp(expected), rtol=0)
+        assert close.sum() >= SAMPLES - 8
+
+
+def test_what_has_no_motion_is_recorded():
+    found = histories("floquet", axes={"N": [0, 200], "Omega": [20], "normalization": ["as_published"]})
+    assert found["status"].values.tolist()[1] == 0
+    assert found["status"].values[0] != 0
+    assert "CycleError" in str(found["message"].values[0])
+    assert np.isnan(found["P"].values[0]).all()
+
+
+def test_a_cycle_without_releases_is_the_free_period():
+    p = Parameters(N=200, Omega=20, mu_s=0.0, mu_k=0.0)
+    assert cycle_length(p, published_start(p)) == pytest.approx(2 * np.pi * np.sqrt(p.m / p.k_p))
+    slack = p.replace(k_p=0.0)
+    assert cycle_length(slack, published_start(slack)) == LONGEST

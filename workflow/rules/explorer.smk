@@ -1,0 +1,69 @@
+# A page to look at every grid study, at motions and at the report's figures: `snakemake explorer`, not part of `all`.
+import json
+from itertools import chain
+
+from disc_model.studies.grids.quantities.schema import QUANTITIES
+
+# What is asked of a whole plane comes first.
+EXPLORED = sorted(
+    GRIDS, key=lambda study: list(QUANTITIES).index(GRIDS[study].quantity)
+)
+PICTURES = list(explorer_pictures())
+EXPLORER_PARTS = [
+    *Path(workflow.basedir, "src", "disc_model", "explorer", "static").iterdir()
+]
+
+
+rule explorer:
+    input:
+        f"{RESULTS}/explorer.html",
+
+
+rule compute_motions:
+    # Short histories at a few points of a study's grid. As with batches, the file's name is the hash of all that
+    # decides its content.
+    input:
+        rules.warm_studies.output,
+    output:
+        motion_file("{study}", "{key}"),
+    log:
+        "results/{study}/logs/compute_motions/{key}.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        batch=lambda wildcards: GRIDS[wildcards.study].motions[wildcards.key],
+        sources=sources_of("compute_motions"),
+    shell:
+        "python workflow/scripts/compute_motions.py {output} <<< {params.batch:q} > {log} 2>&1"
+
+
+rule build_explorer:
+    input:
+        studies=[merged_file(study) for study in EXPLORED],
+        motions=chain.from_iterable(map(motions_of, EXPLORED)),
+        pictures=[picture["file"] for picture in PICTURES],
+    output:
+        f"{RESULTS}/explorer.html",
+    log:
+        f"{RESULTS}/logs/build_explorer.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        plan=json.dumps(
+            {
+                "title": STUDY.title or STUDY.name,
+                "studies": [
+                    {
+                        "name": study,
+                        "data": merged_file(study),
+                        "motions": next(iter(motions_of(study)), ""),
+                    }
+                    for study in EXPLORED
+                ],
+                "pictures": PICTURES,
+            }
+        ),
+        made_of=digest(*map(grid_made_of, EXPLORED), merged_cases_made_of()),
+        sources=sources_of("build_explorer", files=EXPLORER_PARTS),
+    shell:
+        "python workflow/scripts/build_explorer.py {output} <<< {params.plan:q} > {log} 2>&1"
