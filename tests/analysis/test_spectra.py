@@ -79,3 +79,15 @@ def test_coverage_tells_lines_from_noise() -> None:
     noise = np.random.default_rng(0).normal(size=TIME.size)
     assert spectra.coverage(TIME, signal(KNOWN), 10, 300) < 0.06
     assert spectra.coverage(TIME, noise, 10, 300) > 0.95
+
+
+def test_a_line_stands_out_or_it_is_noise() -> None:
+    """Amplitudes of 0.02 are ten times the noise of unit variance in a bin, those of 0.002 as large as it."""
+    t = np.arange(40_000) / 4000
+    noise = np.random.default_rng(3).standard_normal(t.size)
+    loud = spectra.strongest(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), 100.0, 1.0)
+    assert spectra.chance(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), loud, 1.0) < 1e-9
+    chances = [spectra.chance(t, noise, spectra.strongest(t, noise, f, 1.0), 1.0) for f in range(100, 400, 5)]
+    assert min(chances) > 1e-4  # the least of sixty is about 1/60
+    assert np.median(chances) > 0.1
+    assert spectra.chance(t, np.sin(2 * np.pi * 100.0 * t), spectra.Line(100.0, 1.0), 1.0) == 0.0

@@ -76,6 +76,19 @@ def _still(groups: Groups) -> Groups:
     }
 
 
+def growing_in_the_end(groups: Groups) -> Groups:
+    """Ranges of the last 20 s a twentieth wider: no motion that has come to rest in a steady state."""
+    if "history" not in groups or "P_max" not in groups["history"]:
+        return groups
+    history = groups["history"]
+    last = history["time"] > float(history["time"][-1]) - 20
+    wider = {
+        f"{name}_max": history[f"{name}_max"] + 0.05 * last * (history[f"{name}_max"] - history[f"{name}_min"])
+        for name in ("P", "w_point")
+    }
+    return groups | {"history": history.assign(wider)}
+
+
 DAMAGES: Mapping[str, Damage] = {
     "failed": _failed,
     "nothing recorded": lambda groups: {"": groups[""]},

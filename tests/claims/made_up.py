@@ -6,6 +6,7 @@ config/paper.yaml asks for.  `AS_TOLD` is what the paper says happened.
 
 from __future__ import annotations
 
+import cmath
 import dataclasses
 import math
 from collections.abc import Callable, Mapping
@@ -123,6 +124,8 @@ class Story:
     wanders : how much the intervals between releases vary, quasi-periodically unless `chaotic`
     stick, stick_before : share of time in stick, in the end and in the whole run
     signal : what the disc's point does
+    second : share of the slider's swing at the second frequency that `cycle_as_told` brings
+    misprinted : slip ends where Eq. (24) as printed is false
     swing : rad, how far the slider's swing is past its highest point where contact is lost
     contrary : the disc moves downwards when contact is lost, separations last half a cycle and are no true ones, and
         the slider's orbit stays what it was
@@ -141,6 +144,8 @@ class Story:
     stick: float = 0.3
     stick_before: float = 0.3
     signal: Signal = combinations
+    second: float = 0.0
+    misprinted: bool = False
     swing: float = 0.0
     contrary: bool = False
 
@@ -237,7 +242,10 @@ def _samples(spec: CaseSpec, story: Story, t: np.ndarray) -> dict[str, np.ndarra
     signal = story.signal(spec, story.rate, t)
     # the slider's orbit: fuzzy while the disc is, another one after contact was lost
     lost = np.where(t > story.first, 1.0, 0.0) * (story.separates and not story.contrary)
-    psi = (0.05 + 0.05 * lost) * np.cos(2 * np.pi * story.rate * t)
+    turn = cmath.phase(cycle_as_told(spec.parameters).multipliers[0]) / (2 * np.pi)
+    psi = (0.05 + 0.05 * lost) * (
+        np.cos(2 * np.pi * story.rate * t) + story.second * np.cos(2 * np.pi * (1 - turn) * story.rate * t)
+    )
     if story.signal is turns:
         psi += np.where(t < story.first, fuzz(t, 1e-3), 0.0)
     height = -spec.parameters.N * 1e-5 + 1e-2 * np.cos(2 * np.pi * (cycle - 0.2) + story.swing)
@@ -265,8 +273,9 @@ def _events(spec: CaseSpec, story: Story, start: float, stop: float) -> xr.Datas
             apart = [(0.2 / story.rate, "separation", "separation"), (end / story.rate, "reattachment", "slip")]
             after = sorted([*(after if story.stick else ()), *apart])
         angle = 0.05 * (1 + story.wanders * math.sin(j))
-        rows += [(t + dt, kind, phase, angle, -p.N * 1e-5 + 1e-2, velocity) for dt, kind, phase in after]
-    frame = pd.DataFrame(rows, columns=["time", "kind", "phase", "psi", "u", "u_velocity"])
+        force = 0.0 if story.misprinted else p.r_0 * p.k_p * angle / p.mu_s + p.N
+        rows += [(t + dt, kind, phase, angle, -p.N * 1e-5 + 1e-2, velocity, force) for dt, kind, phase in after]
+    frame = pd.DataFrame(rows, columns=["time", "kind", "phase", "psi", "u", "u_velocity", "P"])
     return events_dataset(frame).assign_attrs(kept_from=start, kept_until=stop)
 
 
@@ -284,8 +293,10 @@ def as_told() -> dict[str, Story]:
     """What happened, by the paper."""
     return {
         **dict.fromkeys(load_study(PAPER).specs, STILL),
-        "F02": WILD.replace(first=480.0, signal=crowded),
-        "F04": BONDED,
+        "F02": WILD.replace(first=480.0, signal=crowded, misprinted=True),
+        "F04": BONDED.replace(misprinted=True),
+        "F13bonded": BONDED,
+        "F17bonded": BONDED,
         "F06": BONDED,
         "F07": WILD.replace(first=149.45, sharp=0.25, signal=coupled, rate=71.1),
         "F08": BONDED,
@@ -295,10 +306,12 @@ def as_told() -> dict[str, Story]:
         "S43Ninf": Story(stick=1.0, stick_before=1.0),
         "F21": Story(late=0.3, wanders=0.01, chaotic=True, signal=erratic),
         "F17": WILD.replace(first=810.0),
-        "F22": GROWING.replace(first=220.0, wanders=0.1, chaotic=True),
+        "F22": GROWING.replace(first=220.0, wanders=0.1, chaotic=True, second=0.01),
         "F23": GROWING.replace(first=240.0, swing=math.pi),
-        **_separating({"F18": 263, "F19": 51, "C4cp1": 40, "S43kp2e4": 100, "S43k2e4": 100, "S43k3e4": 200}),
-        **_separating({"P03l5": 54.4, "P03l6": 54.4, "P03l8": 54.5}),
+        **_separating(
+            {"F18": 263, "S43z4": 800, "F19": 51, "C4cp1": 40, "S43kp2e4": 100, "S43k2e4": 100, "S43k3e4": 200}
+        ),
+        **_separating({"P03l5": 54.4, "P03l6": 54.4, "P03l8": 54.5, "P03l8c2": 54.5}),
         **_separating({"S43c126": 700, "S43c14": 700, "S43c145": 700, "S43c124": 1000}),
     }
 
@@ -315,7 +328,7 @@ def to_the_contrary() -> dict[str, Story]:
         "F08": WILD.replace(stick=0.005),
         "F09": alone.replace(first=117.0),
         "F11": WILD.replace(first=100.0),
-        "F13": WILD.replace(first=55.0, signal=erratic),
+        "F13": WILD.replace(first=55.0, signal=erratic, disc_early=5e-3, second=0.1),
         "F17": GROWING,
         "F19": WILD.replace(first=51.0),
         "F20": WILD,
@@ -328,7 +341,7 @@ def to_the_contrary() -> dict[str, Story]:
         "T2kp22": STILL.replace(signal=erratic),
         "T2Om12": STILL.replace(signal=erratic),
         **_separating({"S43k2e4": 200, "S43k3e4": 100, "S43k2e5": 100, "S43kp2e5": 100, "C4cpN50": 100}),
-        **_separating({"P03l5": 50, "P03l6": 54.4, "P03l8": 54.5, "S43c12": 500, "S43c126": 1000}),
+        **_separating({"P03l5": 50, "P03l6": 54.4, "P03l8": 54.5, "P03l8c2": 54.5, "S43c12": 500, "S43c126": 1000}),
     }
 
 
@@ -336,3 +349,10 @@ def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
     """The study's merged cases, as far as claims look at them."""
     specs = load_study(PAPER).specs
     return xr.DataTree.from_dict({f"/{name}": tell(specs[name], story) for name, story in stories.items()})
+
+
+def scan(least: float) -> dict[str, xr.Dataset]:
+    """The grid study of stick without separation, with a least share of stick."""
+    shares = np.full((3, 2), 0.25)
+    shares[0, 1] = least
+    return {"bonded": xr.Dataset({"share_stick": (("Omega", "N"), shares)}, {"Omega": [10, 50, 100], "N": [50, 385]})}

@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims import disc, measures
+from disc_model.claims import SCANS, disc, measures
 from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim, Finding, Needed
 from disc_model.claims.pages import to_markdown
@@ -44,6 +44,10 @@ def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
     assert [*table.reset_index().columns] == list(COLUMNS)
     assert list(table.index) == [claim.id for claim in CLAIMS]
     assert table.index.is_unique
+
+
+def test_the_workflow_is_told_of_every_scan() -> None:
+    assert sorted({name for claim in CLAIMS for name in claim.scans}) == sorted(SCANS)
 
 
 @pytest.mark.compiled

@@ -1,11 +1,17 @@
 # What the paper says against what came out.
 
 
+from disc_model.claims import SCANS
+
+SCANNED = {name: merged_file(name) for name in SCANS if name in GRIDS}
+
+
 rule check_claims:
     # Some claims ask for multipliers of the case's cycle.
     input:
         rules.warm_studies.output,
         cases=rules.merge_cases.output,
+        scans=list(SCANNED.values()),
     output:
         csv=f"{RESULTS}/claims.csv",
         md=f"{RESULTS}/claims.md",
@@ -20,11 +26,12 @@ rule check_claims:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=merged_cases_made_of(),
+        made_of=digest(merged_cases_made_of(), [grid_made_of(name) for name in SCANNED]),
+        scans=[f"--scan {name}={file}" for name, file in SCANNED.items()],
         sources=sources_of("check_claims"),
     shell:
-        "python workflow/scripts/check_claims.py {input.cases} --csv {output.csv} --md {output.md} --html {output.html}"
-        " > {log} 2>&1"
+        "python workflow/scripts/check_claims.py {input.cases} {params.scans}"
+        " --csv {output.csv} --md {output.md} --html {output.html} > {log} 2>&1"
 
 
 # The case and the window that Tables 1 and 2 are made of may be missing from a study.

@@ -107,6 +107,29 @@ def strongest(time: Array, values: Array, near: float, within: float) -> Line:
     return max(found, key=lambda line: line.amplitude)
 
 
+def chance(time: Array, values: Array, line: Line, searched: float, near: float = 1.0, far: float = 6.0) -> float:
+    """Probability that noise of its neighbourhood's level has a line as strong within what was searched.
+
+    Parameters
+    ----------
+    line : found among bins no further than `searched` Hz from some place
+    near, far : Hz, distances from the line between which the neighbourhood's level is taken, as the median of the
+        power: other lines, as long as they are few, do not count
+
+    Notes
+    -----
+    The power of noise in a bin is distributed exponentially: above x medians with the probability 2^-x. Bins are taken
+    for independent, which the window makes them not; the probability is too large by that.
+    """
+    frequency, amplitude = amplitude_spectrum(time, values)
+    apart = np.abs(frequency - line.frequency)
+    level = float(np.median(amplitude[(apart > near) & (apart < far)] ** 2))
+    trials = max(1.0, 2 * searched / float(frequency[1]))
+    if not level > 0:
+        return 0.0
+    return float(-np.expm1(trials * np.log1p(-np.exp2(-(line.amplitude**2) / level))))
+
+
 def identify(frequency: float, f_s: float, f_drive: float, n_max: int = 12, m_max: int = 3) -> Combination:
     """The combination ``n f_s + m f_drive`` (0 <= n <= n_max, abs(m) <= m_max) nearest to a frequency, all Hz.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
 
@@ -11,7 +12,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.claims import disc, growth, measures, section41, section42, section43, section44
-from disc_model.claims.model import FAILS, CaseView, Claim, Missing
+from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Missing
 from disc_model.claims.pages import page, table_html
 from disc_model.data.dataset import markdown_table
 from disc_model.figures.paper.catalogue import said_parameters
@@ -28,9 +29,16 @@ CLAIMS: tuple[Claim, ...] = tuple(
 """In the order in which they stand in the files."""
 
 
-def check_claims(tree: xr.DataTree) -> pd.DataFrame:
-    """Check every claim against merged cases: a row per claim, columns `COLUMNS` (see `studies.cases.merge`)."""
-    cases = {name: CaseView(name, node) for name, node in tree.children.items()}
+def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> pd.DataFrame:
+    """Check every claim: a row per claim, columns `COLUMNS`.
+
+    Parameters
+    ----------
+    tree : merged cases, see `disc_model.studies.cases.run`
+    scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that look at others are not computed
+    """
+    nodes = dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()}
+    cases = {name: CaseView(name, node) for name, node in nodes.items()}
     rows = []
     for claim in CLAIMS:
         found = claim.evaluate(cases)
@@ -164,8 +172,9 @@ def _elsewhere(new: dict[str, CaseView], names: list[str]) -> pd.DataFrame:
 def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
     old, new = check_claims(published), check_claims(orthonormal)
     merged = old.merge(new, on="id", suffixes=("", "_new"))
-    kept = merged[(merged["verdict"] == FAILS) != (merged["verdict_new"] == FAILS)]
-    kept = kept[~kept["verdict_new"].str.startswith("not computed")]
+    kinds = [merged[name].replace(REMARK, HOLDS) for name in ("verdict", "verdict_new")]
+    judged = ~(kinds[0] + kinds[1]).str.contains(NOT_COMPUTED)
+    kept = merged[judged & (kinds[0] != kinds[1])]
     return pd.DataFrame(
         {
             "Statement": [f"{row.id}: {row.claim}" for row in kept.itertuples()],

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -12,7 +11,8 @@ from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Kind, Motion, closure, irregularity, motion_of, shortest_period
-from disc_model.claims.model import CaseView, Finding, Missing, finding, undecided
+from disc_model.analysis.poincare import distinct_points
+from disc_model.claims.model import CaseView, Finding, Missing, Range, finding, undecided
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
 __all__ = ["closure", "irregularity", "shortest_period"]  # beside what is defined here
@@ -43,17 +43,6 @@ def separates_at(case: CaseView, paper: float, within: float) -> Finding:
 def many(values: Iterable[float], digits: int = 2) -> str:
     """Numbers in a row."""
     return ", ".join(f"{value:.{digits}f}" for value in values)
-
-
-class Range(NamedTuple):
-    """Least and greatest value."""
-
-    low: float
-    high: float
-
-    @property
-    def width(self) -> float:
-        return self.high - self.low
 
 
 def times_of(events: xr.Dataset, kind: str) -> Array:
@@ -110,19 +99,6 @@ def is_quasi_periodic(case: CaseView) -> Finding:
     return finding(ours, motion.kind is Kind.QUASI_PERIODIC, remark)
 
 
-def steady(case: CaseView, name: str, last: float = 20.0, within: float = 0.01) -> bool:
-    """Whether a variable's range is the same in the last three stretches of `last` s each, to a share `within`."""
-    end = case["time_reached"]
-    widths = [range_within(case, name, end - (i + 1) * last, end - i * last).width for i in range(3)]
-    return max(widths) <= (1 + within) * min(widths)
-
-
-def said_steady(case: CaseView, name: str) -> str:
-    """The same in words."""
-    end = case["time_reached"]
-    return f"steady at {end:g} s" if steady(case, name) else f"not yet steady at {end:g} s"
-
-
 def rate_of(case: CaseView, kind: str) -> float:
     """Events of one kind per second within the events kept, 1/s."""
     start, stop = kept_span(case)
@@ -158,26 +134,15 @@ def phase_share(case: CaseView, phase: str, start: float = -np.inf) -> float:
     return float(lasting[inside].sum() / lasting.sum())
 
 
-def range_within(case: CaseView, name: str, start: float, stop: float) -> Range:
-    """Range of a variable from the whole bins of the window `history` between two times."""
-    history = case.ranges("history")
-    time = history["time"].values
-    half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # a single bin does not say how long it is
-    inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
-    if not inside.any():
-        raise Missing(f"case {case.name} has no history from {start:g} to {stop:g} s")
-    return Range(float(history[f"{name}_min"].values[inside].min()), float(history[f"{name}_max"].values[inside].max()))
-
-
 def late_range(case: CaseView, name: str, last: float = 20.0) -> Range:
     """Range over the last seconds of the run."""
     end = case["time_reached"]
-    return range_within(case, name, end - last, end)
+    return case.range_of(name, end - last, end)
 
 
 def early_range(case: CaseView, name: str, first: float = 20.0) -> Range:
     """Range over the first seconds, the very first one left out."""
-    return range_within(case, name, 1.0, 1.0 + first)
+    return case.range_of(name, 1.0, 1.0 + first)
 
 
 def stretch(case: CaseView, window: str, start: float = -np.inf, stop: float = np.inf) -> xr.Dataset:
@@ -202,6 +167,30 @@ def strongest(case: CaseView, samples: xr.Dataset, name: str, near: float, withi
         return spectra.strongest(samples["time"].values, samples[name].values, near, within)
     except ValueError as error:
         raise Missing(f"case {case.name}: {error} in {name}") from None
+
+
+def trajectory_change(case: CaseView, bound: float) -> tuple[str, bool]:
+    """The section of the in-plane motion before the first separation and long after it, and whether it changes.
+
+    It does if its width, or its share of stick, changes by the share `bound`.
+    """
+    samples, first = case.samples("poincare"), case["first_separation"]
+    time, psi, stuck = samples["time"].values, samples["psi"].values, samples["phase"].values == STICK
+    stages = time < first, time > (first + case["time_reached"]) / 2
+    if min(int(inside.sum()) for inside in stages) < FEWEST:
+        raise Missing(f"case {case.name} has no section of {FEWEST} points before or long after its first separation")
+    before, after = (float(np.ptp(psi[inside])) for inside in stages)
+    stick, then = (float(np.mean(stuck[inside])) for inside in stages)
+    said = f"{case.name}: ψ spans {before:.3f} rad before, {after:.3f} after; {100 * stick:.1f} % of the points stick "
+    said += f"before, {100 * then:.1f} % after"
+    wider = ratio(after, before, f"the width of the section of case {case.name} before separation")
+    return said, abs(wider - 1) > bound or abs(then - stick) > bound * stick
+
+
+def late_points(case: CaseView, last: int = 150) -> int:
+    """Different Poincare points of the disc among the last ones."""
+    samples = case.samples("poincare").isel(time=slice(-last, None))
+    return distinct_points(np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values]))
 
 
 def slope(case: CaseView, name: str, start: float, stop: float) -> float:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
+import numpy as np
 import xarray as xr
 
 from disc_model.data import inputs
@@ -20,6 +21,9 @@ REMARK = "holds with a remark"
 FAILS = "does not hold"
 UNDECIDED = "undecided"
 NOT_COMPUTED = "not computed"
+STRETCHES, STRETCH, STEADY = 3, 20.0, 0.01
+"""A motion is steady if the ranges of contact force and disc over its last three stretches of 20 s differ by no more
+than 1 % of the widest. What grows or decays by 3e-4/s or more does not pass."""
 
 
 @dataclass(frozen=True)
@@ -40,11 +44,29 @@ class Needed:
     parameters : values it must have beside base values
     until : s, how far it must run
     separates : whether the claim is about what separation does: without one it does not hold
+    steady : whether the claim is about its steady state: one that has not come to it by its end decides nothing
     """
 
     parameters: Mapping[str, Any]
     until: float = 0.0
     separates: bool = False
+    steady: bool = False
+
+    @property
+    def settled(self) -> Needed:
+        """The same case, asked for its steady state."""
+        return replace(self, steady=True)
+
+
+class Range(NamedTuple):
+    """Least and greatest value."""
+
+    low: float
+    high: float
+
+    @property
+    def width(self) -> float:
+        return self.high - self.low
 
 
 @dataclass(frozen=True)
@@ -79,6 +101,25 @@ class CaseView:
     def samples(self, window: str, at_least: int = 2) -> xr.Dataset:
         """Samples of a window, or of the section ``poincare``; raises `Missing`."""
         return self._held(inputs.samples, window, at_least)
+
+    def range_of(self, name: str, start: float, stop: float) -> Range:
+        """Range of a variable from the whole bins of the window `history` between two times; raises `Missing`."""
+        history = self.ranges("history")
+        time = history["time"].values
+        half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # a single bin does not say how long it is
+        inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
+        if not inside.any():
+            raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
+        low, high = (history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
+        return Range(float(low.min()), float(high.max()))
+
+    def drift(self) -> float:
+        """By how much the ranges of contact force and disc differ among the last stretches, share of the widest."""
+        end, found = self["time_reached"], []
+        for name in ("P", "w_point"):
+            widths = [self.range_of(name, end - (i + 1) * STRETCH, end - i * STRETCH).width for i in range(STRETCHES)]
+            found.append((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0)
+        return max(found)
 
     def ranges(self, window: str) -> xr.Dataset:
         """Least and greatest values within the bins of a window; raises `Missing`."""
@@ -119,6 +160,7 @@ class Claim:
     tolerance, reason : what counts as agreement, and why that much
     bound : the same as a number, for the check
     needs : the cases it is about
+    scans : the grid studies that it looks at besides, which stand among the cases under their names
     """
 
     id: str
@@ -130,21 +172,27 @@ class Claim:
     check: Check
     bound: float = 0.0
     needs: Mapping[str, Needed] = field(default_factory=dict)
+    scans: tuple[str, ...] = ()
 
     def evaluate(self, cases: Cases) -> Finding:
         """Check the claim; without the evidence it needs, the verdict says what is missing."""
         try:
             for name, needed in self.needs.items():
                 _require(cases, name, needed)
+            for name in self.scans:
+                if name not in cases:
+                    raise Missing(f"study {name} is not among those of this run")
             quiet = [
                 cases[name] for name, needed in self.needs.items() if needed.separates and not cases[name].separates
             ]
             if quiet:
                 said = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(said, FAILS)
-            return self.check(cases, self)
+            found = self.check(cases, self)
+            drifts = {name: cases[name].drift() for name, needed in self.needs.items() if needed.steady}
         except Missing as missing:
             return Finding("", f"{NOT_COMPUTED}: {missing}")
+        return _of_steady_state(found, cases, drifts) if drifts else found
 
 
 def claim(
@@ -157,13 +205,28 @@ def claim(
     reason: str = "",
     bound: float = 0.0,
     needs: Mapping[str, Needed] | None = None,
+    scans: tuple[str, ...] = (),
 ) -> Callable[[Check], Claim]:
     """Make a check the claim that it decides: ``@claim(...)`` above it says all that `Claim` holds besides."""
 
     def with_check(check: Check) -> Claim:
-        return Claim(id, location, text, paper, tolerance, reason, check, bound, needs or {})
+        return Claim(id, location, text, paper, tolerance, reason, check, bound, needs or {}, scans)
 
     return with_check
+
+
+def _of_steady_state(found: Finding, cases: Cases, drifts: Mapping[str, float]) -> Finding:
+    """What was found, with the time at which each case was steady; undecided if one was not."""
+    moving = [name for name, drift in drifts.items() if not drift <= STEADY]
+    if moving:
+        said = "; ".join(
+            f"case {name} at {cases[name]['time_reached']:g} s: ranges of successive {STRETCH:g} s differ by "
+            f"{100 * drifts[name]:.2g} %"
+            for name in moving
+        )
+        return undecided(found.ours, f"not yet steady: {said}")
+    at = ", ".join(f"{name} at {cases[name]['time_reached']:g} s" for name in drifts)
+    return replace(found, ours=f"{found.ours} (steady: {at})")
 
 
 def _require(cases: Cases, name: str, needed: Needed) -> None:

@@ -25,6 +25,8 @@ TABLE_2 = {
 }
 """By symbol: frequency in Hz and attribution, as the paper has them."""
 LISTED = tuple(value for value, _ in TABLE_2.values())
+SEARCHED = 2.0
+"""How far from a frequency of Table 2 a line is looked for, Hz; a quarter of it from the drive's."""
 TABLE_1 = {
     "a": 0.044,
     "b": 0.12,
@@ -63,9 +65,8 @@ def table_2(case: CaseView) -> pd.DataFrame:
         symbol, paper_Hz, ours_Hz, level_dB (relative to the drive's line), ours_is, predicted_Hz (of that
         combination), paper_says
     """
-    window = measures.stretch(case, "spectrum_a", 0, 10)
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
-    found = [measures.strongest(case, window, "w_point", paper, 2.0 if paper > 10 else 0.5) for paper in LISTED]
+    found = table_2_lines(case)
     names = [spectra.identify(line.frequency, rate, drive) for line in found]
     return pd.DataFrame(
         {
@@ -78,6 +79,13 @@ def table_2(case: CaseView) -> pd.DataFrame:
             "paper_says": [said for _, said in TABLE_2.values()],
         }
     )
+
+
+def table_2_lines(case: CaseView) -> list[spectra.Line]:
+    """The strongest line near each frequency of Table 2."""
+    window = measures.stretch(case, "spectrum_a", 0, 10)
+    within = [SEARCHED if paper > 10 else SEARCHED / 4 for paper in LISTED]
+    return [measures.strongest(case, window, "w_point", *near) for near in zip(LISTED, within, strict=True)]
 
 
 def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
