@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import pickle
 import subprocess
@@ -130,7 +131,30 @@ def test_key_is_the_same_in_every_process_and_release() -> None:
 def test_key_changes_with_every_field(name: str) -> None:
     p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=2)
     other = {"normalization": "orthonormal", "contact": "bonded", "n_diameters": 3, "n_circles": 1}
+    other |= {"contact_compliance": 1e-7, "contact_force": "normal"}
     assert p.replace(**{name: other.get(name) or getattr(p, name) * 0.999}).key != p.key
+
+
+def test_laws_of_contact_change_the_key_only_where_they_are_not_the_papers() -> None:
+    p = Parameters(N=385, Omega=15.1)
+    assert p.follows_paper
+    assert p.replace(contact_compliance="0", contact_force="vertical").key == p.key == "2309f6c4a836"
+    assert "contact_force" not in p.canonical_json
+    others = [{"contact_compliance": 1e-7}, {"contact_compliance": "residual"}, {"contact_force": "normal"}]
+    cases = [p.replace(**other) for other in others]
+    assert len({case.key for case in cases} | {p.key}) == 4
+    for case, other in zip(cases, others, strict=True):
+        assert not case.follows_paper
+        assert Parameters(**json.loads(case.canonical_json)) == case
+        assert {name: getattr(case, name) for name in other} == other
+
+
+@pytest.mark.parametrize("value", [-1e-9, math.inf, math.nan, "soft", True, None, [1.0]])
+def test_a_compliance_is_a_number_or_residual(value: object) -> None:
+    with pytest.raises(ParameterError, match=r"contact_compliance=.*: must be .* or 'residual'"):
+        Parameters(N=1, Omega=1, contact_compliance=value)
+    with pytest.raises(ParameterError, match="contact_force='sideways': must be 'vertical' or 'normal'"):
+        Parameters(N=1, Omega=1, contact_force="sideways")
 
 
 def test_immutable_hashable_picklable() -> None:

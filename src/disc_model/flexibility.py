@@ -13,15 +13,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.errors import Fault, ParameterError
+from disc_model.parameters import RESIDUAL, Parameters
 from disc_model.plate import mode_arrays
-
-if TYPE_CHECKING:
-    from disc_model.parameters import Parameters
+from disc_model.schema import shown
 
 Array = NDArray[np.float64]
 
@@ -74,6 +73,23 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     whole = _modal_sum(p.replace(n_diameters=diameters, n_circles=circles))
     half = _modal_sum(p.replace(n_diameters=diameters // 2, n_circles=circles // 2))
     return Flexibility(whole, kept, (whole - half) / 3)
+
+
+def contact_give(p: Parameters) -> float:
+    """Compliance of a case's contact as a number, m/N.
+
+    Raises
+    ------
+    ParameterError
+        If the residual flexibility is asked for and the modes of the case leave nothing out of the sum for it.
+    """
+    if p.contact_compliance != RESIDUAL:
+        return float(p.contact_compliance)
+    value = residual_flexibility(p).residual
+    if not value > 0:
+        rule = f"must be a number with n_diameters={p.n_diameters}, n_circles={p.n_circles}, which leave no mode out"
+        raise ParameterError(Fault(("contact_compliance",), shown(RESIDUAL), rule))
+    return value
 
 
 def _modal_sum(p: Parameters) -> float:

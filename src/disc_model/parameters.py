@@ -13,6 +13,12 @@ from pydantic import BaseModel, BeforeValidator, Field
 from disc_model.errors import Fault
 from disc_model.schema import Checked, Count, Real, number, shown
 
+RESIDUAL = "residual"
+"""As ``contact_compliance``: the static give of the modes left out."""
+
+_LATER = ("contact_compliance", "contact_force")
+"""Parameters that came later: left out of the canonical form at their defaults, so that old hashes hold."""
+
 
 def _diameters(value: Any) -> Any:
     """Refuse a word that only files and command lines understand, and say who does."""
@@ -21,13 +27,26 @@ def _diameters(value: Any) -> Any:
     return value
 
 
+def _give(value: Any) -> Any:
+    """A compliance in m/N, or the word for the one that the modes left out have."""
+    if value == RESIDUAL:
+        return value
+    try:
+        found = float(number(value))
+    except ValueError:
+        raise ValueError(f"must be a number or {RESIDUAL!r}") from None
+    if not 0 <= found < math.inf:
+        raise ValueError(f"must be finite and >= 0, or {RESIDUAL!r}")
+    return found
+
+
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
     """A finite number with a unit; pydantic's rule keywords (`ge`, `gt`, `lt`, `le`) pass through."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, allow_inf_nan=False, **rules)
 
 
-def _count(default: int, highest: int, description: str) -> Any:
-    return Field(default, description=description, json_schema_extra={"unit": "1"}, ge=0, le=highest)
+def _count(default: int, lowest: int, highest: int, description: str) -> Any:
+    return Field(default, description=description, json_schema_extra={"unit": "1"}, ge=lowest, le=highest)
 
 
 def _choice(default: str, description: str) -> Any:
@@ -64,12 +83,22 @@ class Parameters(Checked):
     h: Real = _field(0.002, "m", "thickness of the disc", gt=0)
     nu: Real = _field(0.211, "1", "Poisson's ratio of the disc", gt=-1, lt=0.5)
     rho: Real = _field(7200.0, "kg/m^3", "density of the disc", gt=0)
-    n_diameters: Annotated[Count, BeforeValidator(_diameters)] = _count(4, 60, "highest number of nodal diameters")
-    n_circles: Count = _count(0, 20, "highest number of nodal circles")
+    n_diameters: Annotated[Count, BeforeValidator(_diameters)] = _count(
+        4, -1, 60, "highest number of nodal diameters, -1 for a rigid disc"
+    )
+    n_circles: Count = _count(0, 0, 20, "highest number of nodal circles")
     normalization: Literal["as_published", "orthonormal"] = _choice(
         "as_published", "scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17)"
     )
     contact: Literal["separable", "bonded"] = _choice("separable", "whether the slider may leave the disc")
+    contact_compliance: Annotated[float | Literal["residual"], BeforeValidator(_give)] = Field(
+        0.0,
+        description="compliance of the contact, 0 if it is rigid; residual: the give of the modes left out",
+        json_schema_extra={"unit": "m/N"},
+    )
+    contact_force: Literal["vertical", "normal"] = _choice(
+        "vertical", "direction of the contact force: vertical as in the paper, or normal to the bent disc"
+    )
 
     @classmethod
     def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
@@ -81,9 +110,21 @@ class Parameters(Checked):
         return _rigidity(self.E, self.h, self.nu)
 
     @property
+    def follows_paper(self) -> bool:
+        """Whether contact is the paper's: rigid, its force vertical."""
+        return self.contact_compliance == 0 and self.contact_force == "vertical"
+
+    @property
+    def canonical(self) -> dict[str, Any]:
+        """The values by which a case is known: all, but those the paper's model has not only where they are set."""
+        fields = type(self).model_fields
+        values = self.model_dump()
+        return {name: x for name, x in values.items() if name not in _LATER or x != fields[name].default}
+
+    @property
     def canonical_json(self) -> str:
         """The values as JSON with sorted keys: equal for equal parameters, however they were written."""
-        return json.dumps(self.model_dump(), sort_keys=True, separators=(",", ":"))
+        return json.dumps(self.canonical, sort_keys=True, separators=(",", ":"))
 
     @property
     def key(self) -> str:

@@ -152,6 +152,9 @@ def _modes(
     orthonormal: bool,
 ) -> Modes:
     """Modes by exactly what they depend on: a change of load or speed finds them in the cache."""
+    if n_diameters < 0:  # a rigid disc
+        none = np.zeros(0, dtype=np.int64)
+        return Modes(none, none.copy(), np.zeros(0), np.zeros(0))
     shapes = _shapes(a / b, nu, n_diameters, n_circles)
     stiffness = E * h**3 / 12 / (1 - nu**2)
     omega = shapes.lam**2 / b**2 * np.sqrt(stiffness / (rho * h))

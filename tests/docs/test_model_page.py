@@ -151,6 +151,83 @@ def test_attached_frequencies_on_the_page(normalization):
     )
 
 
+# ------------------------------------------------------------------------------------------------ beyond the paper
+CONTACT = [motion for motion in MOTIONS if motion[0] != "separation"]
+
+
+@pytest.mark.parametrize("compliance", [0.0, 2e-6])
+@pytest.mark.parametrize("normal", [False, True])
+@pytest.mark.parametrize(("phase", "direction"), CONTACT)
+def test_powers_of_other_contacts_are_the_rates_of_the_energies(phase, direction, normal, compliance):
+    s, d = lively(phase, direction), equations.modal_damping(P)
+    u_0 = equations.start(P, d)[1]
+    w, velocity, A, B = equations.vertical_motion(d, s)
+    if compliance:
+        s = s.replace(u=w - 600.0 * compliance, u_velocity=velocity + 0.01)
+        force, rates = equations.compliant(P, d, s, u_0, compliance)
+        R, T, V = force, np.nan, force
+        if normal and phase == "slip":
+            R, T, V = equations.normal_compliant_slip(P, d, s, u_0, compliance)
+        elif normal:
+            R = (V + equations.in_plane_force(P, s) * B) / (1 + B**2 / P.r_0**2)
+            T = P.r_0 * equations.in_plane_force(P, s) - R * B / P.r_0
+        f_rate = rates_of_f(phase, d, s, u_0, V, (R, T) if normal else None)
+    else:
+        if normal:
+            R, T, V = getattr(equations, f"normal_{phase}")(P, d, s, u_0)
+        else:
+            V = R = getattr(equations, phase)(P, d, s, u_0)[0]
+            T = np.nan
+        f_rate = rates_of_f(phase, d, s, u_0, V, (R, T) if normal else None)
+        # the slider follows the disc: this is what the rigid contact's formulas come from
+        rates = {"u": velocity, "u_velocity": A + f_rate * B - d.S * V}
+        close(P.m * rates["u_velocity"], V - P.N - P.k * (s.u - u_0) - P.c * velocity)
+    rates |= equations.modal_rates(d, s, V) | {"f": f_rate, "psi": P.Omega - s.f}
+    step = 1e-5
+
+    def along(h):
+        there = s.replace(**{n: getattr(s, n) + h * r for n, r in rates.items()})
+        give = equations.vertical_motion(d, there)[0] - there.u
+        transverse, in_plane = equations.energies(P, d, there, u_0)
+        return np.array([transverse + (0.5 * give**2 / compliance if compliance else 0.0), in_plane])
+
+    expected = equations.normal_powers(P, d, s, R, T, V) if normal else equations.powers(P, d, s, V)
+    # rounding of the energies, some 10 J, over the step
+    np.testing.assert_allclose((along(step) - along(-step)) / (2 * step), expected, rtol=1e-9, atol=1e-14 * 1e2 / step)
+    if normal:
+        slope = B / P.r_0
+        rubbed = P.mu_k * P.r_0 * R * abs(s.f) * (1 + slope**2) if phase == "slip" else 0.0
+        np.testing.assert_allclose(P.r_0 * s.f * (T + R * slope) - V * s.f * B, rubbed, rtol=1e-9)
+
+
+def rates_of_f(phase, d, s, u_0, force, normal):
+    if phase == "stick":
+        return 0.0
+    if normal:
+        return equations.normal_turning(P, d, s, *normal)
+    return (equations.in_plane_force(P, s) - s.direction * P.mu_k * force / P.r_0) / P.m
+
+
+def test_stick_on_a_normal_force_is_in_balance():
+    s, d = lively("stick"), equations.modal_damping(P)
+    R, T, V = equations.normal_stick(P, d, s, equations.start(P, d)[1])
+    B = equations.vertical_motion(d, s)[3]
+    close(R - T * B / P.r_0, V)
+    # a difference of forces of some hundred newtons, over m r_0
+    assert abs(equations.normal_turning(P, d, s, R, T)) < ROUNDING * abs(R) / (P.m * P.r_0)
+
+
+def test_impact_of_a_normal_force():
+    """Slider and disc end with one velocity, and as much energy is lost as the page says."""
+    s, d = lively("separation"), equations.modal_damping(P)
+    s = s.replace(u=equations.vertical_motion(d, s)[0])
+    impulse, alpha, velocity, f = equations.normal_impact(P, d, s)
+    after = s.replace(alpha=alpha, u_velocity=velocity, f=f)
+    close(equations.vertical_motion(d, after)[1], velocity)
+    lost = sum(equations.energies(P, d, s, 0.0)) - sum(equations.energies(P, d, after, 0.0))
+    np.testing.assert_allclose(lost, equations.lost_at_a_normal_impact(P, d, s, impulse), rtol=1e-9)
+
+
 # ------------------------------------------------------------------------------------------------ the symbols
 def symbols():
     """Names in the table of symbols and their units."""

@@ -183,3 +183,57 @@ def amplitude(p: Parameters, l, omega):
     else:
         scale = C[0]
     return abs(R(p.r_0) / scale) / np.sqrt(p.rho * p.h * p.b**2) * (np.sqrt(2) if l else 1)
+
+
+def compliant(p: Parameters, d: Disc, s: State, u_0, C_r):
+    """Other laws of contact: P and the rates of u and u'."""
+    P = (vertical_motion(d, s)[0] - s.u) / C_r
+    return P, {"u": s.u_velocity, "u_velocity": (P - p.N - p.k * (s.u - u_0) - p.c * s.u_velocity) / p.m}
+
+
+def normal_slip(p: Parameters, d: Disc, s: State, u_0):
+    """Other laws of contact: R, T and V in slip on a rigid contact."""
+    u, velocity, A, B = vertical_motion(d, s)
+    friction, slope = s.direction * p.mu_k, B / p.r_0
+    below = (1 - friction * slope) * (1 + p.m * d.S) + (friction + slope) * slope
+    R = (p.N + p.k * (u - u_0) + p.c * velocity + p.m * A + B * in_plane_force(p, s)) / below
+    return R, friction * R, R - friction * R * slope
+
+
+def normal_stick(p: Parameters, d: Disc, s: State, u_0):
+    """Other laws of contact: R, T and V in stick on a rigid contact."""
+    V, _ = stick(p, d, s, u_0)
+    slope, F = vertical_motion(d, s)[3] / p.r_0, in_plane_force(p, s)
+    R = (V + F * p.r_0 * slope) / (1 + slope**2)
+    return R, p.r_0 * F - R * slope, V
+
+
+def normal_compliant_slip(p: Parameters, d: Disc, s: State, u_0, C_r):
+    """Other laws of contact: R, T and V in slip."""
+    V, _ = compliant(p, d, s, u_0, C_r)
+    R = V / (1 - s.direction * p.mu_k * vertical_motion(d, s)[3] / p.r_0)
+    return R, s.direction * p.mu_k * R, V
+
+
+def normal_turning(p: Parameters, d: Disc, s: State, R, T):
+    """Other laws of contact: rate of f."""
+    return (p.r_0 * in_plane_force(p, s) - T - R * vertical_motion(d, s)[3] / p.r_0) / (p.m * p.r_0)
+
+
+def normal_impact(p: Parameters, d: Disc, s: State):
+    """Other laws of contact: p, and alpha, u' and f after it."""
+    _, velocity, _, B = vertical_motion(d, s)
+    impulse = (velocity - s.u_velocity) / (d.S + 1 / p.m + B**2 / (p.m * p.r_0**2))
+    return impulse, s.alpha - d.Psi * impulse, s.u_velocity + impulse / p.m, s.f - impulse * B / (p.m * p.r_0**2)
+
+
+def normal_powers(p: Parameters, d: Disc, s: State, R, T, V):
+    """Other laws of contact: rates of both energies, W."""
+    transverse, _ = powers(p, d, s, V)
+    held_back = p.r_0 * s.f * (T + R * vertical_motion(d, s)[3] / p.r_0)
+    return transverse, p.Omega * p.r_0**2 * in_plane_force(p, s) - held_back - p.c_p * p.r_0**2 * (p.Omega - s.f) ** 2
+
+
+def lost_at_a_normal_impact(p: Parameters, d: Disc, s: State, impulse):
+    """Other laws of contact: what an impact takes of both energies together, J."""
+    return 0.5 * impulse**2 * (d.S + 1 / p.m + vertical_motion(d, s)[3] ** 2 / (p.m * p.r_0**2))

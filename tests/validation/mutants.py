@@ -31,9 +31,20 @@ FUNCTIONS = {
         *("_disc_point", "_inner_terms", "_pending", "_order", "_order_zero", "_axisymmetric", "_last_force"),
         *("slip_series", "_stick_order", "stick_series", "separation_series"),
     ),
+    "engine/contact_series.py": (
+        *("_deflection", "_slope", "_spring", "_weight", "_leverage", "_move_slider"),
+        *("compliant_slip_series", "compliant_stick_series", "release_series", "normal_slip_series"),
+    ),
     "engine/coasting.py": ("coast_length", "coast_to", "_times"),
-    "engine/stick_modes.py": ("_eigenmodes", "_under_unit_load", "_packed"),
-    "engine/switches.py": ("disc_point", "spring_force", "_free_force", "stick_force", "slip_force", "impact"),
+    "engine/stick_modes.py": ("_eigenmodes", "_compliant_eigenmodes", "_decomposed", "_under_unit_load", "_packed"),
+    "engine/switches.py": (
+        *("disc_point", "spring_force", "_compliant_force", "_free_force", "stick_force", "grip", "force_in_stick"),
+        *("slip_force", "impact"),
+    ),
+    "flexibility.py": (
+        *("residual_flexibility", "harmonic_flexibility", "_point_load", "_moment", "_shear", "_power"),
+        *("_high_harmonics", "_axisymmetric", "_first", "_logarithmic", "_with_edges"),
+    ),
     "engine/saltation.py": ("rates", "_force_change", "_pull_change", "_inertia", "switch_change", "impact_change"),
     "engine/tangent.py": (
         *("_convolve", "_motion_slope", "point_change", "_diametral_rates", "_axisymmetric_rates"),

@@ -21,7 +21,8 @@ from tests import needs
 from tests.validation import trial
 from tests.validation.mutants import EQUIVALENT, PACKAGE, Mutant, all_mutants
 
-EQUATIONS = ("tests/validation/test_equations.py",)
+LAWS = "tests/validation/test_contact_laws.py"
+EQUATIONS = ("tests/validation/test_equations.py", LAWS)
 TWINS = ("tests/engine/test_series.py", *EQUATIONS)
 CLOSED_FORM = (
     *EQUATIONS,
@@ -36,6 +37,7 @@ METHODS = (*(f"{RIVALS}/test_{name}.py" for name in ("kernels", "rk4", "regulari
 #: What notices changes of a file, if it is not the tests of the equations.
 NOTICED_BY = {
     "engine/series.py": TWINS,
+    "engine/contact_series.py": (LAWS,),
     "engine/coasting.py": CLOSED_FORM,
     "engine/stick_modes.py": CLOSED_FORM,
     "engine/saltation.py": DERIVATIVES,
@@ -45,6 +47,7 @@ NOTICED_BY = {
     "benchmarks/methods/phases.py": METHODS,
     "benchmarks/methods/kernels.py": METHODS,
     "benchmarks/methods/taylor_heyoka.py": METHODS,
+    "flexibility.py": ("tests/test_flexibility.py",),
     "plate.py": ("tests/test_plate.py",),
 }
 #: Without what a file cannot be tried.

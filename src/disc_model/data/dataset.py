@@ -31,6 +31,7 @@ import xarray as xr
 
 from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
 from disc_model.errors import DiscModelError
+from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 
 CONVENTIONS = "CF-1.11"
@@ -76,7 +77,7 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
     for name in SCALARS:
         value = np.int8(values[name]) if name == "status" else values.get(name, math.nan)
         data[name] = ((), np.int64(value) if name in COUNTS else value, attributes(name))
-    for name, value in p.model_dump().items():
+    for name, value in (p.model_dump() | {"contact_compliance": contact_give(p)}).items():
         stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
         data[name] = ((), stored, attributes(name))
     attrs = {

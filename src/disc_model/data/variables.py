@@ -15,6 +15,7 @@ EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", 
 STATUSES = (*(status.value for status in Status), "failed")
 NORMALIZATIONS = ("as_published", "orthonormal")
 CONTACTS = ("separable", "bonded")
+CONTACT_FORCES = ("vertical", "normal")
 
 
 class Variable(NamedTuple):
@@ -64,14 +65,21 @@ COUNTS = {
     "audited_steps": "audited_steps",
 }
 """Whole numbers among the scalars, and what `Result.statistics` calls them."""
-CHOICES = {"normalization": NORMALIZATIONS, "contact": CONTACTS}
+CHOICES = {"normalization": NORMALIZATIONS, "contact": CONTACTS, "contact_force": CONTACT_FORCES}
 KICKS = {
     "kick_u": Variable("m", "kick of the slider and of the disc under it, upward"),
     "kick_u_velocity": Variable("m s-1", "kick of their velocity, upward"),
     "kick_f": Variable("rad s-1", "kick of the slider's angular velocity"),
 }
 """What grids may add to a coordinate where motions start; coordinates of their datasets."""
-_CF_UNITS = {"N m s": "N m s", "N s/m": "N s m-1", "N/m": "N m-1", "kg/m^3": "kg m-3", "rad/s": "rad s-1"}
+_CF_UNITS = {
+    "N m s": "N m s",
+    "N s/m": "N s m-1",
+    "N/m": "N m-1",
+    "m/N": "m N-1",
+    "kg/m^3": "kg m-3",
+    "rad/s": "rad s-1",
+}
 
 
 def attributes(name: str) -> dict[str, Any]:

@@ -37,6 +37,7 @@ with kept_in(_cache_folder()):
     from . import (
         audit,
         coasting,
+        contact_series,
         dense_output,
         layout,
         machine,
@@ -53,6 +54,7 @@ with kept_in(_cache_folder()):
 __all__ = [
     "audit",
     "coasting",
+    "contact_series",
     "dense_output",
     "layout",
     "machine",

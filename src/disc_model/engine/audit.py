@@ -12,7 +12,7 @@ import numpy as np
 
 from .compile import kernel
 from .dense_output import force_at, move_to
-from .layout import PSI, SEPARATION, SLIP, SPEED, U_VELOCITY, U
+from .layout import PSI, SEPARATION, SLIP, SPEED, U_VELOCITY, U, give_of, is_compliant, is_normal
 from .switches import disc_point, spring_force
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
@@ -40,11 +40,18 @@ _PANEL = 8.0
 
 @kernel
 def transverse_energy(model, state, phase):
-    """Energy of the disc and of the slider's vertical motion, J (u, u' of the disc's point in contact)."""
+    """Energy of the disc, of the slider's vertical motion and of a compliant contact, J.
+
+    u, u' are those of the disc's point in rigid contact.
+    """
     u, v = state.x[U], state.x[U_VELOCITY]
-    if phase != SEPARATION:
-        u, v, _ = disc_point(model, state)
     energy = 0.0
+    if phase != SEPARATION:
+        if is_compliant(model):
+            w, _, _ = disc_point(model, state)
+            energy += (w - u) ** 2 / give_of(model.give)
+        else:
+            u, v, _ = disc_point(model, state)
     for j in range(len(model.shift)):
         energy += state.e[j] ** 2 + model.stiffness[j] * state.z[j] ** 2
     for j in range(len(model.force0)):
@@ -63,7 +70,7 @@ def inplane_energy(model, state):
 def _powers_in(model, state, phase, direction, P):
     """Power into the transverse and the in-plane motion, and the sums of the moduli of their parts, W."""
     _, v, slope = disc_point(model, state)
-    if phase == SEPARATION:
+    if is_compliant(model) or phase == SEPARATION:
         v = state.x[U_VELOCITY]
     f, F = state.x[SPEED], spring_force(model, state)
     lost = model.c * v * v
@@ -74,6 +81,10 @@ def _powers_in(model, state, phase, direction, P):
     driven = P * f * slope
     supplied = model.Omega * model.r_0**2 * F
     rubbed = model.mu_k * model.r_0 * P * direction * f if phase == SLIP else 0.0
+    if is_normal(model):
+        # P is R: V = R (1 - s mu_k B / r_0) is what acts vertically, and R B / r_0 acts in the plane
+        rubbed += driven
+        driven *= 1.0 - direction * model.mu_k * slope / model.r_0
     damped = model.c_p * model.r_0**2 * (model.Omega - f) ** 2
     return driven - lost, supplied - rubbed - damped, abs(driven) + lost, abs(supplied) + abs(rubbed) + damped
 
@@ -119,7 +130,10 @@ def book(audit, residual_t, residual_p, size_t, size_p):
 
 @kernel
 def audit_impact(model, before, impulse, slope, state, audit):
-    """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B."""
+    """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it.
+
+    The normal force changes f: what the slope takes from the motion in the plane beyond p f B is lost.
+    """
     expected = -0.5 * impulse**2 * (model.compliance + 1.0 / model.m) + impulse * state.x[SPEED] * slope
     after = transverse_energy(model, state, SEPARATION)
     book(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)

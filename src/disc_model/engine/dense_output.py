@@ -5,10 +5,10 @@ from __future__ import annotations
 from .coasting import coast_to
 from .compile import inlined
 from .lanes import WIDTH, fma, load, splat, store
-from .layout import PHASE, PSI, SEPARATION, SPEED, STICK, U_VELOCITY, E, U
+from .layout import PHASE, PSI, SEPARATION, SPEED, STICK, U_VELOCITY, E, U, is_compliant, is_normal
 from .polynomial import value
 from .series import lane_count
-from .switches import stick_force
+from .switches import force_in_stick, stick_force
 
 # Stands for the order of a series where stick has no series but its closed form.
 COAST = 0
@@ -37,7 +37,7 @@ def _modes_at(model, s, order, x, state):
 
 @inlined
 def state_at(model, s, order, x, phase, state):
-    """Fill ``state`` with the series' value at x (time units); u, u' only in separation: else they are the disc's."""
+    """Fill ``state`` with the series' value at x (time units); u, u' only where they are not the disc's."""
     _modes_at(model, s, order, x, state)
     psi, f = s.psi[order], s.f[order]
     for k in range(order - 1, -1, -1):
@@ -45,7 +45,7 @@ def state_at(model, s, order, x, phase, state):
     state.x[PHASE] = phase
     state.x[PSI] = psi
     state.x[SPEED] = 0.0 if phase == STICK else f
-    if phase == SEPARATION:
+    if is_compliant(model) or phase == SEPARATION:
         state.x[U] = value(s.u, 0, order, x)
         state.x[U_VELOCITY] = value(s.v, 0, order, x)
 
@@ -64,7 +64,10 @@ def force_at(model, s, order, x, phase, state):
     """Contact force at x, where ``move_to`` has put ``state``."""
     if order == COAST:
         return stick_force(model, state)
-    return 0.0 if phase == SEPARATION else value(s.P, 0, order - 1, x)
+    if phase == SEPARATION:
+        return 0.0
+    P = value(s.P, 0, order - 1, x)
+    return force_in_stick(model, state, P) if is_normal(model) and phase == STICK else P
 
 
 @inlined

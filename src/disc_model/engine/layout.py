@@ -14,8 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .compile import inlined
 from .lanes import WIDTH, aligned, aligned_pieces
-from .stick_modes import StickModes, build_stick_modes, padded
+from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
 
@@ -29,8 +30,10 @@ SHIFT, STIFFNESS, DAMPING, FORCE_ROW, SLOPE, BEND, MINUS_FORCE_DAMPING, MINUS_FO
 # slider's series begin in Series.slider.
 ROWS = 48
 E, SCRATCH = ROWS, 2 * ROWS
-SLIDER_ROWS = ("f", "psi", "P", "u", "v", "switch", "switch2", "powers", "up", "down")
-F, PSI_SERIES, P, U_SERIES, V_SERIES, SWITCH, SWITCH2, POWERS, UP, DOWN = (ROWS * i for i in range(len(SLIDER_ROWS)))
+SLIDER_ROWS = ("f", "psi", "P", "u", "v", "switch", "switch2", "powers", "up", "down", "slope")
+F, PSI_SERIES, P, U_SERIES, V_SERIES, SWITCH, SWITCH2, POWERS, UP, DOWN, SLOPE_SERIES = (
+    ROWS * i for i in range(len(SLIDER_ROWS))
+)
 HALF = WIDTH // 2
 # Rows of Series.roots; the numbers that integrate and differentiate powers.
 ROOT_ROWS = 7 * WIDTH
@@ -44,6 +47,8 @@ class Model(NamedTuple):
     The lane arrays are views of the first of them.  ``more_blocks`` is (0, 0) if there is one block of lanes, and
     (number of further blocks,) otherwise: the length of a tuple is known when kernels are compiled, so the usual case
     has no loop over blocks.
+    Likewise ``give`` is () if contact is rigid, else (compliance,), and ``normal`` is () if the contact force is
+    vertical, else (True,): the paper's model has no more to hand from kernel to kernel than it needs.
     """
 
     lanes: np.ndarray
@@ -75,13 +80,39 @@ class Model(NamedTuple):
     slider_scale: float  # m/s: what u' is compared with in separation
     speed_scale: float  # rad/s: what f is compared with
     bonded: bool
+    give: tuple[float, ...]  # compliance of the contact, m/N
+    normal: tuple[bool, ...]
     modes: StickModes  # closed form of stick
+
+
+@inlined
+def is_compliant(model):
+    """Whether contact is compliant: a constant for the compiler."""
+    return len(model.give) == 1
+
+
+@inlined
+def give_of(give):
+    """Compliance of the contact from ``Model.give``, m/N; 0 if it is rigid.
+
+    The compiler drops a branch unseen if its condition is the length of an argument.
+    """
+    if len(give) == 1:
+        return give[0]
+    return 0.0
+
+
+@inlined
+def is_normal(model):
+    """Whether the contact force is normal to the bent disc: a constant for the compiler."""
+    return len(model.normal) == 1
 
 
 class Series(NamedTuple):
     """Taylor coefficients of one step.
 
-    z, e and scratch are views of ``modes``; f to down are views of ``slider``, ``ROWS`` doubles each.
+    z, e and scratch are views of ``modes``; f to down are views of ``slider``, ``ROWS`` doubles each;
+    behind them are those of B / r_0, under the normal force.
     """
 
     modes: np.ndarray
@@ -108,7 +139,7 @@ class Series(NamedTuple):
 class State(NamedTuple):
     """Where the system is.  z to g are views of ``disc``; ``x`` holds the slider's scalars, at the indices below."""
 
-    disc: np.ndarray  # z, e, y, g, padded to whole blocks of lanes
+    disc: np.ndarray  # z, e, y, g, perhaps room for u, u'; padded to whole blocks of lanes
     z: np.ndarray
     e: np.ndarray
     y: np.ndarray
@@ -133,15 +164,21 @@ def pair_lanes(n_pairs):
     return WIDTH * (i // HALF) + i % HALF
 
 
-def disc_size(width, n_single):
-    """Length of ``State.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes."""
-    return padded(2 * (width + n_single))
+def disc_size(width, n_single, compliant):
+    """Length of ``State.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes.
+
+    On a compliant contact u, u' have room behind them, for the closed form of stick.
+    """
+    return padded(2 * (width + n_single) + (2 if compliant else 0))
 
 
-def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, mu_s, mu_k, r_0, bonded) -> Model:
+def build_model(
+    diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, mu_s, mu_k, r_0, bonded, give=0.0, normal=False
+) -> Model:
     """Constants of a case.
 
-    diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`.
+    diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`; none
+    for a rigid disc.  give: compliance of the contact, m/N, 0 if it is rigid; normal: whether its force is.
     """
     diameters = np.asarray(diameters)
     pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)
@@ -156,12 +193,16 @@ def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, 
     row["bend"][lane] = -(diameters[pairs] ** 2) * psi[pairs]
     row["minus_force_damping"][:] = -row["force"] * row["damping"]
     row["minus_force_stiffness"][:] = -row["force"] * row["stiffness"]
-    more, unit = width // WIDTH - 1, 1.0 / float(omega.max())
-    modes = build_stick_modes(
-        (omega[pairs], damping[pairs], psi[pairs], lane, lane + HALF, width),
-        (omega[single], damping[single], psi[single], 2 * width + np.arange(len(single)), len(single)),
-        length=disc_size(width, len(single)), N=N, k=k, c=c, m=m, unit=unit,
-    )  # fmt: skip
+    more, S2 = width // WIDTH - 1, float(np.sum(psi**2))
+    unit = _time_unit(omega, (1 / m + S2) / give if give else 0.0, max(k, k_p) / m)
+    modes = no_modes()
+    if not normal:
+        modes = build_stick_modes(
+            (omega[pairs], damping[pairs], psi[pairs], lane, lane + HALF, width),
+            (omega[single], damping[single], psi[single], 2 * width + np.arange(len(single)), len(single)),
+            slider=2 * (width + len(single)), length=disc_size(width, len(single), give > 0.0),
+            N=N, k=k, c=c, m=m, unit=unit, give=give,
+        )  # fmt: skip
     return Model(
         lanes=lanes,
         more_blocks=(more,) if more else (0, 0),
@@ -179,16 +220,25 @@ def build_model(diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, 
         mu_s=mu_s,
         mu_k=mu_k,
         r_0=r_0,
-        u_0=-N * float(np.sum(psi**2 / omega**2)),
-        compliance=float(np.sum(psi**2)),
+        u_0=-N * (float(np.sum(psi**2 / omega**2)) + give),
+        compliance=S2,
         damped_compliance=float(np.sum(damping * psi**2)),
         unit=unit,
-        velocity_scale=N * float(np.max(np.abs(psi) / omega)),
-        slider_scale=N * float(np.sum(psi**2 / omega)),
+        velocity_scale=N * float(np.max(np.abs(psi) / omega, initial=0.0)),
+        slider_scale=N * (float(np.sum(psi**2 / omega)) + give / unit),
         speed_scale=Omega,
         bonded=bonded,
+        give=(give,) if give else (),
+        normal=(True,) if normal else (),
         modes=modes,
     )
+
+
+def _time_unit(omega, contact, slider) -> float:
+    """s; one radian of the fastest motion.  contact, slider: squares of the contact's and the slider's rates, 1/s^2."""
+    if len(omega) == 0 and contact == 0.0:  # a rigid disc, and only the slider moves
+        return slider**-0.5 if slider > 0.0 else 1.0
+    return 1.0 / max(float(np.max(omega, initial=0.0)), contact**0.5)
 
 
 def build_series(model: Model, order: int) -> Series:
@@ -202,13 +252,15 @@ def build_series(model: Model, order: int) -> Series:
     np.divide(model.unit, _FROM_1, out=rows[UP // ROWS])
     np.divide(_FROM_1, model.unit, out=rows[DOWN // ROWS])
     z, e, scratch = modes[: E * width], modes[E * width : SCRATCH * width], modes[SCRATCH * width :]
-    return Series._make((modes, slider, z, e, y, g, *rows, scratch, roots.reshape(ROOT_ROWS, -1), amplitudes))
+    return Series._make(
+        (modes, slider, z, e, y, g, *rows[: SLOPE_SERIES // ROWS], scratch, roots.reshape(ROOT_ROWS, -1), amplitudes)
+    )
 
 
 def build_state(model: Model) -> State:
     """The published start: static equilibrium under the preload, in stick, spring relaxed."""
     width, n0 = len(model.force), len(model.force0)
-    disc = aligned(disc_size(width, n0))
+    disc = aligned(disc_size(width, n0, is_compliant(model)))
     z, e, y, g = np.split(disc[: 2 * (width + n0)], [width, 2 * width, 2 * width + n0])
     np.divide(-model.N * model.force, model.stiffness, out=z, where=model.stiffness > 0)
     np.divide(-model.N * model.force0, model.stiffness0, out=y, where=model.stiffness0 > 0)

@@ -27,7 +27,6 @@ from .layout import (
     TIME,
     TIME_LOW,
     U_VELOCITY,
-    U,
 )
 from .outcomes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
 from .sampling import sample_step
@@ -41,6 +40,7 @@ from .switches import (
     PAINLEVE_MARGIN,
     change_phase,
     disc_point,
+    slider_motion,
 )
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
@@ -89,9 +89,7 @@ def _record(model, state, kind, kept):
     if len(rows) == 0:
         return
     row, x = rows[counters[EVENT_ROWS]], state.x
-    u, v = x[U], x[U_VELOCITY]
-    if x[PHASE] != SEPARATION:
-        u, v, _ = disc_point(model, state)
+    u, v = slider_motion(model, state)
     row[0] = x[TIME] + x[TIME_LOW]
     row[1], row[2], row[3] = kind, x[PHASE], x[DIRECTION]
     row[4], row[5], row[6], row[7], row[8] = x[PSI], x[SPEED], u, v, x[FORCE]

@@ -10,7 +10,7 @@ import math
 
 from .compile import kernel
 from .dense_output import force_at, move_to
-from .layout import HALF, PHASE, PSI, SEPARATION, SPEED, TIME, TIME_LOW, U_VELOCITY, WIDTH, U
+from .layout import HALF, PHASE, PSI, SEPARATION, SPEED, TIME, TIME_LOW, U_VELOCITY, WIDTH, U, is_compliant
 from .switches import disc_point
 
 # Columns of a row of samples.
@@ -44,8 +44,9 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
     angle = theta - (model.Omega * time - probe.x[PSI])
     row[1] = time
     row[2] = force_at(model, s, order, x, phase, probe)
-    row[3] = probe.x[U] if phase == SEPARATION else w
-    row[4] = probe.x[U_VELOCITY] if phase == SEPARATION else velocity
+    apart = is_compliant(model) or phase == SEPARATION
+    row[3] = probe.x[U] if apart else w
+    row[4] = probe.x[U_VELOCITY] if apart else velocity
     row[5] = w
     row[6], row[7] = point_motion(model, probe, angle)
     row[8] = probe.x[PSI]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from .compile import inlined
+from .contact_series import compliant_slip_series, compliant_stick_series, normal_slip_series, release_series
 from .dense_output import load_state
 from .lanes import WIDTH, absolute, largest, load, maximum, splat
-from .layout import DIRECTION, KNOWN, PHASE, SEPARATION, SLIP, STICK, TIME, TIME_LOW, E
+from .layout import DIRECTION, KNOWN, PHASE, SEPARATION, SLIP, STICK, TIME, TIME_LOW, E, is_compliant, is_normal
 from .polynomial import NO_ROOT, first_root, set_powers
 from .series import lane_count, separation_series, slip_series, stick_series
 from .switches import (
@@ -17,7 +18,9 @@ from .switches import (
     NOTHING,
     RELEASE_BACKWARD,
     RELEASE_FORWARD,
+    TOUCHING,
     never_pulled,
+    usual_denominator,
 )
 
 # Longest step, in units of 1 / largest omega: beyond it the terms of the series cancel more digits than they add.
@@ -60,16 +63,16 @@ def step_size(model, s, order, tolerance, phase):
     """Step (time units) at which the last two terms of the series fall below the tolerance (Jorba and Zou).
 
     Modal velocities are compared with those of static deflection under the preload, or with what is there if that is
-    more; f with the drive speed; in separation also u'.  The two terms are merged as if the step were
+    more; f with the drive speed; where it is not the disc's also u'.  The two terms are merged as if the step were
     ``TYPICAL_STEP``, which spares a root.
     """
     last = max(_size(model, s, order), _size(model, s, order - 1) / TYPICAL_STEP)
     scale = _scale(model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     speed = _scale(model.speed_scale, abs(s.f[0]), abs(s.f[1]))
     error = _relative(last, scale) + _relative(_last_two(s.f, order), speed)
-    if phase == SEPARATION:
+    if is_compliant(model) or phase == SEPARATION:
         error += _relative(_last_two(s.v, order), _scale(model.slider_scale, abs(s.v[0]), abs(s.v[1])))
-    else:
+    if phase != SEPARATION:
         # P is known to one order less
         last_force = max(abs(s.P[order - 1]) / TYPICAL_STEP, abs(s.P[order - 2]) / TYPICAL_STEP**2)
         error += _relative(last_force, _scale(model.N, abs(s.P[0]), abs(s.P[1])))
@@ -81,14 +84,38 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
+def _expand_slip(give, normal, model, s, order, direction):
+    """Series of slip under the model's law of contact.  Returns the denominator of the contact force.
+
+    give, normal: the model's; the compiler drops a branch unseen if its condition is the length of an argument.
+    """
+    if len(give) == 1:
+        return compliant_slip_series(model, s, order, direction)
+    if len(normal) == 1:
+        return normal_slip_series(model, s, order, direction)
+    return slip_series(model, s, order, direction)
+
+
+@inlined
+def _expand_stick(give, normal, model, s, order):
+    """Series of stick, likewise."""
+    if len(give) == 1:
+        compliant_stick_series(model, s, order)
+    else:
+        stick_series(model, s, order)
+        if len(normal) == 1:
+            release_series(model, s, order)
+
+
+@inlined
 def expand(model, s, state, order):
     """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
     load_state(s, state)
     phase = state.x[PHASE]
     if phase == SLIP:
-        return slip_series(model, s, order, state.x[DIRECTION]) / (1.0 + model.m * model.compliance)
+        return _expand_slip(model.give, model.normal, model, s, order, state.x[DIRECTION]) / usual_denominator(model)
     if phase == STICK:
-        stick_series(model, s, order)
+        _expand_stick(model.give, model.normal, model, s, order)
     else:
         separation_series(model, s, order)
     return 1.0
@@ -97,20 +124,23 @@ def expand(model, s, state, order):
 @inlined
 def first_switch(model, s, state, order, x_end):
     """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
-    phase, known = state.x[PHASE], int(state.x[KNOWN])
+    phase, known, known_force = state.x[PHASE], int(state.x[KNOWN]), 0
+    if is_compliant(model):
+        known, known_force = known % TOUCHING, known // TOUCHING
     set_powers(s.powers, x_end)
     cause = NOTHING
     if phase == STICK:
         if not model.bonded and never_pulled(model, state):
             # P = 0 and the friction limit coincide, and it is contact that ends
-            x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+            x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots)
             return (x, CONTACT_LOST) if x != NO_ROOT else (x_end, NOTHING)
-        x = first_root(s.switch, 0, order - 1, x_end, s.powers, s.roots)
+        x = first_root(s.switch, known_force, order - 1, x_end, s.powers, s.roots)
         if x != NO_ROOT:
             x_end, cause = x, RELEASE_FORWARD
             set_powers(s.powers, x_end)
-        if s.switch2[0] < s.switch[0]:
-            x = first_root(s.switch2, 0, order - 1, x_end, s.powers, s.roots)
+        # under the vertical force the pull only grows; the slope of a disc that bends can turn it
+        if is_normal(model) or s.switch2[0] < s.switch[0]:
+            x = first_root(s.switch2, known_force, order - 1, x_end, s.powers, s.roots)
             if x != NO_ROOT:
                 x_end, cause = x, RELEASE_BACKWARD
                 set_powers(s.powers, x_end)
@@ -128,7 +158,7 @@ def first_switch(model, s, state, order, x_end):
         x_end, cause = x, AT_REST
         set_powers(s.powers, x_end)
     if not model.bonded:
-        x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+        x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots)
         if x != NO_ROOT:
             x_end, cause = x, CONTACT_LOST
     return x_end, cause

@@ -4,7 +4,8 @@ With f = 0, disc and slider are one linear system.  In deviations d from the sta
 
     (1 + m psi psi^T) d'' + (2 xi omega + c psi psi^T) d' + (omega^2 + k psi psi^T) d = 0
 
-for the a-components and l = 0, and the same without the slider for the b-components.  Its modes q only turn and decay,
+for the a-components and l = 0, and the same without the slider for the b-components; on a compliant contact u is one
+more coordinate.  Its modes q only turn and decay,
 q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are kept as lanes of real parts followed by lanes of imaginary parts.
 """
 
@@ -55,20 +56,40 @@ def no_modes() -> StickModes:
 
 
 def _eigenmodes(frequencies, dampings, shapes, k, c, m, unit):
-    """Modes of d'' = -M^-1 (C d' + K d): lambda (n,), V (2n, n), W (n, 2n), where (d, d') = 2 Re V q, q = W (d, d').
+    """Modes of d'' = -M^-1 (C d' + K d) in rigid contact; see `_decomposed`.
 
-    frequencies: omega; dampings: 2 xi omega; shapes: psi, 0 for a mode that does not feel the slider; lambda is in
-    1 / ``unit``.  None if a mode does not oscillate, is too fast for the series, or is nearly parallel to another.
+    frequencies: omega; dampings: 2 xi omega; shapes: psi, 0 for a mode that does not feel the slider.
     """
     omega, damping, psi = np.array(frequencies), np.array(dampings), np.array(shapes)
-    n, rank_one = len(omega), np.outer(psi, psi)
-    inverse = np.eye(n) - rank_one * (m / (1.0 + m * psi @ psi))
-    # displacements are scaled by omega, so that both halves of an eigenvector are of one size
-    scale = omega * unit
+    rank_one = np.outer(psi, psi)
+    inverse = np.eye(len(omega)) - rank_one * (m / (1.0 + m * psi @ psi))
+    return _decomposed(
+        inverse @ (np.diag(omega**2) + k * rank_one), inverse @ (np.diag(damping) + c * rank_one), omega * unit, unit
+    )
+
+
+def _compliant_eigenmodes(frequencies, dampings, shapes, k, c, m, unit, give):
+    """As `_eigenmodes` for a compliant contact: the last of d is the slider's u."""
+    omega, damping, psi = np.array(frequencies), np.array(dampings), np.array(shapes)
+    stretch = np.append(psi, -1.0)
+    mass = np.append(np.ones(len(omega)), m)
+    stiffness = np.diag(np.append(omega**2, k)) + np.outer(stretch, stretch) / give
+    scale = np.append(omega, np.sqrt((1.0 / give + k) / m)) * unit
+    return _decomposed(stiffness / mass[:, None], np.diag(np.append(damping, c / m)), scale, unit)
+
+
+def _decomposed(stiffness, damping, scale, unit):
+    """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,), V (2n, n), W (n, 2n).
+
+    (d, d') = 2 Re V q, q = W (d, d'); lambda is in 1 / ``unit``.  Displacements are scaled by ``scale``, so that both
+    halves of an eigenvector are of one size.  None if a mode does not oscillate, is too fast for the series, or nearly
+    parallel to another.
+    """
+    n = len(scale)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.diag(scale)
-    A[n:, :n] = -inverse @ (np.diag(omega**2) + k * rank_one) * (unit**2 / scale)
-    A[n:, n:] = -inverse @ (np.diag(damping) + c * rank_one) * unit
+    A[n:, :n] = -stiffness * (unit**2 / scale)
+    A[n:, n:] = -damping * unit
     if not np.isfinite(A).all():
         return None
     rates, vectors = np.linalg.eig(A)
@@ -87,36 +108,44 @@ def _eigenmodes(frequencies, dampings, shapes, k, c, m, unit):
     return decay + 1j * rates.imag, vectors, to_modes
 
 
-def build_stick_modes(pairs, single, *, length, N, k, c, m, unit) -> StickModes:
+def build_stick_modes(pairs, single, *, slider, length, N, k, c, m, unit, give) -> StickModes:
     """Modes of stick for the model of `layout.build_model`.
 
     pairs : of the diametral modes: omega, damping, psi, places of a and b in `State.disc`, how far on are velocities
     single : of the axisymmetric modes: omega, damping, psi, their places, how far on are velocities
+    slider : place of u in `State.disc`, u' being the next, where contact is compliant
     length : of `State.disc`
     """
     omega, damping, psi = (np.concatenate([pairs[i], single[i], pairs[i]]) for i in range(3))
     n, held = len(omega), len(pairs[0]) + len(single[0])
     shape = np.where(np.arange(n) < held, psi, 0.0)
-    if n > MOST_MODES or not (omega > 0.0).all():
+    if not (n or give) or n > MOST_MODES or not (omega > 0.0).all():
         return no_modes()
     place = np.concatenate([pairs[3], single[3], pairs[4]])
-    where = np.concatenate([place, pairs[3] + pairs[5], single[3] + single[4], pairs[4] + pairs[5]])
-    numbers = (tuple(a.tolist()) for a in (omega, damping, shape, where))
-    modes = _under_unit_load(*numbers, length, float(k), float(c), float(m), float(unit))
+    after = np.concatenate([pairs[3] + pairs[5], single[3] + single[4], pairs[4] + pairs[5]])
+    if give:
+        place, after = np.append(place, slider), np.append(after, slider + 1)
+    numbers = (tuple(a.tolist()) for a in (omega, damping, shape, np.concatenate([place, after])))
+    modes = _under_unit_load(*numbers, length, float(k), float(c), float(m), float(unit), float(give))
     return modes._replace(rest=N * modes.rest, offset=N * modes.offset)
 
 
 @lru_cache(maxsize=256)
-def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, unit) -> StickModes:
+def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, unit, give) -> StickModes:
     """`StickModes` for N = 1, the same for many cases; ``places`` of (d, d') in `State.disc`."""
-    modes = _eigenmodes(frequencies, dampings, shapes, k, c, m, unit)
+    system = (frequencies, dampings, shapes, k, c, m, unit)
+    modes = _compliant_eigenmodes(*system, give) if give else _eigenmodes(*system)
     if modes is None:
         return no_modes()
     omega, damping, shape, where = (np.array(a) for a in (frequencies, dampings, shapes, places))
     rest = aligned(length)
     rest[where[: len(omega)]] = -shape / omega**2
     # dP of a unit change of each displacement and velocity
-    force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
+    if give:
+        rest[where[len(omega)]] = -(np.sum((shape / omega) ** 2) + give)
+        force = np.concatenate([shape / give, [-1.0 / give], np.zeros(len(omega) + 1)])
+    else:
+        force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
     rates, vectors, to_modes = modes
     return _packed(rates, vectors, to_modes, where, rest, force)
 

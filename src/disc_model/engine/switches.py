@@ -3,7 +3,23 @@
 from __future__ import annotations
 
 from .compile import inlined, kernel
-from .layout import COASTED, DIRECTION, FORCE, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, U_VELOCITY, U
+from .layout import (
+    COASTED,
+    DIRECTION,
+    FORCE,
+    KNOWN,
+    PHASE,
+    PSI,
+    SEPARATION,
+    SLIP,
+    SPEED,
+    STICK,
+    U_VELOCITY,
+    U,
+    give_of,
+    is_compliant,
+    is_normal,
+)
 from .outcomes import CONSISTENT, NO_SOLUTION
 
 # What can end a step.
@@ -15,6 +31,8 @@ MAX_EVENTS_IN_A_ROW = 200
 PAINLEVE_MARGIN = 1e-6
 # A force below this share of the terms that make it is rounding.
 ROUNDING = 1e-13
+# Added to KNOWN in contact: the contact force, too, starts at a root of multiplicity one (a compliant contact begins).
+TOUCHING = 4
 
 
 @inlined
@@ -33,6 +51,15 @@ def disc_point(model, state):
 
 
 @inlined
+def slider_motion(model, state):
+    """u, u' of the slider, which in rigid contact are the disc's."""
+    if is_compliant(model) or state.x[PHASE] == SEPARATION:
+        return state.x[U], state.x[U_VELOCITY]
+    u, v, _ = disc_point(model, state)
+    return u, v
+
+
+@inlined
 def spring_force(model, state):
     """F = k_p psi + c_p (Omega - f), N/m... the in-plane force divided by r_0."""
     return model.k_p * state.x[PSI] + model.c_p * (model.Omega - state.x[SPEED])
@@ -42,6 +69,14 @@ def spring_force(model, state):
 def never_pulled(model, state):
     """Whether the drive neither pulls at the slider in stick nor ever will."""
     return model.k_p * model.Omega == 0.0 and spring_force(model, state) == 0.0
+
+
+@inlined
+def _compliant_force(model, state):
+    """V = (w - u) / give, the vertical force of a compliant contact; size of its terms."""
+    w, _, _ = disc_point(model, state)
+    give = give_of(model.give)
+    return (w - state.x[U]) / give, (abs(w) + abs(state.x[U])) / give
 
 
 @inlined
@@ -67,26 +102,81 @@ def _free_force(model, state):
 
 @inlined
 def stick_force(model, state):
-    """Contact force P in stick (f = 0)."""
+    """Vertical contact force in stick (f = 0): P, or V under the normal force."""
+    if is_compliant(model):
+        return _compliant_force(model, state)[0]
     force, _ = _free_force(model, state)
     return force / (1.0 + model.m * model.compliance)
 
 
 @inlined
-def slip_force(model, state, direction):
-    """Contact force P in slip, its denominator, and how much of P may be rounding."""
+def grip(model, state, V):
+    """Pull and press of stick, where V is the vertical force: friction holds while abs(pull) <= mu_s press.
+
+    Under the normal force both are in units of 1 / (1 + (B / r_0)^2): T and R have that in common.
+    """
+    pull, press = model.r_0 * spring_force(model, state), V
+    if is_normal(model):
+        _, _, slope = disc_point(model, state)
+        press += spring_force(model, state) * slope
+        pull -= slope / model.r_0 * V
+    return pull, press
+
+
+@inlined
+def force_in_stick(model, state, V):
+    """What counts as contact force in stick: V, or R under the normal force."""
+    if not is_normal(model):
+        return V
     _, _, slope = disc_point(model, state)
+    return (V + spring_force(model, state) * slope) / (1.0 + (slope / model.r_0) ** 2)
+
+
+@inlined
+def usual_denominator(model):
+    """The denominator of the contact force in slip without friction."""
+    return 1.0 if is_compliant(model) else 1.0 + model.m * model.compliance
+
+
+@inlined
+def slip_force(model, state, direction):
+    """Contact force in slip (P, or R under the normal force), its denominator, and how much of it may be rounding."""
+    _, _, slope = disc_point(model, state)
+    if is_compliant(model):
+        V, size = _compliant_force(model, state)
+        denominator = 1.0
+        if is_normal(model):
+            denominator -= direction * model.mu_k * slope / model.r_0
+        return V / denominator, denominator, ROUNDING * size / abs(denominator)
     denominator = 1.0 + model.m * model.compliance + direction * model.mu_k * slope / model.r_0
+    if is_normal(model):
+        friction, beta = direction * model.mu_k, slope / model.r_0
+        denominator = (1.0 + model.m * model.compliance) * (1.0 - friction * beta) + (friction + beta) * beta
     force, size = _free_force(model, state)
     pull = slope * spring_force(model, state)
     return (force + pull) / denominator, denominator, ROUNDING * (size + abs(pull)) / abs(denominator)
 
 
 @inlined
+def _impulse(normal, model, state):
+    """Impulse of the plastic impact; under the normal force the slope takes its share of it from f.
+
+    normal: the model's; the compiler drops a branch unseen if its condition is the length of an argument.
+    """
+    if len(normal) == 1:
+        _, v, slope = disc_point(model, state)
+        lever = slope / (model.m * model.r_0**2)
+        p = (v - state.x[U_VELOCITY]) / (model.compliance + 1.0 / model.m + slope * lever)
+        state.x[SPEED] -= p * lever
+        return p
+    _, v, _ = disc_point(model, state)
+    return (v - state.x[U_VELOCITY]) / (model.compliance + 1.0 / model.m)
+
+
+@inlined
 def impact(model, state):
     """Plastic impact (Eqs. 29-37).  Returns the impulse p; the slider takes the disc's velocity."""
-    _, v, _ = disc_point(model, state)
-    p = (v - state.x[U_VELOCITY]) / (model.compliance + 1.0 / model.m)
+    p = _impulse(model.normal, model, state)
     for j in range(len(model.shift)):
         state.e[j] -= model.force[j] * p
     for j in range(len(model.force0)):
@@ -97,11 +187,17 @@ def impact(model, state):
 
 @inlined
 def _enter_separation(model, state, P, noise):
-    """Contact is lost where P, up to ``noise``, would be: the gap starts as t**3 from P = 0, as t**2 from P < 0."""
-    state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
+    """Contact is lost where P, up to ``noise``, would be: the gap starts as t**3 from P = 0, as t**2 from P < 0.
+
+    The gap of a compliant contact starts as t, or is open.
+    """
+    if is_compliant(model):
+        state.x[KNOWN] = 0 if noise < -P else 1
+    else:
+        state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
+        state.x[KNOWN] = 2 if noise < -P else 3
     state.x[PHASE] = SEPARATION
     state.x[DIRECTION] = 0.0
-    state.x[KNOWN] = 2 if noise < -P else 3
     state.x[FORCE] = 0.0
 
 
@@ -118,7 +214,7 @@ def _enter_stick(state, P):
 def enter_slip(model, state, direction):
     """Slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or NO_SOLUTION."""
     P, denominator, noise = slip_force(model, state, direction)
-    if denominator <= PAINLEVE_MARGIN * (1.0 + model.m * model.compliance):
+    if denominator <= PAINLEVE_MARGIN * usual_denominator(model):
         return NO_SOLUTION
     if P < 0.0 and not model.bonded:
         _enter_separation(model, state, P, noise)
@@ -130,8 +226,13 @@ def enter_slip(model, state, direction):
     if state.x[SPEED] == 0.0:
         # f starts at zero: the root at the start is known.  It is double where f', which points into the direction of
         # slip or vanishes, as (1 + m S2 + s mu_k B / r_0) f' m = (1 + m S2) (|F| - mu_k P_stick / r_0), is rounding.
-        F, friction = spring_force(model, state), model.mu_k * P / model.r_0
-        rounding = ROUNDING * abs(F) + model.mu_k * noise / model.r_0
+        resistance = bound = model.mu_k
+        if is_normal(model):
+            _, _, slope = disc_point(model, state)
+            resistance += direction * slope / model.r_0
+            bound += abs(slope) / model.r_0
+        F, friction = spring_force(model, state), resistance * P / model.r_0
+        rounding = ROUNDING * abs(F) + bound * noise / model.r_0
         state.x[KNOWN] = 2 if direction * F - friction <= rounding else 1
     return CONSISTENT
 
@@ -155,7 +256,7 @@ def lose_contact(model, state):
     if state.x[PHASE] == SLIP:
         P, _, noise = slip_force(model, state, state.x[DIRECTION])
     else:
-        P, size = _free_force(model, state)
+        P, size = _compliant_force(model, state) if is_compliant(model) else _free_force(model, state)
         noise = ROUNDING * size
     _enter_separation(model, state, P, noise)
     return CONSISTENT
@@ -166,17 +267,37 @@ def come_to_rest(model, state):
     """f has reached zero: stick if friction can hold the spring, else slip to the side of the spring's pull."""
     state.x[SPEED] = 0.0
     P = stick_force(model, state)
-    F = spring_force(model, state)
-    if model.r_0 * abs(F) < model.mu_s * P:
-        _enter_stick(state, P)
+    pull, press = grip(model, state, P)
+    if abs(pull) < model.mu_s * press:
+        _enter_stick(state, force_in_stick(model, state, P))
         return CONSISTENT
     # contact may hold although P in stick is negative: in slip the spring presses the slider on with B F
-    return enter_slip(model, state, -1.0 if F < 0.0 else 1.0)
+    return enter_slip(model, state, -1.0 if pull < 0.0 else 1.0)
+
+
+@inlined
+def _begin_contact(model, state):
+    """A compliant contact begins: no impact, and the force rises from zero.  Returns CONSISTENT or NO_SOLUTION."""
+    x = state.x
+    f, F = x[SPEED], spring_force(model, state)
+    if f == 0.0 and F == 0.0:
+        _enter_stick(state, 0.0)
+        x[KNOWN] = TOUCHING
+        return CONSISTENT
+    direction = 1.0 if (f if f != 0.0 else F) > 0.0 else -1.0
+    _, denominator, _ = slip_force(model, state, direction)
+    if denominator <= PAINLEVE_MARGIN:
+        return NO_SOLUTION
+    x[PHASE], x[DIRECTION], x[FORCE] = SLIP, direction, 0.0
+    x[KNOWN] = TOUCHING + (1 if f == 0.0 else 0)
+    return CONSISTENT
 
 
 @kernel
 def touch_down(model, state):
     """The gap has closed: impact, then contact."""
+    if is_compliant(model):
+        return _begin_contact(model, state)
     impact(model, state)
     f = state.x[SPEED]
     if f == 0.0:

@@ -130,6 +130,7 @@ class _Run:
         self.case = case = engine_case(p)
         self.model = model = case.model
         self.order = series_order(tol)
+        self.tolerance = series_tolerance(tol, compliant=p.contact_compliance != 0)
         self.series = layout.build_series(model, self.order)
         self.state, self.probe = fresh_states(case)
         if initial_state is not None:
@@ -164,7 +165,7 @@ class _Run:
     def _call(self, max_steps: int) -> int:
         keep = self.collector
         limits = machine.Limits(
-            self.order, series_tolerance(self.tol), self.t_end, self.stop_at is not None, max_steps, self.pause_after,
+            self.order, self.tolerance, self.t_end, self.stop_at is not None, max_steps, self.pause_after,
             1 if self.record.energy else AUDIT_EVERY,
         )  # fmt: skip
         kept = machine.Kept(
@@ -212,9 +213,9 @@ class _Run:
         )
 
 
-def _compiled_for(model: layout.Model, _seen: set[int] = set()) -> bool:  # noqa: B006 - the set is the memory
-    """Whether the engine was used before for a model of this type (one block of lanes, or more)."""
-    kind = len(model.more_blocks)
+def _compiled_for(model: layout.Model, _seen: set[tuple[int, ...]] = set()) -> bool:  # noqa: B006 - the set is the memory
+    """Whether the engine was used before for a model of this type (blocks of lanes, law of contact)."""
+    kind = (len(model.more_blocks), len(model.give), len(model.normal))
     known = kind in _seen
     _seen.add(kind)
     return known

@@ -177,7 +177,7 @@ class CaseSpec:
         """JSON text, equal for equal cases however they were written; `from_canonical` reads it."""
         return canonical_json(
             {
-                "parameters": self.parameters.model_dump(),
+                "parameters": self.parameters.canonical,
                 "t_end": self.t_end,
                 "tol": self.tol,
                 "stop_at": self.stop_at,

@@ -18,6 +18,7 @@ from disc_model.errors import DiscModelError, ParameterError, StatusBase
 from disc_model.parameters import Parameters
 from disc_model.schema import CYCLE_TOLERANCES, limits_faults
 from disc_model.simulation.result import State
+from disc_model.stability.contact import contact_faults
 from disc_model.stability.return_map import (
     OUTCOMES,
     RETURNED,
@@ -147,6 +148,8 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
     given: object = p
     if not isinstance(given, Parameters):
         faults.append(f"p={p!r}: must be Parameters")
+    else:
+        faults += contact_faults(given, "floquet")
     faults += limits_faults("tol", tol, CYCLE_TOLERANCES)
     if releases < 1 or (near is None and releases != 1):
         faults.append(f"releases={releases!r}: must be >= 1, and 1 without a state to look near")

@@ -19,6 +19,7 @@ from disc_model.engine import layout, outcomes, variational
 from disc_model.engine import tangent as columns
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
+from disc_model.stability.contact import check_contact
 
 Array = NDArray[np.float64]
 
@@ -68,6 +69,7 @@ class ReturnMap:
     """
 
     def __init__(self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = ()) -> None:
+        check_contact(p, "the return map")
         self.parameters = p
         self._case = engine_case(p)
         self.model = model = self._case.model

@@ -23,11 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import Status
+from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State
+from disc_model.stability.contact import contact_faults
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 
 Array = NDArray[np.float64]
@@ -103,7 +105,9 @@ class Settling:
 
     @cached_property
     def cycle(self) -> FloquetResult | None:
-        """The stick-slip cycle near the published start, if there is one."""
+        """The stick-slip cycle near the published start, if there is one and it can be found."""
+        if contact_faults(self.parameters, "floquet"):
+            return None
         found = floquet(self.parameters)
         return found if found.status is CycleStatus.OK else None
 
@@ -285,8 +289,9 @@ def return_difference(result: Result, states: Array) -> float:
 def _scaled(p: Parameters, slider: Array) -> Array:
     """Angle, height from static equilibrium, velocity from psi (rad), u (m), u' (m/s), shape (n, 3) both."""
     modes = mode_arrays(p)
-    rest = -p.N * float(np.sum(modes.psi**2 / modes.omega**2))
-    sizes = [_angle_at_release(p), abs(rest), abs(rest) * float(modes.omega.min())]
+    rest = -p.N * (float(np.sum(modes.psi**2 / modes.omega**2)) + contact_give(p))
+    slowest = float(modes.omega.min(initial=math.inf))
+    sizes = [_angle_at_release(p), abs(rest) or 1.0, abs(rest) * slowest if 0 < abs(rest) * slowest < math.inf else 1.0]
     return (slider - np.array([0.0, rest, 0.0])) / np.array(sizes)
 
 

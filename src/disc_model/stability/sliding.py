@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from disc_model.errors import ParameterError, StatusBase
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
+from disc_model.stability.contact import check_contact
 
 Array = NDArray[np.float64]
 
@@ -75,6 +76,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     """
     if not isinstance(p, Parameters):
         raise ParameterError(f"p={p!r}: must be Parameters")
+    check_contact(p, "steady_sliding")
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
     if p.k_p == 0 and p.mu_k > 0:

@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from disc_model.data.variables import KICKS
 from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import Parameters, cross_faults
+from disc_model.parameters import RESIDUAL, Parameters, cross_faults
 from disc_model.schema import Count, Finite, Real, Strict, number, shown
 from disc_model.simulation.case import START, SomeParameters
 from disc_model.studies.files import Faults, add_parameter_faults, mapping, validated
@@ -255,6 +255,8 @@ def _value(name: str, value: Value, starts: Collection[str], path: tuple[str, ..
         faults.add(path, value, f"no such start (known: {', '.join(starts)})")
     elif name == "n_diameters" and value == AUTO:
         faults.add(path, value, "cannot be varied: give it in base, for all points")
+    elif name == "contact_compliance" and value == RESIDUAL:
+        faults.add(path, value, "must be a number along an axis: give it in base, for all points")
     elif name != START:
         try:
             return _kick(value) if name in KICKS else getattr(SomeParameters(**{name: value}), name)

@@ -284,6 +284,7 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     _check_names(raw, dims, varied, () if quantity is None else quantity.scanned(options), quantity, faults)
     _check_starts(raw, quantity, faults)
     _check_truncation(raw, automatic, faults)
+    _check_contact(header, quantity, base, dims, faults)
     if not faults:
         check_points(dims, base, faults)
     check_size(dims, faults)
@@ -295,12 +296,12 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     varied_first = {name: value for dim in dims for name, value in zip(dim.names, dim.values[0], strict=True)}
     first = {name: value for name, value in varied_first.items() if name in Parameters.model_fields}
     scanned = {name: 0.0 for name in quantity.scanned(options) if name in REQUIRED}  # not used
-    complete = Parameters(**{**scanned, **base, **first}).model_dump()
+    complete = Parameters(**{**scanned, **base, **first}).canonical
     if automatic:
         complete |= automatic
         del complete["n_circles"]
     for name in first:
-        del complete[name]
+        complete.pop(name, None)
     batches = batch_texts(header.quantity, options, complete, starts, dims, header.batch)
     motions = motion_texts(header.quantity, options, complete, starts, dims)
     return GridStudy(header.study, header.title, header.quantity, options, complete, dims, batches, plots, motions)
@@ -377,6 +378,29 @@ def _check_truncation(raw: Mapping[str, Any], automatic: Mapping[str, Any], faul
         given.append(("base", "n_circles"))
     for path in given:
         faults.add(path, "", f"is chosen for each point, since base.n_diameters is {AUTO!r}")
+
+
+def _check_contact(
+    header: _Header | None,
+    quantity: Quantity | None,
+    base: Mapping[str, Any],
+    dims: Sequence[Dimension],
+    faults: Faults,
+) -> None:
+    """Analyses that know the paper's contact only are not asked for another one."""
+    if header is None or quantity is None or not quantity.paper_contact:
+        return
+    wanted: dict[str, Any] = {"contact_compliance": 0.0, "contact_force": "vertical"}
+    for name, only in wanted.items():
+        rule = f"must be {only!r}: {header.quantity} is not available yet for other laws of contact"
+        if base.get(name, only) != only:
+            faults.add(("base", name), base[name], rule)
+        for dim in dims:
+            if name in dim.names:
+                place = dim.names.index(name)
+                others = [values[place] for values in dim.values if values[place] != only]
+                if others:
+                    faults.add(("axes", name), others[0], rule)
 
 
 def _check_names(

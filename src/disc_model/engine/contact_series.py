@@ -1,0 +1,248 @@
+"""Taylor coefficients in contact beyond the paper: a compliant contact, a force normal to the bent disc, or both.
+
+Compliant: V = (w - u) / give is one of the state, so that each order of V is known before its convolutions begin.
+Normal: with beta = B / r_0 and s = sgn(f), the disc feels V = R (1 - s mu_k beta) in slip, the slider's motion in the
+plane is held back by R (s mu_k + beta), and stick holds while abs(r_0 F - beta V) <= mu_s (V + r_0 F beta); products of
+series with beta are the price.  Rigid stick moves as under the vertical force.
+"""
+
+from __future__ import annotations
+
+from .compile import inlined
+from .lanes import WIDTH, add, fma, splat, total
+from .layout import (
+    BEND,
+    DOWN,
+    FORCE_ROW,
+    PSI_SERIES,
+    SLOPE,
+    SLOPE_SERIES,
+    SWITCH,
+    SWITCH2,
+    U_SERIES,
+    UP,
+    V_SERIES,
+    F,
+    give_of,
+    is_normal,
+)
+from .layout import P as P_
+from .series import (
+    _CARRIED,
+    _axisymmetric,
+    _disc_point,
+    _e,
+    _kept,
+    _last_force,
+    _order,
+    _order_from_memory,
+    _order_zero,
+    _pending,
+    _row,
+    _stick_order,
+    _z,
+    lane_count,
+)
+
+
+@inlined
+def _deflection(model, s, k):
+    """w of order k."""
+    width, n, lanes = lane_count(model), len(model.force0), splat(0.0)
+    for b in range(0, width, WIDTH):
+        lanes = fma(_row(model, FORCE_ROW, b), _z(s, k * width + b), lanes)
+    w = total(lanes)
+    for j in range(n):
+        w += model.force0[j] * s.y[k * n + j]
+    return w
+
+
+@inlined
+def _slope(model, s, k):
+    """beta = B / r_0 of order k."""
+    width, lanes = lane_count(model), splat(0.0)
+    for b in range(0, width, WIDTH):
+        lanes = fma(_row(model, SLOPE, b), _z(s, k * width + b), lanes)
+    return total(lanes) / model.r_0
+
+
+@inlined
+def _spring(model, s, k):
+    """F of order k, from psi_k and f_k."""
+    F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k]
+    return F_k + model.c_p * model.Omega if k == 0 else F_k
+
+
+@inlined
+def _weight(model, s, k):
+    """N + k (u - u_0) + c u' of order k."""
+    load_k = model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]
+    return load_k + (model.N - model.k * model.u_0) if k == 0 else load_k
+
+
+@inlined
+def _leverage(s, k):
+    """Order k of beta R without beta_0 R_k."""
+    h = 0.0
+    for j in range(1, k + 1):
+        h += s.slider[SLOPE_SERIES + j] * s.slider[P_ + k - j]
+    return h
+
+
+@inlined
+def _move_slider(model, s, k, f_rate, acceleration):
+    """psi, f, u, u' of order k + 1 from the rates of order k."""
+    up = s.slider[UP + k]
+    drive = model.Omega if k == 0 else 0.0
+    s.slider[PSI_SERIES + k + 1] = (drive - s.slider[F + k]) * up
+    s.slider[F + k + 1] = f_rate * up
+    s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
+    s.slider[V_SERIES + k + 1] = acceleration * up
+
+
+@inlined
+def _set_switch(s, order, direction):
+    """The switch function of slip, and the order to which P is not known."""
+    for k in range(order + 1):
+        s.slider[SWITCH + k] = direction * s.slider[F + k]
+    s.slider[P_ + order] = 0.0
+
+
+@inlined
+def compliant_slip_series(model, s, order, direction):
+    """Slip on a compliant contact.  Returns V / R, whose zero is a jammed contact; 1 under the vertical force.
+
+    Fills ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``.
+    """
+    width, give, friction = lane_count(model), give_of(model.give), direction * model.mu_k
+    f0, ratio, beta, V, impulse = s.slider[F], 1.0, 0.0, 0.0, 0.0
+    e, carried, e_last, z_last = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
+    for k in range(order):
+        f = s.slider[F + k]
+        V = (_deflection(model, s, k) - s.slider[U_SERIES + k]) / give
+        if is_normal(model):
+            s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
+            if k == 0:
+                beta = s.slider[SLOPE_SERIES]
+                ratio = 1.0 - friction * beta
+            h = _leverage(s, k)
+            R = (V + friction * h) / ratio
+            held = (friction + beta) * R + h
+        else:
+            R, held = V, friction * V
+        s.slider[P_ + k] = R
+        rate = (_spring(model, s, k) - held / model.r_0) / model.m
+        _move_slider(model, s, k, rate, (V - _weight(model, s, k)) / model.m)
+        if k == 0:
+            for b in range(0, width, WIDTH):
+                _order_zero(model, s, width, b, f0)
+            e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
+            e_last, z_last = _e(s, width, 0), _z(s, width)
+        else:
+            _, _, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last)
+            for b in range(WIDTH, width, WIDTH):
+                _order_from_memory(model, s, width, b, k, f, f0, impulse)
+        _axisymmetric(model, s, k, impulse)
+        impulse = V * s.slider[UP + k]
+    _last_force(model, s, order, impulse)
+    _set_switch(s, order, direction)
+    return ratio
+
+
+@inlined
+def compliant_stick_series(model, s, order):
+    """Stick on a compliant contact; ``P`` is V.  Fills both release functions."""
+    width, give, impulse = lane_count(model), give_of(model.give), 0.0
+    for k in range(order + 1):
+        s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
+    s.slider[PSI_SERIES + 1] = model.Omega * model.unit
+    for k in range(order):
+        V, up = (_deflection(model, s, k) - s.slider[U_SERIES + k]) / give, s.slider[UP + k]
+        s.slider[P_ + k] = V
+        s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
+        s.slider[V_SERIES + k + 1] = (V - _weight(model, s, k)) / model.m * up
+        for b in range(0, width, WIDTH):
+            at = k * width + b
+            _stick_order(model, s, b, k, impulse, _e(s, width, at), _z(s, at))
+        _axisymmetric(model, s, k, impulse)
+        impulse = V * up
+    _last_force(model, s, order, impulse)
+    s.slider[P_ + order] = 0.0
+    release_series(model, s, order)
+
+
+@inlined
+def release_series(model, s, order):
+    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``switches.grip``."""
+    s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
+    spring, growth = _spring(model, s, 0), model.k_p * s.slider[PSI_SERIES + 1]
+    for k in range(order):
+        press, pull = s.slider[P_ + k], 0.0
+        if k < 2:
+            pull = model.r_0 * (spring if k == 0 else growth)
+        if is_normal(model):
+            s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
+            press += model.r_0 * spring * s.slider[SLOPE_SERIES + k]
+            if k > 0:
+                press += model.r_0 * growth * s.slider[SLOPE_SERIES + k - 1]
+            pull -= _leverage(s, k) + s.slider[SLOPE_SERIES] * s.slider[P_ + k]
+        s.slider[SWITCH + k] = model.mu_s * press - pull
+        s.slider[SWITCH2 + k] = model.mu_s * press + pull
+
+
+@inlined
+def normal_slip_series(model, s, order, direction):
+    """Slip in rigid contact under the normal force; ``P`` is R.  Returns the denominator of R.
+
+    As ``series.slip_series``, but for h_k, order k of beta R without beta_0 R_k:
+
+        R_k D = (N + k (u - u_0) + c u' + m A + B F)_k + h_k ((1 + m S2) s mu_k - beta_0)
+    """
+    width, zero = lane_count(model), splat(0.0)
+    f0, friction, mobility = s.slider[F], direction * model.mu_k, 1.0 + model.m * model.compliance
+    s.slider[U_SERIES], s.slider[V_SERIES], slope = _disc_point(model, s)
+    beta = slope / model.r_0
+    s.slider[SLOPE_SERIES] = beta
+    denominator = mobility * (1.0 - friction * beta) + (friction + beta) * beta
+
+    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
+    for b in range(0, width, WIDTH):
+        pending = add(pending, _order_zero(model, s, width, b, f0))
+        z, e = _z(s, b), _e(s, width, b)
+        now = add(now, _pending(model, s, width, b, e, z, zero))
+        by_e = fma(_row(model, SLOPE, b), e, by_e)
+        by_z = fma(_row(model, BEND, b), z, by_z)
+        by_z1 = fma(_row(model, SLOPE, b), _z(s, width + b), by_z1)
+    coriolis = total(by_e)
+    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
+    # see slip_series
+    inertia = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
+    h, impulse = 0.0, 0.0
+    e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
+    e_last, z_last = _e(s, width, 0), _z(s, width)
+    for k in range(order):
+        f = s.slider[F + k]
+        if k > 0:
+            s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
+            h = _leverage(s, k)
+            more, left, e, carried, e_last, z_last = _order(
+                model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last
+            )
+            part, pending = add(pending, more), left
+            for b in range(WIDTH, width, WIDTH):
+                more, left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
+                part, pending = add(part, more), add(pending, left)
+            single = _axisymmetric(model, s, k, impulse)
+            by_speed = by_f + by_f_rate * s.slider[DOWN + k]
+            inertia = total(part) + single + f * by_speed + impulse * model.damped_compliance
+        spring = _spring(model, s, k)
+        top = _weight(model, s, k) + model.m * inertia + slope * spring
+        R = (top + h * (mobility * friction - beta)) / denominator
+        V = R * (1.0 - friction * beta) - friction * h
+        s.slider[P_ + k] = R
+        rate = (spring - ((friction + beta) * R + h) / model.r_0) / model.m
+        _move_slider(model, s, k, rate, inertia + rate * slope - model.compliance * V)
+        impulse = V * s.slider[UP + k]
+    _last_force(model, s, order, impulse)
+    _set_switch(s, order, direction)
+    return denominator
