@@ -15,7 +15,7 @@ N, OMEGA, MODES = [100.0, 200.0, 385.0], [5.0, 10.0, 15.1, 20.0], ["as_published
 FAILED = {"N": 1, "Omega": 2, "normalization": 0}
 """Place of the one point that failed."""
 UNDIVIDED = {"N": 2, "Omega": 3, "normalization": 0}
-"""Place of the one point that was not computed, of modes as published."""
+"""Place of the one point that was not simulated."""
 MESSAGE = 'SimulationError: </script> & "worse"'
 
 
@@ -39,7 +39,7 @@ def plane() -> xr.Dataset:
         "status": (dims, status, flagged("what became of the computation", "ok failed")),
         "outcome": (dims, outcome - 1, flagged("what becomes of the start", "stable separation", first=-1)),
         "growth_rate": (dims, growth, {"long_name": "growth rate", "units": "s-1"}),
-        "origin": (dims, origin, flagged("whether the value was computed", "computed undivided")),
+        "origin": (dims, origin, flagged("how the value is known", "simulation undivided_cell")),
         "releases": (dims[:2], np.arange(12).reshape(3, 4), {"long_name": "number of releases", "units": "1"}),
         "message": (dims, message),
     }

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import base64
 import json
+import zlib
 
 import numpy as np
 import pytest
 
-from disc_model.explorer.contents import LEVELS, motion_contents, runs, study_contents, trace
+from disc_model.explorer.contents import BITS, LEVELS, motion_contents, runs, shortened, study_contents, traces
 from disc_model.studies.grids.motions import SAMPLES
 from tests.explorer import made_up
 
 
 def numbers(stored, kind: str) -> np.ndarray:
-    return np.frombuffer(base64.b64decode(stored["data"]), kind)
+    size = np.dtype(kind).itemsize
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(stored["data"])), np.uint8).reshape(size, -1)
+    return np.frombuffer(planes.T.tobytes(), kind)
 
 
 @pytest.fixture
@@ -29,8 +32,7 @@ def test_every_number_comes_through(contents):
     shape = {dim["name"]: len(dim["values"]) for dim in contents["dims"]}
     for name in ("growth_rate", "releases"):
         found = numbers(told[name], "<f4").reshape([shape[dim] for dim in told[name]["dims"]])
-        # 24 bits of a float
-        np.testing.assert_allclose(found, study[name].transpose(*told[name]["dims"]), rtol=2**-24)
+        np.testing.assert_allclose(found, study[name].transpose(*told[name]["dims"]), rtol=2.0 ** -(BITS + 1))
     assert told["growth_rate"]["unit"] == "s-1"
     assert told["growth_rate"]["title"] == "growth rate"
 
@@ -58,23 +60,37 @@ def test_a_zip_is_one_dimension_of_words():
 def test_motions_that_failed_are_left_out(contents):
     motions = contents["motions"]
     assert [motion["at"] for motion in motions["points"]] == [[100, 5, "as_published"], [385, 20, "as_published"]]
-    assert motions["units"] == {"P": "N", "u": "m", "psi": "rad"}
+    assert {trace["name"]: trace["unit"] for trace in motions["traces"]} == {"P": "N", "u": "m", "psi": "rad"}
     assert motions["points"][0]["phase"] == [[0, 1], [SAMPLES // 4, 2], [SAMPLES // 2, 3], [3 * SAMPLES // 4, 1]]
 
 
 def test_a_history_is_right_to_half_a_step(contents):
-    for motion in contents["motions"]["points"]:
-        told = motion["traces"]["P"]
-        found = told["least"] + told["step"] * numbers(told, "<u2")
+    told = contents["motions"]["traces"][0]
+    found = numbers(told, "<u2").reshape(2, SAMPLES)
+    for i, motion in enumerate(contents["motions"]["points"]):
         expected = made_up.force(motion["at"][0]).astype(float)
         # half a step, and rounding of what is about 600
-        assert np.abs(found - expected).max() <= np.ptp(expected) / LEVELS / 2 + 1e-12
+        assert (
+            np.abs(told["least"][i] + told["step"][i] * found[i] - expected).max()
+            <= np.ptp(expected) / LEVELS / 2 + 1e-12
+        )
 
 
 def test_a_constant_history():
-    told = trace(np.full(7, -0.0088))
-    assert (told["least"], told["step"]) == (-0.0088, 0)
+    told = traces(np.full((2, 7), -0.0088))
+    assert (told["least"], told["step"]) == ([-0.0088] * 2, [0.0] * 2)
     assert not numbers(told, "<u2").any()
+
+
+def test_a_study_without_any_motion_that_went_well():
+    lost = made_up.motions()
+    lost["status"][:] = 1
+    assert motion_contents(lost)["points"] == []
+
+
+def test_numbers_that_are_none_stay_what_they_are():
+    found = shortened(np.array([np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0]))
+    np.testing.assert_array_equal(found, np.array([np.nan, np.inf, -np.inf, 0, -0.0, 1], np.float32))
 
 
 def test_runs():

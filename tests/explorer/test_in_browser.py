@@ -21,6 +21,7 @@ pytestmark = [pytest.mark.slow, needs.BROWSER.mark]
 SIZES = {"wide": (1400, 1000), "narrow": (360, 740)}
 LEFT, UP, RIGHT, ENTER, ESCAPE = "\ue012", "\ue013", "\ue014", "\ue007", "\ue00c"
 """Keys as WebDriver calls them."""
+READY = "return document.getElementById('grids').ariaBusy === 'false'"
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +47,7 @@ def shown(request: pytest.FixtureRequest, session: Page, file: Path) -> Iterator
     session.resize(*SIZES[request.param])
     session.prefer("light")
     session.open(file)
+    session.wait_for(READY)
     yield session
     assert [message for message in session.messages() if message["level"] == "SEVERE"] == []
 
@@ -64,6 +66,7 @@ def choose(shown: Page, label: str, option: str) -> None:
         label,
         option,
     )
+    shown.wait_for(READY)
 
 
 def options(shown: Page, label: str) -> list[str]:
@@ -178,19 +181,19 @@ def test_a_point_that_failed_says_so(shown: Page) -> None:
     assert text(shown, "message") == ""
 
 
-def test_what_was_computed_is_marked(shown: Page) -> None:
+def test_what_was_simulated_is_marked(shown: Page) -> None:
     """Points whose flag says that they lie in a cell that was not divided have no dot."""
     middle = """const {xs, ys, horizontal, vertical} = drawn;
         const at = [horizontal(xs.at[arguments[0]]), vertical(ys.at[arguments[1]])].map(Math.round);
         return [...document.getElementById("map").getContext("2d").getImageData(...at, 1, 1).data].slice(0, 3);"""
-    assert "whether the value was computed: computed" in text(shown, "legend")
+    assert "how the value is known: simulation" in text(shown, "legend")
     assert shown.run(middle, 0, 0) == [255, 255, 255]
     assert shown.run(middle, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]) != [255, 255, 255]
-    choose(shown, "Dots", "origin=undivided")
+    choose(shown, "Dots", "origin=undivided_cell")
     assert shown.run(middle, 0, 0) != [255, 255, 255]
     choose(shown, "Variable", "origin")
     shown.point(*centre(shown, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]))
-    assert "origin undivided" in text(shown, "hovered")
+    assert "origin undivided_cell" in text(shown, "hovered")
 
 
 def history(shown: Page) -> np.ndarray:

@@ -218,6 +218,37 @@ def test_sources_run_what_uses_them(grid: Project, source: str, jobs: Callable[[
     assert planned(grid) == jobs(grid)
 
 
+def test_the_explorer_computes_motions_of_what_changed(grid: Project) -> None:
+    page = grid.folder / "results" / "inc" / "explorer.html"
+    done = grid.snakemake("-j2", "explorer", config=CONFIG)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert {path.parents[1].name for path in (grid.folder / "results").glob("*/motions/*.nc")} == {
+        "inc_map",
+        "inc_growth",
+    }
+    assert "inc_growth" in page.read_text()
+    assert explored(grid) == {}
+    grid.edit(GRID, "title: outcome", "title: what becomes of it")
+    assert explored(grid) == {"build_explorer": 1}
+    (grid.folder / "src/disc_model/explorer/static/page.css").write_text("p { margin: 0 }")
+    assert explored(grid) == {"build_explorer": 1}
+    # another point of which a motion is kept, of one study of two
+    grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 200, 400]")
+    assert explored(grid) == {"compute_motions": 1, "build_explorer": 1}
+    grid.change("src/disc_model/studies/grids/motions.py")
+    assert explored(grid) == {"compute_motions": 2, "build_explorer": 1}
+    # and a plain run knows nothing of it
+    assert "compute_motions" not in grid.snakemake("-n", config=CONFIG).stdout
+
+
+def explored(project: Project) -> dict[str, int]:
+    """How many jobs of motions and of the explorer a run would do."""
+    done = project.snakemake("-n", "explorer", config=CONFIG)
+    assert done.returncode == 0, done.stdout + done.stderr
+    jobs = dict(re.findall(r"^(\w+) +(\d+)$", done.stdout + done.stderr, re.MULTILINE))
+    return {rule: int(jobs[rule]) for rule in ("compute_motions", "build_explorer") if rule in jobs}
+
+
 def test_a_point_that_fails_is_reported_and_the_study_completes(grid: Project) -> None:
     grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 200, 1.0e+6]")
     grid.edit(GRID, "axes:\n", "base: {k_p: 2.0e+6, mu_s: 3, mu_k: 2.9, E: 1.0e+9}\naxes:\n")

@@ -1,9 +1,10 @@
-"""What the page is told of each study, as plain values for JSON: numbers in base64, words as they are."""
+"""What the page is told of each study, as plain values for JSON: numbers packed, words as they are."""
 
 from __future__ import annotations
 
 import base64
 import json
+import zlib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -14,6 +15,8 @@ from numpy.typing import NDArray
 TRACES = ("P", "u", "psi")
 LEVELS = 65535
 """Steps between the least and the greatest value of a stored history."""
+BITS = 17
+"""Of the 23 of a 32-bit mantissa that are kept: five digits, as many as are shown."""
 
 
 def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None) -> dict[str, Any]:
@@ -26,8 +29,8 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
 
     Returns
     -------
-    dict with the dimensions, each variable that lies along one (numbers as 32-bit floats, flags as bytes with their
-    words), messages, and motions.
+    dict with the dimensions, each variable that lies along one (numbers as 32-bit floats of `BITS`, flags as bytes with
+    their words), messages, and motions.
     """
     dims = [_dimension(study, str(dim)) for dim in study.sizes]
     order = [dim["name"] for dim in dims]
@@ -49,32 +52,27 @@ def motion_contents(motions: xr.Dataset) -> dict[str, Any]:
     """Histories along `point` and `sample`; those that failed are left out. 16 bits a sample, phases as runs."""
     there = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
     names = [str(name) for name in there.coords if there[name].dims == ("point",)]
-    phases = there["phase"].attrs["flag_meanings"].split()
+    places = zip(*(_plain(there[name].values) for name in names), strict=True)
+    lengths, phases = there["length"].values.tolist(), there["phase"].values
     return {
         "said": str(motions.attrs.get("motion", "")),
         "names": names,
-        "phases": phases,
-        "units": {name: str(there[name].attrs["units"]) for name in TRACES},
-        "titles": {name: str(there[name].attrs["long_name"]) for name in TRACES},
+        "samples": there.sizes["sample"],
+        "phases": there["phase"].attrs["flag_meanings"].split(),
+        "traces": [{"name": name, "unit": there[name].attrs["units"], **traces(there[name].values)} for name in TRACES],
         "points": [
-            {
-                "at": [there[name].values[i].item() if there[name].dtype.kind != "O" else there[name].values[i]
-                       for name in names],
-                "length": float(there["length"][i]),
-                "traces": {name: trace(there[name].values[i]) for name in TRACES},
-                "phase": runs(there["phase"].values[i]),
-            }
-            for i in range(there.sizes["point"])
+            {"at": list(at), "length": length, "phase": runs(phase)}
+            for at, length, phase in zip(places, lengths, phases, strict=True)
         ],
-    }  # fmt: skip
+    }
 
 
-def trace(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
-    """A history in 16 bits a sample: ``least + step * n`` is right to half a step, 8e-6 of its range."""
-    least, greatest = float(values.min()), float(values.max())
-    step = (greatest - least) / LEVELS
-    numbers = np.rint((values.astype(float) - least) / step) if step else np.zeros(values.shape)
-    return {"least": least, "step": step, "data": encoded(numbers, "<u2")}
+def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
+    """Histories, shape (points, samples): ``least + step * n`` is right to half a step, 8e-6 of each one's range."""
+    least = values.min(axis=1, keepdims=True, initial=np.inf).astype(float)
+    step = (values.max(axis=1, keepdims=True, initial=-np.inf).astype(float) - least) / LEVELS
+    numbers = np.rint(np.divide(values - least, step, out=np.zeros(values.shape), where=step > 0))
+    return {"least": least.ravel().tolist(), "step": step.ravel().tolist(), "data": packed(numbers, "<u2")}
 
 
 def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
@@ -83,9 +81,19 @@ def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
     return [[int(i), int(values[i])] for i in begins]
 
 
-def encoded(values: NDArray[Any], kind: str) -> str:
-    """An array as base64 of its bytes, last dimension fastest."""
-    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
+def packed(values: NDArray[Any], kind: str) -> str:
+    """An array, last dimension fastest: first bytes of all numbers, then second ones and so on, deflated, as base64."""
+    numbers = np.ascontiguousarray(values, dtype=kind).reshape(-1)
+    planes = numbers.view(np.uint8).reshape(-1, numbers.itemsize).T
+    return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode("ascii")
+
+
+def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
+    """Numbers rounded to `BITS` of their mantissa; what is left out is zero, and packs well."""
+    whole = np.array(values, dtype=np.float32)
+    bits, left = whole.view(np.uint32), np.uint32(23 - BITS)
+    rounded = (bits + np.uint32(1 << (left - 1))) >> left << left
+    return np.where(np.isfinite(whole), rounded.view(np.float32), whole)
 
 
 def _shown(variable: xr.DataArray) -> bool:
@@ -120,8 +128,8 @@ def _variable(variable: xr.DataArray, order: Iterable[str]) -> dict[str, Any]:
         words = flag_words(variable.attrs)
         codes = np.array(sorted(words))
         places = np.searchsorted(codes, values)
-        return found | {"flags": [words[int(code)] for code in codes], "data": encoded(places, "u1")}
-    return found | {"data": encoded(values, "<f4")}
+        return found | {"flags": [words[int(code)] for code in codes], "data": packed(places, "u1")}
+    return found | {"data": packed(shortened(values), "<f4")}
 
 
 def flag_words(attrs: Mapping[str, Any]) -> dict[int, str]:
@@ -135,7 +143,7 @@ def _messages(variable: xr.DataArray, order: Iterable[str]) -> dict[str, Any]:
     """What was said at each point, as numbers of words; most points share theirs."""
     dims = [dim for dim in order if dim in variable.dims]
     words, places = np.unique(variable.transpose(*dims).values.astype(str), return_inverse=True)
-    return {"dims": dims, "words": words.tolist(), "data": encoded(places, "<u2")}
+    return {"dims": dims, "words": words.tolist(), "data": packed(places, "<u2")}
 
 
 def _plain(values: NDArray[Any]) -> list[Any]:

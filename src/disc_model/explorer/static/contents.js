@@ -26,25 +26,35 @@ const heading = (thing) => (unitOf(thing.unit) ? `${thing.name} (${unitOf(thing.
 
 // Stored numbers
 
-function decoded(text, Kind) {
-  const bytes = Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
+/** Numbers as `disc_model.explorer.contents.packed` wrote them. */
+async function unpacked(text, Kind) {
+  const deflated = Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
+  const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const size = Kind.BYTES_PER_ELEMENT;
+  const count = planes.length / size;
+  const bytes = new Uint8Array(planes.length);
+  for (let byte = 0; byte < size; byte++)
+    for (let i = 0; i < count; i++) bytes[i * size + byte] = planes[byte * count + i];
   return new Kind(bytes.buffer);
 }
 
-function numbersOf(stored, Kind) {
-  stored.numbers ??= decoded(stored.data, Kind);
-  return stored.numbers;
+/** Unpacks what a study holds, once. */
+async function unpack(study) {
+  const parts = [
+    ...study.variables.map((variable) => [variable, variable.flags ? Uint8Array : Float32Array]),
+    ...(study.messages ? [[study.messages, Uint16Array]] : []),
+    ...(study.motions ? study.motions.traces.map((trace) => [trace, Uint16Array]) : []),
+  ].filter(([part]) => !part.numbers);
+  await Promise.all(parts.map(async ([part, Kind]) => (part.numbers = await unpacked(part.data, Kind))));
 }
 
 /** The stored number of a variable at a place, given by a mapping of dimensions to indices. */
-function stored(study, variable, place, Kind) {
-  const numbers = numbersOf(variable, Kind);
+function value(study, variable, place) {
   let at = 0;
   for (const dim of variable.dims) at = at * study.sizes[dim] + place[dim];
-  return numbers[at];
+  return variable.numbers[at];
 }
-
-const value = (study, variable, place) => stored(study, variable, place, variable.flags ? Uint8Array : Float32Array);
 
 function shown(study, variable, place) {
   const found = value(study, variable, place);
@@ -53,7 +63,7 @@ function shown(study, variable, place) {
 
 function messageAt(study, place) {
   const messages = study.messages;
-  return messages ? messages.words[stored(study, messages, place, Uint16Array)] : "";
+  return messages ? messages.words[value(study, messages, place)] : "";
 }
 
 for (const study of contents.studies) {

@@ -51,18 +51,19 @@ function drawMotion() {
   const far = motion.exact ? "At this point" : `Nearest stored motion, at ${where(motion.places, dims)} (ring in the map)`;
   element("motion-said").textContent = `${far}. ${study.motions.said}`;
   const { ink, width, height } = prepared(canvas);
-  const names = Object.keys(study.motions.units);
+  const { traces, samples } = study.motions;
+  const names = traces.map((trace) => trace.name);
   const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (names.length - 1)) / names.length;
-  const histories = names.map((name) => history(motion.traces[name]));
+  const histories = traces.map((trace) => history(trace, study.motions.points.indexOf(motion), samples));
   const axes = histories.map((numbers) => rangeOf(numbers));
   const left = Math.max(...axes.map((axis) => widest(ink, axis.ticks))) + 14;
-  const last = histories[0].length - 1;
+  const last = samples - 1;
   const horizontal = linear(0, last, left, width - PANEL.right);
   names.forEach((name, n) => {
     const top = PANEL.top + n * (each + PANEL.gap);
     const box = { left, right: width - PANEL.right, top, bottom: top + each };
     const vertical = linear(axes[n].least, axes[n].greatest, box.bottom, box.top);
-    const unit = unitOf(study.motions.units[name]);
+    const unit = unitOf(traces[n].unit);
     yAxis(ink, box, axes[n].ticks, vertical, `${name} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`);
     ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
     ink.strokeStyle = style("--accent");
@@ -77,7 +78,11 @@ function drawMotion() {
   motionDrawn = { histories, names, horizontal, last, ms };
 }
 
-const history = (trace) => Float64Array.from(numbersOf(trace, Uint16Array), (n) => trace.least + trace.step * n);
+const history = (trace, point, samples) =>
+  Float64Array.from(
+    trace.numbers.subarray(point * samples, (point + 1) * samples),
+    (n) => trace.least[point] + trace.step[point] * n,
+  );
 
 /** Axis of a history: its range, a power of ten taken out of its labels, and ticks. */
 function rangeOf(numbers) {
@@ -111,8 +116,8 @@ function hoverMotion(event) {
   const { histories, names, horizontal, last, ms } = motionDrawn;
   const x = event.clientX - element("motion").getBoundingClientRect().left;
   const i = Math.round(((x - horizontal(0)) / (horizontal(last) - horizontal(0))) * last);
-  const { units } = view.study.motions;
+  const { traces } = view.study.motions;
   element("motion-hovered").textContent =
     i < 0 || i > last ? "" : [`${number((i / last) * ms, 4)} ms`,
-      ...names.map((name, n) => `${name} ${withUnit(number(histories[n][i]), units[name])}`)].join(", ");
+      ...names.map((name, n) => `${name} ${withUnit(number(histories[n][i]), traces[n].unit)}`)].join(", ");
 }

@@ -24,6 +24,7 @@ function update() {
   hover(null);
   showPoint();
   drawMotion();
+  element("grids").ariaBusy = "false";
 }
 
 function redraw() {
@@ -31,7 +32,7 @@ function redraw() {
   drawMotion();
 }
 
-if (contents.studies.length) {
+function listen() {
   const map = element("map");
   map.addEventListener("pointermove", (event) => hover(cellAt(map, event)));
   map.addEventListener("pointerleave", () => hover(null));
@@ -43,6 +44,18 @@ if (contents.studies.length) {
   element("motion").addEventListener("pointermove", hoverMotion);
   window.addEventListener("resize", redraw);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-  chooseStudy(contents.studies[0].name);
+}
+
+async function start() {
+  try {
+    await chooseStudy(contents.studies[0].name);
+  } catch (error) {
+    element("map-title").textContent = `This browser cannot unpack the studies: ${error}`;
+    return;
+  }
   update();
-} else element("grids").hidden = true;
+  listen();
+}
+
+if (contents.studies.length) start();
+else element("grids").hidden = true;

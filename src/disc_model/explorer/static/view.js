@@ -7,8 +7,9 @@ const along = (variable, ...dims) => dims.every((dim) => dim === NONE || variabl
 const selectors = () =>
   view.study.dims.filter((dim) => ![view.x, view.y].includes(dim.name) && view.variable.dims.includes(dim.name));
 
-function chooseStudy(name) {
+async function chooseStudy(name) {
   const study = contents.studies.find((one) => one.name === name);
+  await unpack(study);
   const numeric = long(study).filter((dim) => !dim.words);
   const axes = numeric.length ? numeric : long(study).length ? long(study) : study.dims;
   // the speed goes across, as in the figures
@@ -29,8 +30,8 @@ function chooseAxes() {
   if (!variablesShown().length) view.y = NONE;
   const fitting = variablesShown();
   if (!fitting.includes(view.variable)) view.variable = fitting.find((one) => one !== study.status) ?? fitting[0];
-  const computed = marks().find(([, , word]) => word === "computed");
-  view.mark = computed ? computed[0] : NONE;
+  const simulated = marks().find(([, variable, word]) => variable.name === "origin" && word === "simulation");
+  view.mark = simulated ? simulated[0] : NONE;
 }
 
 const variablesShown = () => view.study.variables.filter((variable) => along(variable, view.x, view.y));
@@ -50,8 +51,9 @@ function choice(label, options, chosen, act) {
   const select = document.createElement("select");
   select.name = label;
   for (const [key, text] of options) select.add(new Option(text, key, false, key === chosen));
-  select.addEventListener("change", () => {
-    act(select.value);
+  select.addEventListener("change", async () => {
+    element("grids").ariaBusy = "true";
+    await act(select.value);
     update();
     element("controls").elements.namedItem(label)?.focus();
   });
