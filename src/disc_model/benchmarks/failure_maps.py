@@ -19,7 +19,8 @@ from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT, FixedStep
 from disc_model.benchmarks.scenes import Answer, Verdict, errors, separating_start, shortest_phase, static_start
-from disc_model.benchmarks.work_precision import verdict_attributes
+from disc_model.benchmarks.work_precision import VERDICT
+from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 
 TRUNCATIONS = (1, 2, 4, 6, 8)
@@ -68,7 +69,7 @@ def failure_map(
     dims = ("diameters", "value")
     dataset = xr.Dataset(
         {
-            "verdict": (dims, verdict, verdict_attributes()),
+            "verdict": (dims, verdict, VERDICT.attributes),
             "event_error": (dims, event_error, {"units": "s", "long_name": "largest error of an event time"}),
             "longest_step": (dims, longest, {"units": "s", "long_name": "longest step"}),
         },
@@ -80,17 +81,17 @@ def failure_map(
         | {"machine": machine(), "budget": budget, "span": SPANS[scene]},
     )
     for name in facts[0]:
-        dataset[name] = ("diameters", [fact[name] for fact in facts], _FACTS[name])
+        dataset[name] = ("diameters", [fact[name] for fact in facts], _FACTS[name].attributes)
     return dataset
 
 
 _FACTS = {
-    "modes": {"units": "1", "long_name": "number of real modes"},
-    "omega_max": {"units": "rad s-1", "long_name": "highest natural frequency of the disc"},
-    "step_limit": {"units": "s", "long_name": "linear stability limit of RK4, 2 sqrt(2)/omega_max"},
-    "observed_limit": {"units": "s", "long_name": "largest step at which RK4 does not blow up, observed"},
-    "shortest_phase": {"units": "s", "long_name": "shortest time between two events"},
-    "stiff_epsilon": {"units": "rad s-1", "long_name": "regularisation below which friction is stiffer than the disc"},
+    "modes": Variable("1", "number of real modes"),
+    "omega_max": Variable("rad s-1", "highest natural frequency of the disc"),
+    "step_limit": Variable("s", "linear stability limit of RK4, 2 sqrt(2)/omega_max"),
+    "observed_limit": Variable("s", "largest step at which RK4 does not blow up, observed"),
+    "shortest_phase": Variable("s", "shortest time between two events"),
+    "stiff_epsilon": Variable("rad s-1", "regularisation below which friction is stiffer than the disc"),
 }
 
 

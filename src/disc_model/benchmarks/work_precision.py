@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -20,6 +20,7 @@ from disc_model.benchmarks.register import SCENES
 from disc_model.benchmarks.scenes import VERDICT_WORDS, Verdict
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import VERSIONS_OF, versions
+from disc_model.data.variables import Variable
 
 BUDGET = 12.0
 """s that a method may take for a point before it is stopped."""
@@ -56,6 +57,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     "separations": ("1", "number of separations found"),
     "repeats": ("1", "number of times measured"),
 }
+VERDICT = Variable("1", "what became of the method", VERDICT_WORDS)
 LOOK = {"colour": "colour in charts", "marker": "marker in charts", "dash": "line style in charts"}
 COUNTS = ("work", "events", "separations", "repeats")
 
@@ -174,7 +176,7 @@ def _dataset(
         | {"versions": json_attribute(versions() | _extra_versions())}
         | {f"scene_{name}": json_attribute(scenes.describe(name)) for name in names},
     )
-    dataset["verdict"] = (dims, verdict, verdict_attributes())
+    dataset["verdict"] = (dims, verdict, VERDICT.attributes)
     dataset["label"] = ("solver", [METHODS[name].label for name in methods], {"long_name": "name in words"})
     for i, (name, text) in enumerate(LOOK.items()):
         dataset[name] = ("solver", [METHODS[method].look[i] for method in methods], {"long_name": text})
@@ -185,16 +187,6 @@ def _dataset(
         text = f"fitted order of the error of the {error} in the step; in the tolerance, if the order is variable"
         dataset[f"order_{error}"] = (dims[:2], np.array(orders), {"units": "1", "long_name": text})
     return dataset
-
-
-def verdict_attributes() -> dict[str, Any]:
-    """CF attributes of a flag of verdicts."""
-    return {
-        "units": "1",
-        "long_name": "what became of the method",
-        "flag_values": np.arange(len(VERDICT_WORDS), dtype=np.int8),
-        "flag_meanings": " ".join(VERDICT_WORDS),
-    }
 
 
 def _line_order(dataset: xr.Dataset, scene: str, method: str, error: str) -> float:

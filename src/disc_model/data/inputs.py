@@ -94,21 +94,27 @@ def events(case: xr.DataTree) -> xr.Dataset:
 def samples(case: xr.DataTree, name: str, at_least: int = 2) -> xr.Dataset:
     """A window of single samples, no ranges; at least so many of them."""
     found = group(case, name)
-    if any(str(key).endswith("_min") for key in found):
+    if _are_ranges(found):
         raise Missing(f"recorded {name} as ranges, not as samples: its window has an envelope")
-    if found.sizes["time"] < at_least:
-        raise Missing(f"has {found.sizes['time']} samples in {name}, at least {at_least} are needed")
-    return found
+    return _of_length(found, at_least, f"samples in {name}")
 
 
 def ranges(case: xr.DataTree, name: str, at_least: int = 1) -> xr.Dataset:
     """A window of ranges, each variable as ``_min`` and ``_max``; at least so many bins."""
     found = group(case, name)
-    if not any(str(key).endswith("_min") for key in found):
+    if not _are_ranges(found):
         raise Missing(f"recorded {name} as samples, not as ranges: its window needs an envelope")
-    if found.sizes["time"] < at_least:
-        raise Missing(f"has {found.sizes['time']} bins in {name}, at least {at_least} are needed")
-    return found
+    return _of_length(found, at_least, f"bins in {name}")
+
+
+def _are_ranges(window: xr.Dataset) -> bool:
+    return any(str(key).endswith("_min") for key in window)
+
+
+def _of_length(window: xr.Dataset, at_least: int, what: str) -> xr.Dataset:
+    if window.sizes["time"] < at_least:
+        raise Missing(f"has {window.sizes['time']} {what}, at least {at_least} are needed")
+    return window
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -25,6 +25,16 @@ class Variable(NamedTuple):
     long_name: str
     flags: tuple[str, ...] = ()
 
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """As CF attributes; without units if they are "", as words have none."""
+        found: dict[str, Any] = {"units": self.units} if self.units else {}
+        found["long_name"] = self.long_name
+        if self.flags:
+            found["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
+            found["flag_meanings"] = " ".join(self.flags)
+        return found
+
 
 SERIES = {
     "time": Variable("s", "time"),
@@ -90,13 +100,7 @@ def attributes(name: str) -> dict[str, Any]:
         variable = SERIES[stem]._replace(long_name=f"{SERIES[stem].long_name}, {which} within the bin")
     else:
         variable = (SERIES | SCALARS | KICKS).get(name) or _parameter_variable(name)
-    result: dict[str, Any] = {"units": variable.units, "long_name": variable.long_name}
-    if variable.flags:
-        result |= {
-            "flag_values": np.arange(len(variable.flags), dtype=np.int8),
-            "flag_meanings": " ".join(variable.flags),
-        }
-    return result
+    return variable.attributes
 
 
 def flag_names(variable: Any) -> np.ndarray:

@@ -64,7 +64,9 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
         variables |= {name: _chosen(name, parameters) for name in ("n_diameters", "n_circles")}
     variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
     coords = {name: _coordinate(name, [point[i] for point in points]) for i, name in enumerate(names)}
-    own = {name: (name, *_described(values)) for name, values in quantity.coordinates(options).items()}
+    own = {
+        name: (name, values, variable.attributes) for name, (values, variable) in quantity.coordinates(options).items()
+    }
     attrs = {
         "Conventions": CONVENTIONS,
         "specification": text,
@@ -109,26 +111,11 @@ def describe(name: str) -> dict[str, Any]:
 
 
 def _variable(column: Column, values: np.ndarray) -> xr.Variable:
-    return xr.Variable((POINT, *column.dims), values, _attributes(column.variable))
-
-
-def _attributes(variable: Variable) -> dict[str, Any]:
-    attrs: dict[str, Any] = {"long_name": variable.long_name}
-    if variable.units:
-        attrs["units"] = variable.units
-    if variable.flags:
-        attrs["flag_values"] = np.arange(len(variable.flags), dtype=np.int8)
-        attrs["flag_meanings"] = " ".join(variable.flags)
-    return attrs
+    return xr.Variable((POINT, *column.dims), values, column.variable.attributes)
 
 
 def _coordinate(name: str, values: Sequence[Any]) -> xr.Variable:
     return xr.Variable(POINT, np.array(values), describe(name))
-
-
-def _described(given: tuple[np.ndarray, Variable]) -> tuple[np.ndarray, Mapping[str, Any]]:
-    values, variable = given
-    return values, _attributes(variable)
 
 
 # ----------------------------------------------------------------------------------------------------
