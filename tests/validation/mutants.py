@@ -69,8 +69,7 @@ FUNCTIONS = {
 }
 #: By the name of a mutant (as `Mutant` prints it): why it makes no difference.
 EQUIVALENT: dict[str, str] = {
-    "engine/layout.py:build_model: 1.0 -> 2.0": "the unit of time is free",
-    "engine/stick_modes.py:_eigenmodes: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
+    "engine/stick_modes.py:_decomposed: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
 }
 
 VECTOR_OPERATIONS = ("fma", "mul", "add", "sub")
