@@ -22,7 +22,7 @@ BENCH_INPUTS = {
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
 }
 BENCH_DATA = [
-    Path(workflow.basedir, "src", "disc_model", "benchmarks", "data", name)
+    PACKAGE / "benchmarks" / "data" / name
     for name in ("benchmark_reference.json", "separating_start.json")
 ]
 

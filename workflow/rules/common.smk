@@ -1,7 +1,10 @@
 # The study, checked before anything runs, and what all the rules share.
 import hashlib
 import json
+import shlex
 import sys
+from importlib.util import find_spec
+from itertools import pairwise
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -9,21 +12,38 @@ from snakemake.logging import logger
 from snakemake.settings.types import DeploymentMethod
 from snakemake.shell import shell
 
-from disc_model.figures.paper.catalogue import (
-    CATALOGUE,
-    SECTIONS,
-    STYLE,
-    label,
-    module_of,
-)
-from disc_model.data.provenance import source_hash
-from disc_model.studies.files import StudyError, read_file
-from disc_model.data.provenance import unrecorded, why_unknown
-from disc_model.studies.schema import study_from_config
+# The package lies beside the workflow in a clone, and round it where it is installed.
+WORKFLOW = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parent
+SOURCES = (WORKFLOW.parent / "src").resolve()
+if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
+    sys.path.insert(0, str(SOURCES))
+try:
+    from disc_model.figures.paper.catalogue import (
+        CATALOGUE,
+        SECTIONS,
+        STYLE,
+        label,
+        module_of,
+    )
+    from disc_model.data.provenance import (
+        PACKAGE,
+        source_hash,
+        unrecorded,
+        why_unknown,
+    )
+    from disc_model.studies.files import StudyError, read_file
+    from disc_model.studies.schema import study_from_config
+except ModuleNotFoundError as error:
+    raise WorkflowError(
+        f"There is no module {error.name}: install the package disc_model with what it needs"
+        " (`make env` in a clone of its repository), and use that environment's snakemake."
+    ) from None
 
-PAPER = Path("config/paper.yaml")
 # A study named with --configfile replaces the paper's instead of being mixed with it.
-if not workflow.configfiles:
+PAPER = Path("config/paper.yaml")
+if not PAPER.exists():
+    PAPER = WORKFLOW.parent / PAPER
+if not workflow.configfiles and "study" not in config:
     try:
         read_file(PAPER)  # says where it is no YAML, which Snakemake does not
     except StudyError as error:
@@ -36,18 +56,38 @@ try:
     STUDY = study_from_config(config, workflow.configfiles)
     # ASKED are those whose figures are wanted; others are there because a figure shows them as well.
     GRIDS, ASKED = STUDY.grids(
-        [Path(), *(Path(file).parent for file in workflow.configfiles)]
+        [
+            Path(),
+            *(Path(file).parent for file in workflow.configfiles),
+            WORKFLOW.parent,
+        ]
     )
 except StudyError as error:
     raise WorkflowError(str(error)) from None
 
 RESULTS = f"results/{STUDY.name}"
-SCRIPTS = Path(workflow.basedir, "workflow", "scripts")
+SCRIPTS = WORKFLOW / "scripts"
 
 # Jobs run with the interpreter that runs Snakemake, whether or not its environment is active; or with that of conda.
 OWN = f'export PATH="{Path(sys.executable).parent}:$PATH"; '
 CONDA = DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method
-shell.prefix("set -euo pipefail; " + ("" if CONDA else OWN))
+FOUND = f"export PYTHONPATH={shlex.quote(str(SOURCES))}${{PYTHONPATH:+:$PYTHONPATH}}; "
+if CONDA and not SOURCES.is_dir():
+    raise WorkflowError(
+        "With conda the workflow is run from a clone of its repository, where the package's sources are."
+    )
+# Commands name scripts from the repository's root, wherever that is: Snakemake runs again what has another command.
+SCRIPTED = (
+    f"SCRIPTS={shlex.quote(str(SCRIPTS))}/; "
+    r'python() { command python "${@/#workflow\/scripts\//"$SCRIPTS"}"; }; '
+)
+PREFIX = (
+    "set -euo pipefail; "
+    + ("" if CONDA else OWN)
+    + (FOUND if CONDA or str(SOURCES) in sys.path else "")
+    + SCRIPTED
+)
+shell.prefix(PREFIX.replace("{", "{{").replace("}", "}}"))
 
 
 wildcard_constraints:
@@ -64,6 +104,39 @@ def sources_of(script, *modules, files=()):
     Snakemake itself watches none of it in a shell command.
     """
     return source_hash(SCRIPTS / f"{script}.py", *modules, files=files)
+
+
+def refuse_unknown_targets():
+    """Stop if a file is asked for by a name that no study, figure or case has, and say which there are.
+
+    Snakemake says no more than that no rule makes it. What is asked for is known to it later only.
+    """
+    targets = [word for before, word in pairwise(sys.argv) if before != "--report"]
+    figures = {name: [*study.plots] for name, study in GRIDS.items()}
+    figures[STUDY.name] = [*figures.get(STUDY.name, ()), *STUDY.drawable]
+    if HAS_FIGURE_15:
+        figures[STUDY.name] += ["fig15"]
+    for target in targets:
+        match Path(target).parts:
+            case ["results", str(study), str(_), *_] if study not in {
+                *figures,
+                "compiled",
+                "bench",
+            }:
+                known, what = figures, f"study {study}"
+            case ["results", str(study), "figures", str(file)] if study in figures:
+                known, what = figures[study], f"figure {Path(file).stem} in {study}"
+            case ["results", STUDY.name, "cases", str(file)]:
+                known, what = STUDY.specs, f"case {Path(file).stem} in {STUDY.name}"
+            case ["results", str(study), "batches", str(file)] if study in GRIDS:
+                known, what = GRIDS[study].batches, f"batch {Path(file).stem}"
+            case _:
+                continue
+        if what.split()[1] not in known:
+            shown = [*known][:50] + ["..."] * (len(known) > 50)
+            raise WorkflowError(
+                f"{target}: there is no {what} (known: {', '.join(shown) or 'none'})"
+            )
 
 
 def refuse_unrecorded(files):
@@ -140,9 +213,10 @@ def plot_made_of(study, name):
 
 
 def shown_by(wildcards):
-    """Merged files of the further studies that a figure shows, by role."""
-    plot = GRIDS[wildcards.study].plots[wildcards.plot]
-    return {role: merged_file(name) for role, name in sorted(plot.others.items())}
+    """Merged files of the further studies that a figure shows, by role; none for a figure of a case beside the grid."""
+    plot = GRIDS[wildcards.study].plots.get(wildcards.plot)
+    others = {} if plot is None else plot.others
+    return {role: merged_file(name) for role, name in sorted(others.items())}
 
 
 def motion_file(study, key):

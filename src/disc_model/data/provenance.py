@@ -34,7 +34,8 @@ def source_hash(*roots: str | Path, files: Iterable[str | Path] = ()) -> str:
     """
     digest = hashlib.sha256()
     for path in source_files(*roots):
-        name = path.relative_to(PACKAGE).as_posix() if path.is_relative_to(PACKAGE) else path.name
+        inside = path.is_relative_to(PACKAGE) and path not in roots  # a script is named alike, installed or not
+        name = path.relative_to(PACKAGE).as_posix() if inside else path.name
         _add(digest, name, _read(path.read_bytes()).code.encode())
     for path in sorted(Path(file) for file in files):
         _add(digest, path.name, path.read_bytes())

@@ -22,7 +22,6 @@ AXES = {
     "w": ("Disc under the slider w (mm)", 1e3),
     "psi": ("ψ (rad)", 1.0),
     "psi_velocity": ("dψ/dt (rad/s)", 1.0),
-    "f": ("Slider's speed f (rad/s)", 1.0),
 }
 """Label and factor from SI; those of the disc's fixed point also say where it is."""
 COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}

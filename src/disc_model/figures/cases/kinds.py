@@ -12,8 +12,10 @@ from disc_model.figures.paper.catalogue import HIGHEST, SHORTEST_SPECTRUM
 from disc_model.schema import Positive, Strict
 from disc_model.simulation.case import Poincare, Window
 
-Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity", "f"]
+Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
 """What samples hold beside their times and phases."""
+RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")
+"""Of these, what a window with an envelope keeps."""
 Recorded = Mapping[str, Window | Poincare | None]
 """What a case records: windows by name, and the Poincare section as ``poincare``."""
 
@@ -65,8 +67,12 @@ class History(CasePlot):
     def _misfits(self, window: Any) -> Iterator[Fault]:
         if isinstance(window, Poincare):
             yield from super()._misfits(window)
-        elif window.count < 2 * (window.envelope or 1):
+            return
+        if window.count < 2 * (window.envelope or 1):
             yield Fault(("window",), self.window, "must be two samples, or two envelopes, long or more")
+        for i, name in enumerate(self.variables):
+            if window.envelope is not None and name not in RANGES:
+                yield Fault(("variables", str(i)), name, f"is not kept as ranges (known: {', '.join(RANGES)})")
 
 
 class Section(CasePlot):

@@ -56,12 +56,10 @@ def _panel(ax: Axes, panel: xr.DataArray, plot: HeatMap, colours: Mapping[str, A
     sides = {}
     for axis, name in plot.axes.items():
         sides[axis] = panel[name].values * parts.label_of(panel[name])[1]
-        if parts.spaced_by_factor(sides[axis]):
-            ax.set(**{f"{axis}scale": "log"})
+        if parts.spaced_by_factor(sides[axis]):  # cells at its ends may reach beyond 0
+            ax.set(**{f"{axis}scale": "log", f"{axis}lim": (sides[axis][0], sides[axis][-1])})
     ax.patch.set(facecolor="white", hatch=HATCH, edgecolor=GREY, linewidth=0)
     mesh = ax.pcolormesh(sides["x"], sides["y"], values, shading="nearest", rasterized=True, **colours)
-    for axis, side in sides.items():
-        ax.set(**{f"{axis}lim": (side[0], side[-1])})
     ax.set_xlabel(parts.label_of(panel[plot.x])[0])
     return mesh
 

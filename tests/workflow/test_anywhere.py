@@ -1,0 +1,123 @@
+"""The workflow outside its repository's folder: from elsewhere, as a module, without the package installed."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.workflow.conftest import ROOT, copy_repository
+
+pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+
+STUDY = """\
+study: mine
+quantity: floquet
+base: {N: 200, Omega: 20}
+axes: {mu_s: [0.3, 0.4], mu_k: [0.1, 0.2]}
+cases:
+  A: {title: a, parameters: {mu_k: 0.2}, t_end: 1, record: {windows: {w: {rate: 1000}}}}
+figures:
+  growth: {kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}
+  seen: {kind: history, case: A, window: w}
+"""
+MODULE = f"""\
+configfile: "config.yaml"
+
+module vibration:
+    snakefile: "{ROOT}/workflow/Snakefile"
+    config: config["vibration"]
+
+use rule * from vibration as vibration_*
+
+rule all:
+    default_target: True
+    input: rules.vibration_all.input
+"""
+
+
+def snakemake(folder: Path, *options: str | Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "snakemake", *map(str, options)]
+    return subprocess.run(
+        command, cwd=folder, env=os.environ | environment, capture_output=True, text=True, check=False, timeout=900
+    )
+
+
+def said(done: subprocess.CompletedProcess[str]) -> str:
+    return done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a study of both kinds, its name with what a shell would take apart, computed there."""
+    folder = tmp_path_factory.mktemp("else where & {more}")
+    (folder / "mine.yaml").write_text(STUDY)
+    done = snakemake(ROOT, "-j2", "-s", ROOT / "workflow" / "Snakefile", "--directory", folder,
+                     "--configfile", folder / "mine.yaml")  # fmt: skip
+    assert done.returncode == 0, said(done)
+    return folder
+
+
+def test_a_study_is_computed_in_another_folder(elsewhere: Path) -> None:
+    made = {path.name for path in (elsewhere / "results" / "mine").rglob("*.*")}
+    assert {"mine.nc", "cases.nc", "growth.png", "growth.pdf", "seen.png", "provenance.html"} <= made
+    assert not [name for name in made if name.startswith(("claims", "table"))], "nobody asked for them"
+
+
+def test_from_the_root_or_not_the_workflow_is_the_same(elsewhere: Path) -> None:
+    """Neither the place of the Snakefile nor that of its scripts is among what results depend on."""
+    for place in (ROOT / "Snakefile", ROOT / "src" / "disc_model" / "workflow" / "Snakefile"):
+        done = snakemake(elsewhere, "-n", "-s", place, "--configfile", "mine.yaml")
+        assert "Nothing to be done" in said(done), said(done)
+
+
+def test_the_paper_is_the_study_if_none_is_given(tmp_path: Path) -> None:
+    done = snakemake(tmp_path, "-n", "-s", ROOT / "workflow" / "Snakefile", "results/paper/figures/fig13.pdf")
+    assert re.search(r"^simulate_case +1$", said(done), re.MULTILINE), said(done)
+
+
+def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> None:
+    (tmp_path / "Snakefile").write_text(MODULE)
+    study = "".join(f"  {line}\n" for line in STUDY.splitlines())
+    (tmp_path / "config.yaml").write_text(f"mine: 3\nvibration:\n{study}")
+    done = snakemake(tmp_path, "-j2")
+    assert done.returncode == 0, said(done)
+    for name in ("mine.nc", "cases.nc"):
+        assert (tmp_path / "results" / "mine" / name).is_file()
+
+
+def test_it_is_linted_and_runs_without_the_package_installed(tmp_path: Path) -> None:
+    """What is installed comes with the interpreter here; a finder that knows no disc_model stands for its absence."""
+    project = copy_repository(tmp_path / "clone").folder
+    site = Path(shutil.__file__).parent / "site-packages"
+    hidden = tmp_path / "site"
+    hidden.mkdir()
+    for path in (Path(sys.prefix) / "lib" / site.parent.name / "site-packages").iterdir():
+        if "disc_model" not in path.name:
+            (hidden / path.name).symlink_to(path)
+    code = "import sys; sys.path.append(sys.argv.pop(1)); from snakemake.cli import main; main(sys.argv[1:])"
+    command = [sys.executable, "-I", "-S", "-c", code, str(hidden), "--lint"]
+    done = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("target", "message"),
+    [
+        ("results/mine/figures/groth.png", "there is no figure groth in mine (known: growth, seen)"),
+        ("results/nine/nine.nc", "there is no study nine (known: mine)"),
+        ("results/mine/cases/B.nc", "there is no case B in mine (known: A)"),
+        ("results/mine/batches/0123456789ab.nc", "there is no batch 0123456789ab (known: "),
+    ],
+)
+def test_what_there_is_not_is_told_with_what_there_is(elsewhere: Path, target: str, message: str) -> None:
+    done = snakemake(elsewhere, "-n", "-s", ROOT / "workflow" / "Snakefile", target, "--configfile", "mine.yaml")
+    assert done.returncode != 0
+    assert message in said(done)
+    assert "KeyError" not in said(done)
+    assert "Traceback" not in said(done)
