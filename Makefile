@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
 
-.PHONY: report explore orthonormal gallery docs linkcheck drawings env reproduce gc test test-portable test-long coverage test-study lint format bench lock clean
+.PHONY: schema report explore orthonormal gallery docs linkcheck drawings env reproduce gc test test-portable test-long coverage test-study lint format bench lock clean
 
 env: $(STAMP)
 
@@ -57,6 +57,10 @@ linkcheck: $(VENV)/.docs
 # The pictures that docs/ draws by itself.
 drawings: env
 	for script in docs/drawings/*.py; do $(BIN)/python $$script || exit 1; done
+
+# What editors check study files by, from the models that check them.
+schema: env
+	$(BIN)/python -m disc_model.studies.json_schema > workflow/schemas/study.schema.json
 
 test: env
 	$(BIN)/pytest -m "not slow and not workflow"

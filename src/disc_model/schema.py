@@ -75,7 +75,7 @@ def _within(limits: tuple[float, float]) -> AfterValidator:
 
 Real = Annotated[float, BeforeValidator(number)]
 Finite = Annotated[Real, Field(allow_inf_nan=False)]
-Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False)]
+Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})]
 Count = Annotated[int, BeforeValidator(whole)]
 Tolerance = Annotated[Real, _within(TOLERANCES)]
 CycleTolerance = Annotated[Real, _within(CYCLE_TOLERANCES)]

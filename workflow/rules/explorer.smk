@@ -10,7 +10,7 @@ EXPLORED = sorted(
 )
 PICTURES = list(explorer_pictures())
 EXPLORER_PARTS = [
-    *Path(workflow.basedir, "src", "disc_model", "explorer", "static").iterdir()
+    *(PACKAGE / "explorer" / "static").iterdir()
 ]
 
 

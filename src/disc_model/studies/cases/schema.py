@@ -13,7 +13,7 @@ from pydantic import Field, StringConstraints, model_validator
 from disc_model.data.variables import SCALARS
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.parameters import Parameters
-from disc_model.schema import Real, Strict, Tolerance
+from disc_model.schema import Positive, Real, Strict, Tolerance
 from disc_model.simulation.case import CaseSpec, Poincare, Start, Window
 from disc_model.studies.files import (
     Faults,
@@ -39,8 +39,8 @@ class Span(Strict):
     """
 
     start: Annotated[Real, Field(ge=0, allow_inf_nan=False)] | None = None
-    stop: Annotated[Real, Field(gt=0, allow_inf_nan=False)] | None = None
-    last: Annotated[Real, Field(gt=0, allow_inf_nan=False)] | None = None
+    stop: Positive | None = None
+    last: Positive | None = None
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -60,7 +60,7 @@ class Span(Strict):
 class WindowSpec(Span):
     """Uniform samples over a span; see `disc_model.Window` for `rate`, `theta` and `envelope`."""
 
-    rate: Annotated[Real, Field(gt=0, allow_inf_nan=False)]
+    rate: Positive
     theta: Real = 1.0
     envelope: Annotated[int, Field(ge=2)] | None = None
 
@@ -87,7 +87,7 @@ class Case(Strict):
     title: str
     reference: str = ""
     parameters: dict[str, Any] = Field({})
-    t_end: Annotated[Real, Field(gt=0, allow_inf_nan=False)]
+    t_end: Positive
     tol: Tolerance = 1e-10
     stop_at: Literal["first_separation"] | None = None
     start: Start = Start()
