@@ -7,14 +7,20 @@ import os
 import pty
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+import disc_model
 from disc_model import Parameters, cli, simulate
+from disc_model.cli.case import option_name
+from disc_model.cli.progress import compiling, simulating
+from disc_model.cli.run import _plot_record
 from disc_model.errors import DiscModelError
+from disc_model.studies.schema import load_study
 
 BASE = ("--N", "385", "--Omega", "15.1")
 SMALL = Parameters(N=200, Omega=50, n_diameters=1)
@@ -36,14 +42,14 @@ def options_of(command: str) -> set[str]:
     return set(inspect.signature(commands[command]).parameters)
 
 
-@pytest.mark.parametrize("command", ["run", "modes"])
+@pytest.mark.parametrize("command", ["run", "modes", "floquet"])
 def test_every_parameter_is_an_option(command: str) -> None:
     assert set(Parameters.model_fields) <= options_of(command)
 
 
 def test_every_option_reaches_the_parameters(capsys: pytest.CaptureFixture[str]) -> None:
     """A bad value given to each option comes back in the one message, under the parameter's name."""
-    arguments = [part for name in Parameters.model_fields for part in (cli.option_name(name), "bad")]
+    arguments = [part for name in Parameters.model_fields for part in (option_name(name), "bad")]
     code, _, err = call(capsys, "run", *arguments, "--t-end", "1")
     assert code == 2
     assert all(f"{name}='bad'" in err for name in Parameters.model_fields)
@@ -72,6 +78,15 @@ def test_underscores_are_accepted_in_option_names(capsys: pytest.CaptureFixture[
         ((*BASE, "--t-end", "1", "--stop-at", "never"), ("stop_at='never': must be 'first_separation'",)),
         ((*BASE, "--t-end", "1", "--plot", "p.doc"), ("plot='p.doc': must end in",)),
         ((*BASE, "--t-end", "1", "--plot", "no/such/p.png"), ("must be in a folder that exists",)),
+        ((*BASE, "--t-end", "1", "--max-steps", "1.5"), ("max_steps=1.5: must be a whole number >= 1",)),
+        ((*BASE, "--t-end", "1", "--save", "no/such/r.nc"), ("save='no/such/r.nc': must be in a folder that exists",)),
+        ((*BASE, "--t-end", "1", "--window", "late"), ("window='late': must be NAME:KEY=VALUE,...",)),
+        ((*BASE, "--t-end", "1", "--window", "late:last=0,rate=1"), ("window.late.last=0: must be > 0",)),
+        (
+            (*BASE, "--t-end", "1", "--window", "w:start=0,stop=3,rate=1"),
+            ("window.w: must be within the run: stop=3 <= t_end=1",),
+        ),
+        ((*BASE, "--t-end", "1", "--window", "w:rat=1"), ("window.w.rat='1': unknown key, did you mean rate?",)),
         ((*BASE,), ("t_end: is required",)),
         ((), ("N: is required", "Omega: is required", "t_end: is required")),
         (("--Omga", "3"), ("--Omga", "--Omega")),
@@ -146,7 +161,7 @@ def test_plot_is_written(capsys: pytest.CaptureFixture[str], tmp_path: Path, t_e
 
 def test_plot_record_does_not_grow_with_time() -> None:
     for t_end in (0.1, 1.0, 60.0, 1e4):
-        windows = cli._plot_record(t_end).windows
+        windows = _plot_record(t_end).windows
         assert sum(window.count // (window.envelope or 1) for window in windows) <= 6100
 
 
@@ -207,7 +222,9 @@ def test_a_run_is_summarised_and_drawn(capsys, tmp_path):
 
 def test_a_run_that_ends_early_is_drawn_to_its_end(capsys, monkeypatch, tmp_path):
     drawn = []
-    monkeypatch.setattr("disc_model.figures.quicklook.quicklook", lambda result: drawn.append(result) or plt.figure())
+    monkeypatch.setattr(
+        "disc_model.simulation.quicklook.quicklook", lambda result: drawn.append(result) or plt.figure()
+    )
     command = ("run", *SMALL_BASE, "--t-end", "3", "--stop-at", "first_separation", "--tol", "1e-8")
     kicked = simulate(SMALL, 1e-6).final_state
     start = kicked.replace(alpha=kicked.alpha + np.array([0.0, 20.0]), time=0.0)
@@ -286,11 +303,152 @@ class Terminal(io.StringIO):
 def test_progress_is_shown_on_a_terminal(monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    with cli._progress(4.0) as progress:
+    with simulating(4.0) as progress:
         progress(1.0)
         progress(9.0)
     assert "simulating" in terminal.getvalue()
     assert "4.00 of 4 s" in terminal.getvalue()  # no further than the end
     monkeypatch.setattr(sys, "stderr", io.StringIO())
-    with cli._progress(4.0) as progress:
+    with simulating(4.0) as progress:
         assert progress is None
+
+
+def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "--version")
+    assert (code, out) == (0, f"disc_model {disc_model.__version__}\n")
+
+
+def test_help_shows_what_there_is_to_choose_from(capsys: pytest.CaptureFixture[str], monkeypatch) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    _, out, _ = call(capsys, "run", "--help")
+    for choices in ("as_published|orthonormal", "separable|bonded", "first_separation"):
+        assert choices in out
+    _, out, _ = call(capsys, "--help")
+    for command in ("run", "floquet", "modes", "study", "list", "init", "warm", "--install-completion"):
+        assert command in out
+
+
+def test_what_auto_chose_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = call(capsys, "modes", "--n-diameters", "auto", "--truncation-tolerance", "0.01")
+    assert out.startswith("modes chosen")
+
+
+def test_windows_are_saved_by_their_names(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "run.nc"
+    windows = ("--window", "late:last=0.02,rate=1000", "--window", "rate=500,envelope=5")
+    code, out, _ = call(capsys, "run", *SMALL_BASE, "--t-end", "0.05", *windows, "--save", str(path))
+    assert code == 0
+    assert f"saved               {path}" in out
+    found = disc_model.load(path)
+    assert np.allclose(found["late/time"], np.arange(0.03, 0.0505, 0.001))
+    assert found["sample_1/P_min"].sizes["time"] == 5
+
+
+def test_steps_can_be_limited(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "run", *SMALL_BASE, "--t-end", "0.05", "--max-steps", "3")
+    assert code == 1
+    assert "steps               3\n" in out
+
+
+@pytest.mark.compiled
+def test_floquet_says_whether_the_quiet_motion_lasts(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "floquet", "--N", "385", "--Omega", "15")
+    rate = disc_model.floquet(Parameters(N=385, Omega=15)).growth_rate
+    assert code == 0
+    assert f"growth rate         {rate:.6g} 1/s (small disturbances die out)" in out
+    code, out, _ = call(capsys, "floquet", "--N", "0", "--Omega", "0")
+    assert code == 1
+    assert "advice" in out
+    code, _, err = call(capsys, "floquet", *BASE, "--tol", "1")
+    assert (code, err) == (2, "error: tol=1: must be within 1e-14 and 1e-06\n")
+
+
+def test_compiling_is_told_when_the_first_kernel_is_kept(capsys, monkeypatch, tmp_path: Path) -> None:
+    """Nothing is said where all kernels are there already."""
+    from types import SimpleNamespace
+
+    from disc_model.engine import machine
+
+    monkeypatch.setattr(machine, "run", SimpleNamespace(stats=SimpleNamespace(cache_path=str(tmp_path))))
+    (tmp_path / "old.kernel").touch()
+    with compiling():
+        time.sleep(0.5)
+    assert capsys.readouterr().err == ""
+    with compiling():
+        (tmp_path / "new.kernel").touch()
+        time.sleep(0.5)
+    said = capsys.readouterr().err
+    assert said.startswith("compiling kernels, once")
+    assert "1 kernels compiled in" in said
+
+
+STUDY = """\
+study: mine
+quantity: floquet
+base: {N: 200, Omega: 20}
+axes: {mu_s: [0.3, 0.4], mu_k: [0.1, 0.2]}
+cases:
+  A: {title: one case, parameters: {mu_k: 0.2}, t_end: 1, record: {windows: {w: {rate: 1000}}}}
+figures:
+  growth: {kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}
+  seen: {kind: history, case: A, window: w}
+"""
+
+
+@pytest.mark.parametrize(
+    ("what", "parts"),
+    [
+        ("studies", ("mine", "floquet", "mu_s x mu_k", "4", "not computed")),
+        ("figures", ("growth", "heat_map", "seen", "history")),
+        ("cases", ("A", "one case", "mu_k = 0.2", "1")),
+    ],
+)
+def test_what_a_study_has_is_listed(capsys, monkeypatch, tmp_path: Path, what: str, parts: tuple[str, ...]) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    (tmp_path / "mine.yaml").write_text(STUDY)
+    code, out, _ = call(capsys, "list", what, str(tmp_path / "mine.yaml"), "--directory", str(tmp_path))
+    assert code == 0
+    assert all(part in out for part in parts)
+
+
+def test_what_can_be_listed_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    code, _, err = call(capsys, "list", "colours")
+    assert (code, err) == (2, "error: what='colours': must be one of studies, figures, cases, stale\n")
+
+
+def test_a_folder_is_laid_out_and_its_study_is_right(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    folder = tmp_path / "my own"
+    code, out, _ = call(capsys, "init", str(folder))
+    assert code == 0
+    assert f"cd '{folder}' && disc-model study my_study.yaml" in out
+    study = load_study(folder / "my_study.yaml")
+    assert study.grid is not None
+    assert study.grid.n_points == 143
+    assert (folder / "profiles" / "default" / "config.yaml").is_file()
+    code, _, err = call(capsys, "init", str(folder))
+    assert code == 2
+    assert "must not hold my_study.yaml, Snakefile, profiles/default/config.yaml yet" in err
+
+
+def test_a_study_is_handed_to_snakemake(capsys, monkeypatch, tmp_path: Path) -> None:
+    given = []
+    monkeypatch.setattr(subprocess, "call", lambda command: given.append(command) or 3)
+    path = tmp_path / "mine.yaml"
+    path.write_text(STUDY)
+    options = ("--cores", "2", "-n", "--directory", str(tmp_path), "--target", "bench", "--snakemake", "--quiet rules")
+    code, _, _ = call(capsys, "study", str(path), *options)
+    assert code == 3
+    (command,) = given
+    snakefile = Path(command[command.index("-s") + 1])
+    assert snakefile.is_file()
+    assert command[-2:] == ["--configfile", str(path)]
+    assert {"-j2", "-n", "bench", "--quiet", "rules", "--directory", str(tmp_path)} <= {*command}
+
+
+def test_a_wrong_study_is_told_before_snakemake_starts(capsys, monkeypatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(subprocess, "call", lambda command: pytest.fail("was started"))
+    path = tmp_path / "mine.yaml"
+    path.write_text(STUDY.replace("mu_k: [0.1, 0.2]", "mu: [1]"))
+    code, _, err = call(capsys, "study", str(path))
+    assert code == 2
+    assert "axes.mu: cannot be an axis" in err

@@ -22,6 +22,9 @@ _HOMES = {
     "choose_modes": "truncation",
     "residual_flexibility": "flexibility",
     "simulate": "simulation.api",
+    "snapshots": "simulation.deflection",
+    "deflection": "simulation.deflection",
+    "load": "data.dataset",
     "floquet": "stability.cycle",
     "steady_sliding": "stability.sliding",
     "Record": "simulation.case",
@@ -43,6 +46,7 @@ _HOMES = {
 __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
+    from disc_model.data.dataset import load
     from disc_model.errors import (
         DiscModelError,
         ModeError,
@@ -59,6 +63,7 @@ if TYPE_CHECKING:
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Poincare, Record, Window
+    from disc_model.simulation.deflection import deflection, snapshots
     from disc_model.simulation.result import Result, State
     from disc_model.stability.cycle import floquet
     from disc_model.stability.sliding import steady_sliding

@@ -81,6 +81,13 @@ def mode_arrays(p: Parameters) -> Modes:
     return _modes(p.a, p.b, p.r_0, p.h, p.E, p.nu, p.rho, p.n_diameters, p.n_circles, p.normalization == "orthonormal")
 
 
+def mode_shapes(p: Parameters, r: Array) -> Array:
+    """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`."""
+    shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
+    radial = np.column_stack([shapes.at(float(x), p.normalization == "orthonormal") for x in r / p.b])
+    return np.where(shapes.l > 0, np.sqrt(2), 1.0)[:, None] * radial / np.sqrt(p.rho * p.h * p.b**2)
+
+
 @lru_cache(maxsize=64)
 def _frame(modes: Modes) -> pd.DataFrame:
     """The table of `plate_modes`, kept because pandas takes long to build it."""

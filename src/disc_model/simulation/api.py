@@ -15,11 +15,12 @@ import numpy as np
 
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
+from disc_model.engine.sampling import ROW
 from disc_model.errors import Fault, ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.schema import TOLERANCES, is_number, limits_faults, shown
-from disc_model.simulation.case import Record
+from disc_model.simulation.case import Record, Window
 from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
 from disc_model.simulation.result import (
     Result,
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 AUDIT_EVERY = 64
+ROW_SIZE = 8 * len(ROW)
+"""Bytes of a sample."""
 STEPS_PER_PAUSE = 100_000
 """Steps between two pauses of the engine, about 0.1 s of work, where a step costs least."""
 
@@ -94,6 +97,8 @@ def simulate(
     """
     record = _EVENTS_ALONE if record is None else record
     _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every))
+    if record.windows:
+        record = _resolved(record, 0.0 if initial_state is None else initial_state.time, t_end)
     run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps)
     _warn_of_empty(record, 0.0 if initial_state is None else initial_state.time, t_end)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
@@ -260,6 +265,41 @@ def _check_arguments(
     found += faults(*checkpoint)
     if found:
         raise ParameterError(*found)
+
+
+def _resolved(record: Record, start: float, t_end: float) -> Record:
+    """With absolute times in all windows; refuses those that no memory holds."""
+    found: list[str] = []
+    windows: list[Window] = []
+    for i, window in enumerate(record.windows):
+        try:
+            windows.append(window.resolved(start, t_end))
+        except ParameterError as error:
+            found += [
+                Fault(("record", "windows", str(i), *fault.path), fault.value, fault.rule)
+                for fault in error.faults
+                if isinstance(fault, Fault)
+            ]
+    room = _memory()
+    for i, window in enumerate(windows):
+        seconds = min(window.stop, t_end) - max(window.start, start)
+        needed = max(seconds, 0.0) * window.rate / (window.envelope or 1) * ROW_SIZE
+        if needed > room:
+            rule = f"must fit into memory: {needed / 1e9:.3g} GB of samples, and there are {room / 1e9:.3g} GB"
+            found.append(Fault(("record", "windows", str(i)), "", rule))
+    if found:
+        raise ParameterError(*found)
+    if all(one is other for one, other in zip(windows, record.windows, strict=True)):
+        return record
+    return record.replace(windows=tuple(windows))
+
+
+def _memory() -> float:
+    """Bytes of this machine's memory; infinite where that cannot be asked."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return math.inf
 
 
 def _warn_of_empty(record: Record, start: float, t_end: float) -> None:

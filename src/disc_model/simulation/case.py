@@ -9,7 +9,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, create_model, field_validator, model_validator
+from pydantic import (
+    Field,
+    SerializerFunctionWrapHandler,
+    create_model,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
 
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
@@ -22,7 +29,7 @@ Time = Annotated[Real, Field(ge=0, allow_inf_nan=False)]
 
 
 class Window(Checked):
-    """Uniform samples at ``rate`` in [start, stop].
+    """Uniform samples at ``rate`` in [start, stop], over the last seconds of the run, or over all of it.
 
     What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
     before.  So it is 6e-14 of the time later, because the time of a switch is rounded.  A sample at the start of a run
@@ -30,16 +37,18 @@ class Window(Checked):
 
     Parameters
     ----------
-    start, stop : s, absolute times
+    start, stop : s, absolute times; from the start of the run to its end if not given
+    last : s, counted back from the end of the run, instead of start and stop
     rate : Hz
     theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
     envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
         samples that do not fill a bin are left out
     """
 
-    start: Time
-    stop: Time
-    rate: Annotated[Real, Field(gt=0, allow_inf_nan=False)]
+    start: Time = 0.0
+    stop: Annotated[Real, Field(ge=0)] = math.inf
+    last: Positive | None = None
+    rate: Positive
     theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
     envelope: Annotated[int, Field(ge=2)] | None = None
 
@@ -47,7 +56,37 @@ class Window(Checked):
     def _ordered(self) -> Self:
         if not self.start < self.stop:
             raise ParameterError(Fault(("start",), shown(self.start), f"must be < stop={shown(self.stop)}"))
+        if self.last is not None and (self.start > 0 or self.stop < math.inf):
+            raise ParameterError(Fault(("last",), shown(self.last), "must not be given beside start or stop"))
         return self
+
+    @model_serializer(mode="wrap")
+    def _plain(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Without what is not said: the text of a case whose times are absolute is what it always was."""
+        said: dict[str, Any] = handler(self)
+        if self.last is None:
+            said.pop("last", None)
+        return said
+
+    def resolved(self, start: float, t_end: float) -> Window:
+        """The window with absolute times, for a run from ``start`` to ``t_end``.
+
+        An envelope that goes on to the end leaves out that instant, which would be a bin of its own.
+
+        Raises
+        ------
+        ParameterError
+            If it begins at the end of the run or later, and says no time at which it ends.
+        """
+        if self.last is None and self.stop < math.inf:
+            return self
+        first = self.start if self.last is None else max(t_end - self.last, start)
+        if not first < t_end:
+            raise ParameterError(Fault(("start",), shown(first), f"must be < t_end={shown(t_end)}"))
+        stop = t_end
+        if self.envelope is not None:
+            stop = max(stop - 0.5 / self.rate, first + 0.25 / self.rate)
+        return self.replace(start=first, stop=stop, last=None)
 
     @property
     def count(self) -> int:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -25,6 +27,7 @@ from disc_model.simulation.case import Record
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+    from matplotlib.figure import Figure
 
 
 Array = NDArray[np.float64]
@@ -41,7 +44,7 @@ _ERRORS: dict[Status, type[errors.SimulationError]] = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class State:
     """Where the system is, in the slider's frame.
 
@@ -52,7 +55,8 @@ class State:
     direction : sgn(f) in slip, 0 otherwise
     psi : rad, drive point's angle ahead of the slider
     f : rad/s, the slider's angular speed over the disc
-    u, u_velocity : m, m/s, the slider's height and velocity (those of the disc's point in contact)
+    u, u_velocity : m, m/s, the slider's height and velocity. In rigid contact they are those of the disc under it: a start
+        with another u is refused, and u_velocity is not looked at
     a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
         along and across the slider's direction; b = beta = 0 for modes without nodal diameter
     known : multiplicity of the root that the phase's switch function has at this very instant (0 away from a switch)
@@ -73,13 +77,66 @@ class State:
     known: int = 0
 
     def replace(self, **changes: Any) -> State:
-        """A copy with some values changed."""
-        import dataclasses
-
+        """A copy with some values changed; a new time is meant exactly, so that `time_low` starts at 0 with it."""
+        if "time" in changes:
+            changes = {"time_low": 0.0} | changes
         return dataclasses.replace(self, **changes)
 
+    def __repr__(self) -> str:
+        return (
+            f"State(time={self.time:.9g} s, {self.phase}, psi={self.psi:.6g} rad, f={self.f:.6g} rad/s, "
+            f"u={self.u:.6g} m, u_velocity={self.u_velocity:.6g} m/s, {len(self.a)} modes)"
+        )
 
-@dataclass(frozen=True, eq=False)
+    def save(self, path: str | Path) -> None:
+        """Write it as netCDF, to the last bit.
+
+        Raises
+        ------
+        disc_model.data.dataset.WriteError
+            If the disk is full.
+        """
+        import xarray as xr
+
+        from disc_model.data import dataset
+
+        modal = {
+            name: ("mode", np.asarray(getattr(self, name), float), {"units": unit}) for name, unit in _MODAL.items()
+        }
+        plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in _PLAIN.items()}
+        whole = {name: ((), np.int64(getattr(self, name))) for name in ("direction", "known")}
+        attrs = {"Conventions": dataset.CONVENTIONS, "phase": self.phase}
+        dataset.save(xr.DataTree(xr.Dataset(modal | plain | whole, attrs=attrs)), path)
+
+    @classmethod
+    def load(cls, path: str | Path) -> State:
+        """Read a file that `save` has written.
+
+        Raises
+        ------
+        ParameterError
+            If it holds no state.
+        disc_model.data.dataset.DamagedFile
+            If it is not what was written.
+        """
+        from disc_model.data import dataset
+
+        found = dataset.load(path).to_dataset()
+        wanted = (*_MODAL, *_PLAIN, "direction", "known")
+        if "phase" not in found.attrs or not {*wanted} <= found.data_vars.keys():
+            raise ParameterError(Fault(("path",), shown(str(path)), "must be a file written by State.save"))
+        held: dict[str, Any] = {name: found[name].values for name in _MODAL}
+        held |= {name: float(found[name]) for name in _PLAIN}
+        held |= {name: int(found[name]) for name in ("direction", "known")}
+        return cls(phase=str(found.attrs["phase"]), **held)
+
+
+_MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
+_PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
+"""Units of what a state's file holds, by shape."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Result:
     """A finished simulation, or as much of it as could be computed; see `status`.
 
@@ -150,7 +207,7 @@ class Result:
         """
         groups = self._groups()
         if group not in groups:
-            raise errors.ParameterError(f"group={group!r}: must be one of {', '.join(map(repr, groups))}")
+            raise ParameterError(f"group={group!r}: must be one of {', '.join(map(repr, groups))}")
         return groups[group]
 
     def _groups(self, names: Sequence[str] | None = None) -> dict[str, xr.Dataset]:
@@ -178,6 +235,42 @@ class Result:
             "tol": self.tol,
             "u_0": self.u_0,
         }
+
+    def save(self, path: str | Path, names: Sequence[str] | None = None) -> None:
+        """Write `to_tree` as netCDF, in one piece and with a checksum; `disc_model.load` reads it.
+
+        Parameters
+        ----------
+        names : of the windows, as for `to_tree`
+
+        Raises
+        ------
+        disc_model.data.dataset.WriteError
+            If the disk is full.
+        """
+        from disc_model.data.dataset import save
+
+        save(self.to_tree(names), path)
+
+    def plot(self) -> Figure:
+        """A first look: contact force and disc displacement, one column a window, as a matplotlib figure.
+
+        Raises
+        ------
+        ParameterError
+            If no window was recorded.
+        """
+        from disc_model.simulation.quicklook import quicklook
+
+        return quicklook(self)
+
+    def __repr__(self) -> str:
+        p, first = self.parameters, self.first_separation
+        lost = "no separation" if math.isnan(first) else f"first separation at {first:.6f} s"
+        kept = f"{len(self.samples)} window{'' if len(self.samples) == 1 else 's'}"
+        ended = f"{self.status.value} at {self.final_state.time:.9g} s"
+        events = self.statistics["events"]
+        return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s: {ended}, {lost}, {events} events, {kept})"
 
     def raise_for_status(self) -> Result:
         """Return self, or raise the `SimulationError` of an incomplete run."""
@@ -322,12 +415,27 @@ def write_state(case: Case, given: State, state: layout.State) -> None:
     state.z[lane], state.z[lane + layout.HALF] = a[pairs], b[pairs]
     state.e[lane], state.e[lane + layout.HALF] = alpha[pairs], beta[pairs]
     state.y[: len(single)], state.g[: len(single)] = a[single], alpha[single]
+    if given.phase != "separation" and len(case.model.give) != 1:  # on a compliant contact u is a state of its own
+        _check_height(case, given.u, state)
     x = state.x
     x[layout.TIME], x[layout.TIME_LOW] = given.time, given.time_low
     x[layout.PSI], x[layout.SPEED] = given.psi, given.f
     x[layout.U], x[layout.U_VELOCITY] = given.u, given.u_velocity
     x[layout.PHASE], x[layout.DIRECTION] = PHASES.index(given.phase), given.direction
     x[layout.KNOWN] = given.known
+
+
+SAME_HEIGHT = 1e-9
+"""Of the disc's deflection: far more than rounding, and far less than what anybody means by another height."""
+
+
+def _check_height(case: Case, u: float, state: layout.State) -> None:
+    """In contact the disc says where the slider is: another u would be passed over in silence."""
+    row = case.point[0]
+    w = float(row.dot(state.disc))
+    if abs(u - w) > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
+        rule = f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
+        raise ParameterError(Fault(("initial_state", "u"), shown(u), rule))
 
 
 def _faults(given: State, n_modes: int, highest_known: int) -> list[str]:

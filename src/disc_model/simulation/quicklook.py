@@ -11,6 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from disc_model.errors import Fault, ParameterError
+
 PANELS = (("P", 1.0, "contact force P (N)"), ("w", 1e3, "disc under the slider w (mm)"))
 
 
@@ -30,10 +32,15 @@ class Sampled(Protocol):
 def quicklook(result: Sampled) -> Figure:
     """Contact force (top) and disc displacement under the slider (bottom); one column a window.
 
-    Raises ValueError if the result holds no window; envelope windows are drawn as bands.
+    Envelope windows are drawn as bands.
+
+    Raises
+    ------
+    ParameterError
+        If the result holds no window.
     """
     if not result.samples:
-        raise ValueError("quicklook: the result holds no window; record at least one")
+        raise ParameterError(Fault(("record", "windows"), "", "must have one window or more to be drawn"))
     columns = len(result.samples)
     figure, axes = plt.subplots(
         len(PANELS),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.figures.quicklook import quicklook
+from disc_model.simulation.quicklook import quicklook
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 

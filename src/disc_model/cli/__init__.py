@@ -1,0 +1,64 @@
+"""Command line: ``disc-model run|floquet|modes|study|list|init|warm``.
+
+What is wrong with the input is one line on stderr and exit code 2; a simulation that ends before its time is reported
+and gives exit code 1.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated, NoReturn
+
+import typer
+
+from disc_model import __version__
+from disc_model.cli import numbers, run, studies
+from disc_model.errors import DiscModelError
+
+app = typer.Typer(
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    help="Friction-induced vibration of an elastic disc and a moving slider.",
+)
+for command in (run.run, numbers.floquet, numbers.modes, studies.study, studies.list_, studies.init, numbers.warm):
+    app.command(command.__name__.rstrip("_"))(command)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"disc_model {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _all(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="show the version and exit")
+    ] = False,
+) -> None: ...
+
+
+INTERRUPTED = 130
+"""What typer makes of Ctrl-C: 128 and the number of the signal, as shells do."""
+
+
+def _fail(message: str) -> NoReturn:
+    """One line on stderr, exit code 2."""
+    if message:  # empty where the help text was shown instead
+        typer.echo(f"error: {' '.join(message.split())}", err=True)
+    sys.exit(2)
+
+
+def main(arguments: list[str] | None = None) -> NoReturn:
+    """Run the command line; never shows a traceback for bad input."""
+    try:
+        code = app(args=arguments, standalone_mode=False, prog_name="python -m disc_model")
+    except DiscModelError as error:
+        _fail(str(error))
+    except Exception as error:
+        if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
+            raise
+        _fail(error.format_message())
+    if code == INTERRUPTED:
+        typer.echo("error: interrupted", err=True)
+    sys.exit(code if isinstance(code, int) else 0)

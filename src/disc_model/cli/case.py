@@ -1,0 +1,97 @@
+"""What commands on one case share: an option for each parameter, made from the fields of `Parameters`.
+
+None can be forgotten so, and their values are handed on as text, so that the same rules and messages apply as
+everywhere else.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable
+from typing import Annotated, Any, Literal, get_args, get_origin
+
+import typer
+
+from disc_model.errors import Fault
+from disc_model.parameters import Parameters
+from disc_model.schema import shown
+
+
+def option_name(field: str) -> str:
+    """Command-line option of a field of `Parameters`: D_star -> --D-star."""
+    return "--" + field.replace("_", "-")
+
+
+def _case_options(placeholders: dict[str, str] | None = None) -> list[inspect.Parameter]:
+    """One keyword option for each field of `Parameters`; `placeholders` are values for required fields."""
+    options = []
+    for name, field in Parameters.model_fields.items():
+        given = (placeholders or {}).get(name)
+        spellings = dict.fromkeys([option_name(name), f"--{name}"])
+        unit = Parameters.unit(name)
+        default = "required" if field.is_required() and given is None else f"default: {_text(given or field.default)}"
+        choices = _choices(field.annotation)
+        option = typer.Option(
+            *spellings,
+            metavar="|".join(choices) or "VALUE",
+            autocompletion=_completing(choices),
+            help=f"{field.description}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]".replace("[", r"\["),
+            show_default=False,
+            rich_help_panel="Parameters of the case",
+        )
+        options.append(
+            inspect.Parameter(
+                name, inspect.Parameter.KEYWORD_ONLY, default=given, annotation=Annotated[str | None, option]
+            )
+        )
+    return options
+
+
+def _choices(annotation: Any) -> tuple[str, ...]:
+    """The words that a parameter can be, if it is one of some."""
+    if get_origin(annotation) is Literal:
+        return tuple(map(str, get_args(annotation)))
+    return tuple(dict.fromkeys(word for part in get_args(annotation) for word in _choices(part)))
+
+
+def _completing(choices: tuple[str, ...]) -> Callable[[], list[str]]:
+    return lambda: list(choices)
+
+
+def _text(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command one option for each parameter; it receives them together as the mapping `case`."""
+
+    def decorate(command: Callable[..., None]) -> Callable[..., None]:
+        own = [p for p in inspect.signature(command, eval_str=True).parameters.values() if p.name != "case"]
+        case_options = _case_options(placeholders)
+
+        def wrapped(**values: Any) -> None:
+            case = {option.name: values.pop(option.name) for option in case_options}
+            command(case={name: value for name, value in case.items() if value is not None}, **values)
+
+        wrapped.__signature__ = inspect.Signature(own + case_options)  # type: ignore[attr-defined]
+        wrapped.__annotations__ = {p.name: p.annotation for p in own + case_options}
+        wrapped.__doc__, wrapped.__name__ = command.__doc__, command.__name__
+        return wrapped
+
+    return decorate
+
+
+def number(name: str, text: str | None, holds: Callable[[float], bool], rule: str, faults: list[str]) -> float:
+    """The number that `text` stands for; what is wrong with it is added to `faults`."""
+    if text is None:
+        faults.append(Fault((name,), "", "is required"))
+        return math.nan
+    try:
+        value = float(text)
+    except ValueError:
+        faults.append(Fault((name,), shown(text), "must be a number"))
+        return math.nan
+    if not holds(value):
+        faults.append(Fault((name,), shown(value), rule))
+    return value

@@ -1,0 +1,211 @@
+"""Commands on studies: `study` computes one, `list` says what there is, `init` lays out a folder for one's own."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from disc_model.errors import DiscModelError, Fault, ParameterError
+
+if TYPE_CHECKING:
+    from disc_model.studies.schema import Study
+
+PACKAGE = Path(__file__).resolve().parents[1]
+KINDS = ("studies", "figures", "cases", "stale")
+FILES = typer.Argument(help="study files, later ones laid over earlier ones; the paper's if none is given")
+
+STUDY = """\
+# yaml-language-server: $schema={schema}
+# Growth of the stick-slip vibration over two parameters: `disc-model study my_study.yaml` computes and draws it.
+study: my_study                     # names the folder of results
+title: Growth over static and kinetic friction
+quantity: floquet                   # growth rate of the stick-slip cycle, by its multipliers
+base: {{N: 200, Omega: 20}}           # SI units; the rest is Table 1 of the paper
+axes:
+  mu_s: {{start: 0.3, stop: 0.6, count: 13}}
+  mu_k: {{start: 0.05, stop: 0.3, count: 11}}
+figures:
+  growth: {{kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}}
+"""
+SNAKEFILE = """\
+# The workflow of the package disc_model, for the study of this folder: `snakemake -j2`.
+from pathlib import Path
+
+import disc_model
+
+if not workflow.configfiles:  # one named with --configfile replaces it
+
+    configfile: "my_study.yaml"
+
+
+include: str(Path(disc_model.__file__).parent / "workflow" / "Snakefile")
+"""
+
+
+def study(
+    files: Annotated[list[Path] | None, FILES] = None,
+    cores: Annotated[int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")] = os.cpu_count() or 1,
+    dry_run: Annotated[bool, typer.Option("--dry-run", "-n", help="only check, and list what there is to do")] = False,
+    directory: Annotated[Path, typer.Option("--directory", "-d", help="where results come to be")] = Path(),
+    target: Annotated[
+        list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; may be repeated")
+    ] = None,
+    snakemake: Annotated[str, typer.Option("--snakemake", help="further options of Snakemake, as one text")] = "",
+) -> None:
+    """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
+    if files:
+        _read(files)
+    options = [*(target or []), f"-j{cores}", "--directory", str(directory), *(["-n"] if dry_run else [])]
+    raise typer.Exit(subprocess.call(_command(files, [*options, *shlex.split(snakemake)])))
+
+
+def list_(
+    what: Annotated[
+        str, typer.Argument(metavar="|".join(KINDS), help="what to list", autocompletion=lambda: list(KINDS))
+    ],
+    files: Annotated[list[Path] | None, FILES] = None,
+    directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are")] = Path(),
+) -> None:
+    """List the grid studies, figures or cases of a study, or what of its results is stale."""
+    if what not in KINDS:
+        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
+    if what == "stale":
+        _list_stale(files, directory)
+        return
+    chosen, folders = _read(files or [_shipped("config/paper.yaml")])
+    heads, rows = {"studies": _studies, "figures": _figures, "cases": _cases}[what](chosen, folders, directory)
+    table = Table(title=f"{what} of {chosen.name}")
+    for head in heads:
+        table.add_column(head, overflow="fold")
+    for row in rows:
+        table.add_row(*row)
+    Console().print(table)
+
+
+def init(
+    directory: Annotated[Path, typer.Argument(metavar="DIR", help="folder to lay out; made if it is not there")],
+) -> None:
+    """Lay out a folder for a study of your own: a study file to change, and a Snakefile for it."""
+    schema = (PACKAGE / "workflow" / "schemas" / "study.schema.json").resolve().as_uri()
+    texts = {
+        "my_study.yaml": STUDY.format(schema=schema),
+        "Snakefile": SNAKEFILE,
+        "profiles/default/config.yaml": (PACKAGE / "workflow" / "profiles" / "default" / "config.yaml").read_text(),
+    }
+    if there := [name for name in texts if (directory / name).exists()]:
+        raise ParameterError(Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(there)} yet"))
+    try:
+        for name, text in texts.items():
+            (directory / name).parent.mkdir(parents=True, exist_ok=True)
+            (directory / name).write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ParameterError(Fault(("DIR",), repr(str(directory)), f"cannot be written ({error.strerror})")) from None
+    typer.echo(f"{directory}: {', '.join(texts)}")
+    typer.echo(f"next: cd {shlex.quote(str(directory))} && disc-model study my_study.yaml")
+
+
+# ----------------------------------------------------------------------------------------------------
+# Parts
+
+
+def _shipped(name: str) -> Path:
+    """A file of the working folder, or else the one that comes with the package."""
+    return Path(name) if Path(name).exists() else PACKAGE / name
+
+
+def _command(files: Sequence[Path] | None, options: Sequence[str]) -> list[str]:
+    """The command that has Snakemake compute a study."""
+    if find_spec("snakemake") is None:
+        raise DiscModelError(
+            "studies are computed by Snakemake, which is not installed: pip install 'disc_model[workflow]'"
+        )
+    snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
+    named = ["--configfile", *(str(file.resolve()) for file in files)] if files else []
+    return [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options, *named]
+
+
+def _read(files: Sequence[Path]) -> tuple[Study, list[Path]]:
+    """The study that files say, checked with all that they name, and where that is looked for."""
+    from disc_model.studies.files import inherit, mapping, read_file
+    from disc_model.studies.schema import study_from_config
+
+    raw: dict[str, object] = {}
+    for file in files:
+        raw = inherit(raw, mapping(read_file(file)[0]))
+    chosen = study_from_config(raw, files)
+    folders = [Path(), *(file.parent for file in files), PACKAGE]
+    chosen.grids(folders)
+    return chosen, folders
+
+
+Rows = tuple[tuple[str, ...], Iterator[tuple[str, ...]]]
+
+
+def _made(path: Path) -> str:
+    return "there" if path.exists() else "not computed"
+
+
+def _studies(chosen: Study, folders: list[Path], directory: Path) -> Rows:
+    grids, asked = chosen.grids(folders)
+    results = directory / "results"
+    rows = (
+        (name, grids[name].quantity, " x ".join(grids[name].values), str(grids[name].n_points), grids[name].title,
+         _made(results / name / f"{name}.nc"))
+        for name in asked
+    )  # fmt: skip
+    return ("study", "quantity", "dimensions", "points", "title", "results"), rows
+
+
+def _figures(chosen: Study, folders: list[Path], directory: Path) -> Rows:
+    from disc_model.figures.paper.catalogue import CATALOGUE
+
+    grids, asked = chosen.grids(folders)
+
+    def rows() -> Iterator[tuple[str, ...]]:
+        results = directory / "results"
+        for name in chosen.figures:
+            yield name, "paper", CATALOGUE[name].title, _made(results / chosen.name / "figures" / f"{name}.png")
+        for name, plot in chosen.plots.items():
+            yield name, plot.kind, plot.title or plot.case, _made(results / chosen.name / "figures" / f"{name}.png")
+        for study_name in asked:
+            for name, shown in grids[study_name].plots.items():
+                title = shown.title or grids[study_name].title
+                yield name, shown.kind, title, _made(results / study_name / "figures" / f"{name}.png")
+
+    return ("figure", "kind", "title", "results"), rows()
+
+
+def _cases(chosen: Study, folders: list[Path], directory: Path) -> Rows:
+    from disc_model.figures.paper.catalogue import said_parameters
+
+    results = directory / "results" / chosen.name / "cases"
+    said = {name: said_parameters(spec.parameters) for name, spec in chosen.specs.items()}
+    rows = (
+        (name, case.title, said[name], f"{case.t_end:g}", _made(results / f"{name}.nc"))
+        for name, case in chosen.cases.items()
+    )
+    return ("case", "title", "parameters", "t_end (s)", "results"), rows
+
+
+def _list_stale(files: Sequence[Path] | None, directory: Path) -> None:
+    """What a run would make, by Snakemake's own account."""
+    done = subprocess.run(
+        _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        raise DiscModelError(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "Snakemake failed")
+    head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
+    stale = [dict(zip(head, line, strict=False)) for line in lines if line[-1] != "no update"]
+    for row in stale:
+        typer.echo(f"{row['output_file']}: {row['status']}")
+    typer.echo(f"{len(stale)} of {len(lines)} files are missing or out of date")

@@ -1,0 +1,113 @@
+"""The whole disc in motion: modal coordinates recorded at chosen times, and the deflection that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from disc_model.errors import Fault, ParameterError
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays, mode_shapes
+from disc_model.schema import shown
+from disc_model.simulation.api import published_start, simulate
+from disc_model.simulation.case import Record
+from disc_model.simulation.result import State
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+_NOTHING = Record(events=False)
+
+
+def snapshots(
+    p: Parameters, times: ArrayLike, *, tol: float = 1e-10, initial_state: State | None = None
+) -> tuple[State, ...]:
+    """Where the system is at given times: its modal coordinates among the rest.
+
+    Parameters
+    ----------
+    p : the case
+    times : s, ascending, shape (n,); none before the initial state's
+    tol, initial_state : as of `disc_model.simulate`
+
+    Returns
+    -------
+    tuple of State
+        One a time.
+
+    Raises
+    ------
+    ParameterError
+        Times that are no ascending finite numbers, or begin too early; and as `disc_model.simulate`.
+    SimulationError
+        If the motion cannot go on to the last of them.
+    """
+    state = published_start(p) if initial_state is None else initial_state
+    wanted = np.atleast_1d(np.asarray(times, dtype=float))
+    if wanted.ndim != 1 or not np.all(np.isfinite(wanted)) or np.any(np.diff(wanted) < 0):
+        raise ParameterError(Fault(("times",), shown(times), "must be finite and ascend"))
+    if wanted.size and wanted[0] < state.time:
+        rule = f"must be >= {shown(state.time)} (the time of the initial state)"
+        raise ParameterError(Fault(("times",), shown(float(wanted[0])), rule))
+    found = []
+    for time in wanted.tolist():
+        if time > state.time:
+            state = simulate(p, time, tol=tol, initial_state=state, record=_NOTHING).raise_for_status().final_state
+        found.append(state)
+    return tuple(found)
+
+
+def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike) -> xr.DataArray:
+    """Displacement w(r, theta, t) of the whole disc, upward, Eq. (8).
+
+    Parameters
+    ----------
+    p : the case
+    states : one, or one a time, such as `snapshots` returns
+    r : m, radii from a to b, shape (n_r,)
+    theta : rad, angles fixed to the disc, shape (n_theta,); the slider starts at 0
+
+    Returns
+    -------
+    xarray.DataArray
+        In m, over time, r and theta.
+
+    Raises
+    ------
+    ParameterError
+        Radii off the disc; states of another number of modes.
+    """
+    import xarray as xr
+
+    given: Sequence[State] = [states] if isinstance(states, State) else list(states)
+    radii, angles = (np.atleast_1d(np.asarray(values, dtype=float)) for values in (r, theta))
+    modes = mode_arrays(p)
+    faults = []
+    if radii.ndim != 1 or not np.all((radii >= p.a) & (radii <= p.b)):
+        faults.append(Fault(("r",), shown(r), f"must be within a={shown(p.a)} and b={shown(p.b)}"))
+    if angles.ndim != 1 or not np.all(np.isfinite(angles)):
+        faults.append(Fault(("theta",), shown(theta), "must be finite"))
+    for i, state in enumerate(given):
+        if len(state.a) != len(modes.omega):
+            rule = f"must have {len(modes.omega)} modes, as the case, and not {len(state.a)}"
+            faults.append(Fault(("states", str(i)), "", rule))
+    if faults:
+        raise ParameterError(*faults)
+    shapes = mode_shapes(p, radii)
+    w = np.empty((len(given), len(radii), len(angles)))
+    for i, state in enumerate(given):
+        # modal coordinates are along and across the slider's direction, and the slider has come so far
+        turn = np.multiply.outer(modes.diameters, angles - (p.Omega * state.time - state.psi))
+        w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
+    coords = {
+        "time": ("time", [state.time for state in given], {"units": "s", "long_name": "time"}),
+        "r": ("r", radii, {"units": "m", "long_name": "radius"}),
+        "theta": ("theta", angles, {"units": "rad", "long_name": "angle fixed to the disc"}),
+    }
+    attrs = {"units": "m", "long_name": "displacement of the disc"}
+    return xr.DataArray(w, coords, ("time", "r", "theta"), name="w", attrs=attrs)

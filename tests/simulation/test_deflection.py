@@ -1,0 +1,73 @@
+"""The whole disc's deflection: against the engine's own samples at one point, and the plate's clamp."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from disc_model import ParameterError, Parameters, Record, Window, deflection, plate_modes, simulate, snapshots
+from disc_model.plate import mode_shapes
+
+P = Parameters(N=200, Omega=20)
+
+
+@pytest.fixture(scope="module", params=["as_published", "orthonormal"])
+def p(request: pytest.FixtureRequest) -> Parameters:
+    return P.replace(normalization=request.param)
+
+
+def test_shapes_are_the_modes_amplitudes_at_the_slider_and_nothing_at_the_clamp(p: Parameters) -> None:
+    shapes = mode_shapes(p, np.array([p.a, p.r_0, p.b]))
+    psi = plate_modes(p)["psi"].to_numpy()
+    assert shapes.shape == (5, 3)
+    assert np.allclose(shapes[:, 1], psi, rtol=1e-13)
+    # the clamp's conditions are solved to rounding, of terms that cancel
+    assert np.all(np.abs(shapes[:, 0]) < 1e-9 * np.abs(shapes[:, 2]))
+
+
+def test_it_is_what_the_engine_samples_at_a_point_fixed_to_the_disc(p: Parameters) -> None:
+    times = np.array([0.0, 0.013, 0.05, 0.2])
+    states = snapshots(p, times)
+    w = deflection(p, states, p.r_0, [0.0, 1.0])
+    assert w.dims == ("time", "r", "theta")
+    assert w.attrs["units"] == "m"
+    assert np.array_equal(w["time"], times)
+    windows = [Window(start=0, stop=0.2, rate=1000, theta=theta) for theta in (0.0, 1.0)]
+    sampled = simulate(p, 0.2, record=Record(windows=tuple(windows))).samples
+    for i, samples in enumerate(sampled):
+        there = np.searchsorted(samples["time"], times - 1e-9)
+        # pieces of a run and one whole run differ by their truncation error, 1e-10 of the motion a step
+        assert np.allclose(w[:, 0, i], samples["w_point"][there], atol=1e-9 * np.abs(samples["w_point"]).max())
+
+
+def test_the_static_disc_is_lowest_under_the_slider(p: Parameters) -> None:
+    (start,) = snapshots(p, 0.0)
+    theta = np.linspace(-np.pi, np.pi, 181)
+    w = deflection(p, start, [p.a, p.r_0], theta)
+    assert float(w.isel(r=1)[0, 90]) == pytest.approx(start.u, rel=1e-12)
+    assert np.allclose(w.isel(r=0), 0, atol=1e-9 * abs(start.u))
+    assert np.allclose(w.isel(r=1), w.isel(r=1, theta=slice(None, None, -1)).values, atol=1e-15)
+
+
+def test_snapshots_go_on_from_a_state() -> None:
+    first, second = snapshots(P, [0.1, 0.3])
+    (again,) = snapshots(P, 0.3, initial_state=first)
+    assert again.time == second.time == 0.3
+    assert np.array_equal(again.a, second.a)
+    assert np.allclose(simulate(P, 0.3).final_state.a, second.a, rtol=1e-7, atol=1e-12)
+
+
+@pytest.mark.parametrize("times", [[0.2, 0.1], [np.nan], [[0.1]], np.inf])
+def test_times_must_ascend(times: object) -> None:
+    with pytest.raises(ParameterError, match="must be finite and ascend"):
+        snapshots(P, times)  # type: ignore[arg-type]
+
+
+def test_bad_input_is_named() -> None:
+    (state,) = snapshots(P, 0.1)
+    with pytest.raises(ParameterError, match=r"times=0.05: must be >= 0.1 \(the time of the initial state\)"):
+        snapshots(P, 0.05, initial_state=state)
+    with pytest.raises(ParameterError, match=r"r=0.2: must be within a=0.044 and b=0.12; theta=nan: must be finite"):
+        deflection(P, state, 0.2, np.nan)
+    with pytest.raises(ParameterError, match=r"states.0: must have 4 modes, as the case, and not 5"):
+        deflection(P.replace(n_diameters=3), state, 0.1, 0.0)

@@ -1,0 +1,118 @@
+"""Results and states as values to hand on: files, pictures, a line of text, windows by the end of the run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from disc_model import ParameterError, Parameters, Record, State, Window, load, simulate
+from disc_model.data.dataset import DamagedFile
+from disc_model.studies.cases.schema import WindowSpec
+
+P = Parameters(N=200, Omega=50, n_diameters=1)
+
+
+def test_a_result_is_saved_and_loaded_as_its_tree(tmp_path: Path) -> None:
+    windows = (Window(last=0.02, rate=1000), Window(rate=500, envelope=5))
+    result = simulate(P, 0.05, record=Record(windows=windows))
+    result.save(tmp_path / "r.nc", ["late", "whole"])
+    assert load(tmp_path / "r.nc").identical(result.to_tree(["late", "whole"]))
+    (tmp_path / "r.nc").write_bytes((tmp_path / "r.nc").read_bytes()[:-40])
+    with pytest.raises(DamagedFile):
+        load(tmp_path / "r.nc")
+
+
+def test_a_result_is_drawn() -> None:
+    figure = simulate(P, 0.05, record=Record(windows=(Window(last=0.02, rate=1000),))).plot()
+    assert len(figure.axes) == 2
+    plt.close(figure)
+    with pytest.raises(ParameterError, match=r"record.windows: must have one window or more to be drawn"):
+        simulate(P, 0.05).plot()
+
+
+def test_values_are_shown_in_a_line() -> None:
+    result = simulate(P, 0.05)
+    assert repr(result) == (
+        f"Result(N=200 N, Omega=50 rad/s: ok at 0.05 s, no separation, {result.statistics['events']} events, 0 windows)"
+    )
+    said = repr(result.final_state)
+    assert said.startswith("State(time=0.05 s, ")
+    assert said.endswith("2 modes)")
+    assert len(said) < 140
+
+
+def test_a_state_survives_its_file_to_the_last_bit(tmp_path: Path) -> None:
+    state = simulate(P, 0.0371).final_state
+    state.save(tmp_path / "state.nc")
+    again = State.load(tmp_path / "state.nc")
+    for name in State.__dataclass_fields__:
+        assert np.array_equal(getattr(again, name), getattr(state, name)), name
+    one, other = (simulate(P, 0.06, initial_state=start).final_state for start in (state, again))
+    assert np.array_equal(one.a, other.a)
+    simulate(P, 0.01).save(tmp_path / "result.nc")
+    with pytest.raises(ParameterError, match=r"must be a file written by State\.save"):
+        State.load(tmp_path / "result.nc")
+
+
+def test_a_state_can_be_given_another_time() -> None:
+    """What the clock had lost to rounding stayed behind, and was more than the last digit of 0."""
+    state = simulate(P, 0.0371).final_state.replace(time_low=3e-18)
+    moved = state.replace(time=0)
+    assert (moved.time, moved.time_low) == (0, 0.0)
+    assert simulate(P, 0.01, initial_state=moved).status.complete
+    assert state.replace(psi=0.1).time_low == state.time_low
+
+
+def test_a_height_that_contradicts_contact_is_refused() -> None:
+    """It used to be passed over in silence: in contact the disc says where the slider is."""
+    state = simulate(P, 0.0371).final_state
+    assert state.phase != "separation"
+    with pytest.raises(ParameterError, match=r"initial_state.u=.*: must be the disc's displacement under the slider"):
+        simulate(P, 0.06, initial_state=state.replace(u=state.u + 1e-6))
+    # as far as rounding goes it may differ
+    assert simulate(P, 0.06, initial_state=state.replace(u=state.u * (1 + 1e-12))).status.complete
+    apart = state.replace(u=state.u + 1e-3, phase="separation", direction=0)
+    assert simulate(P, 0.04, initial_state=apart).status.complete
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        {"rate": 100},
+        {"last": 2, "rate": 100},
+        {"last": 20, "rate": 100},
+        {"start": 3, "rate": 100},
+        {"rate": 100, "envelope": 10},
+        {"start": 1, "stop": 2.5, "rate": 100},
+    ],
+)
+def test_windows_mean_what_they_mean_in_a_study_file(said: dict[str, float]) -> None:
+    assert Window(**said).resolved(0.0, 10.0) == WindowSpec(**said).window(10.0)
+
+
+def test_a_window_is_counted_from_the_end_of_the_run() -> None:
+    result = simulate(P, 0.05, record=Record(windows=(Window(last=0.02, rate=1000), Window(start=0.04, rate=1000))))
+    late, rest = (samples["time"] for samples in result.samples)
+    assert np.allclose(late, np.arange(0.03, 0.0505, 0.001))
+    assert np.allclose(rest, np.arange(0.04, 0.0505, 0.001))
+    assert result.record.windows[0].stop == 0.05, "the record says what was kept"
+    with pytest.raises(ParameterError, match=r"record.windows.0.start=1: must be < t_end=0.05"):
+        simulate(P, 0.05, record=Record(windows=(Window(start=1, rate=10),)))
+
+
+def test_what_is_not_said_is_not_in_the_text_of_a_window() -> None:
+    """So that the address of a case's content stays what it was."""
+    assert Window(start=0, stop=1, rate=5).model_dump() == {
+        "start": 0.0, "stop": 1.0, "rate": 5.0, "theta": 1.0, "envelope": None,
+    }  # fmt: skip
+    assert Window(last=1, rate=5).model_dump()["last"] == 1.0
+
+
+def test_a_window_beyond_memory_is_refused_before_anything_runs() -> None:
+    """It used to end in a MemoryError, or in the machine's."""
+    with pytest.raises(ParameterError, match=r"record.windows.0: must fit into memory: 8.8e\+07 GB of samples"):
+        simulate(P, 1e3, record=Record(windows=(Window(rate=1e12),)))
+    assert simulate(P, 1e-3, record=Record(windows=(Window(stop=1e9, rate=1e6),))).status.complete
