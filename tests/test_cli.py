@@ -329,7 +329,7 @@ def test_help_shows_what_there_is_to_choose_from(capsys: pytest.CaptureFixture[s
 
 
 def test_what_auto_chose_is_told(capsys: pytest.CaptureFixture[str]) -> None:
-    _, out, _ = call(capsys, "modes", "--n-diameters", "auto", "--truncation-tolerance", "0.01")
+    _, out, _ = call(capsys, "modes", "--n-diameters", "auto")
     assert out.startswith("modes chosen")
 
 

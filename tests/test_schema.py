@@ -61,9 +61,11 @@ def test_a_number_is_shown_alike_however_it_was_written(value: Any) -> None:
         (
             Window,
             WINDOW | {"Rate": 2},
-            ["Rate=2: unknown key, did you mean rate? (known: start, stop, rate, theta, envelope)"],
+            ["Rate=2: unknown key, did you mean rate? (known: start, stop, last, rate, theta, envelope)"],
         ),
-        (Window, {}, ["start: is required", "stop: is required", "rate: is required"]),
+        (Window, {}, ["rate: is required"]),
+        (Window, WINDOW | {"last": 1}, ["last=1: must not be given beside start or stop"]),
+        (Window, {"rate": 1, "last": 0}, ["last=0: must be > 0"]),
         (Poincare, {"start": -1, "theta": "inf"}, ["start=-1: must be >= 0", "theta=inf: must be finite"]),
         (Record, {"windows": [WINDOW, WINDOW | {"rate": 0}]}, ["windows.1.rate=0: must be > 0"]),
         (Record, {"windows": 3}, ["windows=3: must be a list"]),

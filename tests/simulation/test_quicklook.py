@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Record, Window, simulate
+from disc_model import ParameterError, Parameters, Record, Window, simulate
 from disc_model.simulation.quicklook import quicklook
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -27,5 +27,5 @@ def test_quicklook_marks_the_separation_and_draws_bands():
     marks = [line for line in figure.axes[1].lines if line.get_linestyle() == "--"]
     assert marks[0].get_xdata()[0] == result.first_separation
     plt.close(figure)
-    with pytest.raises(ValueError, match="no window"):
+    with pytest.raises(ParameterError, match="must have one window or more to be drawn"):
         quicklook(simulate(P, 1e-3))

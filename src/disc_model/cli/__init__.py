@@ -38,6 +38,8 @@ def _all(
 ) -> None: ...
 
 
+OF_STUDIES = ("matplotlib", "cmcrameri", "yaml", "snakemake")
+"""Modules that an installation without the extra `workflow` lacks."""
 INTERRUPTED = 130
 """What typer makes of Ctrl-C: 128 and the number of the signal, as shells do."""
 
@@ -55,6 +57,12 @@ def main(arguments: list[str] | None = None) -> NoReturn:
         code = app(args=arguments, standalone_mode=False, prog_name="python -m disc_model")
     except DiscModelError as error:
         _fail(str(error))
+    except ModuleNotFoundError as error:
+        if error.name not in OF_STUDIES:
+            raise
+        _fail(
+            f"there is no module {error.name}: pip install 'disc_model[workflow]' brings what studies and figures need"
+        )
     except Exception as error:
         if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
             raise

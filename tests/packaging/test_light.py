@@ -1,0 +1,131 @@
+"""The numerics alone: what a plain installation can do, and that what is written of versions agrees."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+import disc_model
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+EXTRAS = PROJECT["project"]["optional-dependencies"]
+MODULES = {"pyyaml": "yaml", "netcdf4": "netCDF4"}
+"""How packages are imported, where not by their name."""
+
+# Modules that a plain installation lacks cannot be imported here either.
+HIDDEN = """\
+import importlib.abc, sys
+
+class Hidden(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in MISSING:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name.partition(".")[0])
+
+sys.meta_path.insert(0, Hidden())
+"""
+USE = """\
+import disc_model as dm
+
+for name in dm.__all__:
+    getattr(dm, name)
+p = dm.Parameters(N=200, Omega=20, n_diameters=1)
+result = dm.simulate(p, 0.02, record=dm.Record(windows=(dm.Window(last=0.01, rate=1000),)))
+result.save(sys.argv[1])
+assert dm.load(sys.argv[1])["sample_0/P"].sizes["time"] == 11
+assert len(result.events) == result.statistics["events"]
+dm.deflection(p, dm.snapshots(p, [0.0, 0.01]), p.r_0, 0.0)
+dm.plate_modes(p), dm.residual_flexibility(p), dm.choose_modes(p.replace(n_diameters=4), 0.1)
+from disc_model.cli import main
+for command in (["modes"], ["run", "--N", "200", "--Omega", "20", "--t-end", "0.02"]):
+    try:
+        main(command)
+    except SystemExit as ended:
+        assert not ended.code, command
+main(["study", "my.yaml"])
+"""
+
+
+def names(requirements: list[str]) -> set[str]:
+    return {canonicalize_name(Requirement(text).name) for text in requirements} - {"disc-model"}
+
+
+def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
+    missing = sorted(MODULES.get(name, name) for name in names(EXTRAS["workflow"]))
+    code = f"MISSING = {missing}\n{HIDDEN}{USE}"
+    command = [sys.executable, "-c", code, str(tmp_path / "run.nc")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=600)
+    assert done.returncode == 2, done.stdout + done.stderr
+    assert "psi" in done.stdout
+    assert done.stderr.endswith(
+        "error: there is no module yaml: pip install 'disc_model[workflow]' brings what studies and figures need\n"
+    )
+
+
+def test_there_are_the_extras_that_the_readme_names() -> None:
+    named = set(re.findall(r"disc_model\[([\w,]+)\]", (ROOT / "README.md").read_text(encoding="utf-8")))
+    assert {extra for text in named for extra in text.split(",")} <= EXTRAS.keys()
+    assert {"workflow", "slurm", "bench", "docs"} <= EXTRAS.keys()
+
+
+def test_snakemake_is_the_version_that_the_workflow_asks_for() -> None:
+    (least,) = re.findall(r'^min_version\("([\d.]+)"\)', (ROOT / "workflow/Snakefile").read_text(), re.MULTILINE)
+    assert f"snakemake>={least}" in EXTRAS["workflow"]
+    locked = re.findall(r"^snakemake==([\d.]+)", (ROOT / "requirements.lock").read_text(), re.MULTILINE)
+    assert all(tuple(map(int, found.split("."))) >= tuple(map(int, least.split("."))) for found in locked)
+
+
+def test_what_is_required_is_locked_and_in_the_environment_of_conda() -> None:
+    wanted = names(PROJECT["project"]["dependencies"]) | names(EXTRAS["slurm"]) | names(EXTRAS["workflow"])
+    asked = {line.strip() for line in (ROOT / "requirements.in").read_text().splitlines() if line[:1] not in ("#", "")}
+    assert wanted <= {canonicalize_name(name) for name in asked}
+    conda = yaml.safe_load((ROOT / "workflow/envs/disc_model.yaml").read_text())["dependencies"]
+    jobs = wanted - {"snakemake", "snakemake-executor-plugin-slurm"}
+    assert jobs <= {canonicalize_name(name.split()[0]) for name in conda}
+
+
+def test_there_is_one_version() -> None:
+    assert PROJECT["project"]["dynamic"] == ["version"]
+    assert PROJECT["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "disc_model.__version__"}
+    cited = re.search(r"^version: (\S+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE)
+    assert cited
+    assert cited[1] == disc_model.__version__
+    released = re.findall(r"^## \[(\d\S*)\]", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert released[:1] in ([], [disc_model.__version__])
+
+
+# ---- the container
+
+CONTAINER = (ROOT / "Containerfile").read_text(encoding="utf-8")
+
+
+def test_the_container_copies_what_there_is() -> None:
+    copied = [source for line in re.findall(r"^COPY (.+)$", CONTAINER, re.MULTILINE) for source in line.split()[:-1]]
+    assert len(copied) >= 8
+    tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    for source in copied:
+        assert any(name == source or name.startswith(f"{source}/") for name in tracked), source
+
+
+@pytest.mark.parametrize("target", ["src/disc_model/workflow", "src/disc_model/config"])
+def test_the_container_has_what_the_packages_links_lead_to(target: str) -> None:
+    link = ROOT / target
+    assert link.is_symlink()
+    assert re.search(rf"^COPY {link.resolve().relative_to(ROOT)} ", CONTAINER, re.MULTILINE)
+
+
+def test_the_containers_commands_are_those_of_the_readme() -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert re.findall(r"^RUN (make.*)$", CONTAINER, re.MULTILINE) == ["make env"]
+    assert "make env" in readme
+    assert "Containerfile" in readme
+    for command in re.findall(r"^#   docker run .*disc_model (disc-model .*)$", CONTAINER, re.MULTILINE):
+        assert command in readme
