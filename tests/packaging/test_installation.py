@@ -105,7 +105,8 @@ def built(tree: Path, index: None, tmp_path_factory: pytest.TempPathFactory) -> 
 def sources(tree: Path) -> set[str]:
     """Every file of the package, from its parent folder."""
     src = tree / "src"
-    files = {path.relative_to(src).as_posix() for path in (src / "disc_model").rglob("*") if path.is_file()}
+    folders = os.walk(src / "disc_model", followlinks=True)  # the workflow and its configuration are linked to
+    files = {Path(folder, name).relative_to(src).as_posix() for folder, _, names in folders for name in names}
     return {name for name in files if "__pycache__" not in name}
 
 
@@ -119,6 +120,7 @@ def test_the_wheel_is_the_package_and_nothing_else(built: Built, tree: Path) -> 
     package = {name for name in files if name.startswith("disc_model/")}
     assert package == sources(tree)
     assert {"disc_model/py.typed", "disc_model/figures/disc_model.mplstyle"} <= package
+    assert {"disc_model/workflow/Snakefile", "disc_model/config/paper.yaml"} <= package
     assert any(name.endswith(".json") for name in package)
     [info] = {name.split("/")[0] for name in files - package}
     assert {name.removeprefix(f"{info}/") for name in files - package} == {
@@ -213,6 +215,13 @@ def test_the_command_line(installed: Installed, start: tuple[str, ...]) -> None:
     assert picture.read_bytes().startswith(b"\x89PNG")
     assert picture.stat().st_size > 10_000
     assert "psi" in installed.run(*start, "modes", "--normalization", "orthonormal")
+
+
+def test_a_study_needs_no_clone(installed: Installed) -> None:
+    installed.run("disc-model", "init", "own")
+    installed.run("disc-model", "study", "own/my_study.yaml", "-n", "--directory", "own")
+    assert "my_study" in installed.run("disc-model", "list", "studies", "own/my_study.yaml")
+    installed.run("snakemake", "-n", "--directory", "own", "-s", "own/Snakefile")
 
 
 # ---- the lock file

@@ -66,7 +66,7 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     assert done.returncode == 2, done.stdout + done.stderr
     assert "psi" in done.stdout
     assert done.stderr.endswith(
-        "error: there is no module yaml: pip install 'disc_model[workflow]' brings what studies and figures need\n"
+        "error: there is no module yaml: pip install 'disc_model[workflow]' brings all that studies need\n"
     )
 
 

@@ -74,6 +74,20 @@ def test_from_the_root_or_not_the_workflow_is_the_same(elsewhere: Path) -> None:
     for place in (ROOT / "Snakefile", ROOT / "src" / "disc_model" / "workflow" / "Snakefile"):
         done = snakemake(elsewhere, "-n", "-s", place, "--configfile", "mine.yaml")
         assert "Nothing to be done" in said(done), said(done)
+        assert "KeyError" not in said(done)
+
+
+def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
+    """What an included file makes by default is not the default: the root's made nothing, and said that all was so."""
+    (tmp_path / "mine.yaml").write_text(STUDY)
+    for place in (ROOT / "Snakefile", ROOT / "workflow" / "Snakefile"):
+        done = snakemake(tmp_path, "-n", "-s", place, "--configfile", "mine.yaml")
+        assert re.search(r"^draw_plot +1$", said(done), re.MULTILINE), said(done)
+    laid_out = tmp_path / "own"
+    command = [sys.executable, "-m", "disc_model", "init", str(laid_out)]
+    subprocess.run(command, check=True, capture_output=True, timeout=300)
+    done = snakemake(laid_out, "-n")
+    assert re.search(r"^compute_batch +13$", said(done), re.MULTILINE), said(done)
 
 
 def test_the_paper_is_the_study_if_none_is_given(tmp_path: Path) -> None:

@@ -12,6 +12,8 @@ from snakemake.logging import logger
 from snakemake.settings.types import DeploymentMethod
 from snakemake.shell import shell
 
+CONDA = DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method
+
 # The package lies beside the workflow in a clone, and round it where it is installed.
 WORKFLOW = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parent
 SOURCES = (WORKFLOW.parent / "src").resolve()
@@ -38,6 +40,16 @@ except ModuleNotFoundError as error:
         f"There is no module {error.name}: install the package disc_model with what it needs"
         " (`make env` in a clone of its repository), and use that environment's snakemake."
     ) from None
+
+# What jobs import, so that a dry run does not succeed where they cannot.
+if missing := [
+    name
+    for name in ("numba", "netCDF4", "matplotlib", "cmcrameri")
+    if not CONDA and find_spec(name) is None
+]:
+    raise WorkflowError(
+        f"There is no module {', '.join(missing)}: `pip install 'disc_model[workflow]'` brings all that jobs need."
+    )
 
 # A study named with --configfile replaces the paper's instead of being mixed with it.
 PAPER = Path("config/paper.yaml")
@@ -70,7 +82,6 @@ SCRIPTS = WORKFLOW / "scripts"
 
 # Jobs run with the interpreter that runs Snakemake, whether or not its environment is active; or with that of conda.
 OWN = f'export PATH="{Path(sys.executable).parent}:$PATH"; '
-CONDA = DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method
 FOUND = f"export PYTHONPATH={shlex.quote(str(SOURCES))}${{PYTHONPATH:+:$PYTHONPATH}}; "
 if CONDA and not SOURCES.is_dir():
     raise WorkflowError(

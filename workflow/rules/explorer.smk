@@ -9,9 +9,7 @@ EXPLORED = sorted(
     GRIDS, key=lambda study: list(QUANTITIES).index(GRIDS[study].quantity)
 )
 PICTURES = list(explorer_pictures())
-EXPLORER_PARTS = [
-    *(PACKAGE / "explorer" / "static").iterdir()
-]
+EXPLORER_PARTS = [*(PACKAGE / "explorer" / "static").iterdir()]
 
 
 rule explorer:

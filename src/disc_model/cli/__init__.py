@@ -60,9 +60,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     except ModuleNotFoundError as error:
         if error.name not in OF_STUDIES:
             raise
-        _fail(
-            f"there is no module {error.name}: pip install 'disc_model[workflow]' brings what studies and figures need"
-        )
+        _fail(f"there is no module {error.name}: pip install 'disc_model[workflow]' brings all that studies need")
     except Exception as error:
         if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
             raise

@@ -34,7 +34,7 @@ def _case_options(placeholders: dict[str, str] | None = None) -> list[inspect.Pa
         choices = _choices(field.annotation)
         option = typer.Option(
             *spellings,
-            metavar="|".join(choices) or "VALUE",
+            metavar="|".join(choices if get_origin(field.annotation) is Literal else ("VALUE", *choices)),
             autocompletion=_completing(choices),
             help=f"{field.description}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]".replace("[", r"\["),
             show_default=False,

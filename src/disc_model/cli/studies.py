@@ -49,6 +49,9 @@ if not workflow.configfiles:  # one named with --configfile replaces it
 
 
 include: str(Path(disc_model.__file__).parent / "workflow" / "Snakefile")
+
+
+workflow.default_target = "all"
 """
 
 

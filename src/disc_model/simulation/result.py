@@ -55,8 +55,8 @@ class State:
     direction : sgn(f) in slip, 0 otherwise
     psi : rad, drive point's angle ahead of the slider
     f : rad/s, the slider's angular speed over the disc
-    u, u_velocity : m, m/s, the slider's height and velocity. In rigid contact they are those of the disc under it: a start
-        with another u is refused, and u_velocity is not looked at
+    u, u_velocity : m, m/s, the slider's height and velocity. In rigid contact they are those of the disc under it: a
+        start with another u is refused, and u_velocity is not looked at
     a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
         along and across the slider's direction; b = beta = 0 for modes without nodal diameter
     known : multiplicity of the root that the phase's switch function has at this very instant (0 away from a switch)
