@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims import growth, ledger
+from disc_model.claims import ledger, measures
 from disc_model.claims.ledger import CLAIMS
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim
 from tests.claims import made_up
@@ -23,7 +23,7 @@ def told() -> xr.DataTree:
 
 @pytest.fixture(autouse=True)
 def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(growth, "cycle_of", made_up.cycle_as_told)
+    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
 
 
 NOT_HELD = {

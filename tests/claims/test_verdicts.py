@@ -13,9 +13,9 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.analysis import classify
-from disc_model.claims import disc, growth, ledger, measures, section44
-from disc_model.claims.growth import cycle_of
+from disc_model.claims import disc, ledger, measures, section44
 from disc_model.claims.ledger import CLAIMS, check_claims
+from disc_model.claims.measures import cycle_of
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Missing
 from disc_model.claims.pages import to_markdown
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
@@ -40,7 +40,7 @@ class World:
 
     def verdicts(self, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
         with monkeypatch.context() as patch:
-            patch.setattr(growth, "cycle_of", self.cycle)
+            patch.setattr(measures, "cycle_of", self.cycle)
             for name, function in self.disc.items():
                 for module in (disc, section44):
                     patch.setattr(module, name, function)
@@ -124,7 +124,7 @@ def test_the_contrary_does_not_hold(found: dict[str, dict[str, str]]) -> None:
 
 def test_a_motion_that_still_grows_has_no_steady_state(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
     """Late stretches used to be called steady because they were late."""
-    monkeypatch.setattr(growth, "cycle_of", made_up.cycle_as_told)
+    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
     cases = {name: CaseView(name, damaged(node, growing_in_the_end)) for name, node in told.children.items()}
     steady = [claim for claim in CLAIMS if any(needed.steady for needed in claim.needs.values())]
     assert len(steady) > 20
@@ -146,7 +146,7 @@ def contrary() -> xr.DataTree:
 
 
 def verdicts(monkeypatch: pytest.MonkeyPatch, cycle, tree: xr.DataTree) -> pd.DataFrame:
-    monkeypatch.setattr(growth, "cycle_of", cycle)
+    monkeypatch.setattr(measures, "cycle_of", cycle)
     return check_claims(tree, made_up.scan(0.2)).set_index("id")
 
 
@@ -162,7 +162,7 @@ def test_the_table_says_what_was_found(told: xr.DataTree, monkeypatch: pytest.Mo
 
 def test_a_scan_that_is_not_there_is_named(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
     """S41a used to say "always" of four cases."""
-    monkeypatch.setattr(growth, "cycle_of", made_up.cycle_as_told)
+    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
     table = check_claims(told).set_index("id")
     assert table.loc["S41a", "verdict"] == f"{NOT_COMPUTED}: study bonded is not among those of this run"
     table = check_claims(told, made_up.scan(np.nan)).set_index("id")
@@ -248,11 +248,11 @@ def test_growth_is_that_of_the_cycle(told: xr.DataTree) -> None:
     found = cycle_of(p)
     assert found is cycle_of(p.replace())
     case = CaseView("X", xr.DataTree(xr.Dataset(attrs={"parameters": p.canonical_json})))
-    assert growth.in_words(case) == f"growth {found.growth_rate:+.4f}/s"
+    assert measures.said_growth(case) == f"growth {found.growth_rate:+.4f}/s"
     still = CaseView("Y", xr.DataTree(xr.Dataset(attrs={"parameters": p.replace(Omega=0).canonical_json})))
-    assert growth.in_words(still) == "no stick-slip cycle"
+    assert measures.said_growth(still) == "no stick-slip cycle"
     with pytest.raises(Missing, match="no stick-slip cycle: "):
-        growth.rate(still)
+        measures.growth_rate(still)
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:
@@ -274,7 +274,7 @@ def test_the_two_normalisations_side_by_side(
             raise Missing("no stick-slip cycle")
         return made_up.cycle_as_told(p)
 
-    monkeypatch.setattr(growth, "cycle_of", cycle)
+    monkeypatch.setattr(measures, "cycle_of", cycle)
     found = ledger.compare(told, orthonormal(contrary))
     modes, cases, instead, changed = (table for _, _, table in found.sections)
     ratios = modes["ratio"].astype(float)

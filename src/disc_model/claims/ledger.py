@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.claims import disc, growth, measures, section41, section42, section43, section44
+from disc_model.claims import disc, measures, section41, section42, section43, section44
 from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Missing
 from disc_model.claims.pages import page, table_html
 from disc_model.data.dataset import markdown_table
@@ -200,7 +200,7 @@ def _first(case: CaseView) -> str:
 
 def _growth(case: CaseView) -> str:
     try:
-        return f"{growth.rate(case):+.4f}"
+        return f"{measures.growth_rate(case):+.4f}"
     except Missing:
         return "–"
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -14,6 +16,11 @@ from disc_model.analysis.classify import FEWEST, Kind, Motion, closure, irregula
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims.model import CaseView, Finding, Missing, Range, finding, undecided
 from disc_model.data.variables import EVENT_KINDS, PHASES
+from disc_model.parameters import Parameters
+
+if TYPE_CHECKING:
+    from disc_model.stability.cycle import FloquetResult
+
 
 __all__ = ["closure", "irregularity", "shortest_period"]  # beside what is defined here
 Array = NDArray[np.float64]
@@ -203,3 +210,31 @@ def slope(case: CaseView, name: str, start: float, stop: float) -> float:
     if not width.min() > 0:
         raise Missing(f"case {case.name} has no vibration in {name} from {start:g} to {stop:g} s")
     return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
+
+
+# ----------------------------------------------------------------------------------------------------
+# Growth rates of the stick-slip cycle, computed once per case and process
+
+
+@lru_cache(maxsize=256)
+def cycle_of(p: Parameters) -> FloquetResult:
+    """The stick-slip cycle near the published start, stable or not; raises `Missing` if there is none."""
+    from disc_model.stability.cycle import CycleStatus, floquet
+
+    found = floquet(p)
+    if found.status is not CycleStatus.OK:
+        raise Missing(f"no stick-slip cycle: {found.message}")
+    return found
+
+
+def growth_rate(case: CaseView) -> float:
+    """Largest growth rate of small disturbances of the case's stick-slip cycle, 1/s; raises `Missing`."""
+    return cycle_of(case.parameters).growth_rate
+
+
+def said_growth(case: CaseView) -> str:
+    """The same in words; that there is no cycle, if so."""
+    try:
+        return f"growth {growth_rate(case):+.4f}/s"
+    except Missing:
+        return "no stick-slip cycle"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from disc_model.claims import growth, measures
-from disc_model.claims.measures import first_separation, separates_at
+from disc_model.claims import measures
+from disc_model.claims.measures import first_separation, said_growth, separates_at
 from disc_model.claims.model import Cases, Claim, Finding, Needed, claim, finding
 from disc_model.plate import plate_modes
 
@@ -31,7 +31,7 @@ def quiet(cases: Cases, claim: Claim) -> Finding:
         f"{first_separation(case)}; P {early.low:.2f}..{early.high:.2f} N at first, "
         f"{late.low:.2f}..{late.high:.2f} N in the end"
     )
-    ours += f"; {growth.in_words(case)}"
+    ours += f"; {said_growth(case)}"
     small = max(early.width, late.width) < claim.bound * case["N"]
     return finding(ours, not case.separates and small and late.width <= early.width + 0.05, ELSEWHERE)
 
@@ -77,7 +77,7 @@ def when_it_separates(cases: Cases, claim: Claim) -> Finding:
 )
 def onset(cases: Cases, claim: Claim) -> Finding:
     below, above = cases["F11"], cases["F13"]
-    said = [f"{case['Omega']:g} rad/s: {first_separation(case)}, {growth.in_words(case)}" for case in (below, above)]
+    said = [f"{case['Omega']:g} rad/s: {first_separation(case)}, {said_growth(case)}" for case in (below, above)]
     return finding("; ".join(said), not below.separates and above.separates, ELSEWHERE)
 
 

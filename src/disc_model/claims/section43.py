@@ -9,8 +9,8 @@ import numpy as np
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import Kind, separation_location
-from disc_model.claims import growth, measures
-from disc_model.claims.measures import first_separation
+from disc_model.claims import measures
+from disc_model.claims.measures import first_separation, said_growth
 from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding, undecided
 from disc_model.claims.section41 import RETURNS
 from disc_model.claims.section42 import ELSEWHERE
@@ -95,7 +95,7 @@ def huge_preload(cases: Cases, claim: Claim) -> Finding:
     needs={"F16": F16, "F17": F17},
 )
 def stick_longer(cases: Cases, claim: Claim) -> Finding:
-    small, large = (growth.cycle_of(cases[name].parameters) for name in ("F16", "F17"))
+    small, large = (measures.cycle_of(cases[name].parameters) for name in ("F16", "F17"))
     ours = (
         f"sticks {100 * small.stick_fraction:.1f} % of the cycle at 50 N, {100 * large.stick_fraction:.1f} % at 200 N"
     )
@@ -137,7 +137,7 @@ def critical_speed(cases: Cases, claim: Claim) -> Finding:
 )
 def more_disc_damping(cases: Cases, claim: Claim) -> Finding:
     p = cases["F18"].parameters
-    rates = [growth.cycle_of(p.replace(D_star=value)).growth_rate for value in (0.0, 1e-5, 2e-5)]
+    rates = [measures.cycle_of(p.replace(D_star=value)).growth_rate for value in (0.0, 1e-5, 2e-5)]
     ours = ", ".join(f"{rate:+.4f}/s" for rate in rates)
     return finding(
         f"growth at N = 200 N, 10 rad/s for D* = 0, 1e-5, 2e-5 N m s: {ours}", rates[0] > rates[1] > rates[2]
@@ -159,7 +159,7 @@ def small_periodic(cases: Cases, claim: Claim) -> Finding:
     intervals = measures.release_intervals(case)
     spread = measures.irregularity(intervals)
     ours = f"{first_separation(case)}; {_range(cases, 'F16')}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
-    ours += f"; {growth.in_words(case)}"
+    ours += f"; {said_growth(case)}"
     return finding(ours, not case.separates and not _grew(cases, "F16") and spread <= claim.bound)
 
 
@@ -277,7 +277,7 @@ def disc_damping(cases: Cases, claim: Claim) -> Finding:
     names = ("S43a126", "S43a10")
     stable = [not cases[name].separates and not _grew(cases, name) for name in names]
     ours = "; ".join(
-        f"{case['Omega']:g} rad/s: {first_separation(case)}, {_range(cases, case.name)}, {growth.in_words(case)}"
+        f"{case['Omega']:g} rad/s: {first_separation(case)}, {_range(cases, case.name)}, {said_growth(case)}"
         for case in (cases[name] for name in names)
     )
     remark = "the paper does not say at which speed"
@@ -349,7 +349,7 @@ def normal_damping(cases: Cases, claim: Claim) -> Finding:
     intervals = measures.release_intervals(case)
     spread = measures.irregularity(intervals)
     ours = f"{first_separation(case)}; {_range(cases, 'F20')}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
-    ours += f"; {growth.in_words(case)}, {growth.in_words(cases['F02'])} without the damper"
+    ours += f"; {said_growth(case)}, {said_growth(cases['F02'])} without the damper"
     return finding(ours, not case.separates and not _grew(cases, "F20") and spread <= claim.bound)
 
 
@@ -397,7 +397,7 @@ def normal_stiffness(cases: Cases, claim: Claim) -> Finding:
     times = [cases[name]["first_separation"] for name in names]
     stiff = cases["S43k2e5"]
     ours = "; ".join(f"k = {cases[name]['k']:g} N/m: {first_separation(cases[name])}" for name in (*names, "S43k2e5"))
-    ours += f", {growth.in_words(stiff)}"
+    ours += f", {said_growth(stiff)}"
     ordered = bool(np.all(np.diff(times) > 0)) and not any(map(math.isnan, times))
     return finding(ours, ordered and not stiff.separates and not _grew(cases, "S43k2e5"), _between(cases["F02"]))
 
@@ -433,7 +433,7 @@ def soft_inplane(cases: Cases, claim: Claim) -> Finding:
 def inplane_stiffness(cases: Cases, claim: Claim) -> Finding:
     soft, base, stiff = (cases[name] for name in ("F22", "S43kp2e4", "S43kp2e5"))
     ours = "; ".join(
-        f"k_p = {case['k_p']:g} N/m: {first_separation(case)}, {growth.in_words(case)}" for case in (soft, base, stiff)
+        f"k_p = {case['k_p']:g} N/m: {first_separation(case)}, {said_growth(case)}" for case in (soft, base, stiff)
     )
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
     return finding(
@@ -542,13 +542,13 @@ def inplane_damping_alone(cases: Cases, claim: Claim) -> Finding:
 )
 def elasticity(cases: Cases, claim: Claim) -> Finding:
     soft, base, stiff = (cases[name] for name in ("S43E100", "F02", "S43E200"))
-    rates = [growth.rate(case) for case in (soft, base, stiff)]
+    rates = [measures.growth_rate(case) for case in (soft, base, stiff)]
     said = [
         f"{case['E'] / 1e9:g} GPa: {first_separation(case)}, growth {rate:+.4f}/s"
         for case, rate in zip((soft, base, stiff), rates, strict=True)
     ]
     low = cases["F21"]
-    low_rates = [growth.rate(low), growth.cycle_of(low.parameters.replace(E=150e9)).growth_rate]
+    low_rates = [measures.growth_rate(low), measures.cycle_of(low.parameters.replace(E=150e9)).growth_rate]
     remark = (
         f"not monotonous: at 20 rad/s the soft disc is {'stable' if rates[0] < 0 else 'unstable'}; at 11 rad/s growth "
         f"is {low_rates[0]:+.4f}/s for 100 GPa and {low_rates[1]:+.4f}/s for 150 GPa"
@@ -569,7 +569,7 @@ def elasticity(cases: Cases, claim: Claim) -> Finding:
 def quasi_periodic_at_first(cases: Cases, claim: Claim) -> Finding:
     """A second frequency of the in-plane motion, long before separation, and whether it is there to stay."""
     case = cases["F22"]
-    cycle = growth.cycle_of(case.parameters)
+    cycle = measures.cycle_of(case.parameters)
     leading = cycle.multipliers[0]
     window = measures.stretch(case, "early")
     start, stop = (float(window["time"][i]) for i in (0, -1))
@@ -681,7 +681,7 @@ def _between(case: CaseView) -> str:
 
 def _rate_or_nan(p: Parameters) -> float:
     try:
-        return growth.cycle_of(p).growth_rate
+        return measures.cycle_of(p).growth_rate
     except Missing:
         return math.nan
 
@@ -698,4 +698,4 @@ def _range(cases: Cases, name: str) -> str:
 
 
 def _separates(cases: Cases, claim: Claim, name: str) -> Finding:
-    return finding(f"{first_separation(cases[name])}; {growth.in_words(cases[name])}", cases[name].separates)
+    return finding(f"{first_separation(cases[name])}; {said_growth(cases[name])}", cases[name].separates)

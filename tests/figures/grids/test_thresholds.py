@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.colors import to_rgba
 
 from disc_model.figures.grids import thresholds
-from disc_model.figures.grids.curves import Curve
+from disc_model.figures.grids.growth_map import Curve
 from disc_model.figures.grids.kinds import Thresholds
 from disc_model.figures.grids.thresholds import threshold_chart
 from disc_model.figures.parts import BLUE, save

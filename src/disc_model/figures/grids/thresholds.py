@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from disc_model.figures import parts
-from disc_model.figures.grids.curves import DASHED, LOAD, SPEED, Curve, curves_of, draw_curve, joined, span
+from disc_model.figures.grids.growth_map import DASHED, LOAD, SPEED, Curve, curves_of, draw_curve, joined, span
 from disc_model.figures.grids.kinds import Thresholds
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, ORANGE, VERMILION, new_figure, styled
 

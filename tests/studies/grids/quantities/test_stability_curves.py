@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.grids.curves import curves_of
+from disc_model.figures.grids.growth_map import curves_of
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.schema import parse_grid
 from tests.stability.toy_map import fold_at, outside
