@@ -20,12 +20,16 @@ SOURCES = (WORKFLOW.parent / "src").resolve()
 if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
 try:
+    from disc_model.figures.cases.kinds import MODULE
     from disc_model.figures.paper.catalogue import (
         CATALOGUE,
         SECTIONS,
         STYLE,
+        caption,
+        function_of,
         label,
         module_of,
+        said_parameters,
     )
     from disc_model.data.provenance import (
         PACKAGE,
@@ -228,6 +232,30 @@ def shown_by(wildcards):
     plot = GRIDS[wildcards.study].plots.get(wildcards.plot)
     others = {} if plot is None else plot.others
     return {role: merged_file(name) for role, name in sorted(others.items())}
+
+
+def cases_of(figure):
+    plot = STUDY.plots.get(figure)
+    return list(CATALOGUE[figure].cases if plot is None else plot.cases)
+
+
+def drawn_by(figure):
+    """The module and the function that draw a figure, the options it is given, and what the figure's file says of it."""
+    if figure in STUDY.plots:
+        plot = STUDY.plots[figure]
+        said = said_parameters(STUDY.specs[plot.case].parameters)
+        return (
+            MODULE,
+            "draw",
+            plot.model_dump(),
+            f"{plot.title or figure}: {plot.case}, {said}",
+        )
+    text = caption(
+        figure,
+        {name: spec.parameters for name, spec in STUDY.specs.items()},
+        {name: spec.sections for name, spec in STUDY.specs.items()},
+    )
+    return module_of(figure), function_of(figure), CATALOGUE[figure].options, text
 
 
 def motion_file(study, key):

@@ -1,39 +1,6 @@
 # One job per figure, from the files of the cases it shows: another case's change does not draw it again.
 import json
 
-from disc_model.figures.cases.kinds import MODULE
-from disc_model.figures.paper.catalogue import (
-    SECTIONS,
-    caption,
-    function_of,
-    label,
-    said_parameters,
-)
-
-
-def cases_of(figure):
-    plot = STUDY.plots.get(figure)
-    return list(CATALOGUE[figure].cases if plot is None else plot.cases)
-
-
-def drawn_by(figure):
-    """The module and the function that draw a figure, the options it is given, and what the figure's file says of it."""
-    if figure in STUDY.plots:
-        plot = STUDY.plots[figure]
-        said = said_parameters(STUDY.specs[plot.case].parameters)
-        return (
-            MODULE,
-            "draw",
-            plot.model_dump(),
-            f"{plot.title or figure}: {plot.case}, {said}",
-        )
-    text = caption(
-        figure,
-        {name: spec.parameters for name, spec in STUDY.specs.items()},
-        {name: spec.sections for name, spec in STUDY.specs.items()},
-    )
-    return module_of(figure), function_of(figure), CATALOGUE[figure].options, text
-
 
 rule draw_figure:
     input:
