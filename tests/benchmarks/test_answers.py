@@ -12,6 +12,7 @@ from disc_model.benchmarks import answers
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome
 from disc_model.figures import benchmark as figures
+from disc_model.schema import CYCLE_TOLERANCES, limits_faults
 
 
 class Late(Method):
@@ -65,6 +66,12 @@ def test_it_is_written_and_drawn(dataset: xr.Dataset) -> None:
     assert {text.get_text() for text in figure.axes[0].texts} == {"0", "4", "8"}
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels == ["series, number of modes", "late", METHODS["series"].label]
+
+
+def test_what_is_asked_is_taken() -> None:
+    """The rule broke off at a tolerance that the search for a cycle refuses."""
+    for _, _, tolerances in answers.ANSWERS.values():
+        assert not any(limits_faults("tol", tol, CYCLE_TOLERANCES) for tol in tolerances)
 
 
 @pytest.mark.compiled

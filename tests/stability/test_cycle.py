@@ -49,6 +49,16 @@ def test_multipliers_agree_with_differences_of_the_return_map():
     assert result.growth_rate == pytest.approx(math.log(np.max(np.abs(expected))) / result.period, abs=1e-4)
 
 
+@pytest.mark.parametrize("tol", [1e-6, 1e-8])
+def test_a_rough_tolerance_finds_the_cycle(tol: float) -> None:
+    """Flights as rough as the residual asked for scattered too much to reach it: no cycle was found, of any case."""
+    found, fine = floquet(P, tol=tol), floquet(P)
+    assert found.status is CycleStatus.OK
+    assert found.residual <= tol
+    # a point off by tol has a multiplier off by about tol, and a period is 0.01 s
+    assert found.growth_rate == pytest.approx(fine.growth_rate, abs=100 * tol)
+
+
 @pytest.mark.compiled
 @pytest.mark.parametrize(
     "p",

@@ -181,6 +181,7 @@ def answers(dataset: xr.Dataset) -> Figure:
     for ax, name, letter in zip(axes, names, "abc", strict=False):
         part = dataset.isel(row=dataset["answer"].values == name)
         ax.set(xscale="log", yscale="log", xlabel=ANSWERS[name])
+        ax.margins(0.06)  # no marker cut at the edge
         ax.set_title(f"({letter})", loc="left")
         for line in dict.fromkeys(map(str, part["line"].values)):
             points = part.isel(row=part["line"].values == line)

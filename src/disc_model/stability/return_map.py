@@ -26,6 +26,9 @@ Array = NDArray[np.float64]
 PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
 
+ROUGHEST = 1e-10
+"""Tolerance of flights, whatever residual is asked for: a rougher map is too rough itself for a residual of 1e-8."""
+
 COARSE, COARSE_ORDER, COLUMNS_COARSE = 1e-9, 20, 1e-5
 """Tolerance and order of the series and tolerance of the columns where a Jacobian only has to point the right way."""
 
@@ -73,7 +76,8 @@ class ReturnMap:
         self.parameters = p
         self._case = engine_case(p)
         self.model = model = self._case.model
-        self.order, self.tolerance = series_order(tol), series_tolerance(tol)
+        flights = min(tol, ROUGHEST)
+        self.order, self.tolerance = series_order(flights), series_tolerance(flights)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
         width, n0 = len(model.force), len(model.force0)
         used = np.flatnonzero(model.shift)
