@@ -226,7 +226,7 @@ def test_a_click_shows_the_motion(shown: Page) -> None:
 def test_where_no_motion_is_stored_the_page_says_so(shown: Page) -> None:
     choose(shown, "normalization", "1")
     assert text(shown, "motion-said").startswith("No motion is stored")
-    assert shown.run("return document.getElementById('motion').hidden")
+    assert shown.run("return document.getElementById('motion').offsetHeight") == 0
     choose(shown, "Study", "line")
     assert text(shown, "motion-said").startswith("Of this quantity")
 

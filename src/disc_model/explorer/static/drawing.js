@@ -23,7 +23,11 @@ function scaleOf(dim) {
 }
 
 function ticksOf(dim, kind, first, last, at) {
-  if (kind === "linear") return roundTicks(first, last).map((x) => [x, number(x, 4)]);
+  const whole = dim.values.every(Number.isInteger);
+  if (kind === "linear")
+    return roundTicks(first, last)
+      .filter((x) => !whole || Number.isInteger(x))
+      .map((x) => [x, number(x, 4)]);
   if (kind === "log") {
     const found = [];
     for (let power = Math.floor(first); power <= Math.ceil(last); power++)

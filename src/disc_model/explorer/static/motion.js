@@ -48,7 +48,8 @@ function drawMotion() {
     return;
   }
   const dims = study.dims.filter((dim) => motion.places[dim.name] !== undefined);
-  const far = motion.exact ? "At this point" : `Nearest stored motion, at ${where(motion.places, dims)} (ring in the map)`;
+  const ring = [view.x, view.y].every((name) => motion.places[name] !== undefined) ? " (ring in the map)" : "";
+  const far = motion.exact ? "At this point" : `Nearest stored motion, at ${where(motion.places, dims)}${ring}`;
   element("motion-said").textContent = `${far}. ${study.motions.said}`;
   const { ink, width, height } = prepared(canvas);
   const { traces, samples } = study.motions;

@@ -26,10 +26,10 @@ async function chooseStudy(name) {
 
 /** After another choice of axes: a variable along both of them, the one before if it will do. */
 function chooseAxes() {
-  const { study } = view;
   if (!variablesShown().length) view.y = NONE;
   const fitting = variablesShown();
-  if (!fitting.includes(view.variable)) view.variable = fitting.find((one) => one !== study.status) ?? fitting[0];
+  const said = (one) => !one.name.endsWith("status");
+  if (!fitting.includes(view.variable)) view.variable = fitting.find(said) ?? fitting[0];
   const simulated = marks().find(([, variable, word]) => variable.name === "origin" && word === "simulation");
   view.mark = simulated ? simulated[0] : NONE;
 }
