@@ -65,7 +65,7 @@ def test_a_file_can_say_both_and_figures_of_both() -> None:
 def test_the_papers_study_asks_for_claims_and_for_its_figures() -> None:
     study = load_study(ROOT / "config" / "paper.yaml")
     assert study.claims
-    assert len(study.figures) == 29
+    assert len(study.figures) == 31
     assert set(study.figures) <= set(study.drawable)
 
 

@@ -7,10 +7,11 @@ from pathlib import Path
 
 from PIL import Image
 
+from disc_model.data.inputs import load_cases
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
 from disc_model.studies.schema import load_study
 
-SHOWN = ("fig13", "fig02", "fig03", "fig05", "fig09", "fig10", "fig14", "fig25", "fig27", "fig28", "figA1", "figA2")
+SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1"))
 OTHERS = {
     "critical_speed/figures/fig15.png": (
         "Fig. 15. Critical speed for separation against preload.",
@@ -34,6 +35,10 @@ OTHERS = {
     ),
 }
 """Figures of other studies; left out as long as they are not there."""
+FILM = (
+    "The stretch of Fig. 2b, 35 ms, slowed down about 170 times. Left: deflection of the disc from above, colours as "
+    "in Fig. B1. Right: the disc along the circle of radius r_0, and the slider; red where it has left the disc."
+)
 WIDTH = 900
 """Pixels of a figure as wide as a page; narrower ones are as much smaller."""
 PAGE = 2161
@@ -54,12 +59,22 @@ def main() -> None:
         small = shrink(args.results / f"{name}.png", args.docs / "gallery" / f"{name}.png")
         text = f"**{number_of(name)}. {CATALOGUE[name].title}.** {caption(name, parameters, windows)}"
         lines += [f"![{number_of(name)}](gallery/{small.name})", "", text, ""]
+    film(args.results.parent / "cases" / "F02.nc", args.docs / "gallery" / "film.webp")
+    lines += ["![Disc and slider in motion](gallery/film.webp)", "", f"**Disc and slider in motion.** {FILM}", ""]
     for name, (title, text) in OTHERS.items():
         source = args.results.parents[1] / name
         if source.is_file():
             small = shrink(source, args.docs / "gallery" / source.name)
             lines += [f"![{title}](gallery/{small.name})", "", f"**{title}** {text}", ""]
     (args.docs / "gallery.md").write_text("\n".join(lines), encoding="utf-8")
+
+
+def film(source: Path, target: Path) -> None:
+    """Draw the film from the file of its case."""
+    from disc_model.figures.paper import disc
+
+    (case,) = load_cases([source]).values()
+    disc.film(case, target)
 
 
 def shrink(source: Path, target: Path) -> Path:

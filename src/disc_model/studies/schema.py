@@ -244,13 +244,15 @@ def _lacking(figure: str, specs: Mapping[str, CaseSpec]) -> Iterable[tuple[str, 
             continue
         recorded = dict(specs[case].windows)
         for window in windows:
+            if window == "poincare":
+                if specs[case].poincare is None:
+                    yield case, f"needs cases.{case}.record.poincare"
+                continue
             if window not in recorded:
                 yield case, f"needs a window {window} in cases.{case}.record.windows"
                 continue
             for fault in faults_of(figure, window, recorded[window]):
                 yield case, f"cases.{case}.record.windows.{window} {fault}"
-        if not windows and specs[case].poincare is None:
-            yield case, f"needs cases.{case}.record.poincare"
 
 
 # ----------------------------------------------------------------------------------------------------

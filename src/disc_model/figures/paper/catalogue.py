@@ -40,11 +40,13 @@ class Entry(NamedTuple):
 
 
 SECTIONS = {
+    "2": "2 The model",
     "4.1": "4.1 Separation during vibration",
     "4.2": "4.2 The critical speed",
     "4.3": "4.3 Influence of parameters",
     "4.4": "4.4 Frequencies that change with time",
     "A": "Appendix",
+    "B": "Beyond the paper",
 }
 
 
@@ -53,7 +55,7 @@ def _section(section: str, case: str, title: str, what: str) -> Entry:
         "Poincare sections, one point each drive period 2π/Ω: (a) in-plane motion of the slider relative to the drive "
         f"point, (b) disc at r_0 and {{theta}}. {what}"
     )
-    return Entry(section, f"Poincare sections, {title}", text, {case: ()}, "sections.sections")
+    return Entry(section, f"Poincare sections, {title}", text, {case: ("poincare",)}, "sections.sections")
 
 
 BEFORE = (
@@ -64,10 +66,20 @@ IGNORED = f"Separation ignored. {HALVES}"
 STAGES = f"Stages: {BEFORE}"
 QUIET = f"No separation occurs. {HALVES}"
 
+AROUND = tuple(f"around{i}" for i in range(9))
+"""Windows with the disc at so many angles as nine modes need."""
 ABOVE = {"until": 120.0}
 """Histories of N = 385 N, 15.1 rad/s end where the paper's do; the run goes on for the section's sake."""
 
 CATALOGUE: Mapping[str, Entry] = {
+    "fig01": Entry(
+        "2",
+        "The model",
+        "Disc and slider: (a) from the side, with springs, dampers and preload, (b) from above, radii to scale, (c) "
+        "forces at the contact.",
+        {"F02": ()},
+        "model.schematic",
+    ),
     "fig02": Entry(
         "4.1",
         "Contact force",
@@ -207,6 +219,15 @@ CATALOGUE: Mapping[str, Entry] = {
         {"F02": ("orbit",)},
         "sections.portrait",
     ),
+    "figB1": Entry(
+        "B",
+        "The whole disc while the slider leaves it",
+        "Deflection of the disc from the plane of the disc at rest at four instants, equally far apart, from one loss "
+        "of contact to the next: (a) to (d) from above, the slider as a dot, (e) along its circle, the slider as a "
+        "square.",
+        {"F02": AROUND},
+        "disc.instants",
+    ),
 }
 
 
@@ -282,7 +303,7 @@ def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | 
 
 def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
     """What captions say of times and angles, from the windows that the figure shows."""
-    needed = [(case, name) for case, names in entry.needs.items() for name in names or ("poincare",)]
+    needed = [(case, name) for case, names in entry.needs.items() for name in names]
     shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]
     angles = " and ".join(f"{theta:g}" for theta in sorted({window.theta for _, window in shown}))
     said = {"theta": f"θ = {angles}" if angles else "a fixed θ", "zoom": "a stretch", "orbit": "a stretch of the run"}

@@ -1,0 +1,246 @@
+"""The whole disc: its deflection at some instants, and as a film. The paper has no such figure.
+
+A case records the disc at r_0 at some angles, in windows `around0`, `around1`, ... Modes without nodal circles
+are as many harmonics of the angle, so that twice their number and one of angles give each mode's share, and its shape
+the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import cmcrameri.cm as cmc
+import matplotlib as mpl
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from numpy.typing import NDArray
+
+from disc_model.data import inputs
+from disc_model.data.inputs import Missing
+from disc_model.data.variables import PHASES
+from disc_model.figures import STYLE, parts
+from disc_model.figures.parts import BLACK, DISC, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays, mode_shapes
+
+Array = NDArray[np.float64]
+SEPARATION = PHASES.index("separation")
+COLOURS = cmc.vik
+"""Of the deflection: blue below the plane of the disc at rest, red above it."""
+RADII, ANGLES = 25, 181
+"""Points across and around the disc at which it is drawn."""
+INSTANTS = 4
+"""Of the figure: equally far apart from one loss of contact to the next."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The disc and the slider in a stretch of time.
+
+    Attributes
+    ----------
+    parameters : of the case
+    time : s, shape (n,)
+    cosines, sines : m, amplitudes at r_0 of the harmonics 0, 1, ... of the disc's angle, shape (harmonics, n)
+    slider : rad, shape (n,), its angle on the disc
+    u : m, shape (n,), its height
+    phase : shape (n,), see `disc_model.data.variables.PHASES`
+    """
+
+    parameters: Parameters
+    time: Array
+    cosines: Array
+    sines: Array
+    slider: Array
+    u: Array
+    phase: NDArray[np.int8]
+
+    def deflection(self, i: int, r: Array, theta: Array) -> Array:
+        """The disc's displacement at sample i, m, at radii (k,) in m and angles (m,) in rad: shape (k, m)."""
+        shapes = mode_shapes(self.parameters, r) / mode_arrays(self.parameters).psi[:, None]
+        turns = np.arange(len(self.cosines))[:, None] * theta
+        around = self.cosines[:, i, None] * np.cos(turns) + self.sines[:, i, None] * np.sin(turns)
+        return np.asarray(shapes.T @ around)
+
+    def losses(self) -> NDArray[np.int64]:
+        """First samples of the separations that begin within the stretch."""
+        apart = (self.phase == SEPARATION).astype(int)
+        return np.flatnonzero(np.diff(apart) == 1) + 1
+
+
+def motion_of(case: xr.DataTree) -> Motion:
+    """The motion of disc and slider from the windows `around0`, ...; raises `Missing`."""
+    p = Parameters.model_validate_json(case.attrs["parameters"])
+    windows = [inputs.samples(case, f"around{j}", at_least=1) for j in range(len(_names(case)) or 1)]
+    harmonics = np.arange(p.n_diameters + 1)
+    if p.n_circles:
+        raise Missing("has modes with nodal circles, which a circle of points does not tell apart")
+    if len(windows) < 2 * len(harmonics) - 1:
+        raise Missing(f"recorded the disc at {len(windows)} angles, {2 * len(harmonics) - 1} are needed")
+    if any(not np.array_equal(window["time"].values, windows[0]["time"].values) for window in windows):
+        raise Missing("recorded the disc at other times at other angles")
+    angles = np.array([window.attrs["theta"] for window in windows])
+    turns = harmonics * angles[:, None]
+    values = np.array([window["w_point"].values for window in windows])
+    found = np.linalg.lstsq(np.hstack([np.cos(turns), np.sin(turns)[:, 1:]]), values, rcond=None)[0]
+    sines = np.vstack([np.zeros((1, values.shape[1])), found[len(harmonics) :]])
+    one = windows[0]
+    time = one["time"].values
+    slider = p.Omega * time - one["psi"].values
+    return Motion(p, time, found[: len(harmonics)], sines, slider, one["u"].values, one["phase"].values)
+
+
+def _names(case: xr.DataTree) -> list[str]:
+    return [str(name) for name in case.children if str(name).startswith("around")]
+
+
+# ----------------------------------------------------------------------------------------------------
+# The figure
+
+
+@styled
+def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """The disc from above at instants between two losses of contact, and around its circle of radius r_0."""
+    (case,) = cases.values()
+    figure = new_figure(PAGE, 4.2)
+    above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
+    discs = above.subplots(1, INSTANTS)
+    circle = around.subplots()
+    with parts.or_say_why(*discs, circle):
+        motion = motion_of(case)
+        shown = _between_losses(motion)
+        scale = _scale(motion)
+        for letter, ax, i in zip("abcd", discs, shown, strict=True):
+            mesh = _disc(ax, motion, i, scale)
+            ax.set_title(f"({letter}) {1e3 * (motion.time[i] - motion.time[shown[0]]):.1f} ms, {_phase(motion, i)}")
+        bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04)
+        bar.set_label("Deflection (mm)")
+        bar.outline.set_visible(False)
+        _circle(circle, motion, shown)
+    return figure
+
+
+def _between_losses(motion: Motion) -> list[int]:
+    """Samples equally far apart from the first loss of contact to the next; over the whole stretch without them."""
+    losses = motion.losses()
+    first, last = (losses[0], losses[1]) if losses.size > 1 else (0, motion.time.size - 1)
+    return [int(first + share * (last - first)) for share in np.arange(INSTANTS) / INSTANTS]
+
+
+def _scale(motion: Motion) -> Normalize:
+    """Of the deflection, mm: the same at all times, and 0 in its middle."""
+    edge, theta = np.array([motion.parameters.b]), np.linspace(0, 2 * np.pi, ANGLES)
+    step = max(1, motion.time.size // 50)
+    largest = max(float(np.abs(motion.deflection(i, edge, theta)).max()) for i in range(0, motion.time.size, step))
+    if not largest > 0:
+        raise Missing("did not move in around0")
+    return Normalize(-1e3 * largest, 1e3 * largest)
+
+
+def _phase(motion: Motion, i: int) -> str:
+    return PHASES[int(motion.phase[i])]
+
+
+def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
+    """The disc from above, in mm, with the slider on it."""
+    p = motion.parameters
+    r, theta = np.linspace(p.a, p.b, RADII), np.linspace(0, 2 * np.pi, ANGLES)
+    x, y = (1e3 * r[:, None] * turn(theta) for turn in (np.cos, np.sin))
+    values = 1e3 * motion.deflection(i, r, theta)
+    mesh = ax.pcolormesh(x, y, values, cmap=COLOURS, norm=scale, shading="gouraud", rasterized=True)
+    ax.add_patch(Circle((0, 0), 1e3 * p.a, fc="0.85", ec=GREY, lw=0.6))
+    ax.add_patch(Circle((0, 0), 1e3 * p.b, fc="none", ec=GREY, lw=0.6))
+    angle = motion.slider[i]
+    lost = motion.phase[i] == SEPARATION
+    place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
+    ax.plot(*place, "o", ms=5, mfc=SEPARATED if lost else SLIDER, mec=BLACK, mew=0.6)
+    ax.set_aspect("equal")
+    ax.axis("off")
+    return mesh
+
+
+def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
+    """The disc along the circle of radius r_0, and the slider, at some instants."""
+    theta = np.linspace(0, 2 * np.pi, ANGLES)
+    for i, share in zip(shown, np.linspace(1.0, 0.35, len(shown)), strict=True):
+        after = 1e3 * (motion.time[i] - motion.time[shown[0]])
+        line = 1e3 * motion.deflection(i, np.array([motion.parameters.r_0]), theta)[0]
+        ax.plot(theta, line, color=DISC, alpha=float(share), label=f"disc, {after:.1f} ms")
+        lost = motion.phase[i] == SEPARATION
+        angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
+        ax.plot(angle, height, "s", ms=5, mfc=SEPARATED if lost else SLIDER, mec=BLACK, mew=0.6, alpha=float(share))
+    ax.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
+    ax.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
+    ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
+    ax.margins(y=0.08)
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
+    ax.set_title("(e)", loc="left", x=-0.06)
+
+
+# ----------------------------------------------------------------------------------------------------
+# The film
+
+
+FILM, FILM_DPI = (6.0, 2.5), 100
+"""Size in inch, and pixels an inch."""
+
+
+def film(case: xr.DataTree, path: Path, frames: int = 70, rate: int = 12) -> None:
+    """Write the motion of disc and slider as a picture that moves.
+
+    Parameters
+    ----------
+    case : with the windows `around0`, ...
+    path : file to write, .gif or .webp
+    frames : how many, at most
+    rate : per second of the film
+
+    Raises
+    ------
+    Missing
+        If the case does not hold these windows.
+    """
+    from matplotlib.animation import FuncAnimation, PillowWriter
+
+    motion = motion_of(case)
+    step = max(1, motion.time.size // frames)
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.style.use(STYLE)
+        figure = Figure(figsize=FILM)
+        figure.set_layout_engine("none")  # panels that do not move
+        disc, circle = (figure.add_axes(box) for box in ((0.01, 0.05, 0.38, 0.9), (0.48, 0.19, 0.5, 0.68)))
+        scale = _scale(motion)
+
+        def draw(i: int) -> list[Artist]:
+            for ax in (disc, circle):
+                ax.cla()
+            _disc(disc, motion, i, scale)
+            _still(circle, motion, i, scale)
+            return [disc, circle]
+
+        animation = FuncAnimation(figure, draw, frames=range(0, motion.time.size, step), blit=False)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        animation.save(path, writer=PillowWriter(fps=rate), dpi=FILM_DPI)
+
+
+def _still(ax: Axes, motion: Motion, i: int, scale: Normalize) -> None:
+    """The circle of radius r_0 and the slider at one instant, with axes that do not move."""
+    theta = np.linspace(0, 2 * np.pi, ANGLES)
+    line = 1e3 * motion.deflection(i, np.array([motion.parameters.r_0]), theta)[0]
+    lost = motion.phase[i] == SEPARATION
+    ax.plot(theta, line, color=DISC)
+    height = 1e3 * motion.u[i]
+    ax.plot(motion.slider[i] % (2 * np.pi), height, "s", ms=7, mfc=SEPARATED if lost else SLIDER, mec=BLACK, mew=0.6)
+    ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
+    ax.set_ylim(scale.vmin, scale.vmax)
+    after = 1e3 * (motion.time[i] - motion.time[0])
+    ax.set_title(f"{after:5.1f} ms, {_phase(motion, i)}", color=SEPARATED if lost else BLACK, loc="left")

@@ -1,0 +1,223 @@
+"""The model: from the side, from above to scale, and the forces at the contact; figure 1 of the paper.
+
+The drawing of docs/model.md is the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Annulus, Arc, Circle, Rectangle
+from numpy.typing import NDArray
+
+from disc_model.figures.parts import BLACK, DISC, GREEN, PAGE, VERMILION, styled
+from disc_model.parameters import Parameters
+
+Point = tuple[float, float] | NDArray[np.float64]
+SOFT, BODY, PLATE, CLAMP = "0.45", "0.88", "#dbe9f4", "0.93"
+"""Lines that only guide the eye; the slider; the disc and its clamped middle."""
+SMALL = 8.0
+"""Size of the text that is no symbol, in points."""
+BOXES = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
+OUTER = 1.2
+"""Radius of the disc as drawn."""
+
+
+@styled
+def schematic(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """The model of a case."""
+    (case,) = cases.values()
+    return sketch(Parameters.model_validate_json(case.attrs["parameters"]))
+
+
+def sketch(p: Parameters) -> Figure:
+    """The model with the radii of a case."""
+    figure = Figure(figsize=(PAGE, 0.97 * PAGE))
+    figure.set_layout_engine("none")  # the boxes are given
+    axes = [figure.add_axes(box) for box in BOXES]
+    _side(axes[0])
+    _above(axes[1], p)
+    _forces(axes[2])
+    for ax in axes:
+        ax.set_aspect("equal")
+        ax.axis("off")
+    return figure
+
+
+# ----------------------------------------------------------------------------------------------------
+# Panels
+
+
+def _side(ax: Axes) -> None:
+    """Along the circle of radius r_0, unrolled; the gap is open to show u and w apart."""
+    x = np.linspace(-2.5, 4.4, 300)
+
+    def surface(at: NDArray[np.float64] | float) -> NDArray[np.float64]:
+        return np.asarray(0.22 * np.sin(1.15 * np.asarray(at) + 0.55))
+
+    ax.plot(x, surface(x), color=DISC, lw=2.5)
+    ax.axhline(0, color=SOFT, lw=0.8, ls="--")
+    ax.text(-2.45, 0.08, "disc at rest, no load", color=SOFT, va="bottom", fontsize=SMALL)
+    ax.text(3.35, -0.5, r"disc, $w(r_0, \theta, t)$", color=DISC)
+    bottom = 0.55
+    ax.add_patch(Rectangle((-0.4, bottom), 0.8, 0.55, fc=BODY, ec=BLACK, lw=1.3))
+    ax.text(0, bottom + 0.275, "$m$", ha="center", va="center")
+    ax.plot([0, 0], [float(surface(0)), bottom], color=SOFT, lw=0.8, ls=":")
+    # heights, measured from the plane of the disc at rest, at the slider's place
+    _arrow(ax, (-0.75, 0), (-0.75, bottom), "$u$", (-0.16, 0), VERMILION)
+    ax.plot([-0.85, -0.4], [bottom, bottom], color=VERMILION, lw=0.7)
+    _arrow(ax, (0.18, 0), (0.18, float(surface(0.12))), "$w$", (0.2, -0.01), DISC, "->")
+    # vertical branch
+    top = 2.15
+    _wall(ax, (-0.6, top), (0.6, top), (0.12, 0.15))
+    _spring(ax, (-0.2, bottom + 0.55), (-0.2, top))
+    _damper(ax, (0.2, bottom + 0.55), (0.2, top))
+    ax.text(-0.47, 1.63, "$k$", ha="center")
+    ax.text(0.5, 1.63, "$c$", ha="center")
+    _arrow(ax, (1.0, 2.3), (1.0, 1.8), "preload $N$", (0.62, 0.02))
+    # in-plane branch
+    drive = 2.6
+    _wall(ax, (drive, 0.5), (drive, 1.15), (0.13, 0.12))
+    _spring(ax, (0.4, 0.97), (drive, 0.97), width=0.08)
+    _damper(ax, (0.4, 0.68), (drive, 0.68), width=0.08)
+    ax.text(1.5, 1.16, "$k_p$", ha="center")
+    ax.text(1.85, 0.44, "$c_p$", ha="center", va="center")
+    _arrow(ax, (drive + 0.2, 1.3), (drive + 0.95, 1.3), r"drive point, $r_0\,\Omega$", (0.15, 0.2))
+    _arrow(ax, (-0.4, 1.3), (-1.15, 1.3), style="<|-", colour=VERMILION)
+    ax.text(-1.25, 1.3, r"$r_0\,\dot\varphi = r_0\,f$", ha="right", va="center", color=VERMILION)
+    _arrow(ax, (0, -0.55), (drive, -0.55), r"$r_0\,\psi$", (-0.4, -0.17), GREEN, "<|-|>")
+    for place in (0.0, drive):
+        ax.plot([place, place], [-0.65, -0.1], color=GREEN, lw=0.7)
+    _arrow(ax, (-2.4, -0.55), (-1.5, -0.55), r"$\theta$", (0.6, 0))
+    ax.set(xlim=(-2.6, 4.6), ylim=(-0.85, 2.45))
+    ax.set_title("(a) from the side, along the circle of radius $r_0$", loc="left")
+
+
+def _above(ax: Axes, p: Parameters) -> None:
+    """From above: radii, to scale, and angles."""
+    a, b, r_0 = (radius * OUTER / p.b for radius in (p.a, p.b, p.r_0))
+    ax.add_patch(Annulus((0, 0), b, b - a, fc=PLATE, ec=DISC, lw=1.5))
+    ax.add_patch(Circle((0, 0), a, fc=CLAMP, ec=DISC, lw=1.5))
+    ax.add_patch(Circle((0, 0), r_0, fc="none", ec=SOFT, lw=0.8, ls="--"))
+    phi, ahead, fixed = np.radians(38), np.radians(92), np.radians(-32)
+    ax.plot([0, 1.55], [0, 0], color=BLACK, lw=0.8)
+    for angle, colour in ((phi, VERMILION), (ahead, BLACK)):
+        ax.plot(*np.transpose([(0, 0), _at(angle, 1.38)]), color=colour, lw=0.9)
+    ax.add_patch(Circle(tuple(_at(phi, r_0)), 0.075, fc=BODY, ec=BLACK, lw=1.3, zorder=5))
+    _write(ax, _at(phi, r_0), "$m$", fontsize=SMALL, zorder=6)
+    ax.plot(*_at(ahead, r_0), "o", color=BLACK, ms=5, zorder=5)
+    _write(ax, _at(ahead, 1.45, (0.05, 0)), r"drive point, $\Omega t$", va="baseline")
+    _write(ax, _at(phi, 1.42, (0.16, 0.02)), "slider", va="baseline", color=VERMILION)
+    _angle(ax, 0.0, phi, r"$\varphi$", VERMILION)
+    _angle(ax, phi, ahead, r"$\psi$", GREEN)
+    ax.plot(*_at(fixed, r_0), "x", color=BLACK, ms=7)
+    place = _at(fixed, 1.3, (0.38, -0.06))
+    _write(ax, place, "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
+    ax.text(1.62, 0, r"$\theta = 0$", va="center", fontsize=SMALL)
+    for degrees, radius, text in ((170, a, "$a$"), (212, r_0, "$r_0$"), (250, b, "$b$")):
+        angle = np.radians(degrees)
+        _arrow(ax, (0, 0), _at(angle, radius), style="->")
+        _write(ax, _at(angle, 0.6 * radius, 0.1 * _at(angle - np.pi / 2, 1)), text)
+    ax.text(-1.72, 1.25, "clamped at $a$,\nfree at $b$", fontsize=SMALL)
+    ax.set(xlim=(-1.75, 2.05), ylim=(-1.3, 1.7))
+    ax.set_title(f"(b) from above: a = {_mm(p.a)}, $r_0$ = {_mm(p.r_0)}, b = {_mm(p.b)} mm", loc="left")
+
+
+def _forces(ax: Axes) -> None:
+    """Free bodies: the slider, and the disc under it."""
+    ax.add_patch(Rectangle((-0.45, 0.55), 0.9, 0.6, fc=BODY, ec=BLACK, lw=1.3))
+    ax.text(0, 0.85, "$m$", ha="center", va="center")
+    _arrow(ax, (-0.12, 2.0), (-0.12, 1.15), "$N + k\\,(u - u_0) + c\\,\\dot u$", (0.12, 0.58))
+    _arrow(ax, (0, 0.02), (0, 0.55), "$P$", (0.2, -0.02), VERMILION)
+    _arrow(ax, (0.45, 0.93), (1.3, 0.93), "$r_0\\,F$", (0.1, 0.2), GREEN)
+    _arrow(ax, (-0.45, 0.62), (-1.3, 0.62), colour=VERMILION)
+    ax.text(-0.9, 0.86, "slip: $\\mu_k P$", ha="center", color=VERMILION, fontsize=SMALL)
+    _arrow(ax, (-1.25, 1.5), (-0.65, 1.5), "$f > 0$", (0.0, 0.17))
+    x = np.linspace(-1.5, 1.5, 100)
+    level = -0.62
+    ax.plot(x, level + 0.2 * x - 0.05 * x**2, color=DISC, lw=2.5)
+    ax.plot([-1.5, 1.5], [level, level], color=SOFT, lw=0.8, ls="--")
+    _arrow(ax, (0, level + 0.53), (0, level), "$P$", (0.2, 0.03), VERMILION)
+    ax.text(1.45, level + 0.36, "slope $B / r_0$", ha="right", color=DISC)
+    ax.set(xlim=(-1.65, 1.65), ylim=(-0.95, 2.35))
+    ax.set_title("(c) forces at the contact", loc="left")
+
+
+# ----------------------------------------------------------------------------------------------------
+# Strokes
+
+
+def _at(angle: float, radius: float, aside: Point = (0.0, 0.0)) -> NDArray[np.float64]:
+    return radius * np.array([np.cos(angle), np.sin(angle)]) + aside
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:g}"
+
+
+def _arrow(
+    ax: Axes,
+    start: Point,
+    end: Point,
+    text: str = "",
+    offset: Point = (0.0, 0.0),
+    colour: str = BLACK,
+    style: str = "-|>",
+) -> None:
+    """An arrow from `start` to `end`, with a text at its middle, moved by `offset`."""
+    look = {"arrowstyle": style, "color": colour, "lw": 1.5, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", tuple(end), tuple(start), arrowprops=look)
+    if text:
+        middle = 0.5 * (np.array(start) + np.array(end)) + offset
+        _write(ax, middle, text, color=colour)
+
+
+def _write(ax: Axes, place: Point, text: str, **look: Any) -> None:
+    """A text centred at a point."""
+    ax.text(float(place[0]), float(place[1]), text, ha="center", va=look.pop("va", "center"), **look)
+
+
+def _angle(ax: Axes, low: float, high: float, text: str, colour: str, radius: float = 0.72) -> None:
+    """An arc with an arrow, from one angle to another."""
+    wide = 2 * radius
+    ax.add_patch(Arc((0, 0), wide, wide, theta1=np.degrees(low), theta2=np.degrees(high) - 6, color=colour, lw=1.5))
+    _arrow(ax, _at(high - 0.11, radius), _at(high, radius), colour=colour)
+    _write(ax, _at((low + high) / 2, radius + 0.13), text, color=colour, fontsize=13)
+
+
+def _spring(ax: Axes, start: Point, end: Point, coils: int = 5, width: float = 0.1) -> None:
+    """A zigzag between two points."""
+    places = np.concatenate([[0, 0.2], np.linspace(0.2, 0.8, 2 * coils + 1)[1:-1], [0.8, 1]])
+    swings = np.concatenate([[0, 0], [(-1) ** i for i in range(2 * coils - 1)], [0, 0]])
+    ax.plot(*_beside(start, end, places, width * swings), color=BLACK, lw=1.2)
+
+
+def _damper(ax: Axes, start: Point, end: Point, width: float = 0.1) -> None:
+    """A cup and a piston between two points."""
+    for along, side in (
+        ((0, 0.35), (0, 0)),
+        ((0.7, 0.35, 0.35, 0.7), (1, 1, -1, -1)),
+        ((0.55, 0.55), (-0.7, 0.7)),
+        ((0.55, 1), (0, 0)),
+    ):
+        ax.plot(*_beside(start, end, np.array(along), width * np.array(side)), color=BLACK, lw=1.2)
+
+
+def _beside(start: Point, end: Point, along: NDArray[np.float64], side: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points at shares of the way between two points and distances to its left, shape (2, n)."""
+    first, way = np.asarray(start, dtype=float), np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
+    left = np.array([-way[1], way[0]]) / np.hypot(*way)
+    return np.asarray(first[:, None] + way[:, None] * along + left[:, None] * side)
+
+
+def _wall(ax: Axes, start: Point, end: Point, depth: Point) -> None:
+    """A line with hatching on the side of `depth`, a vector."""
+    ax.plot(*np.transpose([start, end]), color=BLACK, lw=1.5)
+    for share in np.linspace(0, 1, 9):
+        foot = np.array(start) + share * (np.array(end) - np.array(start))
+        ax.plot(*np.transpose([foot, foot + depth]), color=BLACK, lw=0.8)
