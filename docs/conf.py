@@ -24,7 +24,7 @@ root_doc = "index"
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "force"  # a change of the package changes what cells print
-nb_execution_timeout = 120
+nb_execution_timeout = 600  # kernels may have to be compiled first, on a machine that does other things too
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 

@@ -51,6 +51,12 @@ def test_messages_of_points(contents):
     assert (said != "").sum() == 1
 
 
+def test_what_does_not_vary_is_told_with_its_unit(contents):
+    assert contents["fixed"] == [
+        {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
+    ]
+
+
 def test_a_zip_is_one_dimension_of_words():
     (dim,) = study_contents("line", made_up.line())["dims"]
     assert dim["values"][0] == "N = 100, Omega = 20"

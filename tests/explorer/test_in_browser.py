@@ -172,6 +172,12 @@ def test_flags_have_their_colours(shown: Page) -> None:
     assert "stable" in text(shown, "legend")
 
 
+def test_what_does_not_vary_is_listed(shown: Page) -> None:
+    shown.run("document.getElementById('fixed').parentElement.open = true")
+    assert text(shown, "fixed").startswith("k: ")
+    assert text(shown, "fixed").endswith("50000 N m⁻¹")
+
+
 def test_a_point_that_failed_says_so(shown: Page) -> None:
     shown.point(*centre(shown, made_up.FAILED["Omega"], made_up.FAILED["N"]), click=True)
     assert text(shown, "message") == f"failed: {made_up.MESSAGE}"

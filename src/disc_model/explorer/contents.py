@@ -12,6 +12,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from disc_model.data.variables import attributes
+
 TRACES = ("P", "u", "psi")
 LEVELS = 65535
 """Steps between the least and the greatest value of a stored history."""
@@ -29,8 +31,8 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
 
     Returns
     -------
-    dict with the dimensions, each variable that lies along one (numbers as 32-bit floats of `BITS`, flags as bytes with
-    their words), messages, and motions.
+    dict with the parameters that do not vary, the dimensions, each variable that lies along one (numbers as 32-bit
+    floats of `BITS`, flags as bytes with their words), messages, and motions.
     """
     dims = [_dimension(study, str(dim)) for dim in study.sizes]
     order = [dim["name"] for dim in dims]
@@ -39,8 +41,7 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
-        "quantity": str(study.attrs.get("quantity", "")),
-        "fixed": json.loads(str(study.attrs.get("base", "{}"))),
+        "fixed": [_fixed(name, value) for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()],
         "dims": dims,
         "variables": variables,
         "messages": None if said is None else _messages(said, order),
@@ -98,6 +99,12 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
 
 def _shown(variable: xr.DataArray) -> bool:
     return variable.ndim > 0 and variable.dtype.kind in "biuf"
+
+
+def _fixed(name: str, value: Any) -> dict[str, Any]:
+    """A parameter that does not vary."""
+    described = attributes(name)
+    return {"name": name, "title": described["long_name"], "unit": described["units"], "value": value}
 
 
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:

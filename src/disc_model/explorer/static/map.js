@@ -91,9 +91,7 @@ function colourBar(ink, box, colours) {
     const align = share === 0 ? "left" : share === 1 ? "right" : "center";
     write(ink, number(colours.value(share), 2), box.left + share * size, box.bottom + 5, align, "top");
   }
-  const variable = view.variable;
-  write(ink, withUnit(variable.name, NONE) + (unitOf(variable.unit) ? ` (${unitOf(variable.unit)})` : ""),
-    box.left, box.top - 4, "left", "alphabetic");
+  write(ink, heading(view.variable), box.left, box.top - 4, "left", "alphabetic");
 }
 
 /** The chosen cell in a frame, a ring where the motion that is shown was computed. */

@@ -56,15 +56,19 @@ function showPoint() {
   const message = messageAt(study, place);
   const status = study.status ? shown(study, study.status, place) : "ok";
   element("message").textContent = status === "ok" ? message : `${status}: ${message}`;
-  const rows = study.variables.map((one) => {
+  fillTable("values", study.variables.map((one) => [one, shown(study, one, place)]));
+  fillTable("fixed", study.fixed.map((one) => [one, withUnit(number(one.value), one.unit)]));
+}
+
+function fillTable(id, rows) {
+  const filled = rows.map(([one, text]) => {
     const row = document.createElement("tr");
-    for (const [tag, text] of [["th", `${one.name}: ${one.title}`], ["td", shown(study, one, place)]]) {
-      const cell = document.createElement(tag);
-      if (tag === "th") cell.scope = "row";
-      cell.textContent = text;
-      row.append(cell);
-    }
+    const [head, cell] = ["th", "td"].map((tag) => document.createElement(tag));
+    head.scope = "row";
+    head.textContent = `${one.name}: ${one.title}`;
+    cell.textContent = text;
+    row.append(head, cell);
     return row;
   });
-  element("values").replaceChildren(...rows);
+  element(id).replaceChildren(...filled);
 }
