@@ -103,22 +103,28 @@ def slider_at_rest_frequencies(p: Parameters) -> Array:
 
     Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an amplitude
     under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Shape
-    (number of real modes,).
+    (number of real modes,). Contact is the paper's, rigid, whatever the case says.
     """
     modes = mode_arrays(p)
     coupled = coupled_frequencies(modes.omega, modes.psi, p.m, p.k)
     return np.sort(np.concatenate([coupled, modes.omega[modes.diameters > 0]]))
 
 
-def coupled_frequencies(omega: Array, psi: Array, m: float, k: float) -> Array:
-    """Frequencies of disc and attached slider at rest that the slider takes part in, rad/s, ascending, (n,).
+def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, give: float = 0.0) -> Array:
+    """Frequencies of disc and attached slider at rest that the slider takes part in, rad/s, ascending.
 
     Parameters
     ----------
     omega, psi : rad/s and kg^-1/2, shape (n,), as in `plate_modes`
     m, k : kg and N/m, of the slider
+    give : m/N, of the contact
+
+    Returns
+    -------
+    shape (n,); (n + 1,) on a compliant contact
     """
-    inverse_squares = linalg.eigh(*_coupling(omega, psi, m, k), eigvals_only=True)
+    matrices = _coupling(omega, psi, m, k) if give == 0 else _compliant_coupling(omega, psi, m, k, give)
+    inverse_squares = linalg.eigh(*matrices, eigvals_only=True)
     return np.sort(1 / np.sqrt(inverse_squares))
 
 
@@ -136,6 +142,14 @@ def _coupling(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Arra
     phi = psi / omega
     mass = np.diag(omega**-2) + m * np.outer(phi, phi)
     stiffness = np.eye(omega.size) + k * np.outer(phi, phi)
+    return mass, stiffness
+
+
+def _compliant_coupling(omega: Array, psi: Array, m: float, k: float, give: float) -> tuple[Array, Array]:
+    """As `_coupling`; the last coordinate is u over the square root of the contact's compliance."""
+    stretch = np.append(psi / omega / np.sqrt(give), -1.0)
+    mass = np.diag(np.append(omega**-2, m * give))
+    stiffness = np.diag(np.append(np.ones(omega.size), k * give)) + np.outer(stretch, stretch)
     return mass, stiffness
 
 

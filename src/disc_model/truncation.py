@@ -1,5 +1,8 @@
 """How many modes a case needs: the fewest whose coupled frequencies meet a tolerance.
 
+With ``contact_compliance="residual"`` every candidate has the flexibility of the modes that it leaves out, and so has
+the model compared with.
+
 Study files and the command line may say ``n_diameters: auto``; `read_parameters` makes `Parameters` of that.
 `disc_model.benchmarks.truncation` measures what the choice does to everything else.
 """
@@ -15,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.schema import number, shown
@@ -93,13 +97,14 @@ def choose_modes(
     size = {"n_diameters": rich[0], "n_circles": rich[1]}
     p = case.replace(**size) if isinstance(case, Parameters) else Parameters.model_validate({**case, **size})
     modes = mode_arrays(p)
-    right, top = coupled_frequencies(modes.omega, modes.psi, p.m, p.k), band * float(modes.omega.min())
+    right, top = _frequencies(p), band * float(modes.omega.min())
     candidates = sorted((real_modes(d, c), c, d) for d in range(rich[0] + 1) for c in range(rich[1] + 1))
     for count, circles, diameters in candidates[:-1]:
         kept = (modes.circles <= circles) & (modes.diameters <= diameters)
-        error = _worst(coupled_frequencies(modes.omega[kept], modes.psi[kept], p.m, p.k), right, top)
+        chosen = p.replace(n_diameters=diameters, n_circles=circles)
+        mine = coupled_frequencies(modes.omega[kept], modes.psi[kept], p.m, p.k, contact_give(chosen))
+        error = _worst(mine, right, top)
         if error <= tolerance:
-            chosen = p.replace(n_diameters=diameters, n_circles=circles)
             return ModeChoice(chosen, tolerance, error, count, rich, band)
     raise DiscModelError(f"tolerance={tolerance:g}: no model up to {rich} (diameters, circles) meets it; enlarge rich")
 
@@ -172,8 +177,13 @@ def frequency_error(p: Parameters, rich: Parameters, band: float = BAND) -> floa
     The band reaches up to ``band`` times the disc's lowest frequency.  A frequency of ``rich`` that ``p`` lacks counts
     as an error of 1.
     """
-    mine, right = (coupled_frequencies(modes.omega, modes.psi, p.m, p.k) for modes in map(mode_arrays, (p, rich)))
-    return _worst(mine, right, band * float(mode_arrays(rich).omega.min()))
+    return _worst(_frequencies(p), _frequencies(rich), band * float(mode_arrays(rich).omega.min()))
+
+
+def _frequencies(p: Parameters) -> np.ndarray:
+    """Coupled frequencies of a case under its own law of contact, rad/s."""
+    modes = mode_arrays(p)
+    return coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_give(p))
 
 
 def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:

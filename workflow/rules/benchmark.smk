@@ -14,11 +14,13 @@ BENCH_FIGURES = [
     *(f"work_precision_{scene}" for scene in SCENES),
     "failure_maps",
     "truncation",
+    "contact_truncation",
     "answers",
 ]
 BENCH_INPUTS = {
     "answers": f"{BENCH}/answers.nc",
     "truncation": f"{BENCH}/truncation.nc",
+    "contact_truncation": f"{BENCH}/contact_truncation.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
 }
 BENCH_DATA = [
@@ -93,16 +95,19 @@ rule map_failures:
 
 rule study_truncation:
     output:
-        f"{BENCH}/truncation.nc",
+        f"{BENCH}/{{truncation}}.nc",
     log:
-        f"{BENCH}/logs/study_truncation.log",
+        f"{BENCH}/logs/study_{{truncation}}.log",
+    wildcard_constraints:
+        truncation="truncation|contact_truncation",
     conda:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
         sources=sources_of("study_truncation"),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/study_truncation.py {output} > {log} 2>&1"
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/study_truncation.py"
+        " {wildcards.truncation} {output} > {log} 2>&1"
 
 
 rule draw_benchmark:

@@ -23,6 +23,8 @@ def draw(name: str, paths: list[Path]) -> Figure:
         return benchmark.overview(datasets[0])
     if name == "answers":
         return benchmark.answers(datasets[0])
+    if name == "contact_truncation":
+        return benchmark.contact_truncation(datasets[0])
     if name == "truncation":
         return benchmark.truncation(datasets[0])
     return benchmark.failure_maps(datasets)
@@ -30,7 +32,9 @@ def draw(name: str, paths: list[Path]) -> Figure:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("name", help="overview, work_precision_<scene>, failure_maps, truncation or answers")
+    parser.add_argument(
+        "name", help="overview, work_precision_<scene>, failure_maps, truncation, contact_truncation or answers"
+    )
     parser.add_argument("inputs", nargs="+", type=Path, help="netCDF files")
     parser.add_argument("--out", action="append", required=True, help="file to write, .pdf or .png; may be repeated")
     args = parser.parse_args()

@@ -2,6 +2,7 @@
 
 `truncation_study` measures, for both normalisations, coupled frequencies, the growth rate of the stick-slip cycle, the
 first separation, the range of the contact force and what a plastic impact does, with the cost beside them.
+`contact_study` measures what of that residual flexibility changes, and what comes after the separation.
 
 What `truncation_study` found:
 
@@ -29,12 +30,14 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+import time
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.simulation.api import simulate
@@ -114,6 +117,104 @@ def truncation_study(
             "band": BAND,
         },
     )
+
+
+MODELS = ((4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2), (16, 4))
+"""Diameters and circles."""
+SEPARATING: dict[str, dict[str, Any]] = {
+    "as published, N=385, Omega=15.1": {"N": 385.0, "Omega": 15.1},
+    "orthonormal, N=600, Omega=30": {"N": 600.0, "Omega": 30.0, "normalization": "orthonormal"},
+    "orthonormal, N=800, Omega=30": {"N": 800.0, "Omega": 30.0, "normalization": "orthonormal"},
+    "orthonormal, N=200, Omega=50": {"N": 200.0, "Omega": 50.0, "normalization": "orthonormal"},
+}
+CONTACTS: dict[str, dict[str, Any]] = {"rigid": {}, "residual": {"contact_compliance": "residual"}}
+LATE = (5.0, 5.0)
+"""s from the first separation to the late stretch that is looked at, and the stretch itself."""
+MOST_GROWTH = 80
+"""Growth rates take a column for each of four coordinates of every pair: with more real modes they are left out."""
+CONTACT_VARIABLES = {
+    "modes": ("1", "number of real modes"),
+    "contact_compliance": ("m N-1", "compliance of the contact"),
+    "lowest_coupled": ("rad s-1", "lowest frequency of disc and slider at rest"),
+    "frequency_error": ("1", "largest relative error of the coupled frequencies in the band"),
+    "growth_rate": ("s-1", "growth rate of the stick-slip cycle"),
+    "first_separation": ("s", "first separation"),
+    "separations": ("s-1", "separations per second, late"),
+    "separated_share": ("1", "share of the time spent separated, late"),
+    "u_range": ("m", "range of the slider's height, late"),
+    "force_max_separating": ("N", "greatest contact force, late"),
+    "cost": ("1", "processor time per simulated second before the first separation"),
+    "cost_separating": ("1", "the same, late"),
+}
+
+
+def contact_study(
+    models: Sequence[tuple[int, int]] = MODELS,
+    cases: Mapping[str, Mapping[str, Any]] | None = None,
+    *,
+    horizon: float = 200.0,
+) -> xr.Dataset:
+    """Measure everything of `CONTACT_VARIABLES` along (case, contact, model); nan where there is none."""
+    named = SEPARATING if cases is None else cases
+    shape = (len(named), len(CONTACTS), len(models))
+    data = {name: np.full(shape, math.nan) for name in CONTACT_VARIABLES}
+    for i, case in enumerate(named.values()):
+        for j, contact in enumerate(CONTACTS.values()):
+            for k, (diameters, circles) in enumerate(models):
+                p = Parameters(**case, **contact, n_diameters=diameters, n_circles=circles)
+                for name, value in _through_separation(p, horizon).items():
+                    data[name][i, j, k] = value
+    dims = ("case", "contact", "model")
+    return xr.Dataset(
+        {
+            name: (dims, data[name], {"units": unit, "long_name": text})
+            for name, (unit, text) in CONTACT_VARIABLES.items()
+        },
+        coords={"case": list(named), "contact": list(CONTACTS), "model": [f"{d},{c}" for d, c in models]},
+        attrs={
+            "Conventions": "CF-1.11",
+            "title": "What residual flexibility changes",
+            "cases": json.dumps(dict(named), sort_keys=True),
+            "compared_with": json.dumps(RICH),
+            "band": BAND,
+            "late": json.dumps(LATE),
+        },
+    )
+
+
+def _through_separation(p: Parameters, horizon: float) -> dict[str, float]:
+    """A row of `contact_study`."""
+    modes, give = mode_arrays(p), contact_give(p)
+    count = real_modes(p.n_diameters, p.n_circles)
+    row = {
+        "modes": float(count),
+        "contact_compliance": give,
+        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k, give)[0]),
+        "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
+        "growth_rate": _growth_rate(p) if count <= MOST_GROWTH else math.nan,
+    }
+    quiet = Record(events=False)
+    simulate(p, 1e-3, record=quiet)  # compiles
+    began = time.process_time()
+    first = simulate(p, horizon, stop_at="first_separation", record=quiet)
+    row["cost"] = (time.process_time() - began) / first.final_state.time
+    if not math.isfinite(first.first_separation):
+        return row
+    start = simulate(p, first.first_separation + LATE[0], initial_state=first.final_state, record=quiet).final_state
+    began = time.process_time()
+    plain = simulate(p, start.time + LATE[1], initial_state=start, record=quiet)
+    row["cost_separating"] = (time.process_time() - began) / LATE[1]
+    window = Window(start=start.time, stop=start.time + LATE[1], rate=20_000.0, envelope=100)
+    seen = simulate(
+        p, start.time + LATE[1], initial_state=start, record=Record(events=False, windows=(window,))
+    ).samples[0]
+    return row | {
+        "first_separation": first.first_separation,
+        "separations": plain.statistics["separations"] / LATE[1],
+        "separated_share": plain.statistics["time_separation"] / LATE[1],
+        "u_range": float(seen["u_max"].max() - seen["u_min"].min()),
+        "force_max_separating": float(seen["P_max"].max()),
+    }
 
 
 def _measure(normalization: str, diameters: int, circles: int, horizon: float, growth: bool) -> dict[str, float]:

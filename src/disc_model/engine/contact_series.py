@@ -82,11 +82,14 @@ def _weight(model, s, k):
 
 @inlined
 def _leverage(s, k):
-    """Order k of beta R without beta_0 R_k."""
-    h = 0.0
-    for j in range(1, k + 1):
-        h += s.slider[SLOPE_SERIES + j] * s.slider[P_ + k - j]
-    return h
+    """Order k of beta R without beta_0 R_k.  In two sums, so that neither waits for the other."""
+    odd, even = 0.0, 0.0
+    for j in range(1, k, 2):
+        odd += s.slider[SLOPE_SERIES + j] * s.slider[P_ + k - j]
+        even += s.slider[SLOPE_SERIES + j + 1] * s.slider[P_ + k - j - 1]
+    if k % 2 == 1:
+        odd += s.slider[SLOPE_SERIES + k] * s.slider[P_]
+    return odd + even
 
 
 @inlined
@@ -114,25 +117,27 @@ def compliant_slip_series(model, s, order, direction):
 
     Fills ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``.
     """
-    width, give, friction = lane_count(model), give_of(model.give), direction * model.mu_k
-    f0, ratio, beta, V, impulse = s.slider[F], 1.0, 0.0, 0.0, 0.0
+    width, stiffness, friction = lane_count(model), 1.0 / give_of(model.give), direction * model.mu_k
+    lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
+    f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
     e, carried, e_last, z_last = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for k in range(order):
         f = s.slider[F + k]
-        V = (_deflection(model, s, k) - s.slider[U_SERIES + k]) / give
+        V = (_deflection(model, s, k) - s.slider[U_SERIES + k]) * stiffness
         if is_normal(model):
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             if k == 0:
                 beta = s.slider[SLOPE_SERIES]
                 ratio = 1.0 - friction * beta
+                share = 1.0 / ratio
             h = _leverage(s, k)
-            R = (V + friction * h) / ratio
+            R = (V + friction * h) * share
             held = (friction + beta) * R + h
         else:
             R, held = V, friction * V
         s.slider[P_ + k] = R
-        rate = (_spring(model, s, k) - held / model.r_0) / model.m
-        _move_slider(model, s, k, rate, (V - _weight(model, s, k)) / model.m)
+        rate = _spring(model, s, k) * lightness - held * lever
+        _move_slider(model, s, k, rate, (V - _weight(model, s, k)) * lightness)
         if k == 0:
             for b in range(0, width, WIDTH):
                 _order_zero(model, s, width, b, f0)
@@ -152,15 +157,15 @@ def compliant_slip_series(model, s, order, direction):
 @inlined
 def compliant_stick_series(model, s, order):
     """Stick on a compliant contact; ``P`` is V.  Fills both release functions."""
-    width, give, impulse = lane_count(model), give_of(model.give), 0.0
+    width, stiffness, lightness, impulse = lane_count(model), 1.0 / give_of(model.give), 1.0 / model.m, 0.0
     for k in range(order + 1):
         s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
     s.slider[PSI_SERIES + 1] = model.Omega * model.unit
     for k in range(order):
-        V, up = (_deflection(model, s, k) - s.slider[U_SERIES + k]) / give, s.slider[UP + k]
+        V, up = (_deflection(model, s, k) - s.slider[U_SERIES + k]) * stiffness, s.slider[UP + k]
         s.slider[P_ + k] = V
         s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
-        s.slider[V_SERIES + k + 1] = (V - _weight(model, s, k)) / model.m * up
+        s.slider[V_SERIES + k + 1] = (V - _weight(model, s, k)) * lightness * up
         for b in range(0, width, WIDTH):
             at = k * width + b
             _stick_order(model, s, b, k, impulse, _e(s, width, at), _z(s, at))
@@ -204,6 +209,7 @@ def normal_slip_series(model, s, order, direction):
     beta = slope / model.r_0
     s.slider[SLOPE_SERIES] = beta
     denominator = mobility * (1.0 - friction * beta) + (friction + beta) * beta
+    inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
     now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
     for b in range(0, width, WIDTH):
@@ -237,10 +243,10 @@ def normal_slip_series(model, s, order, direction):
             inertia = total(part) + single + f * by_speed + impulse * model.damped_compliance
         spring = _spring(model, s, k)
         top = _weight(model, s, k) + model.m * inertia + slope * spring
-        R = (top + h * (mobility * friction - beta)) / denominator
+        R = (top + h * (mobility * friction - beta)) * inverse
         V = R * (1.0 - friction * beta) - friction * h
         s.slider[P_ + k] = R
-        rate = (spring - ((friction + beta) * R + h) / model.r_0) / model.m
+        rate = spring * lightness - ((friction + beta) * R + h) * lever
         _move_slider(model, s, k, rate, inertia + rate * slope - model.compliance * V)
         impulse = V * s.slider[UP + k]
     _last_force(model, s, order, impulse)

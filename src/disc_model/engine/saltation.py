@@ -10,7 +10,21 @@ from __future__ import annotations
 
 from .compile import inlined, kernel
 from .lanes import WIDTH, add, fma, load, mul, splat, store, sub, total
-from .layout import DIRECTION, HALF, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, U_VELOCITY, U
+from .layout import (
+    DIRECTION,
+    HALF,
+    PHASE,
+    PSI,
+    SEPARATION,
+    SLIP,
+    SPEED,
+    STICK,
+    U_VELOCITY,
+    U,
+    give_of,
+    is_compliant,
+    is_normal,
+)
 from .switches import (
     AT_REST,
     CONTACT_LOST,
@@ -24,6 +38,7 @@ from .switches import (
 from .tangent import (
     D_C,
     D_C_P,
+    D_GIVE,
     D_K,
     D_K_P,
     D_M,
@@ -62,7 +77,15 @@ def rates(model, state, out):
     F = spring_force(model, state)
     rate_f = 0.0
     if phase == SLIP:
-        rate_f = (F - x[DIRECTION] * model.mu_k * P / model.r_0) / model.m
+        resistance = x[DIRECTION] * model.mu_k
+        if is_normal(model):
+            # P is R; from here on it is V
+            _, _, slope = disc_point(model, state)
+            force, beta = P, slope / model.r_0
+            P = force * (1.0 - resistance * beta)
+            rate_f = (F - (resistance + beta) * force / model.r_0) / model.m
+        else:
+            rate_f = (F - resistance * P / model.r_0) / model.m
     elif phase == SEPARATION:
         rate_f = F / model.m
     for j in range(width):
@@ -77,7 +100,7 @@ def rates(model, state, out):
     out[slider_row(model, PSI_ROW) * WIDTH] = model.Omega - f
     out[slider_row(model, F_ROW) * WIDTH] = rate_f
     u, v, _ = disc_point(model, state)
-    if phase == SEPARATION:
+    if is_compliant(model) or phase == SEPARATION:
         u, v = x[U], x[U_VELOCITY]
     out[slider_row(model, U_ROW) * WIDTH] = v
     out[slider_row(model, V_ROW) * WIDTH] = (P - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
@@ -147,6 +170,34 @@ def _inertia(model, state, slipping):
 
 
 @inlined
+def _release_change(model, state, cause, x, at, parameters, q, changes, V_change):
+    """Change of the release function mu_s press -/+ pull: see ``switches.grip``."""
+    side = 1.0 if cause == RELEASE_FORWARD else -1.0
+    pull = _pull_change(model, state, x, at, parameters, q, changes)
+    if not is_normal(model):
+        return fma(splat(-side * model.r_0), pull, mul(splat(model.mu_s), V_change))
+    V, F = stick_force(model, state), spring_force(model, state)
+    _, _, B = disc_point(model, state)
+    _, _, dB = point_change(model, x, at, 0.0, 0.0)
+    press = fma(splat(F), dB, fma(splat(B), pull, V_change))
+    held = mul(splat(1.0 / model.r_0), fma(splat(V), dB, mul(splat(B), V_change)))
+    return fma(splat(-side), sub(mul(splat(model.r_0), pull), held), mul(splat(model.mu_s), press))
+
+
+@inlined
+def _compliant_switch_change(model, state, cause, x, at, parameters, q, changes):
+    """``switch_change`` where V = (w - u) / give is one of the state; contact is lost where w - u vanishes."""
+    dw, _, _ = point_change(model, x, at, 0.0, 0.0)
+    closer = sub(dw, load(x, at + slider_row(model, U_ROW) * WIDTH))
+    if cause == CONTACT_LOST:
+        return closer
+    V = mul(splat(1.0 / give_of(model.give)), closer)
+    if changes:
+        V = sub(V, mul(splat(stick_force(model, state)), load(parameters, q + D_GIVE * WIDTH)))
+    return _release_change(model, state, cause, x, at, parameters, q, changes, V)
+
+
+@inlined
 def switch_change(model, state, cause, x, at, parameters, q, changes):
     """Change of the switch function of ``cause`` at a state, for a block of columns (lanes)."""
     if cause == AT_REST:
@@ -154,6 +205,8 @@ def switch_change(model, state, cause, x, at, parameters, q, changes):
     if cause == GAP_CLOSED:
         du, _, _ = point_change(model, x, at, 0.0, 0.0)
         return sub(load(x, at + slider_row(model, U_ROW) * WIDTH), du)
+    if is_compliant(model):
+        return _compliant_switch_change(model, state, cause, x, at, parameters, q, changes)
     slipping = cause == CONTACT_LOST and state.x[PHASE] == SLIP
     change = _force_change(model, state, x, at, parameters, q, changes, slipping)
     if changes:
@@ -163,6 +216,9 @@ def switch_change(model, state, cause, x, at, parameters, q, changes):
         change = fma(splat(inertia), load(parameters, q + D_M * WIDTH), change)
     if cause == CONTACT_LOST:
         return change
+    if is_normal(model):
+        change = mul(splat(1.0 / (1.0 + model.m * model.compliance)), change)
+        return _release_change(model, state, cause, x, at, parameters, q, changes, change)
     side = 1.0 if cause == RELEASE_FORWARD else -1.0
     change = mul(splat(model.mu_s / (1.0 + model.m * model.compliance)), change)
     return fma(splat(-side * model.r_0), _pull_change(model, state, x, at, parameters, q, changes), change)
@@ -195,19 +251,35 @@ def shift(model, t, rates_at, sign):
 
 @kernel
 def impact_change(model, state, t):
-    """Jacobian of the plastic impact, applied to the columns; ``state`` is the one before."""
+    """Jacobian of the plastic impact, applied to the columns; ``state`` is the one before.
+
+    Under the normal force the impulse p also takes p B / (m r_0^2) from f.
+    """
     C, width, n0 = t.columns, len(model.force), len(model.force0)
     _, v, B = disc_point(model, state)
-    share = 1.0 / (model.compliance + 1.0 / model.m)
+    lever = 1.0 / (model.m * model.r_0**2) if is_normal(model) else 0.0
+    share = 1.0 / (model.compliance + 1.0 / model.m + lever * B**2)
     p = (v - state.x[U_VELOCITY]) * share
     for c in range(0, C, WIDTH):
         block = c * n_rows_of(model)
-        _, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
+        _, dv, dB = point_change(model, t.now, block, state.x[SPEED], B)
         change = sub(dv, load(t.now, block + slider_row(model, V_ROW) * WIDTH))
         if c >= t.plain:
             # 1 / m: -dm / m^2
-            change = fma(splat(p / model.m**2), load(t.parameters, c * n_inputs(model) + D_M * WIDTH), change)
+            dm = load(t.parameters, c * n_inputs(model) + D_M * WIDTH)
+            mass = p / model.m**2
+            if is_normal(model):
+                mass *= 1.0 + (B / model.r_0) ** 2
+            change = fma(splat(mass), dm, change)
+        if is_normal(model):
+            change = sub(change, mul(splat(2.0 * p * lever * B), dB))
         dp = mul(splat(share), change)
+        if is_normal(model):
+            f = block + slider_row(model, F_ROW) * WIDTH
+            stopped = mul(splat(lever), fma(splat(B), dp, mul(splat(p), dB)))
+            if c >= t.plain:
+                stopped = sub(stopped, mul(splat(p * lever * B / model.m), dm))
+            store(t.now, f, sub(load(t.now, f), stopped))
         for j in range(width):
             at = block + (width + j) * WIDTH
             store(t.now, at, sub(load(t.now, at), mul(splat(model.force[j]), dp)))
@@ -218,7 +290,9 @@ def impact_change(model, state, t):
 
 @kernel
 def slider_rows(model, state, t):
-    """Rows u, u' as the disc's: contact."""
+    """Rows u, u' as the disc's: rigid contact."""
+    if is_compliant(model):
+        return
     C = t.columns
     _, _, B = disc_point(model, state)
     for c in range(0, C, WIDTH):

@@ -3,10 +3,10 @@
 A change of the state is a column; the columns lie side by side in blocks of eight lanes, so that one pass of the
 recurrence moves eight of them.  The Taylor coefficients of the variational equations are those of the model with
 each product f x replaced by f dx + df x, the coefficients of the motion itself being known; the contact force of
-order k then follows from the same scalar division as that of the motion.
+order k then follows from the same scalar division as that of the motion, or on a compliant contact from the state.
 
 Rows of a column: displacements z and velocities e of all lanes, then y, g of the axisymmetric modes, then psi, f, and
-u, u' of the slider (which are the disc's in contact, and mean something in separation only).
+u, u' of the slider (which in rigid contact are the disc's, and mean something in separation only).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 
 from .compile import inlined, kernel
 from .lanes import WIDTH, add, aligned, fma, load, mul, splat, spread, store, sub
-from .layout import HALF, SEPARATION, SLIP, STICK, Model
+from .layout import HALF, SEPARATION, SLIP, STICK, Model, give_of, is_compliant, is_normal
 
 # Entries of ``Tangent.log``; ``variational`` says what they are.
 LOG_SIZE = 16
@@ -26,16 +26,16 @@ LOG_SIZE = 16
 # Rows of the slider in a column, behind those of the disc, which stand in the order of ``State.disc``.
 PSI_ROW, F_ROW, U_ROW, V_ROW, N_SLIDER_ROWS = range(5)
 
-# Rows of the parameters' changes that a column carries; after them stiffness and damping of all lanes and of the
-# axisymmetric modes.
-LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, N_SCALARS = range(8)
+# Rows of the parameters' changes that a column carries (of the contact's compliance: relative); after them stiffness
+# and damping of all lanes and of the axisymmetric modes.
+LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, D_GIVE, N_SCALARS = range(9)
 
 
 class Tangent(NamedTuple):
     """Columns and their work space.  ``columns`` is a multiple of eight."""
 
     series: np.ndarray  # [block][order][row][8]
-    force: np.ndarray  # [block][order][8] of P
+    force: np.ndarray  # [block][order][8] of P (R under the normal force)
     slope: np.ndarray  # [block][order][8] of B
     base_slope: np.ndarray  # [order], B of the motion
     now: np.ndarray  # [block][row][8]
@@ -241,8 +241,67 @@ def _path_change(s, t, block, k, R, f_row):
 
 
 @inlined
+def _leverage_change(model, s, t, block, k):
+    """Change of beta R of order k without beta_0 dR_k, beta being B / r_0 (lanes)."""
+    chain = block * len(t.base_slope) * WIDTH
+    change = mul(splat(s.P[0]), load(t.slope, chain + k * WIDTH))
+    for i in range(1, k + 1):
+        change = fma(splat(t.base_slope[i]), load(t.force, chain + (k - i) * WIDTH), change)
+        change = fma(splat(s.P[i]), load(t.slope, chain + (k - i) * WIDTH), change)
+    return mul(splat(1.0 / model.r_0), change)
+
+
+@inlined
+def _compliant_change(model, s, t, block, k, R, friction):
+    """Change of V = (w - u) / give of order k (lanes); ``friction``: sgn(f) mu_k in slip, else 0."""
+    at = (block * len(t.base_slope) + k) * R * WIDTH
+    dw, _, _ = point_change(model, t.series, at, 0.0, 0.0)
+    change = mul(splat(1.0 / give_of(model.give)), sub(dw, load(t.series, at + slider_row(model, U_ROW) * WIDTH)))
+    if block * WIDTH >= t.plain:
+        V = s.P[k]
+        if is_normal(model):
+            for i in range(k + 1):
+                V -= friction * t.base_slope[i] / model.r_0 * s.P[k - i]
+        d_give = load(t.parameters, block * n_inputs(model) * WIDTH + D_GIVE * WIDTH)
+        change = sub(change, mul(splat(V), d_give))
+    return change
+
+
+@inlined
+def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, vertical, pull):
+    """Changes of order k of the contact force (P or R), of V and of f' (lanes) under another law than the paper's.
+
+    friction: sgn(f) mu_k; denominator: of the contact force; free: of u'' without forces (rigid contact); vertical and
+    pull: see ``_slider_forces``.
+    """
+    beta, mobility, h = t.base_slope[0] / model.r_0, 1.0 + model.m * model.compliance, splat(0.0)
+    if is_normal(model):
+        h = _leverage_change(model, s, t, block, k)
+    if is_compliant(model):
+        V = _compliant_change(model, s, t, block, k, R, friction)
+        force = mul(splat(1.0 / denominator), fma(splat(friction), h, V))
+    else:
+        top = fma(splat(t.base_slope[0]), pull, fma(splat(model.m), free, vertical))
+        force = mul(splat(1.0 / denominator), fma(splat(mobility * friction - beta), h, top))
+        V = sub(mul(splat(1.0 - friction * beta), force), mul(splat(friction), h))
+    held = mul(splat(friction), force)
+    if is_normal(model):
+        held = fma(splat(friction + beta), force, h)
+    return force, V, mul(splat(1.0 / model.m), sub(pull, mul(splat(1.0 / model.r_0), held)))
+
+
+@inlined
+def _slip_denominator(model, friction, slope):
+    """Of R in slip beyond the paper's law: see ``switches.slip_force``."""
+    beta = slope / model.r_0 if is_normal(model) else 0.0
+    if is_compliant(model):
+        return 1.0 - friction * beta
+    return (1.0 + model.m * model.compliance) * (1.0 - friction * beta) + (friction + beta) * beta
+
+
+@inlined
 def _apply_force(model, s, t, block, k, R, P):
-    """Velocities of order k + 1, once the change P of the contact force of order k is known."""
+    """Velocities of order k + 1, once the change P of the vertical contact force of order k is known."""
     width, n0, up = len(model.force), len(model.force0), splat(s.up[k])
     there = (block * len(t.base_slope) + k + 1) * R * WIDTH
     for j in range(width):
@@ -264,13 +323,14 @@ def tangent_series(model, s, t, order, phase, direction):
     B0 = t.base_slope[0]
     friction = direction * model.mu_k / model.r_0 if phase == SLIP else 0.0
     inverse = 1.0 / (1.0 + model.m * model.compliance + friction * B0)
+    other_law = is_compliant(model) or is_normal(model)
     lightness = splat(1.0 / model.m)
     for block in range(t.columns // WIDTH):
         at, chain, origin = block * R * WIDTH, block * orders * WIDTH, block * orders * R * WIDTH
         for i in range(0, R * WIDTH, WIDTH):
             store(t.series, origin + i, load(t.now, at + i))
         du, dv, dB = point_change(model, t.now, at, s.f[0], B0)
-        if phase == SEPARATION:
+        if is_compliant(model) or phase == SEPARATION:
             du, dv = load(t.now, at + u_row * WIDTH), load(t.now, at + v_row * WIDTH)
         store(t.slope, chain, dB)
         for k in range(order):
@@ -281,20 +341,34 @@ def tangent_series(model, s, t, order, phase, direction):
             store(t.slope, chain + (k + 1) * WIDTH, dB)
             dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
             pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
-            P, rate_f = splat(0.0), splat(0.0)
+            P, V, rate_f = splat(0.0), splat(0.0), splat(0.0)
             if phase == SEPARATION:
                 rate_f, acceleration = mul(pull, lightness), sub(P, mul(vertical, lightness))
+            elif other_law and phase == SLIP:
+                if not is_compliant(model):
+                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
+                mu = direction * model.mu_k
+                P, V, rate_f = _forces_in_slip(
+                    model, s, t, block, k, R, mu, _slip_denominator(model, mu, B0), free, vertical, pull
+                )
+                if is_compliant(model):
+                    acceleration = mul(lightness, sub(V, vertical))
+                else:
+                    acceleration = fma(splat(B0), rate_f, sub(free, mul(splat(model.compliance), V)))
+            elif is_compliant(model):
+                P = V = _compliant_change(model, s, t, block, k, R, 0.0)
+                acceleration = mul(lightness, sub(V, vertical))
             else:
                 if phase == SLIP:
                     free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
                     vertical = fma(splat(B0), pull, vertical)
-                P = mul(splat(inverse), fma(splat(model.m), free, vertical))
+                P = V = mul(splat(inverse), fma(splat(model.m), free, vertical))
                 acceleration = sub(free, mul(splat(model.compliance), P))
                 if phase == SLIP:
                     rate_f = mul(lightness, sub(pull, mul(splat(friction), P)))
                     acceleration = fma(splat(B0), rate_f, acceleration)
             store(t.force, chain + k * WIDTH, P)
-            _apply_force(model, s, t, block, k, R, P)
+            _apply_force(model, s, t, block, k, R, V)
             store(t.series, there + psi_row * WIDTH, mul(turn, up))
             store(t.series, there + f_row * WIDTH, mul(rate_f, up))
             du, dv = mul(dv, up), mul(acceleration, up)

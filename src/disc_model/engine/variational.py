@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compile import kernel
+from .compile import inlined, kernel
 from .dense_output import state_at
 from .lanes import WIDTH, mul, splat, store
-from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME
+from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME, is_compliant, is_normal
 from .outcomes import LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
 from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_times
 from .stepping import advance_time, expand, first_switch, step_size
@@ -22,6 +22,7 @@ from .switches import (
     RELEASE_BACKWARD,
     RELEASE_FORWARD,
     change_phase,
+    disc_point,
     stick_force,
 )
 from .tangent import PSI_ROW, n_inputs, n_rows_of, slider_row, tangent_at, tangent_series
@@ -47,7 +48,7 @@ class Course(NamedTuple):
 class Section(NamedTuple):
     """Points of the section "stick is about to be released forwards", n coordinates each, and the map's Jacobian."""
 
-    rows: np.ndarray  # (n,), where each coordinate stands in ``State.disc`` and in a column
+    rows: np.ndarray  # (n,), where each coordinate stands in a column: see ``coordinate``
     scale: np.ndarray  # (n,), coordinate over the state's entry
     end: np.ndarray  # (n,)
     jacobian: np.ndarray  # (n, columns)
@@ -125,7 +126,7 @@ def fly(model, s, state, t, course):
             rates(model, state, t.before)
             switch_times(model, state, t, cause)
             shift(model, t, t.before, 1.0)
-            if cause == GAP_CLOSED:
+            if cause == GAP_CLOSED and not is_compliant(model):
                 impact_change(model, state, t)
         if last:
             log[RELEASES] += 1.0
@@ -149,6 +150,38 @@ def fly(model, s, state, t, course):
             return TIME_OVER
 
 
+@inlined
+def coordinate(model, state, row):
+    """The entry of a state that stands in ``row`` of a column."""
+    slider = row - slider_row(model, PSI_ROW)
+    return state.disc[row] if slider < 0 else state.x[PSI + slider]
+
+
+@inlined
+def _place(model, state, row, value):
+    """Set ``coordinate``."""
+    slider = row - slider_row(model, PSI_ROW)
+    if slider < 0:
+        state.disc[row] = value
+    else:
+        state.x[PSI + slider] = value
+
+
+@inlined
+def _lift(model, state):
+    """B / r_0 where it matters to stick: under the normal force."""
+    _, _, slope = disc_point(model, state)
+    return slope / model.r_0 if is_normal(model) else 0.0
+
+
+@kernel
+def release_angle(model, state):
+    """psi at which stick is released forwards: r_0 F = V mu_s, or V (mu_s + beta) / (1 - mu_s beta) on a slope."""
+    force, beta = stick_force(model, state), _lift(model, state)
+    pull = model.mu_s * force if not is_normal(model) else (model.mu_s + beta) * force / (1.0 - model.mu_s * beta)
+    return (pull / model.r_0 - model.c_p * model.Omega) / model.k_p
+
+
 @kernel
 def section_map(model, s, state, t, course, section, start):
     """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it.
@@ -161,20 +194,20 @@ def section_map(model, s, state, t, course, section, start):
     t.log[:] = 0.0
     state.x[:] = 0.0
     for i in range(len(rows)):
-        state.disc[rows[i]] = start[i] / scale[i]
+        _place(model, state, rows[i], start[i] / scale[i])
     state.x[PHASE] = STICK
-    P = stick_force(model, state)
-    if not P > 0.0:
+    if not stick_force(model, state) > 0.0:
         return OFF_SECTION
-    state.x[PSI] = (model.mu_s * P / model.r_0 - model.c_p * model.Omega) / model.k_p
+    state.x[PSI] = release_angle(model, state)
     if course.tangent:
+        beta = _lift(model, state)
         t.now[:] = 0.0
         for i in range(len(rows)):
             t.now[((i // WIDTH) * R + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
         for c in range(0, t.columns, WIDTH):
             at, q = c * R, c * n_inputs(model)
             change = switch_change(model, state, RELEASE_FORWARD, t.now, at, t.parameters, q, c >= t.plain)
-            dpsi = mul(splat(1.0 / (model.r_0 * model.k_p)), change)
+            dpsi = mul(splat(1.0 / (model.r_0 * (1.0 - model.mu_s * beta) * model.k_p)), change)
             store(t.now, at + slider_row(model, PSI_ROW) * WIDTH, dpsi)
     if change_phase(model, state, RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
@@ -186,7 +219,7 @@ def section_map(model, s, state, t, course, section, start):
         slider_rows(model, state, t)
     outcome = fly(model, s, state, t, course)
     for i in range(len(rows)):
-        section.end[i] = state.disc[rows[i]] * scale[i]
+        section.end[i] = coordinate(model, state, rows[i]) * scale[i]
         if course.tangent:
             for c in range(t.columns):
                 section.jacobian[i, c] = t.now[((c // WIDTH) * R + rows[i]) * WIDTH + c % WIDTH] * scale[i]

@@ -323,6 +323,58 @@ def _cut(ax: Axes, values: np.ndarray) -> None:
         )
 
 
+_CONTACT_PANELS: Sequence[tuple[str, str, bool]] = (
+    ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
+    ("growth_rate", "Growth rate (1/s)", False),
+    ("first_separation", "First separation (s)", True),
+    ("cost", "Cost before it, s of\nprocessor per s", True),
+    ("separations", "After it: separations\nper second", True),
+    ("separated_share", "Share of the time apart", False),
+    ("u_range", "Range of the slider's\nheight (mm)", False),
+    ("force_max_separating", "Greatest contact force (N)", True),
+)
+
+
+@styled
+def contact_truncation(dataset: xr.Dataset) -> Figure:
+    """What residual flexibility changes, against the number of real modes; a colour for each case.
+
+    Filled: residual flexibility; hollow and dashed: rigid contact.
+    """
+    figure = new_figure(PAGE, 3.9)
+    axes = np.ravel(figure.subplots(2, 4, sharex=True))
+    part = dataset.assign(u_range=1e3 * dataset["u_range"])
+    for ax, (name, label, log), letter in zip(axes, _CONTACT_PANELS, "abcdefgh", strict=True):
+        for i in range(part.sizes["case"]):
+            color, marker = _CIRCLE_LOOKS[i % len(_CIRCLE_LOOKS)]
+            for contact, filled in (("residual", True), ("rigid", False)):
+                line = part.isel(case=i).sel(contact=contact)
+                good = np.isfinite(line[name].values)
+                ax.plot(line["modes"].values[good], line[name].values[good], color=color, marker=marker, markersize=3,
+                        markerfacecolor=color if filled else "white", linestyle="-" if filled else "--",
+                        linewidth=0.8, markeredgewidth=0.7)  # fmt: skip
+        ax.set_xscale("log")
+        ax.set_yscale("log" if log else "linear")
+        ax.margins(x=0.06)
+        ax.set_title(f"({letter}) {label}", loc="left", fontsize=7)
+        ax.set_xticks([10, 30, 100], ["10", "30", "100"])
+        ax.xaxis.set_minor_formatter(NullFormatter())
+    for ax in axes[4:]:
+        ax.set_xlabel("Real modes")
+    handles = [
+        Line2D(
+            [], [], color=_CIRCLE_LOOKS[i][0], marker=_CIRCLE_LOOKS[i][1], markersize=4, linestyle="-", label=str(case)
+        )
+        for i, case in enumerate(dataset["case"].values)
+    ]
+    handles += [
+        Line2D([], [], color=BLACK, linestyle="-", marker="o", markersize=4, label="residual"),
+        Line2D([], [], color=BLACK, linestyle="--", marker="o", markerfacecolor="white", markersize=4, label="rigid"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    return figure
+
+
 @styled
 def truncation(dataset: xr.Dataset) -> Figure:
     """What a study asks for against the number of real modes, a colour for each number of nodal circles.

@@ -489,7 +489,7 @@ def _is_finite_array(values: object, size: int) -> bool:
 LOCAL = 4.0
 # The same on a compliant contact: three times as many steps follow a motion of the slider on the contact that little
 # damps, and errors gather in it.  With LOCAL they came out between 0.3 and 2.5 times the tolerance.
-LOCAL_COMPLIANT = LOCAL / 20
+LOCAL_COMPLIANT = LOCAL / 5
 # A looser step is no cheaper, because the series must reach from switch to switch anyway, and begins to lose switches.
 LOOSEST = 1e-5
 

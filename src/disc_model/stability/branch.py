@@ -115,7 +115,7 @@ class CycleProblem:
     def leading_diameters(self, jacobian: Array) -> int:
         """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector."""
         values, vectors = np.linalg.eig(jacobian)
-        energy = np.abs(vectors[:, np.argmax(np.abs(values))]) ** 2
+        energy = np.abs(vectors[: len(self._reference.diameters), np.argmax(np.abs(values))]) ** 2
         return int(np.argmax(np.bincount(self._reference.diameters, energy)))
 
     def tangents(self, point: CyclePoint) -> Array:

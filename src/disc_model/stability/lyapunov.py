@@ -115,7 +115,11 @@ def lyapunov_exponents(
         start = run.final_state
         if not run.status.complete:
             return _nothing(LyapunovStatus(run.status.value), count, 0.0, start)
-    case, order, tolerance = engine_case(p), series_order(tol), series_tolerance(tol)
+    case, order, tolerance = (
+        engine_case(p),
+        series_order(tol),
+        series_tolerance(tol, compliant=p.contact_compliance != 0),
+    )
     model = case.model
     series, state = layout.build_series(model, order), layout.build_state(model)
     if start is not None:
@@ -198,7 +202,8 @@ def _metric(model: layout.Model) -> Array:
     """Square roots of twice the energy of a unit of each row of a column: (rows,)."""
     one, one0 = np.ones(len(model.force)), np.ones(len(model.force0))
     slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
-    height = [math.sqrt(model.k or model.m), math.sqrt(model.m)]
+    contact = 1 / model.give[0] if len(model.give) == 1 else 0.0
+    height = [math.sqrt(model.k + contact or model.m), math.sqrt(model.m)]
     stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
     return np.concatenate([np.sqrt(stiffness), one, np.sqrt(model.stiffness0), one0, slider, height])
 
@@ -211,7 +216,7 @@ def _first_columns(model: layout.Model, state: layout.State, metric: Array, coun
     columns[lanes], columns[width + lanes] = 0.0, 0.0
     if state.x[layout.PHASE] == layout.STICK:
         columns[-tangent.N_SLIDER_ROWS + tangent.F_ROW] = 0.0
-    if state.x[layout.PHASE] != layout.SEPARATION:
+    if state.x[layout.PHASE] != layout.SEPARATION and len(model.give) != 1:
         z, e = columns[:width], columns[width : 2 * width]
         y, g = columns[2 * width : 2 * width + n0], columns[2 * width + n0 : 2 * width + 2 * n0]
         f, df = state.x[layout.SPEED], columns[-3]

@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import layout, outcomes, variational
+from disc_model.engine import layout, outcomes, switches, variational
 from disc_model.engine import tangent as columns
-from disc_model.parameters import Parameters
+from disc_model.parameters import RESIDUAL, Parameters
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 from disc_model.stability.contact import check_contact
 
@@ -65,9 +65,10 @@ class ReturnMap:
 
     Attributes
     ----------
-    size : dimension n of the section, four for each pair of modes, two for each axisymmetric one
-    scale : shape (n,), coordinates over modal displacements and velocities: omega, or 1
-    diameters : shape (n,), nodal diameters of each coordinate's mode
+    size : dimension n of the section, four for each pair of modes, two for each axisymmetric one, and on a compliant
+        contact two for the slider's u, u'
+    scale : shape (n,), coordinates over modal displacements and velocities: omega, or 1; over u and u' likewise
+    diameters : nodal diameters of the mode of each coordinate, those of the slider, which come last, left out
     static : shape (n,), static equilibrium under the preload: the published start, and Newton's
     """
 
@@ -77,7 +78,8 @@ class ReturnMap:
         self._case = engine_case(p)
         self.model = model = self._case.model
         flights = min(tol, ROUGHEST)
-        self.order, self.tolerance = series_order(flights), series_tolerance(flights)
+        self.order = series_order(flights)
+        self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
         width, n0 = len(model.force), len(model.force0)
         used = np.flatnonzero(model.shift)
@@ -87,6 +89,12 @@ class ReturnMap:
         self.scale = np.concatenate([omega, np.ones(len(used)), omega0, np.ones(n0)])
         l, l0 = np.abs(model.shift[used]).astype(np.int64), np.zeros(n0, np.int64)
         self.diameters = np.concatenate([l, l, l0, l0])
+        self._compliant = len(model.give) == 1
+        if self._compliant:
+            slider = 2 * width + 2 * n0 + np.array([columns.U_ROW, columns.V_ROW])
+            rows = np.concatenate([rows, slider])
+            # the energy of the slider between its spring and the contact
+            self.scale = np.append(self.scale, np.sqrt([1 / model.give[0] + model.k, model.m]))
         self.size = n = len(rows)
         self._first = layout.WIDTH * -(-n // layout.WIDTH)
         self._names = parameters
@@ -98,7 +106,13 @@ class ReturnMap:
         self.static = self._coordinates()
 
     def _coordinates(self) -> Array:
-        return np.asarray(self._state.disc[self._section.rows] * self.scale, dtype=float)
+        s, n = self._state, len(self.diameters)
+        values = np.concatenate([s.disc[self._section.rows[:n]], self._height(s)])
+        return np.asarray(values * self.scale, dtype=float)
+
+    def _height(self, state: layout.State) -> Array:
+        """u, u' where they are coordinates."""
+        return state.x[[layout.U, layout.U_VELOCITY]] if self._compliant else np.zeros(0)
 
     def _set_changes(self) -> None:
         """Columns of the changes of parameters: what a unit of each changes in the equations."""
@@ -124,7 +138,11 @@ class ReturnMap:
                 # omega^2 is proportional to E, the damping (D_star / D) omega^2 does not depend on it
                 change[stiffness:damping] = model.stiffness / p.E
                 change[stiffness0:damping0] = model.stiffness0 / p.E
-                change[v.LOAD] = model.k * model.u_0 / p.E
+                # u_0 and the residual flexibility are proportional to 1 / E
+                residual = p.contact_compliance == RESIDUAL
+                given = 0.0 if residual or not self._compliant else model.give[0]
+                change[v.LOAD] = model.k * (model.u_0 + model.N * given) / p.E
+                change[v.D_GIVE] = -1.0 / p.E if residual else 0.0
             elif name == "D_star":
                 change[damping:stiffness0] = model.stiffness / p.D
                 change[damping0:] = model.stiffness0 / p.D
@@ -183,24 +201,25 @@ class ReturnMap:
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""
-        s, p = self._state, self.parameters
-        force = self.contact_force(x)
-        s.x[:] = 0.0
-        s.x[layout.PHASE] = layout.STICK
-        s.x[layout.PSI] = (p.mu_s * force / p.r_0 - p.c_p * p.Omega) / p.k_p
-        return read_state(self._case, s)
+        self._place(x)
+        return read_state(self._case, self._state)
 
     def contact_force(self, x: Array) -> float:
-        """P in stick at the point `x` of the section, N."""
-        model, s = self.model, self._state
-        s.disc[:] = 0.0
-        s.disc[self._section.rows] = x / self.scale
-        u = model.force @ s.z + model.force0 @ s.y
-        v = model.force @ s.e + model.force0 @ s.g
-        free = -model.force @ (model.stiffness * s.z + model.damping * s.e)
-        free -= model.force0 @ (model.stiffness0 * s.y + model.damping0 * s.g)
-        numerator = model.N + model.k * (u - model.u_0) + model.c * v + model.m * free
-        return float(numerator / (1.0 + model.m * model.compliance))
+        """Contact force in stick at the point `x` of the section, N: P, or R under the normal force."""
+        self._place(x)
+        state, model = self._state, self.model
+        return float(switches.force_in_stick(model, state, switches.stick_force(model, state)))
+
+    def _place(self, x: Array) -> None:
+        """Put the work space's state onto the point `x` of the section."""
+        state, n = self._state, len(self.diameters)
+        state.disc[:], state.x[:] = 0.0, 0.0
+        values = x / self.scale
+        state.disc[self._section.rows[:n]] = values[:n]
+        if self._compliant:
+            state.x[layout.U], state.x[layout.U_VELOCITY] = values[n:]
+        state.x[layout.PHASE] = layout.STICK
+        state.x[layout.PSI] = variational.release_angle(self.model, state)
 
     def iterate(self, x: Array, times: int, releases: int = 1) -> tuple[Flight, Array]:
         """Apply the map several times without its Jacobian; stops early if it does not return."""

@@ -6,7 +6,9 @@ response to the force P that rotates over it is
     b_l = d l Omega a_l / (l^2 Omega^2 - omega^2),
     a_l = psi_l P / (l^2 Omega^2 - omega^2 + d^2 l^2 Omega^2 / (l^2 Omega^2 - omega^2)),
 
-so that u = chi P and P = (N - k u_0) / (1 - k chi).
+so that w = chi P.  With V for the vertical force, C for the contact's compliance and u = w - C V,
+V = (N - k u_0) / (1 - k chi + k C); under the normal force, with beta = B / r_0, R = V / (1 - mu_k beta) and
+r_0 F = (mu_k + beta) R.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError, StatusBase
+from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
 from disc_model.stability.contact import check_contact
@@ -42,10 +45,11 @@ class SteadySliding:
     Attributes
     ----------
     status, message : whether it exists and why not; otherwise numbers are nan and arrays empty
-    contact_force : N
+    contact_force : N, P, or R under the normal force
     psi : rad, angle of the drive point ahead of the slider
     a, b, alpha, beta : shape (n_modes,), rows of `plate_modes`
-    eigenvalues : 1/s, complex, largest real part first; (4 per pair of modes + 2 per axisymmetric mode + 2,)
+    eigenvalues : 1/s, complex, largest real part first; (4 per pair of modes + 2 per axisymmetric mode + 2,),
+        and 2 more on a compliant contact
     growth_rate : 1/s, largest real part
     """
 
@@ -83,22 +87,52 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         return _absent(SlidingStatus.NO_SPRING)
     modes = mode_arrays(p)
     damping = modal_damping(p)
-    a, b, force = _equilibrium(p, modes, damping)
+    a, b, force = _equilibrium(p, modes, damping)  # the vertical one
     if not (math.isfinite(force) and force > 0) and p.contact != "bonded":
         return _absent(SlidingStatus.NO_CONTACT)
     l = modes.diameters
     alpha, beta = -l * p.Omega * b, l * p.Omega * a
     slope = float(np.sum(l * modes.psi * b))
-    denominator = 1 + p.m * float(np.sum(modes.psi**2)) + p.mu_k * slope / p.r_0
-    if denominator <= 1e-6:
+    law = _Law(p, float(np.sum(modes.psi**2)), slope / p.r_0, force)
+    if law.denominator <= 1e-6:
         return _absent(SlidingStatus.PARADOX)
-    eigenvalues = np.linalg.eigvals(_jacobian(p, modes, damping, a, b, beta, slope, denominator)).astype(complex)
+    eigenvalues = np.linalg.eigvals(_jacobian(p, modes, damping, a, b, beta, slope, law)).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
-    # F = mu_k P / r_0 and F = k_p psi
-    psi = p.mu_k * force / (p.r_0 * p.k_p) if p.k_p > 0 else math.nan
+    # F = k_p psi
+    psi = law.resistance * law.force / (p.r_0 * p.k_p) if p.k_p > 0 else math.nan
     growth = float(eigenvalues[0].real)
-    message = f"steady sliding with P = {force:.6g} N, {'stable' if growth < 0 else 'not stable'}"
-    return SteadySliding(SlidingStatus.OK, message, force, psi, a, b, alpha, beta, eigenvalues, growth)
+    name = "R" if law.normal else "P"
+    message = f"steady sliding with {name} = {law.force:.6g} N, {'stable' if growth < 0 else 'not stable'}"
+    return SteadySliding(SlidingStatus.OK, message, law.force, psi, a, b, alpha, beta, eigenvalues, growth)
+
+
+class _Law:
+    """The law of contact at the equilibrium.
+
+    beta : B / r_0, but 0 under the vertical force, which does not feel it
+    resistance : what holds the slider back over the contact force
+    force : P, or R under the normal force
+    denominator : of that force in slip
+    """
+
+    def __init__(self, p: Parameters, S2: float, beta: float, vertical: float) -> None:
+        self.give, self.normal = contact_give(p), p.contact_force == "normal"
+        self.beta = beta if self.normal else 0.0
+        self.resistance = p.mu_k + self.beta
+        self.share = 1 - p.mu_k * self.beta  # V / R
+        self.force = vertical / self.share
+        mobility = 1 + p.m * S2
+        if self.give:
+            self.denominator = self.share
+        elif self.normal:
+            self.denominator = mobility * self.share + self.resistance * self.beta
+        else:
+            self.denominator = mobility + p.mu_k * beta
+        # of R by beta, besides that of the numerator without B F: F r_0 = resistance R cancels for the vertical force
+        if self.give:
+            self.by_beta = p.mu_k * self.force if self.normal else 0.0
+        else:
+            self.by_beta = self.force * (mobility * p.mu_k - self.beta) if self.normal else 0.0
 
 
 def _absent(status: SlidingStatus) -> SteadySliding:
@@ -107,26 +141,31 @@ def _absent(status: SlidingStatus) -> SteadySliding:
 
 
 def _equilibrium(p: Parameters, modes: Modes, damping: Array) -> tuple[Array, Array, float]:
-    """a, b (n_modes,) and P."""
+    """a, b (n_modes,) and the vertical force."""
     turned = modes.diameters * p.Omega
     gap = turned**2 - modes.omega**2
     with np.errstate(divide="ignore", invalid="ignore"):
         by_force = modes.psi * gap / (gap**2 + (damping * turned) ** 2)
-        static = float(np.sum(modes.psi**2 / modes.omega**2))
-        force = p.N * (1 + p.k * static) / (1 - p.k * float(np.sum(modes.psi * by_force)))
+        give = contact_give(p)
+        static = float(np.sum(modes.psi**2 / modes.omega**2)) + give
+        force = p.N * (1 + p.k * static) / (1 - p.k * (float(np.sum(modes.psi * by_force)) - give))
         across = modes.psi * damping * turned / (gap**2 + (damping * turned) ** 2)
     return by_force * force, across * force, force
 
 
 def _jacobian(
-    p: Parameters, modes: Modes, damping: Array, a: Array, b: Array, beta: Array, slope: float, denominator: float
+    p: Parameters, modes: Modes, damping: Array, a: Array, b: Array, beta: Array, slope: float, law: _Law
 ) -> Array:
-    """Of the equations of slip at the equilibrium; rows a, alpha of all modes, b, beta of the pairs, psi, f."""
+    """Of the equations of slip at the equilibrium.
+
+    Rows a, alpha of all modes, b, beta of the pairs, psi, f, and u, u' on a compliant contact.
+    """
     n, pairs = len(modes.omega), np.flatnonzero(modes.diameters > 0)
     m = len(pairs)
     l, w2, weight = modes.diameters.astype(float), modes.omega**2, modes.psi
     at_alpha, at_b, at_beta, at_psi, at_f = n, 2 * n, 2 * n + m, 2 * n + 2 * m, 2 * n + 2 * m + 1
-    A = np.zeros((at_f + 1, at_f + 1))
+    size = at_f + 1 + (2 if law.give else 0)
+    A = np.zeros((size, size))
     i, j = np.arange(n), np.arange(m)
     turned = l * p.Omega
     A[i, at_alpha + i] = 1
@@ -139,16 +178,28 @@ def _jacobian(
     # alpha = -l Omega b at the equilibrium
     A[at_beta + j, at_f] = l[pairs] * turned[pairs] * b[pairs]
     A[at_psi, at_f] = -1
-    pull = np.zeros(at_f + 1)
+    pull, lift, force = np.zeros(size), np.zeros(size), np.zeros(size)
     pull[at_psi], pull[at_f] = p.k_p, -p.c_p
-    force = slope * pull  # the terms with the change of B cancel: F = mu_k P / r_0
-    force[i] += p.k * weight - p.m * weight * (w2 + turned**2)
-    force[at_alpha + i] += (p.c - p.m * damping) * weight
-    force[at_b + j] += p.c * weight[pairs] * turned[pairs]
-    force[at_beta + j] += 2 * p.m * weight[pairs] * turned[pairs]
-    by_f = p.c * weight * l * b + p.m * weight * (2 * l * beta - 2 * l**2 * p.Omega * a)
-    force[at_f] += float(np.sum(by_f))
-    force /= denominator
-    A[at_alpha + i] -= weight[:, None] * force
-    A[at_f] = (pull - p.mu_k / p.r_0 * force) / p.m
+    lift[at_b + j] = l[pairs] * weight[pairs] / p.r_0  # of B / r_0
+    if law.give:
+        force[i], force[at_f + 1] = weight / law.give, -1 / law.give
+    else:
+        force += slope * pull
+        force[i] += p.k * weight - p.m * weight * (w2 + turned**2)
+        force[at_alpha + i] += (p.c - p.m * damping) * weight
+        force[at_b + j] += p.c * weight[pairs] * turned[pairs]
+        force[at_beta + j] += 2 * p.m * weight[pairs] * turned[pairs]
+        by_f = p.c * weight * l * b + p.m * weight * (2 * l * beta - 2 * l**2 * p.Omega * a)
+        force[at_f] += float(np.sum(by_f))
+    force = (force + law.by_beta * lift) / law.denominator
+    vertical, held = force, p.mu_k * force
+    if law.normal:
+        vertical = law.share * force - p.mu_k * law.force * lift
+        held = law.resistance * force + law.force * lift
+    A[at_alpha + i] -= weight[:, None] * vertical
+    A[at_f] = (pull - held / p.r_0) / p.m
+    if law.give:
+        A[at_f + 1, at_f + 2] = 1
+        A[at_f + 2] = vertical / p.m
+        A[at_f + 2, at_f + 1 :] -= np.array([p.k, p.c]) / p.m
     return A

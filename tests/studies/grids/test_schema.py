@@ -337,7 +337,8 @@ def test_the_studies_of_the_repository_are_right() -> None:
     every = load_grids(STUDIES)
     after = ("bifurcation", "lyapunov")
     grids = {name: grid for name, grid in every.items() if grid.quantity not in after}
-    pairs = {frozenset(dim.name for dim in grid.dims) - {"normalization"} for grid in grids.values() if grid.plots}
+    laws = {"normalization", "contact_force"}
+    pairs = {frozenset(dim.name for dim in grid.dims) - laws for grid in grids.values() if grid.plots}
     wanted = ["N", "D_star", "c", "k", "k_p", "E", "m"]
     assert {frozenset(("Omega", name)) for name in wanted} | {frozenset(("N", "c_p")), frozenset(("N",))} == pairs
     for grid in grids.values():

@@ -284,7 +284,6 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     _check_names(raw, dims, varied, () if quantity is None else quantity.scanned(options), quantity, faults)
     _check_starts(raw, quantity, faults)
     _check_truncation(raw, automatic, faults)
-    _check_contact(header, quantity, base, dims, faults)
     if not faults:
         check_points(dims, base, faults)
     check_size(dims, faults)
@@ -378,29 +377,6 @@ def _check_truncation(raw: Mapping[str, Any], automatic: Mapping[str, Any], faul
         given.append(("base", "n_circles"))
     for path in given:
         faults.add(path, "", f"is chosen for each point, since base.n_diameters is {AUTO!r}")
-
-
-def _check_contact(
-    header: _Header | None,
-    quantity: Quantity | None,
-    base: Mapping[str, Any],
-    dims: Sequence[Dimension],
-    faults: Faults,
-) -> None:
-    """Analyses that know the paper's contact only are not asked for another one."""
-    if header is None or quantity is None or not quantity.paper_contact:
-        return
-    wanted: dict[str, Any] = {"contact_compliance": 0.0, "contact_force": "vertical"}
-    for name, only in wanted.items():
-        rule = f"must be {only!r}: {header.quantity} is not available yet for other laws of contact"
-        if base.get(name, only) != only:
-            faults.add(("base", name), base[name], rule)
-        for dim in dims:
-            if name in dim.names:
-                place = dim.names.index(name)
-                others = [values[place] for values in dim.values if values[place] != only]
-                if others:
-                    faults.add(("axes", name), others[0], rule)
 
 
 def _check_names(

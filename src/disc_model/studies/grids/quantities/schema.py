@@ -185,8 +185,7 @@ class StabilityCurvesOptions(Strict):
 
 
 class Quantity(NamedTuple):
-    """An entry: the schema of the options, the parameters that the quantity varies by itself, its motions, and whether
-    it knows the paper's contact only.
+    """An entry: the schema of the options, the parameters that the quantity varies by itself, and its motions.
 
     Options with a property ``scans`` name those parameters themselves. ``motions`` is how many values of each axis get
     a motion to be looked at (`disc_model.studies.grids.motions`): the fewer, the more one costs. 0: none.
@@ -195,7 +194,6 @@ class Quantity(NamedTuple):
     options: type[Strict]
     scans: tuple[str, ...] = ()
     motions: int = 0
-    paper_contact: bool = False
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
         """Parameters that the quantity varies by itself, given its options."""
@@ -210,11 +208,11 @@ class Quantity(NamedTuple):
 QUANTITIES = {
     "outcome": Quantity(OutcomeOptions, motions=4),
     "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
-    "floquet": Quantity(FloquetOptions, motions=8, paper_contact=True),
+    "floquet": Quantity(FloquetOptions, motions=8),
     "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),
     "bifurcation": Quantity(BifurcationOptions, motions=12),
-    "lyapunov": Quantity(LyapunovOptions, motions=12, paper_contact=True),
-    "stability_curves": Quantity(StabilityCurvesOptions, paper_contact=True),
+    "lyapunov": Quantity(LyapunovOptions, motions=12),
+    "stability_curves": Quantity(StabilityCurvesOptions),
 }
 
 
