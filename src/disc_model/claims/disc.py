@@ -73,7 +73,7 @@ def truncation(cases: Cases, claim: Claim) -> Finding:
     remark = (
         f"more nodal diameters change little (the lowest coupled frequency goes from {coupled[0]:.2f} to "
         f"{coupled[1]:.2f} rad/s, what follows separation is {'' if alike['P03l8'] else 'not '}the same), "
-        "nodal circles, which the paper leaves out, do: impacts excite them"
+        "nodal circles, which the paper leaves out, change both"
     )
     ours = f"first separation at {many(first.values())} s for l up to 4, 5, 6, 8, and 8 with two circles; "
     return finding(

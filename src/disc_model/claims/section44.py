@@ -44,8 +44,8 @@ def lines(cases: Cases, claim: Claim) -> Finding:
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
     chance = max(spectra.chance(time, values, line, SEARCHED) for line in found)
     said = ", ".join(f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples())
-    ours = f"{said} Hz, with f_s = {stick_slip_rate(case):.2f} Hz; each by chance with a probability of {chance:.0e} "
-    ours += "at most"
+    ours = f"{said} Hz, with f_s = {stick_slip_rate(case):.2f} Hz; each by chance with a probability below "
+    ours += f"{max(chance, 1e-99):.0e}"
     floor = min(line.amplitude for line in found) / max(line.amplitude for line in found)
     others = [
         line.frequency
