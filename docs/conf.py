@@ -7,6 +7,8 @@ import re
 import shutil
 from pathlib import Path
 
+from docutils import nodes
+from PIL import Image
 from pydantic import BaseModel
 
 import disc_model
@@ -80,6 +82,19 @@ def fields_as_parameters(app, what, name, thing, options, lines):
 SIGNS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
 
 
+def mark_wide(app, doctree):
+    """Pictures as wide as a page keep a size on a phone at which they can be read, as drawings do."""
+    for image in doctree.findall(nodes.image):
+        file = Path(app.srcdir, image["uri"])
+        if file.suffix == ".png" and file.is_file():
+            with Image.open(file) as picture:
+                image["classes"] += ["wide"] if picture.width > WIDE else []
+
+
+WIDE = 600
+"""Pixels; one column of a figure has 438."""
+
+
 def copy_mathjax(app, error):
     """Put what pages load of MathJax into the finished site."""
     if error is None and app.builder.format == "html":
@@ -96,4 +111,5 @@ def setup(app):
     app.connect("autodoc-process-signature", short_signature)
     app.connect("autodoc-process-docstring", words_below_names, priority=400)  # before numpydoc
     app.connect("autodoc-process-docstring", fields_as_parameters)
+    app.connect("doctree-read", mark_wide)
     app.connect("build-finished", copy_mathjax)
