@@ -208,10 +208,10 @@ class Quantity(NamedTuple):
 QUANTITIES = {
     "outcome": Quantity(OutcomeOptions, motions=4),
     "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
-    "floquet": Quantity(FloquetOptions, motions=8),
+    "floquet": Quantity(FloquetOptions, motions=7),
     "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),
-    "bifurcation": Quantity(BifurcationOptions, motions=12),
-    "lyapunov": Quantity(LyapunovOptions, motions=12),
+    "bifurcation": Quantity(BifurcationOptions, motions=8),
+    "lyapunov": Quantity(LyapunovOptions, motions=8),
     "stability_curves": Quantity(StabilityCurvesOptions),
 }
 
