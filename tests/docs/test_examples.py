@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 import disc_model
+from disc_model.studies.files import read_yaml
+from disc_model.studies.schema import parse_study
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted({*(ROOT / "docs").glob("*.md"), ROOT / "README.md"})
@@ -42,3 +44,21 @@ def test_everything_public_is_in_the_reference_with_an_example():
     # each section, whatever it lists, shows its use
     for section in text.split("\n## ")[1:]:
         assert ">>> " in section
+
+
+STUDIES = [
+    (page.name, text)
+    for page in PAGES
+    for text in re.findall(r"^```yaml\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
+    if text.startswith("study:")
+]
+
+
+@pytest.mark.parametrize("text", [text for _, text in STUDIES], ids=[name for name, _ in STUDIES])
+def test_study_files_on_pages_are_right(text):
+    assert parse_study(read_yaml(text)[0]).name in text
+
+
+def test_pages_show_studies():
+    assert {name for name, _ in STUDIES} == {"README.md", "studies.md"}
+    assert len(STUDIES) >= 4

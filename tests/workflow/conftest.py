@@ -19,6 +19,7 @@ PARTS = ("Snakefile", "workflow", "profiles", "config", "src")
 
 STUDY = """\
 study: tiny
+claims: true
 record:
   windows:
     history: {rate: 500, envelope: 50}

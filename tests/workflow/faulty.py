@@ -14,6 +14,7 @@ from tests.workflow.conftest import Project
 CONFIG = "config/faulty.yaml"
 MAIN = """\
 study: faulty
+claims: true
 record:
   windows:
     history: {rate: 500, envelope: 50}

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 import subprocess
 import sys
+import sysconfig
 from pathlib import Path
 
 import pytest
@@ -90,6 +90,12 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
     assert re.search(r"^compute_batch +13$", said(done), re.MULTILINE), said(done)
 
 
+def test_what_is_stale_is_listed(elsewhere: Path) -> None:
+    command = [sys.executable, "-m", "disc_model", "list", "stale", "mine.yaml"]
+    done = subprocess.run(command, cwd=elsewhere, capture_output=True, text=True, check=False, timeout=300)
+    assert re.fullmatch(r"0 of \d\d files are missing or out of date\n", done.stdout), said(done)
+
+
 def test_the_paper_is_the_study_if_none_is_given(tmp_path: Path) -> None:
     done = snakemake(tmp_path, "-n", "-s", ROOT / "workflow" / "Snakefile", "results/paper/figures/fig13.pdf")
     assert re.search(r"^simulate_case +1$", said(done), re.MULTILINE), said(done)
@@ -105,17 +111,17 @@ def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> 
         assert (tmp_path / "results" / "mine" / name).is_file()
 
 
-def test_it_is_linted_and_runs_without_the_package_installed(tmp_path: Path) -> None:
-    """What is installed comes with the interpreter here; a finder that knows no disc_model stands for its absence."""
-    project = copy_repository(tmp_path / "clone").folder
-    site = Path(shutil.__file__).parent / "site-packages"
-    hidden = tmp_path / "site"
-    hidden.mkdir()
-    for path in (Path(sys.prefix) / "lib" / site.parent.name / "site-packages").iterdir():
+def test_it_is_linted_without_the_package_installed(tmp_path: Path) -> None:
+    """The environment's packages but for this one are linked into a folder of their own."""
+    clone, rest = tmp_path / "clone", tmp_path / "site"
+    clone.mkdir()
+    rest.mkdir()
+    project = copy_repository(clone).folder
+    for path in Path(sysconfig.get_path("purelib")).iterdir():
         if "disc_model" not in path.name:
-            (hidden / path.name).symlink_to(path)
+            (rest / path.name).symlink_to(path)
     code = "import sys; sys.path.append(sys.argv.pop(1)); from snakemake.cli import main; main(sys.argv[1:])"
-    command = [sys.executable, "-I", "-S", "-c", code, str(hidden), "--lint"]
+    command = [sys.executable, "-I", "-S", "-c", code, str(rest), "--lint"]
     done = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
 

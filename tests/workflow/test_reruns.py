@@ -113,7 +113,7 @@ def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
         ("src/disc_model/claims/pages.py", {"check_claims", "describe_study"}),
         ("src/disc_model/data/inputs.py", FIGURES | TABLES),
         ("workflow/scripts/simulate_case.py", SIMULATIONS | FIGURES | TABLES),
-        ("src/disc_model/cli.py", set()),
+        ("src/disc_model/cli/run.py", set()),
         ("src/disc_model/studies/cases/schema.py", set()),
     ],
 )

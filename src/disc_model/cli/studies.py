@@ -82,10 +82,10 @@ def list_(
     """List the grid studies, figures or cases of a study, or what of its results is stale."""
     if what not in KINDS:
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
+    chosen, folders = _read(files or [_shipped("config/paper.yaml")])
     if what == "stale":
         _list_stale(files, directory)
         return
-    chosen, folders = _read(files or [_shipped("config/paper.yaml")])
     heads, rows = {"studies": _studies, "figures": _figures, "cases": _cases}[what](chosen, folders, directory)
     table = Table(title=f"{what} of {chosen.name}")
     for head in heads:
@@ -206,7 +206,7 @@ def _list_stale(files: Sequence[Path] | None, directory: Path) -> None:
         _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
     )
     if done.returncode:
-        raise DiscModelError(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "Snakemake failed")
+        raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
     head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
     stale = [dict(zip(head, line, strict=False)) for line in lines if line[-1] != "no update"]
     for row in stale:

@@ -63,7 +63,7 @@ def snapshots(
 
 
 def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike) -> xr.DataArray:
-    """Displacement w(r, theta, t) of the whole disc, upward, Eq. (8).
+    """Displacement w(r, theta, t) of the whole disc, upward, Eq. (15).
 
     Parameters
     ----------
