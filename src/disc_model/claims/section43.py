@@ -302,7 +302,8 @@ def inplane_damping(cases: Cases, claim: Claim) -> Finding:
     motion = measures.late_motion(case, claim.bound)
     ours = f"c_p = 0: {first_separation(cases['F11'])}; c_p = 0.5: {first_separation(case)}, then "
     ours += measures.said_motion(case, motion)
-    return finding(ours, not cases["F11"].separates and case.separates and motion.period > 0)
+    holds = not cases["F11"].separates and case.separates and motion.period > 0
+    return finding(ours, holds, _where_damping_helps(case))
 
 
 @claim(
