@@ -18,6 +18,8 @@ def _arithmetic(a, b, c, out):
     lanes.store(out, 24, lanes.maximum(x, lanes.minimum(y, lanes.absolute(z))))
     lanes.store(out, 32, lanes.splat(lanes.total(x)))
     lanes.store(out, 40, lanes.splat(lanes.largest(x)))
+    lanes.store(out, 48, lanes.spread(a, 3))
+    lanes.store(out, 56, lanes.splat(lanes.item(a, 5)))
 
 
 @pytest.fixture
@@ -28,9 +30,9 @@ def values() -> tuple[np.ndarray, ...]:
 
 def test_operations_agree_with_numpy(values: tuple[np.ndarray, ...]) -> None:
     a, b, c = values
-    out = np.zeros(48)
+    out = np.zeros(64)
     _arithmetic(a, b, c, out)
-    rows = out.reshape(6, 8)
+    rows = out.reshape(8, 8)
     # one rounding more or less: fma rounds once, numpy twice
     close = {"rtol": 1e-15, "atol": 1e-15}
     np.testing.assert_allclose(rows[0], a * b + c, **close)
@@ -39,10 +41,12 @@ def test_operations_agree_with_numpy(values: tuple[np.ndarray, ...]) -> None:
     np.testing.assert_array_equal(rows[3], np.maximum(a, np.minimum(b, np.abs(c))))
     np.testing.assert_allclose(rows[4], a.sum(), **close)
     np.testing.assert_array_equal(rows[5], a.max())
+    np.testing.assert_array_equal(rows[6], a[3])
+    np.testing.assert_array_equal(rows[7], a[5])
 
 
 def test_unaligned_lanes_are_loaded_and_stored_whole() -> None:
     a = np.arange(24.0)
-    out = np.zeros(48)
+    out = np.zeros(64)
     _arithmetic(a[3:11], a[5:13], a[1:9], out)
     np.testing.assert_array_equal(out[:8], a[3:11] * a[5:13] + a[1:9])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .coasting import coast_to
 from .compile import inlined
-from .lanes import WIDTH, fma, load, splat, store
+from .lanes import WIDTH, fma, item, load, splat, store
 from .layout import PHASE, PSI, SEPARATION, SPEED, STICK, U_VELOCITY, E, U, is_compliant, is_normal
 from .polynomial import value
 from .series import lane_count
@@ -28,10 +28,10 @@ def _modes_at(model, s, order, x, state):
         store(state.e, b, e)
     for j in range(n):
         i = order * n + j
-        y, g = s.y[i], s.g[i]
+        y, g = item(s.y, i), item(s.g, i)
         for _ in range(order):
             i -= n
-            y, g = y * x + s.y[i], g * x + s.g[i]
+            y, g = y * x + item(s.y, i), g * x + item(s.g, i)
         state.y[j], state.g[j] = y, g
 
 
@@ -39,9 +39,9 @@ def _modes_at(model, s, order, x, state):
 def state_at(model, s, order, x, phase, state):
     """Fill ``state`` with the series' value at x (time units); u, u' only where they are not the disc's."""
     _modes_at(model, s, order, x, state)
-    psi, f = s.psi[order], s.f[order]
+    psi, f = item(s.psi, order), item(s.f, order)
     for k in range(order - 1, -1, -1):
-        psi, f = psi * x + s.psi[k], f * x + s.f[k]
+        psi, f = psi * x + item(s.psi, k), f * x + item(s.f, k)
     state.x[PHASE] = phase
     state.x[PSI] = psi
     state.x[SPEED] = 0.0 if phase == STICK else f

@@ -9,7 +9,7 @@ half first (Descartes' rule, de Casteljau's algorithm).
 from __future__ import annotations
 
 from .compile import inlined, kernel
-from .lanes import WIDTH, add, load, minimum, mul, splat, store, total
+from .lanes import WIDTH, add, item, load, minimum, mul, splat, store, total
 
 NO_ROOT = -1.0
 _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and the cell's end decides
@@ -18,9 +18,9 @@ _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and th
 @inlined
 def value(c, low, n, x):
     """sum_{j=low..n} c[j] x^(j-low)."""
-    p = c[n]
+    p = item(c, n)
     for j in range(n - 1, low - 1, -1):
-        p = p * x + c[j]
+        p = p * x + item(c, j)
     return p
 
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .compile import inlined, kernel
-from .lanes import WIDTH, add, aligned, fma, load, mul, splat, spread, store, sub
+from .lanes import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 from .layout import HALF, SEPARATION, SLIP, STICK, Model, give_of, is_compliant, is_normal
 
 # Entries of ``Tangent.log``; ``variational`` says what they are.
@@ -64,21 +64,12 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     columns = WIDTH * -(-columns // WIDTH)
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
     rows, parameters = n_rows(model), N_SCALARS + 2 * len(model.force) + 2 * len(model.force0)
-    return Tangent(
-        series=aligned((order + 2) * rows * columns),
-        force=aligned((order + 2) * columns),
-        slope=aligned((order + 2) * columns),
-        base_slope=aligned(order + 2),
-        now=aligned(rows * columns),
-        parameters=aligned(parameters * columns),
-        before=aligned(rows * WIDTH),
-        after=aligned(rows * WIDTH),
-        still=aligned(parameters * WIDTH),
-        tau=aligned(columns),
-        log=np.zeros(LOG_SIZE),
-        columns=columns,
-        plain=plain,
-    )
+    order_size = (order + 2) * columns
+    series, force, slope, now, changes, before, after, still, tau, log, base_slope = aligned_pieces(
+        order_size * rows, order_size, order_size, rows * columns, parameters * columns,
+        rows * WIDTH, rows * WIDTH, parameters * WIDTH, columns, LOG_SIZE, order + 2,
+    )  # fmt: skip
+    return Tangent(series, force, slope, base_slope, now, changes, before, after, still, tau, log, columns, plain)
 
 
 @inlined
