@@ -119,7 +119,7 @@ def test_a_file_of_a_grid_is_given_as_it_is(path: Path) -> None:
             "figures.f.x = 'k': is no dimension of period (known: mu_s, mu_k)",
         ),
         ({"figures": {"f": {"kind": "poincare", "case": "A"}}}, "f.case = 'A': no such case (known: none)"),
-        ({"batch": {"sise": 3}}, "batch.sise = 3: unknown key, did you mean size? (known: over, size)"),
+        ({"batch": {"sise": 3}}, "batch.sise = 3: unknown key, did you mean size? (known: over, size, tile)"),
     ],
 )  # fmt: skip
 def test_faults_of_a_grid_are_told_with_what_is_known(changes: dict[str, Any], fault: str) -> None:

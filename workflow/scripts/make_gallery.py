@@ -19,7 +19,7 @@ OTHERS = {
     ),
     "map_N/figures/map_N.png": (
         "Stability over speed and preload.",
-        "Colour: growth rate of the stick-slip cycle from its multipliers. Symbols: what the published start comes to.",
+        "Above: what the published start comes to within 1000 s. Below: growth rate of the cycle that it follows.",
     ),
     "critical_speed/figures/thresholds.png": (
         "Where the cycle becomes unstable, and where separation follows.",

@@ -171,7 +171,7 @@ def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) ->
     map_ = ReturnMap(p, tol)
     found = newton(map_, map_.static if start is None else start, tol=tol)
     if found is not None:
-        return _found(map_, tol, found)
+        return cycle_of(map_, tol, found)
     if start is not None:
         return _none(p, tol, CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
     return _second_try(map_, tol)
@@ -186,7 +186,7 @@ def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-1
     if outcome == RETURNED:
         found = newton(map_, x, tol=tol, releases=releases, may_separate=True)
         if found is not None:
-            return _found(map_, tol, found)
+            return cycle_of(map_, tol, found)
         return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle of {releases} releases near the given state")
     if OUTCOMES[outcome] == "time_over":
         waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
@@ -210,7 +210,7 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
         for releases in RETURNS_TRIED:
             found = newton(map_, end, tol=tol, releases=releases)
             if found is not None:
-                return _found(map_, tol, _once(map_, tol, found) if releases > 1 else found)
+                return cycle_of(map_, tol, _once(map_, tol, found) if releases > 1 else found)
         tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
         return _none(p, tol, CycleStatus.NO_CYCLE, tried)
     outcome = OUTCOMES[flight.outcome]
@@ -275,8 +275,8 @@ def _none(p: Parameters, tol: float, status: CycleStatus, found: str) -> Floquet
     )
 
 
-def _found(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
-    """The result of a cycle."""
+def cycle_of(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
+    """The result of a cycle that Newton's method has found to a tolerance."""
     flight, values = found.flight, multipliers(found.jacobian)
     with np.errstate(divide="ignore"):
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)

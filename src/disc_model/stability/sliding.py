@@ -51,6 +51,8 @@ class SteadySliding:
     eigenvalues : 1/s, complex, largest real part first; (4 per pair of modes + 2 per axisymmetric mode + 2,),
         and 2 more on a compliant contact
     growth_rate : 1/s, largest real part
+    jacobian : of the equations of slip there; rows a and alpha of all modes, b and beta of the pairs, psi, f, and u, u'
+        on a compliant contact
     """
 
     status: SlidingStatus
@@ -63,6 +65,7 @@ class SteadySliding:
     beta: Array
     eigenvalues: NDArray[np.complex128]
     growth_rate: float
+    jacobian: Array
 
     @property
     def stable(self) -> bool:
@@ -96,14 +99,15 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     law = _Law(p, float(np.sum(modes.psi**2)), slope / p.r_0, force)
     if law.denominator <= 1e-6:
         return _absent(SlidingStatus.PARADOX)
-    eigenvalues = np.linalg.eigvals(_jacobian(p, modes, damping, a, b, beta, slope, law)).astype(complex)
+    jacobian = _jacobian(p, modes, damping, a, b, beta, slope, law)
+    eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     # F = k_p psi
     psi = law.resistance * law.force / (p.r_0 * p.k_p) if p.k_p > 0 else math.nan
     growth = float(eigenvalues[0].real)
     name = "R" if law.normal else "P"
     message = f"steady sliding with {name} = {law.force:.6g} N, {'stable' if growth < 0 else 'not stable'}"
-    return SteadySliding(SlidingStatus.OK, message, law.force, psi, a, b, alpha, beta, eigenvalues, growth)
+    return SteadySliding(SlidingStatus.OK, message, law.force, psi, a, b, alpha, beta, eigenvalues, growth, jacobian)
 
 
 class _Law:
@@ -137,7 +141,19 @@ class _Law:
 
 def _absent(status: SlidingStatus) -> SteadySliding:
     nothing, none = np.zeros(0), np.zeros(0, complex)
-    return SteadySliding(status, status.advice, math.nan, math.nan, nothing, nothing, nothing, nothing, none, math.nan)
+    return SteadySliding(
+        status,
+        status.advice,
+        math.nan,
+        math.nan,
+        nothing,
+        nothing,
+        nothing,
+        nothing,
+        none,
+        math.nan,
+        np.zeros((0, 0)),
+    )
 
 
 def _equilibrium(p: Parameters, modes: Modes, damping: Array) -> tuple[Array, Array, float]:

@@ -144,7 +144,7 @@ def test_every_fault_is_reported_with_its_path() -> None:
     [
         (
             {"quantity": "noise"},
-            "quantity = 'noise': unknown quantity (known: outcome, critical_speed, floquet, hysteresis, ",
+            "quantity = 'noise': unknown quantity (known: outcome, regions, critical_speed, floquet, hysteresis, ",
         ),
         ({"axes": {"N": [1]}}, "axes.Omega: is required, here, in a zip or in base"),
         ({"axes": {"N": [1], "Omega": [1]}, "zip": {"N": [2], "c": [0]}}, "axes.N: varies along two dimensions"),

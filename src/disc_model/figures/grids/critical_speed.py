@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
@@ -57,10 +58,12 @@ def _stable_cycle(ax: Axes, cycle: xr.Dataset, study: xr.Dataset) -> None:
     """Shade where the stick-slip cycle exists and is stable, within the speeds that were scanned."""
     scan = study["scan_Omega"].values
     rate = cycle["growth_rate"].transpose("Omega", "N").sel(Omega=slice(scan[0], scan[-1]))
-    stable = (rate < 0).values.astype(float)
+    stable = np.ma.masked_where(~(rate < 0).values, np.ones(rate.shape))
     if min(stable.shape) < 2:
         return
-    ax.contourf(rate["N"].values, rate["Omega"].values, stable, levels=[0.5, 1.5], colors=[QUIET])
+    ax.pcolormesh(
+        rate["N"].values, rate["Omega"].values, stable, cmap=ListedColormap([QUIET]), shading="nearest", rasterized=True
+    )
     ax.fill_between([], [], [], color=QUIET, label="stick-slip cycle stable")
 
 

@@ -7,13 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import GrowthMap
+from disc_model.figures.grids.region_map import cycle_patches, growth_cells
 from disc_model.figures.grids.stability_map import growth_bar, growth_mesh, no_cycle_patch
 from disc_model.figures.parts import BLACK, COLUMN, PAGE, axis_of, new_figure, styled
 from disc_model.stability.resonances import Tongue
@@ -75,20 +78,39 @@ def joined(curves: list[Curve]) -> Curve:
     return Curve(np.concatenate(Omega), np.concatenate(N), "neutral")
 
 
-def draw_curve(ax: Axes, curve: Curve) -> None:
+def draw_curve(ax: Axes, curve: Curve, number: int = 0) -> None:
+    """A curve; its number, if it has one, stands beyond its upper end, where it covers no line."""
     ax.plot(curve.Omega, curve.N, color=BLACK, linewidth=1.0, linestyle="-" if curve.kind == "neutral" else DASHED)
-    there = np.flatnonzero(np.isfinite(curve.N))
-    if curve.label and len(there):
-        i = int(there[len(there) // 2])
+    if number and np.isfinite(curve.N).any():
+        i = int(np.nanargmax(curve.N))
         ax.annotate(
-            curve.label.replace("f_s", "$f_s$"),
-            (curve.Omega[i], curve.N[i]),
-            xytext=(4, -4),
+            str(number),
+            (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1])),
+            xytext=(0, 2),
             textcoords="offset points",
             fontsize=6,
-            va="top",
-            bbox={"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.8},
+            ha="center",
+            va="bottom",
+            annotation_clip=False,
         )
+
+
+def numbers_of(curves: Sequence[Curve]) -> dict[str, int]:
+    """Numbers of the labels, in the order of their speeds; those that are equal have one."""
+    named = sorted((curve for curve in curves if curve.label), key=lambda curve: float(np.nanmax(curve.Omega)))
+    return {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in named), 1)}
+
+
+def number_handles(numbers: Mapping[str, int]) -> list[Line2D]:
+    """For legends: what the numbers stand for."""
+    return [
+        Line2D([], [], linestyle="", marker=f"${number}$", color=BLACK, markersize=4, label=_shown(label))
+        for label, number in numbers.items()
+    ]
+
+
+def _shown(label: str) -> str:
+    return label.replace("f_s", "$f_s$")
 
 
 def span(values: Array) -> tuple[float, float]:
@@ -105,39 +127,40 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -
 
     Parameters
     ----------
-    study : of the quantity `floquet` over N and Omega
+    study : of the quantity `floquet` or `regions` over N and Omega
     others : ``curves`` of the quantity `stability_curves` over Omega and N, if they are to be shown
     """
     norms = parts.normalizations(study)
     figure = new_figure(PAGE if len(norms) > 1 else COLUMN, 2.9)
     axes = list(figure.subplots(1, len(norms), sharey=True, squeeze=False)[0])
-    shown: list[Curve] = []
+    shown = {norm: curves_of(parts.of(others["curves"], norm)) if "curves" in others else [] for norm in norms}
+    numbers = numbers_of([curve for curves in shown.values() for curve in curves])
     for ax, norm, letter in zip(axes, norms, "abcdef", strict=False):
         grid = parts.of(study, norm)
-        mesh = growth_mesh(ax, grid, "Omega", "N")
-        curves = curves_of(parts.of(others["curves"], norm)) if "curves" in others else []
-        for curve in curves:
-            draw_curve(ax, curve)
-        shown += curves
+        cells = growth_cells if "cycle" in study else growth_mesh
+        mesh = cells(ax, grid, "Omega", "N")
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
-        ax.set_title(parts.MODES[norm], loc="right")
-        if len(norms) > 1:
-            parts.letter(ax, letter)
+        for curve in shown[norm]:
+            draw_curve(ax, curve, numbers.get(curve.label, 0))
+        ax.set_title(f"({letter}) {parts.MODES[norm]}" if len(norms) > 1 else parts.MODES[norm], loc="left", pad=9)
     axes[0].set_ylabel(LOAD)
-    _legend(figure, shown, bool(study["growth_rate"].isnull().any()))
+    _legend(figure, [curve for curves in shown.values() for curve in curves], study)
     growth_bar(figure, mesh, axes)
     return figure
 
 
-def _legend(figure: Figure, curves: Sequence[Curve], gaps: bool) -> None:
+def _legend(figure: Figure, curves: Sequence[Curve], study: xr.Dataset) -> None:
     ax = figure.axes[-1]
     kinds = {curve.kind for curve in curves}
-    handles: list[object] = []
+    handles: list[Artist] = []
     if "neutral" in kinds:
         handles += ax.plot([], [], color=BLACK, linewidth=1.0, label="a multiplier crosses the unit circle")
     if "fold" in kinds:
         handles += ax.plot([], [], color=BLACK, linewidth=1.0, linestyle=DASHED, label="fold")
-    if gaps:
+    if "cycle" in study:
+        handles += cycle_patches(study)
+    elif study["growth_rate"].isnull().any():
         handles.append(no_cycle_patch())
+    handles += number_handles(numbers_of(curves))
     if handles:
-        figure.legend(handles=handles, loc="outside lower center", ncols=3)  # type: ignore[arg-type]
+        figure.legend(handles=handles, loc="outside lower center", ncols=3)

@@ -28,12 +28,14 @@ class Fault(NamedTuple):
 
 
 class Role(NamedTuple):
-    """What a further study must be to be shown: its quantity, its dimensions but for `NORM`, and some options."""
+    """What a further study must be to be shown: its quantity, or another instead that has as much; its dimensions but
+    for `NORM`; and some options."""
 
     quantity: str
     dims: tuple[str, ...]
     options: Mapping[str, Any] = {}
     required: bool = False
+    instead: str = ""
 
 
 class Grid(Protocol):
@@ -66,6 +68,11 @@ class Plot(Strict):
     def quantity(self) -> str:
         """The quantity it shows."""
         raise NotImplementedError
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """All that it can show."""
+        return (self.quantity,)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -117,8 +124,9 @@ class Plot(Strict):
     def misfits_of(self, role: str, study: Grid, other: Grid) -> Iterator[str]:
         """Rules that a further study breaks, if it is to play a role in this figure of a study."""
         wanted = self.roles[role]
-        if other.quantity != wanted.quantity:
-            yield f"must be a study of the quantity {wanted.quantity}, and not {other.quantity}"
+        if other.quantity not in (wanted.quantity, wanted.instead):
+            good = " or ".join(filter(None, (wanted.quantity, wanted.instead)))
+            yield f"must be a study of the quantity {good}, and not {other.quantity}"
             return
         for name, value in wanted.options.items():
             if (found := getattr(other.options, name)) != value:
@@ -147,7 +155,7 @@ class Mark(Strict):
     paper: Literal["stable", "unstable", "separation"]
 
 
-CYCLE = Role("floquet", ("N", "Omega"))
+CYCLE = Role("floquet", ("N", "Omega"), instead="regions")
 CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 
 
@@ -189,6 +197,24 @@ class StabilityMap(Plot):
         return "disc_model.figures.grids.stability_map"
 
 
+class RegionMap(StabilityMap):
+    """Regions of outcomes over two parameters, and the growth rate of the cycle below."""
+
+    kind: Literal["region_map"] = "region_map"  # type: ignore[assignment]
+
+    @property
+    def quantity(self) -> str:
+        return "regions"
+
+    @property
+    def roles(self) -> dict[str, Role]:
+        return {}
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.region_map"
+
+
 class CriticalSpeed(Plot):
     """Speeds at which separation begins or ends against the preload, for several horizons."""
 
@@ -227,13 +253,20 @@ class Thresholds(CriticalSpeed):
 
 
 class GrowthMap(Plot):
-    """Growth rate of the stick-slip cycle over speed and preload, a panel for each normalization."""
+    """Growth rate of the stick-slip cycle over speed and preload, a panel for each normalization.
+
+    Of the quantity `regions` it is that of the cycle that the published start follows.
+    """
 
     kind: Literal["growth_map"] = "growth_map"
 
     @property
     def quantity(self) -> str:
         return "floquet"
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        return ("floquet", "regions")
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -402,6 +435,7 @@ PLOTS: dict[str, type[Plot]] = {
     "heat_map": HeatMap,
     "curve": CurvePlot,
     "stability_map": StabilityMap,
+    "region_map": RegionMap,
     "critical_speed": CriticalSpeed,
     "thresholds": Thresholds,
     "growth_map": GrowthMap,

@@ -107,7 +107,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
         ax.set_title(f"{panel}{parts.MODES[norm]}", loc="left")
         if norm == "as_published":
             _marks(ax, study, plot)
-    _scales(axes, study, plot)
+    set_scales(axes[None, :], study, plot)
     if mesh is not None:
         growth_bar(figure, mesh, list(axes))
     _legend(figure, study, bool(plot.marks) and "as_published" in norms, mesh is not None)
@@ -177,14 +177,17 @@ def _far(values: np.ndarray, value: float) -> bool:
     return bool(np.searchsorted(values, value) >= 7 * (len(values) - 1) / 8)
 
 
-def _scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
-    """Logarithmic where values span decades, with a linear stretch up to the second value if the first is 0."""
+def set_scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
+    """Logarithmic where values span decades, with a linear stretch up to the second value if the first is 0.
+
+    axes : shape (rows, columns), all over the same two parameters
+    """
     for name, which in ((plot.x, "x"), (plot.y, "y")):
         label, factor = parts.axis_of(name)
         values = study[name].values * factor
         positive = values[values > 0]
         decades = name not in ("N", "Omega") and positive.size > 1 and positive[-1] / positive[0] > 15
-        for ax in axes:
+        for ax in axes.flat:
             axis = ax.xaxis if which == "x" else ax.yaxis
             if decades and values[0] > 0:
                 ax.set(**{f"{which}scale": "log"})
@@ -197,7 +200,7 @@ def _scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
             low, high = to_axis.transform(values[[0, -1]])
             margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
             ax.set(**{f"{which}lim": tuple(to_axis.inverted().transform([low - margin, high + margin]))})
-        for ax in axes if which == "x" else axes[:1]:
+        for ax in axes[-1] if which == "x" else axes[:, 0]:
             ax.set(**{f"{which}label": label})
 
 

@@ -7,11 +7,23 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from disc_model.figures import parts
-from disc_model.figures.grids.growth_map import DASHED, LOAD, SPEED, Curve, curves_of, draw_curve, joined, span
+from disc_model.figures.grids.growth_map import (
+    DASHED,
+    LOAD,
+    SPEED,
+    Curve,
+    curves_of,
+    draw_curve,
+    joined,
+    number_handles,
+    numbers_of,
+    span,
+)
 from disc_model.figures.grids.kinds import Thresholds
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, ORANGE, VERMILION, new_figure, styled
 
@@ -84,17 +96,20 @@ def threshold_chart(
         ax.fill_betweenx(N, lowest, separation, where=both, color=BLUE, alpha=0.15, linewidth=0, label=band)
     elif N.size:
         _unstable_before(ax, cycle, N, separation, band)
+    numbers = numbers_of(folds)
     for i, fold in enumerate(folds):
         label = "fold: the cycle ends" if i == 0 else "_nolegend_"
         ax.plot(fold.Omega, fold.N, color=BLACK, linestyle=DASHED, label=label)
         if fold.label:
-            draw_curve(ax, fold)
+            draw_curve(ax, fold, numbers[fold.label])
     if printed:
         ax.plot(list(printed.values()), list(printed), "s", color=ORANGE, markersize=4, label="paper")
     ax.set(xlabel=SPEED, ylabel=LOAD)
     if cycle is not None:
         ax.set_xlim(*span(cycle["Omega"].values))
-    figure.legend(loc="outside upper center", ncols=1)
+    figure.legend(
+        handles=[*ax.get_legend_handles_labels()[0], *number_handles(numbers)], loc="outside upper center", ncols=1
+    )
     return figure
 
 
@@ -107,7 +122,8 @@ def _unstable_before(ax: Axes, cycle: xr.Dataset, N: Array, separation: Array, l
     # none found at the loads on both sides
     until[np.interp(loads, N, known.astype(float)) == 0] = np.inf
     here = ~(rate.values < 0) & (speeds[None, :] < until[:, None])
-    ax.contourf(speeds, loads, here.astype(float), levels=[0.5, 1.5], colors=[BLUE], alpha=0.18)
+    cells = np.ma.masked_where(~here, np.ones(here.shape))
+    ax.pcolormesh(speeds, loads, cells, cmap=ListedColormap([BLUE]), alpha=0.18, shading="nearest", rasterized=True)
     ax.fill_between([], [], [], color=BLUE, alpha=0.18, linewidth=0, label=label)
 
 

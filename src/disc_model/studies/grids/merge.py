@@ -118,7 +118,8 @@ def _coordinates(grid: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, xr.Va
 def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, str]:
     """What all batches agree on: quantity, options, base values, sources; and all commits that made them."""
     specification = json.loads(batches[0].attrs["specification"])
-    del specification["points"], specification["names"]
+    for name in ("points", "names", "tile"):
+        specification.pop(name, None)
     if "starts" in specification:
         every = [json.loads(batch.attrs["specification"])["starts"] for batch in batches]
         specification["starts"] = {name: start for starts in every for name, start in sorted(starts.items())}

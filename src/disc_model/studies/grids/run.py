@@ -8,7 +8,7 @@ import logging
 import math
 import time
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, cast
 
 import numpy as np
 import xarray as xr
@@ -54,7 +54,10 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     parameters = [_made(data["base"] | _only(Parameters.model_fields, values)) for values in varied]
     each = [_started(options, values, data.get("starts", {})) for values in varied]
     began = time.process_time()
-    table = compute(quantity, parameters, options, each)
+    if "tile" in data:
+        table = _over_tile(cast("Tiled", quantity), data, options)
+    else:
+        table = compute(quantity, parameters, options, each)
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
     for point, message in zip(points, table.messages, strict=True):
         if message:
@@ -74,6 +77,21 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
         "versions": json_attribute(versions()),
     }
     return xr.Dataset(variables, coords | own, attrs)
+
+
+def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Table:
+    """Of a tile with its margin, which belongs to the next tiles: only its own points are kept, in the text's order."""
+    tile, names = data["tile"], data["names"]
+    (first, second), (rows, columns) = tile["names"], tile["along"]
+    fixed = dict(zip(names, data["points"][0], strict=True))
+    points = [
+        [_made(data["base"] | _only(Parameters.model_fields, fixed | {first: y, second: x})) for x in columns]
+        for y in rows
+    ]
+    found = quantity.over(points, options, [(i, j) for i, j in tile["sampled"]])
+    sides = names.index(first), names.index(second)
+    own = [(rows.index(point[sides[0]]), columns.index(point[sides[1]])) for point in data["points"]]
+    return table_of(quantity, [found[i][j][0] for i, j in own], [found[i][j][1] for i, j in own], options)
 
 
 def _only(names: Collection[str], values: Mapping[str, Any]) -> dict[str, Any]:
@@ -131,6 +149,8 @@ STATUS = Variable("1", "what became of the computation", STATUSES)
 
 
 Row = Mapping[str, Any]
+Point = Parameters | DiscModelError
+"""Parameters, or why there are none."""
 NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
 """What a point may fail of: this package's errors, division by zero and overflow, matrices that cannot be solved."""
 
@@ -160,13 +180,26 @@ class Column(NamedTuple):
         return np.full(shape, self.missing, dtype=self.dtype)
 
 
-class Quantity(Protocol):
-    """What a module of a quantity has."""
+class Described(Protocol):
+    """What every module of a quantity has."""
 
     COLUMNS: Mapping[str, Column]
 
     def coordinates(self, options: Any) -> Mapping[str, tuple[Any, Variable]]:
         """Values along the quantity's own dimensions, beyond those of the grid."""
+
+
+class Tiled(Described, Protocol):
+    """A quantity that needs a whole tile of a plane at once."""
+
+    def over(
+        self, points: Sequence[Sequence[Point]], options: Any, sampled: Collection[tuple[int, int]]
+    ) -> Sequence[Sequence[tuple[Row, str]]]:
+        """Rows and messages of a tile, whose points are given by rows; those at the places `sampled` in any case."""
+
+
+class Quantity(Described, Protocol):
+    """A quantity of single points."""
 
     def at(self, p: Parameters, options: Any) -> tuple[Row, str]:
         """Values at one point by column (flags as words), and a message; columns left out are missing."""
@@ -204,6 +237,11 @@ def compute(
             row, message = {"status": "failed"}, f"{type(error).__name__}: {error}"
         rows.append(row)
         messages.append(message)
+    return table_of(quantity, rows, messages, options)
+
+
+def table_of(quantity: Described, rows: Sequence[Row], messages: Sequence[str], options: Any) -> Table:
+    """Rows and messages as a table."""
     sizes = {name: len(values) for name, (values, _) in quantity.coordinates(options).items()}
     arrays = {}
     for name, column in quantity.COLUMNS.items():
@@ -213,7 +251,7 @@ def compute(
             if name in row:
                 array[i] = _stored(row[name], column)
         arrays[name] = array
-    return Table(arrays, messages)
+    return Table(arrays, list(messages))
 
 
 def _stored(value: Any, column: Column) -> Any:

@@ -1,7 +1,8 @@
 """Grid studies: files under config/studies/, checked all at once, and the batches of points they expand to.
 
 A batch is one text; a workflow job is given one. Dimensions named in ``batch.over`` are cut into batches, by position
-and only inside a block; of the others, every value has batches of its own. The text holds all that its result depends
+and only inside a block; of the others, every value has batches of its own. A quantity that needs a plane at once is cut
+into tiles of it. The text holds all that its result depends
 on, and the batch is named by the text's hash, so that a batch whose content is the same is not computed again, wherever
 and however the file now says it.
 """
@@ -9,9 +10,10 @@ and however the file now says it.
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import pairwise, product
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -21,10 +23,10 @@ from pydantic import Field
 from disc_model.data.provenance import source_hash
 from disc_model.data.variables import KICKS
 from disc_model.errors import ParameterError
-from disc_model.figures.grids.kinds import PLOTS, General, Plot, Values
+from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
 from disc_model.parameters import Parameters
-from disc_model.schema import Count, Strict
+from disc_model.schema import Count, Strict, is_number
 from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
 from disc_model.studies.cases.schema import Name
 from disc_model.studies.files import (
@@ -64,10 +66,13 @@ class BatchSpec(Strict):
 
     over : dimensions that are cut; of the others every value has batches of its own. The last dimension if not given
     size : points in a batch, at most; 20 to 60 s of work keep the cost of starting a job below a few per cent
+    tile : intervals along the side of a tile, about, for a quantity that needs a plane at once; `over` names its two
+        dimensions
     """
 
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
     size: Annotated[Count, Field(ge=1)] = 20
+    tile: Annotated[Count, Field(ge=1)] = 32
 
 
 def batch_texts(
@@ -78,8 +83,15 @@ def batch_texts(
     dims: Sequence[Dimension],
     batch: BatchSpec,
     runner: str = RUNNER,
+    sampled: Collection[Mapping[str, float]] = (),
 ) -> dict[str, str]:
-    """The text of each batch by its name, 12 hexadecimal digits; ``runner`` is the module that will compute it."""
+    """The text of each batch by its name, 12 hexadecimal digits.
+
+    Parameters
+    ----------
+    runner : the module that will compute it
+    sampled : points of a plane at which a tiled quantity is worked out in any case
+    """
     shared: dict[str, Any] = {
         "quantity": quantity,
         "options": options.model_dump(),
@@ -87,6 +99,9 @@ def batch_texts(
         "names": [name for dim in dims for name in dim.names],
         "sources": source_hash(module_of(quantity), runner),
     }
+    if QUANTITIES[quantity].tiled and runner == RUNNER:
+        texts = [canonical_json({**shared, **tile}) for tile in _tiles(dims, batch, sampled)]
+        return {content_key(text): text for text in texts}
     texts = [
         canonical_json({**shared, **_used(starts, shared["names"], points), "points": points})
         for points in _chunks(dims, batch)
@@ -123,6 +138,42 @@ def _chunks(dims: Sequence[Dimension], batch: BatchSpec) -> Iterator[list[list[V
         points = [[value for part in point for value in part] for point in product(*chosen)]
         for i in range(0, len(points), batch.size):
             yield points[i : i + batch.size]
+
+
+def _tiles(
+    dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
+) -> Iterator[dict[str, Any]]:
+    """Points of each tile; and the values along its sides, with those of the next tiles that bound its last cells."""
+    over = [dim for dim in dims if dim.name in (batch.over or ())]
+    others = [dim for dim in dims if dim not in over]
+    names = [dim.name for dim in over]
+    sides = [_cuts([value for (value,) in dim.values], batch.tile) for dim in over]
+    for chosen in product(*(dim.values for dim in others)):
+        for tile in product(*sides):
+            own: dict[str, list[tuple[Value, ...]]] = {
+                name: [(value,) for value in kept] for name, (_, kept) in zip(names, tile, strict=True)
+            }
+            own |= {dim.name: [value] for dim, value in zip(others, chosen, strict=True)}
+            points = [
+                [value for part in point for value in part] for point in product(*(own[dim.name] for dim in dims))
+            ]
+            along = [values for values, _ in tile]
+            within = [[_at(mark[name], values) for name, values in zip(names, along, strict=True)] for mark in sampled]
+            kept = sorted(places for places in within if None not in places)
+            yield {"points": points, "tile": {"names": names, "along": along, "sampled": kept}}
+
+
+def _at(value: float, along: Sequence[Value]) -> int | None:
+    """Place of a value along the side of a tile."""
+    return next((i for i, one in enumerate(along) if math.isclose(value, float(one), rel_tol=1e-12)), None)
+
+
+def _cuts(values: Sequence[Value], size: int) -> list[tuple[list[Value], list[Value]]]:
+    """Stretches of about `size` intervals, and what of each no later one has."""
+    n = len(values) - 1
+    count = max(1, round(n / size))
+    edges = [round(i * n / count) for i in range(count + 1)]
+    return [(list(values[a : b + 1]), list(values[a : b + (b == n)])) for a, b in pairwise(edges)]
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -301,7 +352,13 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
         del complete["n_circles"]
     for name in first:
         complete.pop(name, None)
-    batches = batch_texts(header.quantity, options, complete, starts, dims, header.batch)
+    sampled = [
+        {plot.x: mark.x, plot.y: mark.y}
+        for plot in plots.values()
+        if isinstance(plot, RegionMap)
+        for mark in plot.marks.values()
+    ]
+    batches = batch_texts(header.quantity, options, complete, starts, dims, header.batch, sampled=sampled)
     motions = motion_texts(header.quantity, options, complete, starts, dims)
     return GridStudy(header.study, header.title, header.quantity, options, complete, dims, batches, plots, motions)
 
@@ -406,6 +463,12 @@ def _check_names(
     for name in over if isinstance(over, list) and not faults else ():
         if name not in known:
             faults.add(("batch", "over"), name, f"must name dimensions (known: {', '.join(known)})")
+    if quantity is not None and quantity.tiled and not faults:
+        plane = [dim for dim in dims if isinstance(over, list) and dim.name in over]
+        if len(plane) != 2 or any(not is_number(value) for dim in plane for value in dim.values[0]):
+            faults.add(
+                ("batch", "over"), over, f"must name the two dimensions, single numbers, of {raw['quantity']}'s plane"
+            )
 
 
 def _plots(
@@ -424,7 +487,7 @@ def _plots(
         found: Iterable[PlotFault]
         if isinstance(plot, General):
             found = () if options is None or quantity not in QUANTITIES else _general(plot, quantity, options, values)
-        elif plot.quantity == quantity:
+        elif quantity in plot.quantities:
             found = plot.faults(values)
         else:
             found = (PlotFault(("kind",), kind, f"needs the quantity {plot.quantity}"),)

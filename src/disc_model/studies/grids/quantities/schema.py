@@ -62,6 +62,18 @@ class OutcomeOptions(Lead, SettlingOptions):
         return self
 
 
+class RegionsOptions(Strict):
+    """Outcomes over a plane, refined where they change.
+
+    horizon : s
+    coarse : intervals of the grid along the side of a cell, before it is divided
+    """
+
+    tol: Tolerance = 1e-10
+    horizon: Positive
+    coarse: Annotated[Count, Field(ge=1, le=1000)] = 8
+
+
 class CriticalSpeedOptions(SettlingOptions):
     """Scan of the speed, then bisection of each interval in which separation begins or ends.
 
@@ -185,7 +197,8 @@ class StabilityCurvesOptions(Strict):
 
 
 class Quantity(NamedTuple):
-    """An entry: the schema of the options, the parameters that the quantity varies by itself, and its motions.
+    """An entry: the schema of the options, the parameters that the quantity varies by itself, its motions, and whether
+    it needs a whole tile of a plane at once.
 
     Options with a property ``scans`` name those parameters themselves. ``motions`` is how many values of each axis get
     a motion to be looked at (`disc_model.studies.grids.motions`): the fewer, the more one costs. 0: none.
@@ -194,6 +207,7 @@ class Quantity(NamedTuple):
     options: type[Strict]
     scans: tuple[str, ...] = ()
     motions: int = 0
+    tiled: bool = False
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
         """Parameters that the quantity varies by itself, given its options."""
@@ -207,6 +221,7 @@ class Quantity(NamedTuple):
 
 QUANTITIES = {
     "outcome": Quantity(OutcomeOptions, motions=4),
+    "regions": Quantity(RegionsOptions, motions=4, tiled=True),
     "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
     "floquet": Quantity(FloquetOptions, motions=7),
     "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),

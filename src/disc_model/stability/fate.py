@@ -1,0 +1,369 @@
+"""What becomes of the published start within a horizon: decided by multipliers where they prove it, else simulated.
+
+The published start is a point of the section of `disc_model.stability.return_map`, and usually lies near the cycle that
+Newton's method finds from it: a few thousandths of the static deflection away.  There the map is linear, and the
+distance d from the cycle after n periods is J^n d.  This is tested, not assumed: the motion is followed over some
+seconds and compared with J^n d, in its size and in the rate at which the leading multiplier's part grows.  Where
+they agree,
+
+- a stable cycle keeps the motion: it is quiet, and nothing more is simulated;
+- from an unstable one the motion departs as J^n d says, up to a distance at which the same test is passed again; only
+  what follows is simulated, or nothing if the horizon comes before.
+
+Where they do not agree, or there is no such cycle, the motion is simulated, and now and then looked at again: it may
+have come near another cycle, or to steady sliding.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import expm
+
+from disc_model.errors import Status
+from disc_model.flexibility import contact_give
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Record
+from disc_model.simulation.result import State
+from disc_model.stability.cycle import CycleStatus, FloquetResult, cycle_of, find_cycle
+from disc_model.stability.return_map import OUTCOMES, RETURNED, ReturnMap, newton
+from disc_model.stability.settling import GROWTH, LARGEST_PERIOD, NOISE
+from disc_model.stability.sliding import SteadySliding, steady_sliding
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+CYCLE_TOL = 1e-12
+"""Tolerance of cycles and their multipliers."""
+TESTS = ((0.3, 1.2), (1.5, 6.0))
+"""Times over which a motion is compared with the linear one, s; the rate of growth is taken between them. The longer
+test is made where the shorter one does not pass: it tells slower rates."""
+AGREES = 0.1
+"""Largest difference between the two motions, relative to the linear one."""
+RATE_AGREES = 0.5
+"""Largest difference between their rates of growth, as a share of the linear one's."""
+AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+"""Distances from the cycle, over the static deflection, up to which a departure may be followed by multipliers."""
+FIRST_LEG = 5.0
+"""s, simulated before the motion is looked at again; each leg is twice as long as the one before."""
+NEARLY_PERIODIC = 0.05
+"""Change over a period, relative to the static deflection, from which a cycle is looked for."""
+NEAR = 0.1
+"""Distance from a cycle, relative to the static deflection, within which a motion may be near it."""
+SLIDING_TIMES = (1.0, 4.0)
+"""Times over which the approach to steady sliding is compared with its eigenvalues, s."""
+
+
+@dataclass(frozen=True, eq=False)
+class Near:
+    """A motion near a cycle.
+
+    Attributes
+    ----------
+    own : whether it follows the linear map there, for good if the cycle is stable
+    x, distance, jacobian : the cycle, the motion's distance from it, and the map's Jacobian, on the section of `map`
+    """
+
+    cycle: FloquetResult
+    own: bool
+    map: ReturnMap
+    x: Array
+    distance: Array
+    jacobian: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Fate:
+    """What becomes of the published start.
+
+    Attributes
+    ----------
+    outcome : "stable", it comes to a stable cycle near its start or to steady sliding; "unstable", it departs from an
+        unstable cycle, or grows, without separation; "separation"; "undecided", none of these could be shown;
+        "unknown", the simulation failed
+    simulated : s, 0 if multipliers decide
+    cycle : the stable one to which the motion has come, or else the unstable one from which it departs; None if neither
+    sliding : whether it has come to steady sliding
+    first_separation : s, nan if there is none
+    state : where the simulation ended; None if there was none
+    status, message : of the simulation
+    """
+
+    outcome: str
+    simulated: float
+    cycle: FloquetResult | None
+    sliding: bool = False
+    first_separation: float = math.nan
+    state: State | None = None
+    status: str = "ok"
+    message: str = ""
+
+
+def published_start_near(p: Parameters) -> Near | FloquetResult:
+    """The cycle near the published start, and whether it is the start's own; without one, what was found instead."""
+    cycle = find_cycle(p, CYCLE_TOL)
+    if cycle.status is not CycleStatus.OK:
+        return cycle
+    map_ = ReturnMap(p, CYCLE_TOL)
+    return _near(map_, cycle, map_.static)
+
+
+def fate(p: Parameters, horizon: float, *, tol: float = 1e-10, start: Near | FloquetResult | None = None) -> Fate:
+    """What becomes of the published start within a horizon (s).
+
+    Parameters
+    ----------
+    tol : of what is simulated, as in `simulate`
+    start : what `published_start_near` says, if it is known
+    """
+    start = published_start_near(p) if start is None else start
+    return _Course(p, horizon, tol).run(start if isinstance(start, Near) and start.own else None)
+
+
+def departs_after(near: Near, horizon: float) -> bool:
+    """Whether the published start, near an unstable cycle, follows the linear map until the horizon (s)."""
+    room = max(0, math.ceil((horizon - first_release(near.cycle.parameters)) / near.cycle.period))
+    size = float(np.linalg.norm(near.map.static))
+    # the leading part alone: most do not, and this says so at once
+    leading = _left_vector(near.jacobian)
+    right = _left_vector(near.jacobian.T)
+    part = float(abs(leading @ near.distance)) / float(abs(leading @ right))
+    grown = math.log(max(part / size, 1e-300)) + room * math.log(abs(near.cycle.multipliers[0]))
+    return grown <= math.log(2 * AMPLITUDES[0]) and _departure(near, room)[0] >= room
+
+
+class _Course:
+    """A motion on its way: where it is, and what was seen so far.
+
+    shown : the cycle that it follows linearly: the first, or the stable one to which it has come
+    left : the unstable cycle that it has departed from
+    changes : from one period to the next, relative, at the end of each leg
+    """
+
+    def __init__(self, p: Parameters, horizon: float, tol: float) -> None:
+        self.p, self.horizon, self.tol = p, horizon, tol
+        self.map = ReturnMap(p, CYCLE_TOL)
+        self.state: State | None = None
+        self.time, self.simulated = 0.0, 0.0
+        self.shown: FloquetResult | None = None
+        self.left: Near | None = None
+        self.changes: list[float] = []
+
+    def run(self, near: Near | None) -> Fate:
+        if near is not None:
+            self.time = first_release(self.p)
+        leg = FIRST_LEG
+        while True:
+            if near is not None:
+                self.shown = self.shown or near.cycle
+                if near.cycle.stable:
+                    self.shown = near.cycle
+                    return self._ended("stable" if self.left is None or self._quiet(near.x) else "unstable")
+                if self._depart(near) >= self.horizon:
+                    return self._ended("unstable")
+                leg = FIRST_LEG
+            elif self.time >= self.horizon:
+                return self._ended("unstable" if self.left or _growing(self.changes) else "undecided")
+            result = simulate(
+                self.p,
+                min(self.time + leg, self.horizon),
+                tol=self.tol,
+                initial_state=self.state,
+                record=Record(events=False),
+                stop_at="first_separation",
+            )
+            self.simulated += result.final_state.time - self.time
+            self.state, self.time, leg = result.final_state, result.final_state.time, 2 * leg
+            if result.status is Status.STOPPED:
+                return self._ended("separation", first_separation=result.first_separation)
+            if not result.status.complete:
+                return self._ended("unknown", status=result.status.value, message=result.message)
+            code, x = self.map.next_release(self.state)
+            near = None
+            if code == RETURNED:
+                near = self._look(x)
+            elif OUTCOMES[code] == "time_over" and _nears_sliding(self.p, self.state, self.tol):
+                self.shown = None
+                return self._ended("stable", sliding=True)
+
+    def _quiet(self, x: Array) -> bool:
+        """Whether a cycle is so near the start that a motion between them counts as quiet."""
+        return bool(np.linalg.norm(x - self.map.static) <= NEAR * np.linalg.norm(self.map.static))
+
+    def _ended(self, outcome: str, **more: Any) -> Fate:
+        return Fate(outcome, self.simulated, self.shown, state=self.state, **more)
+
+    def _depart(self, near: Near) -> float:
+        """Follow the linear map away from an unstable cycle, as far as it may be; the time then, s."""
+        room = max(0, math.ceil((self.horizon - self.time) / near.cycle.period))
+        periods, distance = _departure(near, room)
+        self.time += periods * near.cycle.period
+        self.state = near.map.state(near.x + distance).replace(time=self.time)
+        self.left = near
+        return self.time
+
+    def _look(self, x: Array) -> Near | None:
+        """The cycle that the motion, now at `x`, follows linearly; once it departs from one, only a stable one."""
+        size = float(np.linalg.norm(self.map.static))
+        change, releases = _period(self.map, x)
+        self.changes.append(change)
+        if not change <= NEARLY_PERIODIC:
+            return None
+        found = newton(self.map, x, tol=CYCLE_TOL, releases=releases)
+        if found is None or np.linalg.norm(found.x - x) > NEAR * size:
+            return None
+        cycle = cycle_of(self.map, CYCLE_TOL, found)
+        if self.left is not None and not cycle.stable:
+            return None
+        near = _near(self.map, cycle, x)
+        return near if near.own else None
+
+
+def first_release(p: Parameters) -> float:
+    """Time at which the published start first slips, s: then it is on the section."""
+    return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
+
+
+def _near(map_: ReturnMap, cycle: FloquetResult, at: Array) -> Near:
+    """A motion at a point of the section, seen from a cycle."""
+    assert cycle.state is not None
+    x = map_.point(cycle.state)
+    _, _, jacobian, _ = map_.evaluate(x, releases=cycle.releases)
+    own = any(_linear(map_, cycle, x, jacobian, at - x, times) for times in TESTS)
+    return Near(cycle, own, map_, x, at - x, jacobian)
+
+
+def _linear(
+    map_: ReturnMap, cycle: FloquetResult, x: Array, jacobian: Array, distance: Array, times: tuple[float, float]
+) -> bool:
+    """Whether the motion from x + distance departs from the cycle, or nears it, as its multipliers say."""
+    leading = _left_vector(jacobian)
+    expected, moved, parts = distance, x + distance, list[float]()
+    done = 0
+    counts = [max(i, round(time / cycle.period)) for i, time in enumerate(times, 1)]
+    for count in counts:
+        flight, moved, _, _ = map_.evaluate(moved, releases=(count - done) * cycle.releases, tangent=False, coarse=True)
+        if flight.outcome != RETURNED:
+            return False
+        expected = np.linalg.matrix_power(jacobian, count - done) @ expected
+        if not np.linalg.norm(moved - x - expected) <= AGREES * np.linalg.norm(expected):
+            return False
+        parts.append(float(abs(leading @ (moved - x))))
+        done = count
+    if not min(parts) > 0:
+        return False
+    rate = math.log(parts[1] / parts[0]) / ((counts[1] - counts[0]) * cycle.period)
+    return abs(rate - cycle.growth_rate) <= RATE_AGREES * abs(cycle.growth_rate)
+
+
+def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
+    """Left eigenvector of the leading eigenvalue: its product with a distance is that eigenvalue's part of it.
+
+    size : what leads, the modulus of a map's eigenvalues or the real part of those of equations
+    """
+    values, vectors = np.linalg.eig(jacobian.T)
+    return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
+
+
+def _departure(near: Near, room: int) -> tuple[int, Array]:
+    """Number of periods that the linear map may stand for, at most `room`, and the distance from the cycle then."""
+    size = float(np.linalg.norm(near.map.static))
+    powers = [near.jacobian]
+    while 2 ** len(powers) <= room:
+        powers.append(powers[-1] @ powers[-1])
+    for amplitude in AMPLITUDES:
+        n, distance = 0, near.distance
+        for i in reversed(range(len(powers))):
+            ahead = powers[i] @ distance
+            if n + 2**i <= room and np.linalg.norm(ahead) <= amplitude * size:
+                n, distance = n + 2**i, ahead
+        if n == 0:
+            break
+        if any(_linear(near.map, near.cycle, near.x, near.jacobian, distance, times) for times in TESTS):
+            return n, distance
+    return 0, near.distance
+
+
+def _period(map_: ReturnMap, x: Array) -> tuple[float, int]:
+    """Least change from a release to a later one, relative to the static deflection, and how many lie between."""
+    size = float(np.linalg.norm(map_.static))
+    changes, now = list[float](), x
+    for _ in range(LARGEST_PERIOD):
+        flight, now, _, _ = map_.evaluate(now, tangent=False, coarse=True)
+        if flight.outcome != RETURNED:
+            break
+        changes.append(float(np.linalg.norm(now - x) / size))
+    if not changes:
+        return math.nan, 0
+    # of those that are about as good the shortest
+    releases = next(i for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
+    return changes[releases - 1], releases
+
+
+def _growing(changes: list[float]) -> bool:
+    """Whether the change over a period has risen, over two legs or more."""
+    least = math.inf
+    for before, one, two in zip(changes, changes[1:], changes[2:], strict=False):
+        least = min(least, before)
+        if min(one, two) > max(NOISE, GROWTH * least):
+            return True
+    return False
+
+
+def _nears_sliding(p: Parameters, state: State, tol: float) -> bool:
+    """Whether a motion that slides nears stable steady sliding as the eigenvalues there say."""
+    sliding = steady_sliding(p)
+    if not sliding.stable or contact_give(p):  # a compliant contact has coordinates of its own
+        return False
+    scale = _energy_scale(p, sliding)
+    jacobian = scale[:, None] * sliding.jacobian / scale
+    expected = scale * _from_sliding(p, sliding, state)
+    static = p.N * float(np.linalg.norm(mode_arrays(p).psi / mode_arrays(p).omega))
+    if not np.linalg.norm(expected) <= NEAR * static:
+        return False
+    leading, parts, before = _left_vector(jacobian, np.real), list[float](), 0.0
+    for time in SLIDING_TIMES:
+        result = simulate(p, state.time + time, tol=tol, initial_state=state, record=Record(events=False))
+        if not result.status.complete or result.final_state.phase != "slip":
+            return False
+        apart = scale * _from_sliding(p, sliding, result.final_state)
+        expected = expm(jacobian * (time - before)) @ expected
+        size = float(np.linalg.norm(expected))
+        if not np.linalg.norm(apart - expected) <= max(AGREES * size, NOISE * static):
+            return False
+        parts.append(float(abs(leading @ apart)))
+        before = time
+    if parts[1] <= NOISE * static:
+        return True
+    rate = math.log(parts[1] / parts[0]) / (SLIDING_TIMES[1] - SLIDING_TIMES[0])
+    return abs(rate - sliding.growth_rate) <= RATE_AGREES * abs(sliding.growth_rate)
+
+
+def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
+    """Distance from steady sliding, in the rows of its Jacobian."""
+    pairs = mode_arrays(p).diameters > 0
+    return np.concatenate(
+        [
+            state.a - sliding.a,
+            state.alpha - sliding.alpha,
+            (state.b - sliding.b)[pairs],
+            (state.beta - sliding.beta)[pairs],
+            [state.psi - sliding.psi, state.f - p.Omega],
+        ]
+    )
+
+
+def _energy_scale(p: Parameters, sliding: SteadySliding) -> Array:
+    """Factors to rows of which the norm is that of the energy."""
+    modes = mode_arrays(p)
+    pairs = modes.diameters > 0
+    ones = np.ones(len(modes.omega))
+    slider = [p.r_0 * math.sqrt(p.k_p), p.r_0 * math.sqrt(p.m)]
+    return np.concatenate([modes.omega, ones, modes.omega[pairs], ones[pairs], slider])

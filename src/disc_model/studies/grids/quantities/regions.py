@@ -1,0 +1,314 @@
+"""What becomes of the published start over two parameters, refined where it changes; and the cycle at every point.
+
+A batch is a tile of the plane. The cycle is found at each of its points, which is cheap. What becomes of the published
+start (`disc_model.stability.fate`) follows from the cycle's multipliers where it is quiet, or grows so slowly that
+nothing else happens within the horizon. Elsewhere it is simulated at the corners of coarse cells. A cell is divided
+where they differ, where slow growth lies beside separation, or where no corner tells. Neutral curves and folds are thus
+followed from point to point, and borders of separation down to the grid's own intervals; in a cell that is not divided
+all that multipliers leave open have the outcome of its corners.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+from itertools import pairwise, product
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.data.variables import SCALARS, Variable
+from disc_model.errors import DiscModelError
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.result import State
+from disc_model.stability.cycle import CycleStatus, FloquetResult
+from disc_model.stability.fate import CYCLE_TOL, Fate, Near, departs_after, fate, published_start_near
+from disc_model.stability.resonances import modes_at_rest
+from disc_model.stability.return_map import ReturnMap, newton
+from disc_model.studies.grids.run import NUMERICAL, STATUS, Column, Row
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import RegionsOptions
+
+Array = NDArray[np.float64]
+Place = tuple[int, int]
+Point = Parameters | DiscModelError
+
+OUTCOMES = ("unknown", "stable", "unstable", "separation", "undecided")
+ORIGINS = ("none", "multipliers", "simulation", "undivided_cell")
+JOINED = ("no", "yes")
+CYCLES = ("none_found", "followed", "only_near", "slides", "sticks")
+COLUMNS = {
+    "status": Column(STATUS),
+    "outcome": Column(
+        Variable("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES)
+    ),
+    "origin": Column(Variable("1", "how the outcome is known; undivided_cell: like that cell's corners", ORIGINS)),
+    "first_separation": Column(SCALARS["first_separation"]),
+    "simulated": Column(Variable("s", "simulated time")),
+    "cycle": Column(
+        Variable("1", "whether the published start follows the cycle found; without one, what it does", CYCLES)
+    ),
+    "growth_rate": Column(Variable("s-1", "growth rate of disturbances of the cycle that the published start follows")),
+    "period": Column(Variable("s", "period of the cycle")),
+    "releases": Column(Variable("1", "number of stick releases in its period"), whole=True),
+    "oscillations": Column(
+        Variable("1", "period of the cycle over that of the lowest mode of disc and slider at rest")
+    ),
+    "joined_first": Column(
+        Variable("1", "whether the cycle goes on into the next point's along the plane's first dimension", JOINED)
+    ),
+    "joined_second": Column(
+        Variable("1", "whether the cycle goes on into the next point's along the plane's second dimension", JOINED)
+    ),
+    "other_cycles": Column(Variable("1", "number of other cycles known, followed from neighbours"), whole=True),
+}
+
+SMOOTH = 0.002
+"""Cycles of neighbours nearer than this, over the static deflection, are one that goes on."""
+ANOTHER = 0.02
+"""Cycles of neighbours further apart than this, over the static deflection, may be different ones."""
+SAME = 1e-4
+"""Cycles of one point nearer than this are one."""
+SEPARATING = 5.0
+"""How long a motion is followed for its history, beyond where its fate was known, s."""
+MOST_CYCLES = 4
+"""Cycles carried from point to point, at most."""
+
+
+def coordinates(options: RegionsOptions) -> dict[str, Any]:
+    """No dimensions beyond the grid's."""
+    return {}
+
+
+def over(
+    points: Sequence[Sequence[Point]], options: RegionsOptions, sampled: Collection[Place]
+) -> list[list[tuple[Row, str]]]:
+    """Rows and messages of a tile.
+
+    Parameters
+    ----------
+    points : rows of the tile, parameters or why there are none
+    sampled : places at which the outcome is worked out in any case
+    """
+    return _Tile(points, options, sampled).rows()
+
+
+def state_at(p: Parameters, options: RegionsOptions) -> State:
+    """What the motion has come to; raises `SimulationError` if it did not get there."""
+    found = fate(p, options.horizon, tol=options.tol)
+    if found.cycle is not None and found.cycle.stable:
+        state = found.cycle.state
+        assert state is not None
+        return state
+    if found.state is None:
+        return simulate(p, options.horizon, tol=options.tol).raise_for_status().final_state
+    end = found.state.time + SEPARATING
+    return simulate(p, end, tol=options.tol, initial_state=found.state).raise_for_status().final_state
+
+
+class _Followed(NamedTuple):
+    """A cycle, and where it is on the section of its map."""
+
+    cycle: FloquetResult
+    map: ReturnMap
+    x: Array
+
+
+class _Tile:
+    def __init__(self, points: Sequence[Sequence[Point]], options: RegionsOptions, sampled: Collection[Place]) -> None:
+        self.points, self.options = points, options
+        self.shape = len(points), len(points[0])
+        self.starts: dict[Place, Near | FloquetResult | Exception] = {}
+        self.fates: dict[Place, Fate | Exception] = {}
+        self.filled: dict[Place, str] = {}
+        for i, j in product(range(self.shape[0]), range(self.shape[1])):
+            self.starts[i, j] = self._start((i, j))
+        self.trends = {place: self._trend(place) for place in self.starts}
+        for place in sampled:
+            self.outcome(place)
+        rows, columns = (_edges(size, options.coarse) for size in self.shape)
+        known = -1
+        # a cell may have to be divided for what has been found on its edge
+        while known < len(self.fates):
+            known = len(self.fates)
+            self.filled.clear()
+            for across, along in product(pairwise(rows), pairwise(columns)):
+                self._refine(across, along)
+
+    def _start(self, place: Place) -> Near | FloquetResult | Exception:
+        point = self.points[place[0]][place[1]]
+        if isinstance(point, DiscModelError):
+            return point
+        try:
+            return published_start_near(point)
+        except NUMERICAL as error:
+            return error
+
+    def outcome(self, place: Place) -> str:
+        """Of the published start at a point, worked out once."""
+        if place not in self.fates:
+            self.fates[place] = self._fate(place)
+        found = self.fates[place]
+        return found.outcome if isinstance(found, Fate) else "unknown"
+
+    def _fate(self, place: Place) -> Fate | Exception:
+        point, start = self.points[place[0]][place[1]], self.starts[place]
+        if isinstance(start, Exception):
+            return start
+        assert isinstance(point, Parameters)
+        try:
+            return fate(point, self.options.horizon, tol=self.options.tol, start=start)
+        except NUMERICAL as error:
+            return error
+
+    def _trend(self, place: Place) -> str:
+        """What multipliers say of a point: "quiet", "slow" (it grows until the horizon, and no more), or "open"."""
+        start = self.starts[place]
+        if not (isinstance(start, Near) and start.own):
+            return "open"
+        if start.cycle.stable:
+            return "quiet"
+        return "slow" if departs_after(start, self.options.horizon) else "open"
+
+    def _refine(self, rows: Place, columns: Place) -> None:
+        """Divide a cell, given by the indices of its edges, or fill it."""
+        inside = list(product(range(rows[0], rows[1] + 1), range(columns[0], columns[1] + 1)))
+        undecided = [place for place in inside if self.trends[place] == "open"]
+        if not undecided:
+            return
+        for corner in product(rows, columns):
+            if self.trends[corner] == "open":
+                self.outcome(corner)
+        # on the way from slow growth to separation there may be growth that is faster, and still no separation
+        outcomes = {self.outcome(place) for place in undecided if place in self.fates}
+        outcomes |= {"unstable" for place in inside if self.trends[place] == "slow"}
+        halves = [_halves(*edges) for edges in (rows, columns)]
+        if len(outcomes) == 1 and any(place in self.fates for place in undecided):
+            self.filled |= {place: next(iter(outcomes)) for place in undecided}
+        elif len(halves[0]) * len(halves[1]) > 1:
+            for i, j in product(*halves):
+                self._refine(i, j)
+
+    def rows(self) -> list[list[tuple[Row, str]]]:
+        others = self._others()
+        self.followed = {place: followed for place in self.starts if (followed := self._follow(place)) is not None}
+        return [[self._row((i, j), int(others[i, j])) for j in range(self.shape[1])] for i in range(self.shape[0])]
+
+    def _follow(self, place: Place) -> _Followed | None:
+        """The cycle that the published start follows at a point, if that is known."""
+        start, found = self.starts[place], self.fates.get(place)
+        own = isinstance(start, Near) and start.own
+        if isinstance(found, Fate) and not (own and found.cycle is start.cycle):  # type: ignore[union-attr]
+            if found.cycle is None or found.cycle.state is None:
+                return None
+            map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
+            return _Followed(found.cycle, map_, map_.point(found.cycle.state))
+        return _Followed(start.cycle, start.map, start.x) if isinstance(start, Near) and own else None
+
+    def _joined(self, here: Place, ahead: Place) -> str:
+        """Whether a point's cycle goes on into that of the next one."""
+        one, two = self.followed.get(here), self.followed.get(ahead)
+        if one is None or two is None or one.x.shape != two.x.shape or one.cycle.releases != two.cycle.releases:
+            return "no"
+        size = float(np.linalg.norm(two.map.static))
+        # in units of the static deflection, which varies with the parameters
+        x = one.x * size / float(np.linalg.norm(one.map.static))
+        if np.linalg.norm(x - two.x) <= SMOOTH * size:
+            return "yes"
+        found = newton(two.map, x, tol=CYCLE_TOL, releases=two.cycle.releases)
+        return "yes" if found is not None and np.linalg.norm(found.x - two.x) <= SAME * size else "no"
+
+    def _row(self, place: Place, others: int) -> tuple[Row, str]:
+        start, found = self.starts[place], self.fates.get(place)
+        if isinstance(start, Exception) or isinstance(found, Exception):
+            error = start if isinstance(start, Exception) else found
+            return {"status": "failed"}, f"{type(error).__name__}: {error}"
+        row: dict[str, Any] = {"status": "ok", "other_cycles": others}
+        message = ""
+        if isinstance(found, Fate):
+            row |= {
+                "status": found.status,
+                "outcome": found.outcome,
+                "origin": "simulation" if found.simulated else "multipliers",
+                "first_separation": found.first_separation,
+                "simulated": found.simulated,
+            }
+            message = found.message
+        elif self.trends[place] == "open":
+            row |= {"outcome": self.filled[place], "origin": "undivided_cell"}
+        else:
+            row |= {"outcome": {"quiet": "stable", "slow": "unstable"}[self.trends[place]], "origin": "multipliers"}
+        row["joined_first"] = self._joined(place, (place[0] + 1, place[1]))
+        row["joined_second"] = self._joined(place, (place[0], place[1] + 1))
+        followed = self.followed.get(place)
+        if followed is not None:
+            cycle = followed.cycle
+            lowest = min(frequency for frequency, _, bound in modes_at_rest(cycle.parameters) if bound)
+            row |= {
+                "cycle": "followed",
+                "growth_rate": cycle.growth_rate,
+                "period": cycle.period,
+                "releases": cycle.releases,
+                "oscillations": cycle.period * lowest,
+            }
+        else:
+            row["cycle"] = _without(start, found)
+        return row, message
+
+    def _others(self) -> NDArray[np.int64]:
+        """How many cycles are known at each point besides the one nearest to the start.
+
+        Along each row, both ways, a cycle that does not go on into the next point's own is looked for there.
+        """
+        known = {place: [start.x] if isinstance(start, Near) else [] for place, start in self.starts.items()}
+        for i in range(self.shape[0]):
+            ways = list(range(self.shape[1]))
+            for way in (ways, ways[::-1]):
+                for before, here in pairwise(way):
+                    self._carry(known, (i, before), (i, here))
+        counts = np.zeros(self.shape, dtype=np.int64)
+        for place, cycles in known.items():
+            counts[place] = max(0, len(cycles) - 1)
+        return counts
+
+    def _carry(self, known: dict[Place, list[Array]], before: Place, here: Place) -> None:
+        start, there = self.starts[here], self.starts[before]
+        if not (isinstance(start, Near) and isinstance(there, Near)) or start.x.shape != there.x.shape:
+            return
+        size = float(np.linalg.norm(start.map.static))
+        # in units of the static deflection, which varies with the parameters
+        scale = size / float(np.linalg.norm(there.map.static))
+        for cycle in known[before]:
+            if len(known[here]) >= MOST_CYCLES:
+                return
+            if min(np.linalg.norm(scale * cycle - x) for x in known[here]) <= ANOTHER * size:
+                continue
+            found = newton(start.map, scale * cycle, tol=CYCLE_TOL, releases=there.cycle.releases)
+            if found is not None and min(np.linalg.norm(found.x - x) for x in known[here]) > SAME * size:
+                known[here].append(found.x)
+
+
+def _without(start: Near | FloquetResult, found: Fate | None) -> str:
+    """What there is at a point whose motion follows no cycle."""
+    if found is not None and found.sliding:
+        return "slides"
+    if isinstance(start, Near):
+        return "only_near"
+    if start.status is CycleStatus.AT_REST:
+        return "sticks"
+    return "slides" if start.status is CycleStatus.NO_STICK_SLIP and start.sliding.stable else "none_found"
+
+
+def _edges(size: int, coarse: int) -> list[int]:
+    """Indices of the edges of coarse cells along `size` points."""
+    cells = max(1, math.ceil((size - 1) / coarse))
+    return sorted({round(i * (size - 1) / cells) for i in range(cells + 1)})
+
+
+def _halves(first: int, last: int) -> list[Place]:
+    """The two halves of an interval of indices, or itself if it cannot be divided."""
+    middle = (first + last) // 2
+    return [(first, middle), (middle, last)] if middle > first else [(first, last)]

@@ -1,0 +1,73 @@
+"""Maps of regions."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.collections import LineCollection
+
+from disc_model.figures.grids import region_map as maps
+from disc_model.figures.grids.kinds import Mark, RegionMap
+from disc_model.figures.parts import save
+from disc_model.studies.grids.quantities import regions
+
+
+def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
+    """A plane in which the cycle loses stability at the third value of x, and ends above the second load."""
+    dims = ("N", x, "normalization")
+    shape = (4, len(values), len(norms))
+    growth = np.where(np.arange(len(values)) < 2, -0.1, 0.1)[None, :, None] * np.ones(shape)
+    growth[2:] = np.nan
+
+    def words(name: str, codes: np.ndarray) -> tuple:
+        flags = {"flag_meanings": " ".join(regions.COLUMNS[name].variable.flags)}
+        return dims, codes * np.ones(shape, int), flags
+
+    followed = np.where(np.isfinite(growth), 1, 0)
+    outcome = np.where(np.isnan(growth), 4, np.where(growth < 0, 1, 3))
+    outcome[3, 0] = 2
+    data = {
+        "outcome": words("outcome", outcome),
+        "cycle": words("cycle", followed),
+        "origin": words("origin", np.full(shape, 2)),
+        "joined_first": words("joined_first", followed),
+        "joined_second": words("joined_second", followed),
+        "growth_rate": (dims, growth),
+    }
+    axes = {"N": [100.0, 200, 300, 400], x: values, "normalization": norms}
+    return xr.Dataset(data, axes, {"options": json.dumps({"horizon": 900.0})})
+
+
+def lengths(ax) -> list[int]:
+    return [len(lines.get_segments()) for lines in ax.collections if isinstance(lines, LineCollection)]
+
+
+@pytest.mark.parametrize(
+    ("x", "values", "scale"),
+    [("Omega", [5.0, 10, 20], "linear"), ("D_star", [0, 1e-6, 1e-4], "symlog"), ("m", [0.01, 0.1, 1], "log")],
+)
+def test_cells_borders_and_marks(x: str, values: list[float], scale: str, tmp_path) -> None:
+    study = made_up(x, values, ["as_published", "orthonormal"])
+    marks = {"a": Mark(x=values[0], y=100, paper="stable"), "b": Mark(x=values[-1], y=400, paper="separation")}
+    figure = maps.draw(study, {}, RegionMap(x=x, y="N", marks=marks))
+    outcome, _, growth, _ = figure.axes[:4]
+    assert outcome.get_xscale() == scale
+    # the cycle's stability changes at two loads between the second and third value; stable ones end at two values
+    assert lengths(outcome) == lengths(growth) == [2, 2]
+    assert {text.get_text() for text in outcome.texts} == {"a", "b"}
+    above, below = ([text.get_text() for text in legend.get_texts()] for legend in figure.legends)
+    assert {"stays quiet", "separation", "undecided", "cycle loses stability"} <= set(above)
+    assert "no cycle found" in below
+    assert "Within 900 s of the published start. 24 of 24 points simulated." in below
+    save(figure, tmp_path / "map.png")
+
+
+def test_a_plane_that_lies_the_other_way_round(tmp_path) -> None:
+    study = made_up("Omega", [5.0, 10, 20], ["orthonormal"]).isel(normalization=0, drop=True)
+    study.attrs["base"] = json.dumps({"normalization": "orthonormal"})
+    figure = maps.draw(study, {}, RegionMap(x="N", y="Omega"))
+    assert lengths(figure.axes[0]) == [2, 2]
+    assert figure.axes[0].get_ylabel() == "Speed Ω (rad/s)"

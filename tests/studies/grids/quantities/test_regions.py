@@ -1,0 +1,165 @@
+"""Regions of outcomes: which cells are divided, and how tiles make a plane."""
+
+from __future__ import annotations
+
+import json
+import math
+from itertools import product
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import flag_names
+from disc_model.errors import DiscModelError
+from disc_model.parameters import Parameters
+from disc_model.stability.cycle import CycleStatus
+from disc_model.stability.fate import Fate
+from disc_model.studies.files import StudyError
+from disc_model.studies.grids.quantities import regions
+from disc_model.studies.grids.quantities.schema import RegionsOptions
+from disc_model.studies.grids.schema import parse_grid
+from tests.studies.grids.conftest import computed
+
+ROUND = {"Omega": (28.0, 14.0), "N": (300.0, 160.0)}
+"""Middle and half axis of the ellipse within which the made-up motion separates."""
+
+
+def separates(p: Parameters) -> bool:
+    return math.hypot(*((getattr(p, name) - at) / size for name, (at, size) in ROUND.items())) < 1
+
+
+@pytest.fixture
+def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
+    """Motions that separate within an ellipse and stay quiet outside, of which multipliers say nothing; those asked."""
+    asked: list[Parameters] = []
+
+    def fate(p: Parameters, horizon: float, **_) -> Fate:
+        asked.append(p)
+        return Fate("separation" if separates(p) else "stable", 1.0, None, first_separation=p.N)
+
+    nothing = SimpleNamespace(status=CycleStatus.NO_CYCLE)
+    monkeypatch.setattr(regions, "published_start_near", lambda p: nothing)
+    monkeypatch.setattr(regions, "fate", fate)
+    return asked
+
+
+def raw(**changes) -> dict:
+    study = {
+        "quantity": "regions",
+        "options": {"horizon": 10, "coarse": 8},
+        "axes": {
+            "Omega": {"start": 5, "stop": 50, "count": 65},
+            "N": {"start": 50, "stop": 600, "count": 49},
+            "normalization": ["as_published"],
+        },
+        "batch": {"over": ["N", "Omega"], "tile": 32},
+    }
+    return study | changes
+
+
+def test_a_region_is_found_as_by_brute_force_with_fewer_points(made_up) -> None:
+    study = computed(**raw()).isel(normalization=0)
+    expected = [[separates(Parameters(N=N, Omega=Omega)) for Omega in study["Omega"].values] for N in study["N"].values]
+    found = flag_names(study["outcome"].transpose("N", "Omega")) == "separation"
+    np.testing.assert_array_equal(found, expected)
+    origin = flag_names(study["origin"])
+    assert set(np.unique(origin)) == {"simulation", "undivided_cell"}
+    assert (origin == "simulation").sum() < 0.3 * origin.size
+    # what was not computed has no time of its own
+    assert (np.isfinite(study["first_separation"].values) == (origin == "simulation")).all()
+
+
+def test_the_border_does_not_depend_on_the_tiles(made_up) -> None:
+    whole = computed(**raw(batch={"over": ["N", "Omega"], "tile": 64}))
+    parts = computed(**raw(batch={"over": ["N", "Omega"], "tile": 16}))
+    assert whole["outcome"].equals(parts["outcome"])
+
+
+def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
+    axis = [Parameters(N=N, Omega=20) for N in np.linspace(50, 600, 17)]
+    rows = [[p.replace(Omega=Omega) for p in axis] for Omega in np.linspace(5, 50, 17)]
+    options = RegionsOptions(horizon=10, coarse=4)
+    found = regions.over(rows, options, [])
+    mirrored = regions.over([row[::-1] for row in rows[::-1]], options, [])
+    assert [[row["outcome"] for row, _ in line] for line in found] == [
+        [row["outcome"] for row, _ in line[::-1]] for line in mirrored[::-1]
+    ]
+
+
+def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
+    marks = {"here": {"x": 12.03125, "y": 187.5, "paper": "stable"}}
+    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": marks}
+    study = parse_grid({"study": "small", **raw(figures={"map": plot})})
+    texts = [json.loads(text) for text in study.batches.values()]
+    assert len(texts) == 2 * 2
+    points = [tuple(point) for text in texts for point in text["points"]]
+    assert len(points) == len(set(points)) == study.n_points
+    sampled = [
+        [along[i] for along, i in zip(text["tile"]["along"], place, strict=True)]
+        for text in texts
+        for place in text["tile"]["sampled"]
+    ]
+    assert sampled == [[187.5, 12.03125]]
+    bare = parse_grid({"study": "small", **raw()})
+    # only the tile in which the mark lies is another batch
+    assert len(study.batches.keys() - bare.batches.keys()) == 1
+
+
+def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:
+    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": {"a": {"x": 50, "y": 600, "paper": "stable"}}}
+    plot["marks"]["b"] = {"x": 47.890625, "y": 588.541666667, "paper": "stable"}
+    study = computed(**raw(figures={"map": plot})).isel(normalization=0)
+    for mark in plot["marks"].values():
+        here = study.sel(Omega=mark["x"], N=mark["y"], method="nearest")
+        assert flag_names(here["origin"]) == "simulation"
+
+
+def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatch: pytest.MonkeyPatch) -> None:
+    fate = regions.fate
+
+    def failing(p: Parameters, horizon: float, **how) -> Fate:
+        if p.Omega == 50 and p.N == 600:
+            raise DiscModelError("no luck")
+        return fate(p, horizon, **how)
+
+    monkeypatch.setattr(regions, "fate", failing)
+    study = computed(**raw()).isel(normalization=0)
+    corner = study.sel(Omega=50, N=600)
+    assert flag_names(corner["status"]) == "failed"
+    assert "no luck" in str(corner["message"].values)
+    assert (flag_names(study["status"]) == "failed").sum() == 1
+
+
+@pytest.mark.parametrize("over", [["N"], ["N", "normalization"], None])
+def test_a_tile_needs_two_numbers(over) -> None:
+    batch = {} if over is None else {"over": over}
+    with pytest.raises(StudyError, match=r"batch.over.*two dimensions"):
+        parse_grid({"study": "small", **raw(batch=batch)})
+
+
+@pytest.mark.parametrize(("size", "coarse"), list(product([2, 3, 9, 34, 65], [1, 8, 50])))
+def test_coarse_cells_cover_a_side(size: int, coarse: int) -> None:
+    edges = regions._edges(size, coarse)
+    assert edges[0] == 0
+    assert edges[-1] == size - 1
+    assert max(np.diff(edges)) <= coarse or len(edges) == 2
+
+
+@pytest.mark.compiled
+def test_the_cycle_is_known_at_every_point_and_goes_on_from_one_to_the_next() -> None:
+    study = computed(
+        quantity="regions",
+        options={"horizon": 50},
+        axes={"N": [100, 110], "Omega": [14, 15, 16], "normalization": ["as_published"]},
+        batch={"over": ["N", "Omega"]},
+    ).isel(normalization=0)
+    assert (flag_names(study["cycle"]) == "followed").all()
+    assert (study["growth_rate"].values < 0).all()
+    assert (flag_names(study["origin"]) == "multipliers").all()
+    joined = flag_names(study["joined_second"]) == "yes"
+    assert joined[:, :-1].all()
+    assert not joined[:, -1].any()
+    assert (study["other_cycles"].values == 0).all()
+    # just below two oscillations of 135.42 Hz
+    assert study["oscillations"].values == pytest.approx(1.91, abs=0.02)
