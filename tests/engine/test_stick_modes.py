@@ -20,12 +20,15 @@ def excited(model: layout.Model, mode: int, angle: float) -> layout.State:
     n, length = len(model.modes.gain), len(state.disc)
     leave = model.modes.leave.reshape(2 * n, length)
     state.disc[:] = model.modes.rest + np.cos(angle) * leave[mode] + np.sin(angle) * leave[n + mode]
+    if model.give:
+        slider = 2 * (len(state.z) + len(state.y))  # u and u' stand behind the disc
+        state.x[layout.U : layout.U_VELOCITY + 1] = state.disc[slider : slider + 2]
     return state
 
 
-@pytest.fixture
-def model() -> layout.Model:
-    return build_model(P)
+@pytest.fixture(params=[0.0, 2.5e-7], ids=["rigid", "compliant"])
+def model(request: pytest.FixtureRequest) -> layout.Model:
+    return build_model(P.replace(contact_compliance=request.param))
 
 
 def used(model: layout.Model) -> np.ndarray:
@@ -48,8 +51,12 @@ def test_the_modes_are_those_of_the_coupled_system(model: layout.Model) -> None:
     n = len(omega)
     mass = np.eye(n) + P.m * np.outer(psi, psi)
     stiffness, damper = np.diag(omega**2) + P.k * np.outer(psi, psi), np.diag(damping) + P.c * np.outer(psi, psi)
-    inverse = np.linalg.inv(mass)
-    coupled = np.linalg.eigvals(np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ stiffness, -inverse @ damper]]))
+    if model.give:  # the slider has a coordinate of its own, and a spring to the disc
+        spring = np.append(psi, -1.0)
+        mass, damper = np.diag([*np.ones(n), P.m]), np.diag([*damping, P.c])
+        stiffness = np.diag([*omega**2, P.k]) + np.outer(spring, spring) / model.give
+    inverse, zero, one = np.linalg.inv(mass), np.zeros_like(mass), np.eye(len(mass))
+    coupled = np.linalg.eigvals(np.block([[zero, one], [-inverse @ stiffness, -inverse @ damper]]))
     free = [-d / 2 + 1j * np.sqrt(w**2 - d**2 / 4) for w, d in zip(omega[l > 0], damping[l > 0], strict=True)]
     expected = np.concatenate([coupled[coupled.imag > 0], free]) * model.unit
     found = (model.modes.decay + 1j * model.modes.turn)[used(model)]

@@ -94,17 +94,19 @@ class Disturbed(Full):
         return self.columns if tangent else self.coordinates
 
 
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_columns_along_one_phase(phase: str, direction: int) -> None:
-    start = lively(phase, direction, LIVELY)
-    got = Disturbed(LIVELY, start).at_end(tangent=True)
+@pytest.mark.parametrize(("phase", "direction", "n_circles"), [*((*motion, 0) for motion in MOTIONS), ("slip", 1, 1)])
+def test_columns_along_one_phase(phase: str, direction: int, n_circles: int) -> None:
+    """With a circle there are two modes without nodal diameter."""
+    p = LIVELY.replace(n_circles=n_circles)
+    start = lively(phase, direction, p)
+    got = Disturbed(p, start).at_end(tangent=True)
 
     def end(change: np.ndarray) -> np.ndarray:
-        other = Disturbed(LIVELY, start)
+        other = Disturbed(p, start)
         other.moved(change)
         return other.at_end()
 
-    steps = 1e-3 * np.maximum(np.abs(Disturbed(LIVELY, start).coordinates), 1e-4)
+    steps = 1e-3 * np.maximum(np.abs(Disturbed(p, start).coordinates), 1e-4)
     expected = np.array([differences(lambda s, i=i: end(s * np.eye(len(steps))[i]), h) for i, h in enumerate(steps)]).T
     size = np.abs(got) + np.abs(expected) + 1e-4 * np.max(np.abs(expected), axis=1, keepdims=True)
     assert np.max(np.abs(got - expected) / size) < 1e-5
