@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes, simulate
 from disc_model.benchmarks import truncation
-from disc_model.benchmarks.truncation import truncation_study
+from disc_model.benchmarks.truncation import contact_study, truncation_study
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
 
@@ -71,3 +71,19 @@ def test_the_study_of_truncation_is_made_of_its_parts(monkeypatch, tmp_path):
     assert published["force_min"] == pytest.approx(385, abs=1e-6)  # at rest
     assert np.isnan(one["first_separation"].sel(normalization="orthonormal"))
     save(figures.truncation(found), tmp_path / "truncation.png")
+
+
+@pytest.mark.compiled
+def test_study_of_residual_flexibility_and_its_figure(tmp_path):
+    case = {"N=800": {"N": 800.0, "Omega": 30.0, "normalization": "orthonormal"}}
+    study = contact_study(((3, 0), (4, 0)), case, horizon=20.0).isel(case=0)
+    first, error = study["first_separation"], study["frequency_error"]
+    assert float(first.sel(contact="rigid", model="4,0")) == pytest.approx(13.546, abs=1e-3)
+    assert float(first.sel(contact="residual", model="4,0")) == pytest.approx(18.399, abs=1e-3)
+    assert (error.sel(contact="residual") < error.sel(contact="rigid")).all()
+    assert (study["contact_compliance"].sel(contact="rigid") == 0).all()
+    assert np.isfinite(study.to_dataarray()).all()
+    # once apart, a compliant contact is met again and again
+    assert (study["separations"].sel(contact="residual") > 2 * study["separations"].sel(contact="rigid")).all()
+    save(figures.contact_truncation(study.expand_dims("case")), tmp_path / "truncation.png")
+    assert (tmp_path / "truncation.png").stat().st_size > 5000
