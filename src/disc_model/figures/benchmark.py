@@ -326,12 +326,12 @@ def _cut(ax: Axes, values: np.ndarray) -> None:
 _CONTACT_PANELS: Sequence[tuple[str, str, bool]] = (
     ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
     ("growth_rate", "Growth rate (1/s)", False),
-    ("first_separation", "First separation (s)", True),
+    ("first_separation", "First separation (s)", False),
     ("cost", "Cost before it, s of\nprocessor per s", True),
     ("separations", "After it: separations\nper second", True),
     ("separated_share", "Share of the time apart", False),
     ("u_range", "Range of the slider's\nheight (mm)", False),
-    ("force_max_separating", "Greatest contact force (N)", True),
+    ("force_max_separating", "Greatest contact\nforce (N)", True),
 )
 
 
@@ -359,6 +359,7 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
         ax.set_title(f"({letter}) {label}", loc="left", fontsize=7)
         ax.set_xticks([10, 30, 100], ["10", "30", "100"])
         ax.xaxis.set_minor_formatter(NullFormatter())
+        ax.yaxis.set_minor_formatter(NullFormatter())
     for ax in axes[4:]:
         ax.set_xlabel("Real modes")
     handles = [
