@@ -27,7 +27,7 @@ def test_every_fault_is_shown_and_nothing_runs(project: Project) -> None:
         "base.m = 0: must be > 0",
         "cases.F13.parameters.N = -5: must be >= 0",
         "cases.F13.parameters.mu_k = 0.5: must be <= mu_s=0.4",
-        "cases.F13.tol = 1: must be <= 0.01",
+        "cases.F13.tol = 1: must be within 1e-15 and 0.01",
         "cases.X.parameters.N = nan: must be finite",
         "cases.X.parameters.r_0 = 0.2: must be <= b=0.12",
         "cases.X.parameters.Omga = 3: unknown parameter, did you mean Omega?",
