@@ -103,6 +103,8 @@ def engine_state(state, p):
     """`State` of the references (all psi positive) as disc_model's (signs as plate_modes has them)."""
     sign = np.sign(plate_modes(p)["psi"].to_numpy())
     values = {k: sign * np.array(v, float) if isinstance(v, list) else v for k, v in vars(state).items()}
+    if state.phase != "separation" and p.contact_compliance == 0:  # where the references leave u as it last was
+        values["u"] = float(plate_modes(p)["psi"].to_numpy() @ values["a"])
     return EngineState(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
 
 

@@ -27,7 +27,7 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     sliding = steady_sliding(p)
     assert sliding.status is SlidingStatus.OK
     modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
-    start = State(0.0, "slip", 1, sliding.psi, p.Omega, 0.0, 0.0, **modal)
+    start = State(0.0, "slip", 1, sliding.psi, p.Omega, float(plate_modes(p)["psi"] @ sliding.a), 0.0, **modal)
     run, duration = Full(p, start), 1e-3
     before = run.coordinates
     assert run.fly(duration) == outcomes.TIME_OVER

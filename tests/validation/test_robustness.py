@@ -166,6 +166,7 @@ def start_violently(start: tuple[Parameters, dict[str, float | np.ndarray]], tol
     quiet = simulate(p, 1e-6).final_state
     moving = changes["phase"] == "slip"
     changes = changes | {name: getattr(quiet, name) + changes[name] for name in ("a", "b", "alpha", "beta")}
+    changes["u"] = float(plate_modes(p).psi.to_numpy() @ changes["a"])
     state = quiet.replace(time=0.0, direction=1 if moving else 0, f=0.05 if moving else 0.0, known=0, **changes)
     window = Window(start=1e-4, stop=0.02, rate=1e4)  # the start itself need not fit its phase
     record = Record(windows=(window,), energy=True)
@@ -342,7 +343,8 @@ class TestDegenerate:
         quiet = simulate(p, 1e-6).final_state
         a = quiet.a.copy()
         a[1] += lifted / plate_modes(p).psi[1]
-        events = simulate(p, 0.3, tol=tol, initial_state=quiet.replace(a=a, time=0.0)).raise_for_status().events
+        start = quiet.replace(a=a, u=quiet.u + lifted, time=0.0)
+        events = simulate(p, 0.3, tol=tol, initial_state=start).raise_for_status().events
         assert {"stick_to_slip", "slip_to_stick"} <= set(events.kind)
 
     @pytest.mark.parametrize(("mu", "c_p", "m"), [(0.0, 42, 0.1), (0.0, 44, 0.1), (0.05, 44, 0.1), (0.0, 12, 0.01)])
@@ -374,15 +376,14 @@ class TestDegenerate:
         apart = 0
         for _ in range(60):
             a, alpha = quiet.a + 1e-3 * random.normal(size=5), quiet.alpha + random.normal(size=5)
-            start = quiet.replace(time=0.0, a=a, alpha=alpha, phase=phase, direction=int(phase == "slip"), known=0)
+            psi = plate_modes(p).psi.to_numpy()
+            here = {"a": a, "alpha": alpha, "u": float(psi @ a)}
+            start = quiet.replace(time=0.0, phase=phase, direction=int(phase == "slip"), known=0, **here)
             found = simulate(p, 2e-3, tol=1e-12, initial_state=start)
             if "separation" not in set(found.events.kind[found.events.time == 0]):
                 continue
             apart += 1
-            psi = plate_modes(p).psi.to_numpy()
-            off = start.replace(
-                phase="separation", direction=0, u=float(psi @ a), u_velocity=float(psi @ alpha), known=2
-            )
+            off = start.replace(phase="separation", direction=0, u_velocity=float(psi @ alpha), known=2)
             right = simulate(p, 2e-3, tol=1e-12, initial_state=off)
             times = found.events.time[found.events.time > 0].to_numpy()
             np.testing.assert_allclose(times, right.events.time.to_numpy(), rtol=0, atol=1e-11)
