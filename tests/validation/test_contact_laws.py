@@ -14,14 +14,10 @@ from disc_model.engine import audit, layout, machine, switches
 from disc_model.flexibility import contact_give, residual_flexibility
 from disc_model.simulation.api import published_start
 from disc_model.simulation.result import build_model, engine_case, write_state
+from tests.contact_laws import EACH_LAW, LAWS
 from tests.references import stored, taylor
 from tests.references.printed import lively
 
-LAWS = {
-    "compliant": {"contact_compliance": taylor.COMPLIANCE},
-    "normal": {"contact_force": "normal"},
-    "compliant_normal": {"contact_compliance": taylor.COMPLIANCE, "contact_force": "normal"},
-}
 #: s; what the issue asks for. Rounding of the engine's doubles alone is some 1e-15 s in quiet motion.
 EVENT_TIMES = 1e-13
 
@@ -49,7 +45,7 @@ def _difference(name, runs, tol, record=None):
     return max(times), max(forces)
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", EACH_LAW)
 def test_two_violent_pieces(name):
     """Short enough to run uncompiled: all phases and switches, each step's energy balance."""
     times, forces = _difference(name, slice(1, 3), 1e-14, Record(energy=True))
@@ -58,7 +54,7 @@ def test_two_violent_pieces(name):
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", EACH_LAW)
 def test_every_switch_of_the_first_second(name):
     times, forces = _difference(name, slice(0, 1), 1e-15)
     assert times <= EVENT_TIMES
@@ -66,13 +62,13 @@ def test_every_switch_of_the_first_second(name):
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", EACH_LAW)
 def test_every_switch_of_half_a_violent_second(name):
     assert _difference(name, slice(1, None), 1e-15)[0] <= EVENT_TIMES
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", EACH_LAW)
 def test_error_falls_with_tol(name):
     """Over the first second; `series_tolerance` promises errors of about tol, and half of that was measured."""
     for tol in (1e-6, 1e-8, 1e-10, 1e-12):
@@ -88,7 +84,7 @@ def _reference_step(p, start, law):
     return taylor.Step(q, start.phase, start.direction, stored.reference_state(start, p))
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", EACH_LAW)
 @pytest.mark.parametrize(("phase", "direction"), [("stick", 0), ("slip", 1), ("slip", -1)])
 @pytest.mark.parametrize("n_diameters", [2, 5])
 def test_series_against_the_reference(name, phase, direction, n_diameters):
@@ -124,7 +120,7 @@ def test_series_against_the_reference(name, phase, direction, n_diameters):
 
 # ------------------------------------------------------------------------ energy
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", [*LAWS, "default"])
+@pytest.mark.parametrize("name", [*EACH_LAW, "default"])
 def test_energy_balances_over_ten_thousand_switches(name):
     p = Parameters(N=385.0, Omega=15.1, **LAWS.get(name, {}))
     start = stored.engine_state(taylor.violent_start(1.3), p)
@@ -156,6 +152,7 @@ def _impact_changes(p, count=200):
     return np.array(changes)
 
 
+@pytest.mark.slow
 def test_no_impact_of_the_normal_force_raises_the_energy():
     """The vertical force does, on a slope that falls towards the slider."""
     p = Parameters(N=385.0, Omega=15.1)
@@ -177,9 +174,9 @@ def _classical_events(p, count):
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", [{}, *LAWS.values(), {"contact_compliance": "residual"}])
-def test_a_rigid_disc_gives_the_classical_cycle(law):
-    p = Parameters(N=385.0, Omega=15.1, n_diameters=-1, **law)
+@pytest.mark.parametrize("name", [*EACH_LAW, "default"])
+def test_a_rigid_disc_gives_the_classical_cycle(name):
+    p = Parameters(N=385.0, Omega=15.1, n_diameters=-1, **LAWS.get(name, {}))
     result = simulate(p, 1.0, tol=1e-13)
     events = result.events
     assert result.first_separation != result.first_separation
@@ -190,6 +187,7 @@ def test_a_rigid_disc_gives_the_classical_cycle(law):
 
 
 @pytest.mark.compiled
+@pytest.mark.slow
 @pytest.mark.parametrize("force", ["vertical", "normal"])
 def test_a_stiff_contact_nears_the_rigid_one_by_first_order(force):
     """While contact lasts: ten cycles of stick and slip, every mode's displacement."""
@@ -205,6 +203,7 @@ def test_a_stiff_contact_nears_the_rigid_one_by_first_order(force):
 
 
 @pytest.mark.compiled
+@pytest.mark.slow
 def test_a_stiff_contact_rebounds_where_the_rigid_one_does_not():
     """A compliant contact keeps the energy that a plastic impact takes, however stiff it is: restitution nears 1."""
     p = Parameters(N=0.0, Omega=15.0, k=0.0)
@@ -226,6 +225,7 @@ def test_a_stiff_contact_rebounds_where_the_rigid_one_does_not():
     np.testing.assert_allclose(np.divide(losses[:-1], losses[1:]), 10.0, rtol=0.1)
 
 
+@pytest.mark.slow
 def test_residual_compliance_is_the_flexibility_left_out():
     p = Parameters(N=385.0, Omega=15.1, normalization="orthonormal", contact_compliance="residual")
     assert contact_give(p) == residual_flexibility(p).residual
@@ -234,6 +234,7 @@ def test_residual_compliance_is_the_flexibility_left_out():
     assert same.key != p.key
 
 
+@pytest.mark.slow
 def test_the_whole_deflection_under_the_preload_does_not_depend_on_the_modes():
     """Static equilibrium: modes and contact together give way as the plate does."""
     depths = [
@@ -248,7 +249,7 @@ def test_the_whole_deflection_under_the_preload_does_not_depend_on_the_modes():
 
 
 # ------------------------------------------------------------------------ what a run gives
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", EACH_LAW)
 def test_pieces_of_a_run_are_the_run(name):
     p = Parameters(N=385.0, Omega=15.1, **LAWS[name])
     start = stored.engine_state(taylor.violent_start(1.0), p)
@@ -259,7 +260,7 @@ def test_pieces_of_a_run_are_the_run(name):
     np.testing.assert_allclose(joined, whole.events["time"], rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", EACH_LAW)
 def test_samples_hold_the_laws(name):
     p = Parameters(N=385.0, Omega=15.1, **LAWS[name])
     start = stored.engine_state(taylor.violent_start(1.0), p)
