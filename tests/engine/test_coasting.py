@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.engine import coasting, dense_output, layout, outcomes, series, stick_modes
+from disc_model.engine import coasting, contact_series, dense_output, layout, outcomes, series, stick_modes
 from disc_model.engine.switches import stick_force
 from disc_model.simulation.api import _Run
 from disc_model.simulation.result import build_model
@@ -23,6 +23,7 @@ VARIANTS = {
     "more blocks": {"n_diameters": 7, "n_circles": 1, "c": 2.0},
     "no pairs": {"n_diameters": 0},
 }
+COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
 
 
 @kernel
@@ -36,6 +37,13 @@ def _coast(model, s, state, x):
 def _follow(model, s, state, x):
     dense_output.load_state(s, state)
     series.stick_series(model, s, ORDER)
+    dense_output.state_at(model, s, ORDER, x, 0.0, state)
+
+
+@kernel
+def _follow_compliant(model, s, state, x):
+    dense_output.load_state(s, state)
+    contact_series.compliant_stick_series(model, s, ORDER)
     dense_output.state_at(model, s, ORDER, x, 0.0, state)
 
 
@@ -55,17 +63,18 @@ def _lively(model: layout.Model, seed: int = 1) -> layout.State:
     return state
 
 
-@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("variant", [*VARIANTS, "compliant"])
 @pytest.mark.parametrize("x", [0.0, 0.1, 1.7, 4.0])
 def test_closed_form_is_the_series(variant: str, x: float) -> None:
     """Both are exact but for rounding: 40 terms, whose largest is 4^4 / 4! = 11 times the sum at x = 4.
 
     A velocity is rounded as the static deflection is, times the highest frequency.
     """
-    model = build_model(Parameters(N=385, Omega=15.1, **VARIANTS[variant]))
+    model = build_model(Parameters(N=385, Omega=15.1, **VARIANTS.get(variant, COMPLIANT)))
     closed, taylor = _lively(model), _lively(model)
     _coast(model, layout.build_series(model, ORDER), closed, x)
-    _follow(model, layout.build_series(model, ORDER), taylor, x)
+    follow = _follow_compliant if variant == "compliant" else _follow
+    follow(model, layout.build_series(model, ORDER), taylor, x)
     size = max(np.abs(taylor.z).max(), np.abs(taylor.y).max(initial=0.0))
     for mine, theirs, unit in (
         (closed.e, taylor.e, model.unit),
@@ -75,6 +84,9 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
     ):
         np.testing.assert_allclose(mine, theirs, atol=1e-14 * size / unit, rtol=0)
     assert closed.x[layout.PSI] == pytest.approx(taylor.x[layout.PSI], rel=1e-15)
+    if variant == "compliant":
+        assert closed.x[layout.U] == pytest.approx(taylor.x[layout.U], abs=1e-14 * size)
+        assert closed.x[layout.U_VELOCITY] == pytest.approx(taylor.x[layout.U_VELOCITY], abs=1e-14 * size / model.unit)
 
 
 def test_coasts_compose() -> None:

@@ -69,6 +69,8 @@ FUNCTIONS = {
 }
 #: By the name of a mutant (as `Mutant` prints it): why it makes no difference.
 EQUIVALENT: dict[str, str] = {
+    "engine/stick_modes.py:_compliant_eigenmodes: + k -> -": "the scale of u is free",
+    "engine/stick_modes.py:_compliant_eigenmodes: 1.0 -> 2.0": "the scale of u is free",
     "engine/stick_modes.py:_decomposed: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
 }
 
