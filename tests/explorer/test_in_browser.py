@@ -165,6 +165,24 @@ def test_the_normalisation_is_chosen(shown: Page) -> None:
     assert f"growth_rate {value:.5g}".replace("-", "−") in text(shown, "point")
 
 
+@pytest.mark.parametrize(
+    ("values", "kind"),
+    [
+        ([50, 100, 200, 300, 385, 450, 525, 600], "linear"),
+        ([8e10, 1e11, 1.2e11, 1.4e11, 1.5e11, 1.6e11], "linear"),
+        ([*(1e4 * 20 ** (np.arange(41) / 40))], "log"),
+        ([1e4, 1.53e4, 2.35e4, 3.6e4, 5e4, 5.53e4, 8.48e4, 1.3e5, 2e5], "log"),
+        ([0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5], "place"),
+        ([0, 1], "linear"),
+        ([15.1], "linear"),
+    ],
+)
+def test_axes_are_scaled_as_their_values_are_spread(session: Page, file: Path, values: list[float], kind: str) -> None:
+    session.open(file)
+    found = session.run("return scaleOf({values: arguments[0], words: false}).kind", [float(x) for x in values])
+    assert found == kind
+
+
 def test_flags_have_their_colours(shown: Page) -> None:
     choose(shown, "Variable", "outcome")
     assert colour(shown, 0, 0) == WORDS["stable"].lower()
@@ -214,10 +232,18 @@ def test_a_click_shows_the_motion(shown: Page) -> None:
     # half a step of 16 bits, and rounding to float
     np.testing.assert_allclose(history(shown), expected, atol=np.ptp(expected) / LEVELS / 2 + 1e-4)
     assert text(shown, "phases").split() == ["stick", "slip", "separation"]
-    # the point next to the last has none of its own
+    # of a point without one of its own, the nearest of the same outcome: once the other one is nearer
+    for i, j, outcome, N, Omega in (
+        (2, 2, "separation", 385, 20),
+        (2, 1, "separation", 385, 20),
+        (3, 0, "stable", 100, 5),
+    ):
+        shown.point(*centre(shown, i, j), click=True)
+        assert text(shown, "motion-said").startswith(
+            f"Nearest stored motion of the same outcome, {outcome}, at N = {N} N, Omega = {Omega} rad s⁻¹, "
+            "as_published (ring in the map)."
+        )
     shown.point(*centre(shown, 2, 2), click=True)
-    said = text(shown, "motion-said")
-    assert said.startswith("Nearest stored motion, at N = 385 N, Omega = 20 rad s⁻¹, as_published (ring in the map).")
     np.testing.assert_allclose(history(shown).mean(), made_up.force(385.0).mean(), rtol=1e-4)
     x, y = shown.run(
         """const motion = document.getElementById("motion");

@@ -6,14 +6,25 @@ const MOST_TICKS = 6;
 const log10 = (x) => Math.log10(x);
 const identity = (x) => x;
 const gaps = (values) => values.slice(1).map((x, i) => x - values[i]);
-const even = (values) => Math.min(...gaps(values)) * values.length * 6 >= values[values.length - 1] - values[0];
+const UNEVEN = 0.4;
+
+/** How far from evenly spread values are: 0 if the median gap is the mean one. */
+function unevenness(values) {
+  const sorted = gaps(values).sort((a, b) => a - b);
+  const median = sorted[Math.floor(sorted.length / 2)];
+  return Math.abs((median * sorted.length) / (values[values.length - 1] - values[0]) - 1);
+}
 
 /** Where values of a dimension lie: by themselves, by their logarithms, or by their places; and their cells' borders. */
 function scaleOf(dim) {
   const count = dim.values.length;
-  let kind = "place";
-  if (!dim.words && (count === 1 || even(dim.values))) kind = "linear";
-  else if (!dim.words && dim.values.every((x) => x > 0) && even(dim.values.map(log10))) kind = "log";
+  const decade = !dim.words && dim.values[0] > 0 && dim.values[count - 1] >= 10 * dim.values[0];
+  const fits = {
+    linear: dim.words ? Infinity : count < 3 ? 0 : unevenness(dim.values),
+    log: decade && count > 2 ? unevenness(dim.values.map(log10)) : Infinity,
+    place: UNEVEN,
+  };
+  const kind = Object.keys(fits).reduce((best, one) => (fits[one] < fits[best] ? one : best));
   const to = kind === "log" ? log10 : identity;
   const at = kind === "place" ? dim.values.map((_, i) => i) : dim.values.map(to);
   const middle = gaps(at).map((gap, i) => at[i] + gap / 2);

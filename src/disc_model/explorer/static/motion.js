@@ -11,12 +11,23 @@ function motionPlaces(study, motion) {
   return motion.places;
 }
 
-/** The stored motion nearest the chosen point, by places along the axes; words have to agree. */
+/** The stored motion nearest the chosen point, of the same outcome if there is one. */
 function nearestMotion() {
   const { study, place } = view;
   if (!study.motions) return null;
+  const outcome = study.variables.find((variable) => variable.name === "outcome" && variable.flags);
+  const found = (motion) => value(study, outcome, { ...place, ...motionPlaces(study, motion) });
+  const alike = outcome && nearestOf(study.motions.points.filter((motion) => found(motion) === value(study, outcome, place)));
+  const best = alike || nearestOf(study.motions.points);
+  if (best) best.like = alike ? `of the same outcome, ${shown(study, outcome, place)}, ` : "";
+  return best;
+}
+
+/** The nearest of some motions by places along the axes; words have to agree. */
+function nearestOf(motions) {
+  const { study, place } = view;
   let [best, least] = [null, Infinity];
-  for (const motion of study.motions.points) {
+  for (const motion of motions) {
     const places = motionPlaces(study, motion);
     let far = 0;
     for (const [name, at] of Object.entries(places)) {
@@ -49,7 +60,7 @@ function drawMotion() {
   }
   const dims = study.dims.filter((dim) => motion.places[dim.name] !== undefined);
   const ring = [view.x, view.y].every((name) => motion.places[name] !== undefined) ? " (ring in the map)" : "";
-  const far = motion.exact ? "At this point" : `Nearest stored motion, at ${where(motion.places, dims)}${ring}`;
+  const far = motion.exact ? "At this point" : `Nearest stored motion ${motion.like}at ${where(motion.places, dims)}${ring}`;
   element("motion-said").textContent = `${far}. ${study.motions.said}`;
   const { ink, width, height } = prepared(canvas);
   const { traces, samples } = study.motions;
