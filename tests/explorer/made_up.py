@@ -83,7 +83,7 @@ def motions() -> xr.Dataset:
         "phase": (("point", "sample"), np.tile(phase, (3, 1)), flagged("phase", names)),
     }
     coords = {name: ("point", [point[i] for point in points]) for i, name in enumerate(("N", "Omega", "normalization"))}
-    return xr.Dataset(data, coords, {"motion": "After the transient."})
+    return xr.Dataset(data, coords)
 
 
 def _attributes(variable: Variable) -> dict[str, str]:

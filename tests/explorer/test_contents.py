@@ -22,7 +22,7 @@ def numbers(stored, kind: str) -> np.ndarray:
 
 @pytest.fixture
 def contents():
-    return study_contents("plane", made_up.plane(), made_up.motions())
+    return study_contents("plane", made_up.plane(), made_up.motions(), "After the transient.")
 
 
 def test_every_number_comes_through(contents):
@@ -106,4 +106,4 @@ def test_runs():
 
 def test_contents_are_json(contents):
     assert json.loads(json.dumps(contents, allow_nan=False)) == contents
-    assert motion_contents(made_up.motions()) == contents["motions"]
+    assert motion_contents(made_up.motions(), "After the transient.") == contents["motions"]

@@ -30,7 +30,10 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     Image.new("RGB", (1200, 500), "#0072B2").save(folder / "one.png")
     Image.new("RGB", (1200, 900), "#D55E00").save(folder / "two.png")
     pictures = [Picture("Figures", name, f"The caption of {name}.", folder / f"{name}.png") for name in ("one", "two")]
-    studies = [study_contents("plane", made_up.plane(), made_up.motions()), study_contents("line", made_up.line())]
+    studies = [
+        study_contents("plane", made_up.plane(), made_up.motions(), "After the transient."),
+        study_contents("line", made_up.line()),
+    ]
     (folder / "explorer.html").write_text(page("Made up", studies, pictures), encoding="utf-8")
     return folder / "explorer.html"
 

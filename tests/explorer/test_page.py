@@ -29,7 +29,10 @@ def figure(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def text(figure: Path) -> str:
-    studies = [study_contents("plane", made_up.plane(), made_up.motions()), study_contents("line", made_up.line())]
+    studies = [
+        study_contents("plane", made_up.plane(), made_up.motions(), "After the transient."),
+        study_contents("line", made_up.line()),
+    ]
     pictures = [Picture("Sec. 1", "One", CAPTION, figure), Picture("Sec. 2", "Two", CAPTION, figure)]
     return page("A <title>", studies, pictures)
 

@@ -55,6 +55,7 @@ rule build_explorer:
                         "name": study,
                         "data": merged_file(study),
                         "motions": next(iter(motions_of(study)), ""),
+                        "said": QUANTITIES[GRIDS[study].quantity].motion,
                     }
                     for study in EXPLORED
                 ],

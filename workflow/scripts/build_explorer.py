@@ -1,7 +1,8 @@
 """Write the page on which grid studies, motions and figures are looked at.
 
 What it holds is read from standard input as JSON: ``title``; ``studies``, each with ``name``, ``data`` and ``motions``
-(netCDF files; the latter may be ""); ``pictures``, each with ``heading``, ``title``, ``caption`` and ``file`` (PNG).
+(netCDF files; the latter may be "") and what these show as ``said``; ``pictures``, each with ``heading``, ``title``,
+``caption`` and ``file`` (PNG).
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ def main() -> None:
     studies = []
     for study in plan["studies"]:
         given = [Path(study[role]) for role in ("data", "motions") if study[role]]
-        studies.append(study_contents(study["name"], *(tree.to_dataset() for tree in load_inputs(given))))
+        data, *motions = (tree.to_dataset() for tree in load_inputs(given))
+        studies.append(study_contents(study["name"], data, next(iter(motions), None), study["said"]))
     pictures = [Picture(**{**picture, "file": Path(picture["file"])}) for picture in plan["pictures"]]
     text = page(plan["title"], studies, pictures)
     args.output.write_text(text, encoding="utf-8")

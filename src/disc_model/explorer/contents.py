@@ -21,13 +21,14 @@ BITS = 17
 """Of the 23 of a 32-bit mantissa that are kept: five digits, as many as are shown."""
 
 
-def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None) -> dict[str, Any]:
+def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, said: str = "") -> dict[str, Any]:
     """A merged study.
 
     Parameters
     ----------
     study : as `disc_model.studies.grids.merge.merge_batches` makes it
     motions : as `disc_model.studies.grids.motions.run_motions` makes it
+    said : what these show
 
     Returns
     -------
@@ -37,26 +38,26 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
     dims = [_dimension(study, str(dim)) for dim in study.sizes]
     order = [dim["name"] for dim in dims]
     variables = [_variable(study[name], order) for name in study.data_vars if _shown(study[name])]
-    said = study.get("message")
+    message = study.get("message")
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
         "fixed": [_fixed(name, value) for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()],
         "dims": dims,
         "variables": variables,
-        "messages": None if said is None else _messages(said, order),
-        "motions": None if motions is None else motion_contents(motions),
+        "messages": None if message is None else _messages(message, order),
+        "motions": None if motions is None else motion_contents(motions, said),
     }
 
 
-def motion_contents(motions: xr.Dataset) -> dict[str, Any]:
+def motion_contents(motions: xr.Dataset, said: str = "") -> dict[str, Any]:
     """Histories along `point` and `sample`; those that failed are left out. 16 bits a sample, phases as runs."""
     there = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
     names = [str(name) for name in there.coords if there[name].dims == ("point",)]
     places = zip(*(_plain(there[name].values) for name in names), strict=True)
     lengths, phases = there["length"].values.tolist(), there["phase"].values
     return {
-        "said": str(motions.attrs.get("motion", "")),
+        "said": said,
         "names": names,
         "samples": there.sizes["sample"],
         "phases": there["phase"].attrs["flag_meanings"].split(),

@@ -19,7 +19,8 @@ function nearestMotion() {
   const found = (motion) => value(study, outcome, { ...place, ...motionPlaces(study, motion) });
   const alike = outcome && nearestOf(study.motions.points.filter((motion) => found(motion) === value(study, outcome, place)));
   const best = alike || nearestOf(study.motions.points);
-  if (best) best.like = alike ? `of the same outcome, ${shown(study, outcome, place)}, ` : "";
+  const like = alike ? "of the same outcome" : "of another outcome";
+  if (best) best.like = outcome ? `${like}, ${outcome.flags[found(best)]}, ` : "";
   return best;
 }
 

@@ -63,8 +63,7 @@ class Motions:
 
 def run_motions(text: str) -> xr.Dataset:
     """Histories, along `point` and `sample`, of a text of `disc_model.studies.grids.schema.motion_texts`."""
-    quantity = quantity_of(text)
-    found = run_as(text, Motions(quantity)).assign_attrs(motion=quantity.MOTION)
+    found = run_as(text, Motions(quantity_of(text)))
     return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
 
 

@@ -25,8 +25,6 @@ COLUMNS = {
     "separations": Column(Variable("1", "number of separations, transient included"), whole=True),
     "stick_fraction": Column(Variable("1", "share of the time spent sticking, transient included")),
 }
-MOTION = "After the transient."
-"""Where `state_at` lets the motion go on."""
 
 
 def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:

@@ -24,8 +24,6 @@ COLUMNS = {
     "multiplier_im": Column(Variable("1", "imaginary part of the leading multiplier")),
     "sliding_growth_rate": Column(Variable("s-1", "growth rate of disturbances of steady sliding")),
 }
-MOTION = "The stick-slip cycle itself, stable or not."
-"""Where `state_at` lets the motion go on."""
 
 
 def coordinates(options: FloquetOptions) -> dict[str, Any]:

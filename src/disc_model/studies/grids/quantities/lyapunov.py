@@ -23,8 +23,6 @@ COLUMNS = {
     "covered": Column(Variable("s", "time over which the rates are averaged")),
     "separations": Column(Variable("1", "number of separations in that time"), whole=True),
 }
-MOTION = "After the transient."
-"""Where `state_at` lets the motion go on."""
 
 
 def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:

@@ -35,10 +35,6 @@ COLUMNS = {
     "share_separation": Column(Variable("1", "share of the late stretch spent separated")),
     "separation_rate": Column(Variable("s-1", "separations per second over the late stretch")),
 }
-MOTION = (
-    "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
-)
-"""Where `state_at` lets the motion go on."""
 
 
 def coordinates(options: OutcomeOptions) -> dict[str, Any]:

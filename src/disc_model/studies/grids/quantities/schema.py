@@ -202,11 +202,13 @@ class Quantity(NamedTuple):
 
     Options with a property ``scans`` name those parameters themselves. ``motions`` is how many values of each axis get
     a motion to be looked at (`disc_model.studies.grids.motions`): the fewer, the more one costs. 0: none.
+    ``motion`` says what they show: where the quantity's ``state_at`` lets the motion go on.
     """
 
     options: type[Strict]
     scans: tuple[str, ...] = ()
     motions: int = 0
+    motion: str = ""
     tiled: bool = False
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
@@ -219,14 +221,17 @@ class Quantity(NamedTuple):
         return issubclass(self.options, Start)
 
 
+COME_TO = (
+    "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
+)
 QUANTITIES = {
-    "outcome": Quantity(OutcomeOptions, motions=4),
-    "regions": Quantity(RegionsOptions, motions=4, tiled=True),
+    "outcome": Quantity(OutcomeOptions, motions=4, motion=COME_TO),
+    "regions": Quantity(RegionsOptions, motions=4, motion=COME_TO, tiled=True),
     "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
-    "floquet": Quantity(FloquetOptions, motions=7),
+    "floquet": Quantity(FloquetOptions, motions=7, motion="The stick-slip cycle itself, stable or not."),
     "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),
-    "bifurcation": Quantity(BifurcationOptions, motions=8),
-    "lyapunov": Quantity(LyapunovOptions, motions=8),
+    "bifurcation": Quantity(BifurcationOptions, motions=8, motion="After the transient."),
+    "lyapunov": Quantity(LyapunovOptions, motions=8, motion="After the transient."),
     "stability_curves": Quantity(StabilityCurvesOptions),
 }
 
