@@ -105,6 +105,15 @@ def test_the_remainder_bounds_what_more_harmonics_change(r_0: float, monkeypatch
     assert values[8192].remainder < 1e-6 * values[8192].total
 
 
+def test_far_from_the_edges_harmonics_are_those_of_the_unbounded_plate(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An edge acts on harmonic l by its distance in radii to the power 2 l: by nothing at l = 64."""
+    monkeypatch.setattr(module, "HIGHEST_HARMONIC", 64)
+    module._point_load.cache_clear()
+    found = residual_flexibility(P.replace(r_0=0.08))
+    module._point_load.cache_clear()
+    assert found.remainder < 4 * module.ROUNDING * found.total  # what is neglected adds nothing to rounding
+
+
 @pytest.mark.slow
 def test_published_modes_have_a_modal_sum() -> None:
     p = P.replace(normalization="as_published")
