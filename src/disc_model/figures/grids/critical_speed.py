@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,7 +15,19 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import CriticalSpeed
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, ORANGE, PAGE, SKY, VERMILION, new_figure, styled
+from disc_model.figures.parts import (
+    BLACK,
+    BLUE,
+    COLUMN,
+    GREEN,
+    ORANGE,
+    PAGE,
+    SEPARATED,
+    SKY,
+    VERMILION,
+    new_figure,
+    styled,
+)
 
 COLORS = (SKY, BLUE, BLACK, GREEN, ORANGE)
 MARKERS = "o^sDv"
@@ -33,7 +46,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
     norm = parts.normalizations(study)[0]
     study = parts.without_failed(parts.of(study, norm), "critical_speed", "crossing")
     sweep = others.get("hysteresis")
-    figure = new_figure(PAGE if sweep is not None else COLUMN, 2.9)
+    figure = new_figure(PAGE if sweep is not None else COLUMN, 3.2)
     axes = figure.subplots(1, 2 if sweep is not None else 1, sharey=True, squeeze=False)[0]
     if "cycle" in others:
         _stable_cycle(axes[0], parts.of(others["cycle"], norm), study)
@@ -44,7 +57,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
             *points.T, "*", color=VERMILION, markersize=8, label="what the paper says", zorder=5, clip_on=False
         )
     if sweep is not None:
-        _sweep(axes[1], parts.without_failed(parts.of(sweep, norm), "onset", "persists_to"), study)
+        cycle = parts.of(others["cycle"], norm) if "cycle" in others else None
+        _sweep(axes[1], parts.without_failed(parts.of(sweep, norm), "onset", "persists_to"), study, cycle)
     scan = study["scan_Omega"].values
     for ax, letter in zip(axes, "ab", strict=False):
         ax.set(xlabel="Preload N (N)", xlim=(0, 1.03 * float(study["N"].max())), ylim=(scan[0] - 0.5, 1.02 * scan[-1]))
@@ -52,6 +66,24 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
         ax.legend(loc="upper left", bbox_to_anchor=(0, -0.2), ncols=2, borderaxespad=0)
     axes[0].set_ylabel("Speed Ω (rad/s)")
     return figure
+
+
+def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
+    """Cells in which the quiet cycle is stable by its multipliers, and a motion that separates goes on doing so.
+
+    That a sweep up is late, since its stay at a speed is short, does not make a cycle stable. A load between two of the
+    sweep is left out if the sweep has found no separation at one of them.
+    """
+    rate = cycle["growth_rate"].transpose("Omega", "N")
+    speeds, loads = rate["Omega"].values, rate["N"].values
+    lowest = np.interp(loads, sweep["N"].values, sweep["persists_to"].values, left=np.nan, right=np.nan)
+    highest = float(sweep["sweep_Omega"].max())
+    there = (rate.values < 0) & (speeds[:, None] >= lowest[None, :]) & (speeds[:, None] <= highest)
+    if min(there.shape) < 2:
+        return
+    cells = np.ma.masked_where(~there, np.ones(there.shape))
+    ax.pcolormesh(loads, speeds, cells, cmap=ListedColormap([ORANGE]), alpha=0.25, shading="nearest", rasterized=True)
+    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating")
 
 
 def _stable_cycle(ax: Axes, cycle: xr.Dataset, study: xr.Dataset) -> None:
@@ -65,6 +97,26 @@ def _stable_cycle(ax: Axes, cycle: xr.Dataset, study: xr.Dataset) -> None:
         rate["N"].values, rate["Omega"].values, stable, cmap=ListedColormap([QUIET]), shading="nearest", rasterized=True
     )
     ax.fill_between([], [], [], color=QUIET, label="stick-slip cycle stable")
+    if "outcome" in cycle:
+        _region(ax, cycle, float(scan[0]), float(scan[-1]))
+
+
+def _region(ax: Axes, regions: xr.Dataset, lowest: float, highest: float) -> None:
+    """Cells of a map in which the published start separates: no scan can step over them."""
+    outcome = regions["outcome"].transpose("Omega", "N").sel(Omega=slice(lowest, highest))
+    apart = flag_names(outcome) == "separation"
+    cells = np.ma.masked_where(~apart, np.ones(apart.shape))
+    ax.pcolormesh(
+        outcome["N"].values,
+        outcome["Omega"].values,
+        cells,
+        cmap=ListedColormap([SEPARATED]),
+        alpha=0.25,
+        shading="nearest",
+        rasterized=True,
+    )
+    horizon = json.loads(regions.attrs["options"])["horizon"]
+    ax.fill_between([], [], [], color=SEPARATED, alpha=0.25, label=f"separation, {horizon:g} s")
 
 
 def _horizons(ax: Axes, study: xr.Dataset) -> None:
@@ -90,14 +142,12 @@ def _horizons(ax: Axes, study: xr.Dataset) -> None:
     parts.mark_failed(ax, N[parts.failed(study).values])
 
 
-def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset) -> None:
-    """Where separation is found on the way up and on the way down; the gap between is hysteresis."""
+def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, cycle: xr.Dataset | None) -> None:
+    """Where separation is found on the way up and on the way down; shaded where the quiet cycle is stable besides."""
     N = sweep["N"].values
     onset, last = sweep["onset"].values, sweep["persists_to"].values
-    top = float(sweep["sweep_Omega"].max())
-    ax.fill_between(
-        N, last, np.where(np.isfinite(onset), onset, top), color=ORANGE, alpha=0.25, label="quiet or separating"
-    )
+    if cycle is not None:
+        _both(ax, cycle, sweep)
     ax.plot(N, onset, color=BLUE, marker="^", markersize=3.5, label="sweep up: separation begins", clip_on=False)
     ax.plot(N, last, color=VERMILION, marker="v", markersize=3.5, label="sweep down: persists to", clip_on=False)
     longest = float(study["horizon"].max())

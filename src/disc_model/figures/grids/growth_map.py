@@ -163,4 +163,4 @@ def _legend(figure: Figure, curves: Sequence[Curve], study: xr.Dataset) -> None:
         handles.append(no_cycle_patch())
     handles += number_handles(numbers_of(curves))
     if handles:
-        figure.legend(handles=handles, loc="outside lower center", ncols=3)
+        figure.legend(handles=handles, loc="outside lower center", ncols=3 if figure.get_figwidth() > COLUMN else 1)

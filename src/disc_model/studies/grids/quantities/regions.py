@@ -2,10 +2,10 @@
 
 A batch is a tile of the plane. The cycle is found at each of its points, which is cheap. What becomes of the published
 start (`disc_model.stability.fate`) follows from the cycle's multipliers where it is quiet, or grows so slowly that
-nothing else happens within the horizon. Elsewhere it is simulated at the corners of coarse cells. A cell is divided
-where they differ, where slow growth lies beside separation, or where no corner tells. Neutral curves and folds are thus
-followed from point to point, and borders of separation down to the grid's own intervals; in a cell that is not divided
-all that multipliers leave open have the outcome of its corners.
+nothing else happens within the horizon. Elsewhere it is simulated at the corners of coarse cells, or at one point
+inside if multipliers tell of all corners. A cell is divided where these differ, or where slow growth lies beside
+separation. Neutral curves and folds are thus followed from point to point, and borders of separation down to the grid's
+own intervals; in a cell that is not divided all that multipliers leave open have the outcome of those simulated.
 """
 
 from __future__ import annotations
@@ -179,14 +179,14 @@ class _Tile:
         undecided = [place for place in inside if self.trends[place] == "open"]
         if not undecided:
             return
-        for corner in product(rows, columns):
-            if self.trends[corner] == "open":
-                self.outcome(corner)
+        corners = [corner for corner in product(rows, columns) if self.trends[corner] == "open"]
+        for place in corners or ([] if any(place in self.fates for place in undecided) else [_middle(undecided)]):
+            self.outcome(place)
         # on the way from slow growth to separation there may be growth that is faster, and still no separation
         outcomes = {self.outcome(place) for place in undecided if place in self.fates}
         outcomes |= {"unstable" for place in inside if self.trends[place] == "slow"}
         halves = [_halves(*edges) for edges in (rows, columns)]
-        if len(outcomes) == 1 and any(place in self.fates for place in undecided):
+        if len(outcomes) == 1:
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
             for i, j in product(*halves):
@@ -300,6 +300,12 @@ def _without(start: Near | FloquetResult, found: Fate | None) -> str:
     if start.status is CycleStatus.AT_REST:
         return "sticks"
     return "slides" if start.status is CycleStatus.NO_STICK_SLIP and start.sliding.stable else "none_found"
+
+
+def _middle(places: Sequence[Place]) -> Place:
+    """The place nearest to the middle of several, the first of those that are as near."""
+    middle = np.mean(places, axis=0)
+    return min(places, key=lambda place: (float(np.sum((np.array(place) - middle) ** 2)), place))
 
 
 def _edges(size: int, coarse: int) -> list[int]:

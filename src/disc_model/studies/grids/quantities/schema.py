@@ -125,14 +125,19 @@ class HysteresisOptions(Strict):
 
 
 class BifurcationOptions(Lead):
-    """Samples once a turn of the drive, of what the motion has settled to.
+    """Samples of what the motion has settled to.
 
-    transient : s, left out
-    samples : number of turns sampled after it
-    theta : rad, the disc's point whose displacement is sampled
+    section : once a turn of the drive; or at switches, each separation if there are any, else each release of stick: a
+        periodic motion then shows as many points as its period has switches
+    transient : s, left out; at switches it is doubled until two stretches of samples are alike
+    longest : s, of the transient then, at most
+    samples : number of turns, or of switches, sampled after it
+    theta : rad, the disc's point whose displacement is sampled once a turn
     """
 
+    section: Literal["turn", "switch"] = "turn"
     transient: Positive
+    longest: Positive = 240.0
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
     theta: Finite = 1.0
 
