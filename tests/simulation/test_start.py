@@ -10,7 +10,7 @@ import pytest
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.simulation.api import kicked, prepared, published_start, simulate
+from disc_model.simulation.api import carried_over, kicked, prepared, published_start, simulate
 from disc_model.simulation.case import CaseSpec, Start
 from disc_model.simulation.result import State
 from disc_model.studies.cases.run import run_case
@@ -193,3 +193,17 @@ def test_a_case_of_a_study_may_start_elsewhere() -> None:
     assert "start" not in run_case(specs["A"]).attrs
     with pytest.raises(StudyError, match=r"cases\.A\.start\.kick\.f = 'x': must be a number"):
         parse_study({"study": "x", "cases": {"A": case | {"start": {"kick": {"f": "x"}}}}})
+
+
+def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
+    """The modes weigh otherwise at another radius, so that the height in contact is another."""
+    p, start = Parameters(N=200, Omega=20, r_0=0.09), Start(prepare={"parameters": {"r_0": 0.1}, "time": 0.1})
+    state = prepared(p, start, 1e-10)
+    assert state is not None
+    other = simulate(p.replace(r_0=0.1), 0.1).final_state
+    assert state.phase == other.phase != "separation"
+    assert state.u == pytest.approx(mode_arrays(p).psi @ other.a, rel=1e-12)
+    assert state.u != pytest.approx(other.u, rel=1e-3)
+    assert simulate(p, 0.01, initial_state=state).status.complete
+    apart = other.replace(phase="separation", direction=0)
+    assert carried_over(p, apart).u == apart.u

@@ -17,7 +17,7 @@ from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, switches
 from disc_model.plate import mode_arrays
 from disc_model.simulation.result import State, build_model, engine_case, read_state, write_state
-from disc_model.stability.sliding import _jacobian
+from disc_model.stability.sliding import _jacobian, _Law
 from tests.references.literal import literal_of
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
 
@@ -294,7 +294,8 @@ def test_steady_sliding_solves_the_printed_equations():
     assert nearest(sliding.eigenvalues, np.linalg.eigvals(expected)) < 1e-7
     modes = mode_arrays(p)
     slope = float(np.sum(modes.diameters * modes.psi * start.b))
-    denominator = 1 + p.m * float(np.sum(modes.psi**2)) + p.mu_k * slope / p.r_0
+    law = _Law(p, float(np.sum(modes.psi**2)), slope / p.r_0, sliding.contact_force)
+    assert law.denominator == pytest.approx(1 + p.m * float(np.sum(modes.psi**2)) + p.mu_k * slope / p.r_0, rel=1e-14)
     damping = p.D_star / p.D * modes.omega**2
-    got = _jacobian(p, modes, damping, start.a, start.b, start.beta, slope, denominator)
+    got = _jacobian(p, modes, damping, start.a, start.b, start.beta, slope, law)
     np.testing.assert_array_less(np.abs(got - expected), 1e-6 * np.abs(expected) + noise)

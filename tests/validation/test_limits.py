@@ -12,6 +12,7 @@ import pytest
 from scipy.linalg import expm
 
 from disc_model import Parameters, Record, Window, plate_modes, simulate
+from disc_model.simulation.api import carried_over
 from disc_model.simulation.result import State
 from tests.references import stored
 
@@ -170,7 +171,7 @@ BALANCED = {
 def test_both_energy_balances(case):
     changes, separating, t_end = BALANCED[case]
     p = Parameters(**(P_A.model_dump() | changes))
-    start = _separating_start() if separating else None
+    start = carried_over(p, _separating_start()) if separating else None
     result = simulate(p, t_end, tol=1e-12, initial_state=start, record=Record(energy=True))
     statistics = result.statistics
     assert statistics["energy_transverse"] <= 1e-10

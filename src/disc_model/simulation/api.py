@@ -372,7 +372,7 @@ def prepared(p: Parameters, start: Start, tol: float) -> State | None:
     kick = {name: value for name, value in start.kick.items() if value}
     state = None
     if start.prepare is not None:
-        state = _end_of(p.replace(**start.prepare.parameters), start.prepare.time, tol)
+        state = carried_over(p, _end_of(p.replace(**start.prepare.parameters), start.prepare.time, tol))
     return kicked(p, published_start(p) if state is None else state, **kick) if kick else state
 
 
@@ -412,4 +412,11 @@ def kicked(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0,
 
 @lru_cache(maxsize=8)
 def _end_of(p: Parameters, time: float, tol: float) -> State:
-    return simulate(p, time, tol=tol).raise_for_status().final_state.replace(time=0.0, time_low=0.0)
+    return simulate(p, time, tol=tol).raise_for_status().final_state
+
+
+def carried_over(p: Parameters, state: State) -> State:
+    """A state of another case as a start of case `p`: at time 0, and in rigid contact where the disc of `p` then is."""
+    in_contact = state.phase != "separation" and p.contact_compliance == 0
+    u = float(mode_arrays(p).psi @ state.a) if in_contact else state.u
+    return state.replace(time=0.0, time_low=0.0, u=u)

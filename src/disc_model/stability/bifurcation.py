@@ -10,7 +10,7 @@ import numpy as np
 
 from disc_model.errors import ParameterError, Status
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
+from disc_model.simulation.api import carried_over, simulate
 from disc_model.simulation.case import Poincare, Record
 from disc_model.simulation.result import State
 
@@ -74,9 +74,10 @@ def bifurcation_samples(
     phase = np.full(shape, -1, np.int8)
     first, stick = np.full(len(values), math.nan), np.full(len(values), math.nan)
     separations, status = np.zeros(len(values), np.int64), np.zeros(len(values), np.int8)
-    start = _at_time_zero(initial_state)
+    given = initial_state
     for i, value in enumerate(values):
         case = p.replace(**{name: value})
+        start = None if given is None else carried_over(case, given)
         turn = 2 * math.pi / case.Omega
         begin = math.ceil(transient / turn)
         end = (begin + samples - 0.5) * turn
@@ -94,7 +95,7 @@ def bifurcation_samples(
         stick[i] = run.statistics["time_stick"] / reached if reached else math.nan
         status[i] = STATUS_NAMES.index(run.status.value)
         if follow and run.status.complete:
-            start = _at_time_zero(run.final_state)
+            given = run.final_state
     both, one = (name, "sample"), (name,)
     variables = {key: (both, array, _attributes(key)) for key, array in data.items()}
     flags = {"flag_values": np.array([-1, 0, 1, 2], np.int8), "flag_meanings": "none stick slip separation"}
@@ -116,10 +117,6 @@ def bifurcation_samples(
 def _attributes(variable: str) -> dict[str, str]:
     unit, meaning = _VARIABLES[variable]
     return {"units": unit, "long_name": meaning}
-
-
-def _at_time_zero(state: State | None) -> State | None:
-    return None if state is None else state.replace(time=0.0, time_low=0.0)
 
 
 def _check(p: object, name: str, values: list[float], transient: float, samples: int) -> None:
