@@ -74,6 +74,7 @@ def test_the_study_of_truncation_is_made_of_its_parts(monkeypatch, tmp_path):
 
 
 @pytest.mark.compiled
+@pytest.mark.slow  # kernels of one more law of contact
 def test_study_of_residual_flexibility_and_its_figure(tmp_path):
     case = {"N=800": {"N": 800.0, "Omega": 30.0, "normalization": "orthonormal"}}
     study = contact_study(((3, 0), (4, 0)), case, horizon=20.0).isel(case=0)
