@@ -13,9 +13,12 @@ from disc_model.simulation.result import State
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.stability.return_map import PARAMETERS, ReturnMap, multipliers
-from tests.contact_laws import EACH_LAW, LAWS
+from tests.contact_laws import LAWS
 from tests.engine.full_system import Full
 from tests.engine.test_variational import FLIGHTS, differences
+
+# Derivatives of motions take a minute and more to compile for each law.
+pytestmark = pytest.mark.slow
 
 
 def departure(law: str, flight: str) -> tuple[ReturnMap, np.ndarray]:
@@ -43,7 +46,7 @@ def step(map_: ReturnMap, x: np.ndarray) -> float:
 FLOWN = ["stick and slip", "separation at speed"]
 
 
-@pytest.mark.parametrize("law", EACH_LAW)
+@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("flight", FLOWN)
 def test_jacobian_of_a_flight(law: str, flight: str) -> None:
     map_, x = departure(law, flight)
@@ -58,7 +61,7 @@ def test_jacobian_of_a_flight(law: str, flight: str) -> None:
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", [*EACH_LAW, pytest.param("residual", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("law", [*LAWS, "residual"])
 @pytest.mark.parametrize("flight", FLOWN)
 def test_derivatives_of_a_flight_by_parameters(law: str, flight: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(LAWS, "residual", {"contact_compliance": "residual"})
@@ -100,7 +103,7 @@ GROWING = {
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", EACH_LAW)
+@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("case", GROWING)
 def test_growth_rate_against_differences_of_the_return_map(law: str, case: str) -> None:
     p = Parameters(**GROWING[case], **LAWS[law])
@@ -120,7 +123,7 @@ def test_growth_rate_against_differences_of_the_return_map(law: str, case: str) 
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", EACH_LAW)
+@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("case", [{}, {"c": 0.3, "c_p": 0.7}])
 def test_steady_sliding_has_the_flows_eigenvalues(law: str, case: dict[str, float]) -> None:
     p = Parameters(N=300, Omega=50, **case, **LAWS[law])
@@ -143,7 +146,7 @@ def test_steady_sliding_has_the_flows_eigenvalues(law: str, case: dict[str, floa
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", EACH_LAW)
+@pytest.mark.parametrize("law", LAWS)
 def test_a_branch_has_the_cycles_growth(law: str) -> None:
     p = Parameters(N=300, Omega=20.0, **LAWS[law])
     branch = continue_cycle(p, "Omega", (19.0, 20.5), longest=0.5)
@@ -154,7 +157,7 @@ def test_a_branch_has_the_cycles_growth(law: str) -> None:
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", EACH_LAW)
+@pytest.mark.parametrize("law", LAWS)
 def test_the_largest_exponent_of_a_quiet_motion_is_the_cycles(law: str) -> None:
     p = Parameters(N=200, Omega=20, c=0.5, **LAWS[law])
     cycle = floquet(p)
