@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -58,7 +60,11 @@ def test_jacobian_of_a_flight(flight: str) -> None:
 
 @pytest.mark.parametrize("flight", list(FLIGHTS))
 def test_derivatives_of_a_flight_by_parameters(flight: str) -> None:
-    map_, x = departure(flight)
+    check_derivatives(*departure(flight), lambda name: 1e-2 if name in ("c", "c_p") else 1e-4)
+
+
+def check_derivatives(map_: ReturnMap, x: np.ndarray, step: Callable[[str], float]) -> None:
+    """Derivatives of where a flight ends by all parameters, against differences of steps relative to their values."""
     p, how = map_.parameters, {"may_separate": True}
     _, _, _, by = ReturnMap(p, parameters=PARAMETERS).evaluate(x, **how)
     for i, name in enumerate(PARAMETERS):
@@ -70,7 +76,7 @@ def test_derivatives_of_a_flight_by_parameters(flight: str) -> None:
             reached = other.evaluate(x / map_.scale * other.scale, tangent=False, **how)[1]
             return reached / other.scale * map_.scale
 
-        expected = differences(end, (1e-2 if name in ("c", "c_p") else 1e-4) * value)
+        expected = differences(end, step(name) * value)
         assert np.linalg.norm(by[:, i] - expected) < 1e-5 * np.linalg.norm(expected), name
 
 

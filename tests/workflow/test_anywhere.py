@@ -11,21 +11,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.test_cli import STUDY
 from tests.workflow.conftest import ROOT, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
-STUDY = """\
-study: mine
-quantity: floquet
-base: {N: 200, Omega: 20}
-axes: {mu_s: [0.3, 0.4], mu_k: [0.1, 0.2]}
-cases:
-  A: {title: a, parameters: {mu_k: 0.2}, t_end: 1, record: {windows: {w: {rate: 1000}}}}
-figures:
-  growth: {kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}
-  seen: {kind: history, case: A, window: w}
-"""
 MODULE = f"""\
 configfile: "config.yaml"
 

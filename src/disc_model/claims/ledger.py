@@ -37,8 +37,7 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     tree : merged cases, see `disc_model.studies.cases.run`
     scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that look at others are not computed
     """
-    nodes = dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()}
-    cases = {name: CaseView(name, node) for name, node in nodes.items()}
+    cases = _views(dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()})
     rows = []
     for claim in CLAIMS:
         found = claim.evaluate(cases)
@@ -72,11 +71,13 @@ class Comparison:
         return page(self.title, *body)
 
 
+def _views(nodes: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
+    return {name: CaseView(name, node) for name, node in nodes.items()}
+
+
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
     """Compare merged cases (see `disc_model.data.inputs`) of the two normalisations."""
-    old, new = (
-        {name: CaseView(name, node) for name, node in tree.children.items()} for tree in (published, orthonormal)
-    )
+    old, new = _views(published.children), _views(orthonormal.children)
     shared = [name for name in old if name in new]
     failed = [name for name in shared if "failed" in (old[name].status, new[name].status)]
     lost = [name for name in shared if name not in failed and old[name].separates and not new[name].separates]

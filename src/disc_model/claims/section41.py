@@ -436,12 +436,12 @@ def _ranges(cases: Cases, pairs: Sequence[tuple[str, str]]) -> tuple[list[float]
     return ratios, "; ".join(said)
 
 
-def _bonded(cases: Cases, claim: Claim, name: str, remark: str = "") -> Finding:
+def _bonded(cases: Cases, claim: Claim, name: str) -> Finding:
     intervals = measures.release_intervals(cases[name])
     spread = measures.irregularity(intervals)
     ours = f"one release per {1e3 * intervals.mean():.3f} ms, spread {spread:.1e}"
     late = measures.late_range(cases[name], "P")
-    return finding(f"{ours}; P {late.low:.0f}..{late.high:.0f} N", spread <= claim.bound, remark)
+    return finding(f"{ours}; P {late.low:.0f}..{late.high:.0f} N", spread <= claim.bound)
 
 
 def _closes(cases: Cases, claim: Claim, name: str) -> Finding:

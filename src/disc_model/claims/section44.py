@@ -38,7 +38,8 @@ FUZZ = "share of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: l
 )
 def lines(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
-    table, found = table_2(case), table_2_lines(case)
+    found = table_2_lines(case)
+    table = table_2(case, found)
     window = measures.stretch(case, "spectrum_a", 0, 10)
     time, values = window["time"].values, window["w_point"].values
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
 
-from disc_model.errors import Fault
+from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.schema import shown
 
@@ -80,6 +80,29 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
         return wrapped
 
     return decorate
+
+
+def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, str]:
+    """Parameters of the options given and how their modes were chosen; what is wrong is added to `faults`."""
+    from disc_model.truncation import read_parameters
+
+    try:
+        return read_parameters(case)
+    except ParameterError as error:
+        faults += error.faults
+        return Parameters(N=0.0, Omega=0.0), ""
+
+
+def case_lines(p: Parameters, choice: str) -> list[tuple[str, str]]:
+    """What was computed, and its modes if they were chosen: the first lines of every command on one case."""
+    case = f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {p.normalization}, {p.contact} (key {p.key})"
+    return [("case", case), *([("modes chosen", choice)] if choice else [])]
+
+
+def tell(lines: Iterable[tuple[str, str]]) -> None:
+    """Print lines of a name and what is said of it."""
+    for name, text in lines:
+        typer.echo(f"{name:<20}{text}")
 
 
 def number(name: str, text: str | None, holds: Callable[[float], bool], rule: str, faults: list[str]) -> float:

@@ -9,7 +9,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from disc_model.cli.case import number, with_case_options
+from disc_model.cli.case import case_lines, number, parameters_of, tell, with_case_options
 from disc_model.cli.progress import compiling
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
@@ -27,7 +27,7 @@ def modes(*, case: dict[str, str]) -> None:
 
     parameters, choice = read_parameters(case)
     if choice:
-        typer.echo(f"{'modes chosen':<20}{choice}")
+        tell([("modes chosen", choice)])
     table = Table(title=f"Modes of the disc ({parameters.normalization})")
     for heading in ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)"):
         table.add_column(heading, justify="right")
@@ -61,13 +61,8 @@ def floquet(
     case: dict[str, str],
 ) -> None:
     """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without simulating it."""
-    from disc_model.truncation import read_parameters
-
     faults: list[str] = []
-    try:
-        parameters, choice = read_parameters(case)
-    except ParameterError as error:
-        faults += error.faults
+    parameters, choice = parameters_of(case, faults)
     rule = limits_rule(CYCLE_TOLERANCES)
     tolerance = number("tol", tol, lambda x: CYCLE_TOLERANCES[0] <= x <= CYCLE_TOLERANCES[1], rule, faults)
     if faults:
@@ -78,12 +73,8 @@ def floquet(
 
         cycle = cycle_of(parameters, tol=tolerance)
         sliding = cycle.sliding
-    p, found = parameters, cycle.status is CycleStatus.OK
-    lines = [
-        ("case", f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {p.normalization}, {p.contact} (key {p.key})"),
-        *([("modes chosen", choice)] if choice else []),
-        ("status", cycle.message or cycle.status.value),
-    ]
+    found = cycle.status is CycleStatus.OK
+    lines = [*case_lines(parameters, choice), ("status", cycle.message or cycle.status.value)]
     if found:
         verdict = "small disturbances die out" if cycle.stable else "small disturbances grow"
         lines += [
@@ -95,8 +86,7 @@ def floquet(
     else:
         lines.append(("advice", cycle.status.advice))
     lines.append(("steady sliding", f"growth rate {sliding.growth_rate:.6g} 1/s"))
-    for name, text in lines:
-        typer.echo(f"{name:<20}{text}")
+    tell(lines)
     if not found:
         raise typer.Exit(1)
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from disc_model.cli.case import number, with_case_options
+from disc_model.cli.case import case_lines, number, parameters_of, tell, with_case_options
 from disc_model.cli.progress import prepare, simulating
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
@@ -98,7 +98,7 @@ def run(
     complete = result.status.complete
     if save is not None:
         result.save(save, list(asked.windows) or None)
-        typer.echo(f"{'saved':<20}{save}")
+        tell([("saved", str(save))])
     if plot is not None:
         reached = float(result.final_state.time)
         if 0 < reached < asked.end and not asked.windows:  # the end to be shown is elsewhere than was thought
@@ -119,13 +119,8 @@ def _checked(
     checkpoint: Path | None,
 ) -> Asked:
     """All that is asked for; refuses all that is bad at once, before kernels load."""
-    from disc_model.truncation import read_parameters
-
     faults: list[str] = []
-    try:
-        parameters, choice = read_parameters(case)
-    except ParameterError as error:
-        faults += error.faults
+    parameters, choice = parameters_of(case, faults)
     end = number("t_end", t_end, lambda x: 0 < x < math.inf, "must be finite and > 0", faults)
     tolerance = number("tol", tol, lambda x: TOLERANCES[0] <= x <= TOLERANCES[1], limits_rule(TOLERANCES), faults)
     if stop_at not in (None, *STOPS):
@@ -219,16 +214,15 @@ def _save_plot(result: Result, path: Path) -> None:
         quicklook(result).savefig(path, dpi=150)
     except OSError as error:
         raise ParameterError(f"plot={str(path)!r}: cannot be written ({error.strerror})") from None
-    typer.echo(f"{'figure':<20}{path}")
+    tell([("figure", str(path))])
 
 
 def _print_summary(result: Result, choice: str) -> None:
     """Modes if they were chosen, status, switches, time in each phase and effort of one run, a line each."""
-    p, s = result.parameters, result.statistics
+    s = result.statistics
     reached = float(result.final_state.time)
     lines = [
-        ("case", f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {p.normalization}, {p.contact} (key {p.key})"),
-        *([("modes chosen", choice)] if choice else []),
+        *case_lines(result.parameters, choice),
         ("status", result.message or result.status.value),
         ("time reached", f"{reached:.9g} s of {result.t_end:g} s"),
         (
@@ -250,5 +244,4 @@ def _print_summary(result: Result, choice: str) -> None:
     ]
     if result.status.value not in ("ok", "stopped"):
         lines.append(("advice", result.status.advice))
-    for name, text in lines:
-        typer.echo(f"{name:<20}{text}")
+    tell(lines)

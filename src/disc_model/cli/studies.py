@@ -18,7 +18,10 @@ from rich.table import Table
 from disc_model.errors import DiscModelError, Fault, ParameterError
 
 if TYPE_CHECKING:
+    from disc_model.studies.grids.schema import GridStudy
     from disc_model.studies.schema import Study
+
+    Grids = dict[str, GridStudy]
 
 PACKAGE = Path(__file__).resolve().parents[1]
 KINDS = ("studies", "figures", "cases", "stale")
@@ -82,11 +85,11 @@ def list_(
     """List the grid studies, figures or cases of a study, or what of its results is stale."""
     if what not in KINDS:
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
-    chosen, folders = _read(files or [_shipped("config/paper.yaml")])
+    chosen, grids = _read(files or [_shipped("config/paper.yaml")])
     if what == "stale":
         _list_stale(files, directory)
         return
-    heads, rows = {"studies": _studies, "figures": _figures, "cases": _cases}[what](chosen, folders, directory)
+    heads, rows = {"studies": _studies, "figures": _figures, "cases": _cases}[what](chosen, grids, directory)
     table = Table(title=f"{what} of {chosen.name}")
     for head in heads:
         table.add_column(head, overflow="fold")
@@ -137,8 +140,8 @@ def _command(files: Sequence[Path] | None, options: Sequence[str]) -> list[str]:
     return [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options, *named]
 
 
-def _read(files: Sequence[Path]) -> tuple[Study, list[Path]]:
-    """The study that files say, checked with all that they name, and where that is looked for."""
+def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
+    """The study that files say, checked with all that they name, and its grids."""
     from disc_model.studies.files import inherit, mapping, read_file
     from disc_model.studies.schema import study_from_config
 
@@ -147,8 +150,8 @@ def _read(files: Sequence[Path]) -> tuple[Study, list[Path]]:
         raw = inherit(raw, mapping(read_file(file)[0]))
     chosen = study_from_config(raw, files)
     folders = [Path(), *(file.parent for file in files), PACKAGE]
-    chosen.grids(folders)
-    return chosen, folders
+    grids, asked = chosen.grids(folders)
+    return chosen, {name: grids[name] for name in asked}
 
 
 Rows = tuple[tuple[str, ...], Iterator[tuple[str, ...]]]
@@ -158,21 +161,18 @@ def _made(path: Path) -> str:
     return "there" if path.exists() else "not computed"
 
 
-def _studies(chosen: Study, folders: list[Path], directory: Path) -> Rows:
-    grids, asked = chosen.grids(folders)
+def _studies(chosen: Study, grids: Grids, directory: Path) -> Rows:
     results = directory / "results"
     rows = (
-        (name, grids[name].quantity, " x ".join(grids[name].values), str(grids[name].n_points), grids[name].title,
+        (name, grid.quantity, " x ".join(grid.values), str(grid.n_points), grid.title,
          _made(results / name / f"{name}.nc"))
-        for name in asked
+        for name, grid in grids.items()
     )  # fmt: skip
     return ("study", "quantity", "dimensions", "points", "title", "results"), rows
 
 
-def _figures(chosen: Study, folders: list[Path], directory: Path) -> Rows:
+def _figures(chosen: Study, grids: Grids, directory: Path) -> Rows:
     from disc_model.figures.paper.catalogue import CATALOGUE
-
-    grids, asked = chosen.grids(folders)
 
     def rows() -> Iterator[tuple[str, ...]]:
         results = directory / "results"
@@ -180,15 +180,15 @@ def _figures(chosen: Study, folders: list[Path], directory: Path) -> Rows:
             yield name, "paper", CATALOGUE[name].title, _made(results / chosen.name / "figures" / f"{name}.png")
         for name, plot in chosen.plots.items():
             yield name, plot.kind, plot.title or plot.case, _made(results / chosen.name / "figures" / f"{name}.png")
-        for study_name in asked:
-            for name, shown in grids[study_name].plots.items():
-                title = shown.title or grids[study_name].title
+        for study_name, grid in grids.items():
+            for name, shown in grid.plots.items():
+                title = shown.title or grid.title
                 yield name, shown.kind, title, _made(results / study_name / "figures" / f"{name}.png")
 
     return ("figure", "kind", "title", "results"), rows()
 
 
-def _cases(chosen: Study, folders: list[Path], directory: Path) -> Rows:
+def _cases(chosen: Study, grids: Grids, directory: Path) -> Rows:
     from disc_model.figures.paper.catalogue import said_parameters
 
     results = directory / "results" / chosen.name / "cases"

@@ -11,7 +11,6 @@ from __future__ import annotations
 from .compile import inlined
 from .lanes import WIDTH, add, fma, splat, total
 from .layout import (
-    BEND,
     DOWN,
     FORCE_ROW,
     PSI_SERIES,
@@ -32,17 +31,18 @@ from .series import (
     _axisymmetric,
     _disc_point,
     _e,
+    _first_order,
     _kept,
     _last_force,
     _order,
     _order_from_memory,
     _order_zero,
-    _pending,
     _row,
     _stick_order,
     _z,
     lane_count,
 )
+from .switches import slip_denominator
 
 
 @inlined
@@ -203,22 +203,15 @@ def normal_slip_series(model, s, order, direction):
 
         R_k D = (N + k (u - u_0) + c u' + m A + B F)_k + h_k ((1 + m S2) s mu_k - beta_0)
     """
-    width, zero = lane_count(model), splat(0.0)
+    width = lane_count(model)
     f0, friction, mobility = s.slider[F], direction * model.mu_k, 1.0 + model.m * model.compliance
     s.slider[U_SERIES], s.slider[V_SERIES], slope = _disc_point(model, s)
     beta = slope / model.r_0
     s.slider[SLOPE_SERIES] = beta
-    denominator = mobility * (1.0 - friction * beta) + (friction + beta) * beta
+    denominator = slip_denominator(model, direction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
-    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
-    for b in range(0, width, WIDTH):
-        pending = add(pending, _order_zero(model, s, width, b, f0))
-        z, e = _z(s, b), _e(s, width, b)
-        now = add(now, _pending(model, s, width, b, e, z, zero))
-        by_e = fma(_row(model, SLOPE, b), e, by_e)
-        by_z = fma(_row(model, BEND, b), z, by_z)
-        by_z1 = fma(_row(model, SLOPE, b), _z(s, width + b), by_z1)
+    now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
     coriolis = total(by_e)
     by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
     # see slip_series

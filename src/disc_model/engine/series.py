@@ -229,6 +229,24 @@ def _order_zero(model, s, width, b, f0):
 
 
 @inlined
+def _first_order(model, s, width, f0):
+    """Order 0 of all blocks.  Returns (lanes) their part of u'', what is pending for order 1, and what f weighs.
+
+    The last three are slope e_0, bend z_0 and slope z_1.
+    """
+    zero = splat(0.0)
+    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
+    for b in range(0, width, WIDTH):
+        pending = add(pending, _order_zero(model, s, width, b, f0))
+        z, e = _z(s, b), _e(s, width, b)
+        now = add(now, _pending(model, s, width, b, e, z, zero))
+        by_e = fma(_row(model, SLOPE, b), e, by_e)
+        by_z = fma(_row(model, BEND, b), z, by_z)
+        by_z1 = fma(_row(model, SLOPE, b), _z(s, width + b), by_z1)
+    return now, pending, by_e, by_z, by_z1
+
+
+@inlined
 def _axisymmetric(model, s, k, impulse):
     """Modes without nodal diameter, order k: they only feel P.  Returns their part of u'' without P_{k-1}."""
     part, n, up = 0.0, len(model.force0), s.slider[UP + k]
@@ -261,7 +279,7 @@ def slip_series(model, s, order, direction):
     Fills ``s`` (coefficients 0 are given) up to degree ``order``, P up to ``order - 1``, and the switch function
     direction * f.
     """
-    width, zero = lane_count(model), splat(0.0)
+    width = lane_count(model)
     f0, psi = s.slider[F], s.slider[PSI_SERIES]
     u, v, slope = _disc_point(model, s)
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
@@ -270,14 +288,7 @@ def slip_series(model, s, order, direction):
     inverse, braking, lightness = 1.0 / denominator, friction / model.m, 1.0 / model.m
     weight = model.m * inverse
 
-    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
-    for b in range(0, width, WIDTH):
-        pending = add(pending, _order_zero(model, s, width, b, f0))
-        z, e = _z(s, b), _e(s, width, b)
-        now = add(now, _pending(model, s, width, b, e, z, zero))
-        by_e = fma(_row(model, SLOPE, b), e, by_e)
-        by_z = fma(_row(model, BEND, b), z, by_z)
-        by_z1 = fma(_row(model, SLOPE, b), _z(s, width + b), by_z1)
+    now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
     coriolis = total(by_e)
     by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
     # order 0: C has the Coriolis term once too often, because z_1 in by_f_rate holds it already

@@ -139,19 +139,27 @@ def usual_denominator(model):
 
 
 @inlined
+def slip_denominator(model, direction, slope):
+    """The denominator of the contact force in slip, P or R; slope is B of the disc under the slider."""
+    friction = direction * model.mu_k
+    if is_normal(model):
+        beta = slope / model.r_0
+        if is_compliant(model):
+            return 1.0 - friction * beta
+        return (1.0 + model.m * model.compliance) * (1.0 - friction * beta) + (friction + beta) * beta
+    if is_compliant(model):
+        return 1.0
+    return 1.0 + model.m * model.compliance + friction * slope / model.r_0
+
+
+@inlined
 def slip_force(model, state, direction):
     """Contact force in slip (P, or R under the normal force), its denominator, and how much of it may be rounding."""
     _, _, slope = disc_point(model, state)
+    denominator = slip_denominator(model, direction, slope)
     if is_compliant(model):
         V, size = _compliant_force(model, state)
-        denominator = 1.0
-        if is_normal(model):
-            denominator -= direction * model.mu_k * slope / model.r_0
         return V / denominator, denominator, ROUNDING * size / abs(denominator)
-    denominator = 1.0 + model.m * model.compliance + direction * model.mu_k * slope / model.r_0
-    if is_normal(model):
-        friction, beta = direction * model.mu_k, slope / model.r_0
-        denominator = (1.0 + model.m * model.compliance) * (1.0 - friction * beta) + (friction + beta) * beta
     force, size = _free_force(model, state)
     pull = slope * spring_force(model, state)
     return (force + pull) / denominator, denominator, ROUNDING * (size + abs(pull)) / abs(denominator)

@@ -19,6 +19,7 @@ import numpy as np
 from .compile import inlined, kernel
 from .lanes import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 from .layout import HALF, SEPARATION, SLIP, STICK, Model, give_of, is_compliant, is_normal
+from .switches import slip_denominator
 
 # Entries of ``Tangent.log``; ``variational`` says what they are.
 LOG_SIZE = 16
@@ -282,15 +283,6 @@ def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, verti
 
 
 @inlined
-def _slip_denominator(model, friction, slope):
-    """Of R in slip beyond the paper's law: see ``switches.slip_force``."""
-    beta = slope / model.r_0 if is_normal(model) else 0.0
-    if is_compliant(model):
-        return 1.0 - friction * beta
-    return (1.0 + model.m * model.compliance) * (1.0 - friction * beta) + (friction + beta) * beta
-
-
-@inlined
 def _apply_force(model, s, t, block, k, R, P):
     """Velocities of order k + 1, once the change P of the vertical contact force of order k is known."""
     width, n0, up = len(model.force), len(model.force0), splat(s.up[k])
@@ -338,10 +330,8 @@ def tangent_series(model, s, t, order, phase, direction):
             elif other_law and phase == SLIP:
                 if not is_compliant(model):
                     free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
-                mu = direction * model.mu_k
-                P, V, rate_f = _forces_in_slip(
-                    model, s, t, block, k, R, mu, _slip_denominator(model, mu, B0), free, vertical, pull
-                )
+                mu, denominator = direction * model.mu_k, slip_denominator(model, direction, B0)
+                P, V, rate_f = _forces_in_slip(model, s, t, block, k, R, mu, denominator, free, vertical, pull)
                 if is_compliant(model):
                     acceleration = mul(lightness, sub(V, vertical))
                 else:
