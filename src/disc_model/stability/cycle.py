@@ -18,7 +18,6 @@ from disc_model.errors import DiscModelError, ParameterError, StatusBase
 from disc_model.parameters import Parameters
 from disc_model.schema import CYCLE_TOLERANCES, limits_faults
 from disc_model.simulation.result import State
-from disc_model.stability.contact import contact_faults
 from disc_model.stability.return_map import (
     OUTCOMES,
     RETURNED,
@@ -27,6 +26,7 @@ from disc_model.stability.return_map import (
     ReturnMap,
     growth_rate,
     kind_of,
+    modes_faults,
     multipliers,
     newton,
 )
@@ -149,7 +149,7 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
     if not isinstance(given, Parameters):
         faults.append(f"p={p!r}: must be Parameters")
     else:
-        faults += contact_faults(given, "floquet")
+        faults += modes_faults(given, "floquet")
     faults += limits_faults("tol", tol, CYCLE_TOLERANCES)
     if releases < 1 or (near is None and releases != 1):
         faults.append(f"releases={releases!r}: must be >= 1, and 1 without a state to look near")

@@ -26,7 +26,7 @@ from disc_model.simulation.result import (
     series_tolerance,
     write_state,
 )
-from disc_model.stability.contact import contact_faults
+from disc_model.stability.return_map import modes_faults
 
 Array = NDArray[np.float64]
 
@@ -185,7 +185,7 @@ def _check(p: object, duration: float, transient: float, count: int, interval: f
     if not isinstance(p, Parameters):
         faults.append(f"p={p!r}: must be Parameters")
     else:
-        faults += contact_faults(p, "lyapunov_exponents")
+        faults += modes_faults(p, "lyapunov_exponents")
     if not (math.isfinite(duration) and duration > 0):
         faults.append(f"duration={duration!r}: must be finite and > 0")
     if not (math.isfinite(transient) and transient >= 0):

@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from disc_model.engine import layout, outcomes, switches, variational
 from disc_model.engine import tangent as columns
+from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import RESIDUAL, Parameters
+from disc_model.schema import shown
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
-from disc_model.stability.contact import check_contact
 
 Array = NDArray[np.float64]
 
@@ -42,6 +43,19 @@ OUTCOMES = {
     outcomes.LOST_CONTACT: "lost_contact",
     outcomes.OFF_SECTION: "off_section",
 }
+
+
+def modes_faults(p: Parameters, analysis: str) -> list[str]:
+    """What of a case ``analysis`` cannot do: without modes there is nothing that could lose its stability."""
+    if p.n_diameters >= 0:
+        return []
+    return [Fault(("n_diameters",), shown(p.n_diameters), f"must be >= 0: {analysis} needs modes of the disc")]
+
+
+def check_modes(p: Parameters, analysis: str) -> None:
+    """Raise `ParameterError` where there are `modes_faults`."""
+    if faults := modes_faults(p, analysis):
+        raise ParameterError(*faults)
 
 
 @dataclass(frozen=True)
@@ -73,7 +87,7 @@ class ReturnMap:
     """
 
     def __init__(self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = ()) -> None:
-        check_contact(p, "the return map")
+        check_modes(p, "the return map")
         self.parameters = p
         self._case = engine_case(p)
         self.model = model = self._case.model

@@ -29,8 +29,8 @@ from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State
-from disc_model.stability.contact import contact_faults
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
+from disc_model.stability.return_map import modes_faults
 
 Array = NDArray[np.float64]
 
@@ -106,7 +106,7 @@ class Settling:
     @cached_property
     def cycle(self) -> FloquetResult | None:
         """The stick-slip cycle near the published start, if there is one and it can be found."""
-        if contact_faults(self.parameters, "floquet"):
+        if modes_faults(self.parameters, "floquet"):
             return None
         found = floquet(self.parameters)
         return found if found.status is CycleStatus.OK else None

@@ -23,7 +23,7 @@ from disc_model.errors import ParameterError, StatusBase
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
-from disc_model.stability.contact import check_contact
+from disc_model.stability.return_map import check_modes
 
 Array = NDArray[np.float64]
 
@@ -83,7 +83,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     """
     if not isinstance(p, Parameters):
         raise ParameterError(f"p={p!r}: must be Parameters")
-    check_contact(p, "steady_sliding")
+    check_modes(p, "steady_sliding")
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
     if p.k_p == 0 and p.mu_k > 0:
