@@ -37,6 +37,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.data.variables import Variable
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
@@ -68,23 +69,23 @@ AFTER = 1.0
 WINDOW = (5.0, 7.0)
 """s over which the range of the contact force in contact is taken."""
 VARIABLES = {
-    "modes": ("1", "number of real modes"),
-    "omega_max": ("rad s-1", "highest natural frequency of the disc"),
-    "compliance": ("kg-1", "S2, sum of psi^2: compliance against an impulse"),
-    "lowest_coupled": ("rad s-1", "lowest frequency of disc and slider at rest"),
-    "frequency_error": ("1", "largest relative error of the coupled frequencies in the band"),
-    "growth_rate": ("s-1", "growth rate of the stick-slip cycle"),
-    "first_separation": ("s", "first separation"),
-    "force_min": ("N", "least contact force in contact"),
-    "force_max": ("N", "greatest contact force in contact"),
-    "separations": ("s-1", "separations per second in the second after the first one"),
-    "separated_share": ("1", "share of that second spent separated"),
-    "force_max_separating": ("N", "greatest contact force in that second"),
-    "impact_share": (
+    "modes": Variable("1", "number of real modes"),
+    "omega_max": Variable("rad s-1", "highest natural frequency of the disc"),
+    "compliance": Variable("kg-1", "S2, sum of psi^2: compliance against an impulse"),
+    "lowest_coupled": Variable("rad s-1", "lowest frequency of disc and slider at rest"),
+    "frequency_error": Variable("1", "largest relative error of the coupled frequencies in the band"),
+    "growth_rate": Variable("s-1", "growth rate of the stick-slip cycle"),
+    "first_separation": Variable("s", "first separation"),
+    "force_min": Variable("N", "least contact force in contact"),
+    "force_max": Variable("N", "greatest contact force in contact"),
+    "separations": Variable("s-1", "separations per second in the second after the first one"),
+    "separated_share": Variable("1", "share of that second spent separated"),
+    "force_max_separating": Variable("N", "greatest contact force in that second"),
+    "impact_share": Variable(
         "1",
         "change of the slider's velocity at a plastic impact over the closing velocity, 1/(1 + m S2)",
     ),
-    "cost": ("1", "wall time per simulated second, motion in contact"),
+    "cost": Variable("1", "wall time per simulated second, motion in contact"),
 }
 
 
@@ -107,7 +108,7 @@ def truncation_study(
                     data[name][i, j, k] = value
     dims = ("normalization", "circles", "diameters")
     return xr.Dataset(
-        {name: (dims, data[name], {"units": unit, "long_name": text}) for name, (unit, text) in VARIABLES.items()},
+        {name: (dims, data[name], own.attributes) for name, own in VARIABLES.items()},
         coords={"normalization": list(normalizations), "circles": list(circles), "diameters": list(diameters)},
         attrs={
             "Conventions": "CF-1.11",
@@ -133,18 +134,18 @@ LATE = (5.0, 5.0)
 MOST_GROWTH = 80
 """Growth rates take a column for each of four coordinates of every pair: with more real modes they are left out."""
 CONTACT_VARIABLES = {
-    "modes": ("1", "number of real modes"),
-    "contact_compliance": ("m N-1", "compliance of the contact"),
-    "lowest_coupled": ("rad s-1", "lowest frequency of disc and slider at rest"),
-    "frequency_error": ("1", "largest relative error of the coupled frequencies in the band"),
-    "growth_rate": ("s-1", "growth rate of the stick-slip cycle"),
-    "first_separation": ("s", "first separation"),
-    "separations": ("s-1", "separations per second, late"),
-    "separated_share": ("1", "share of the time spent separated, late"),
-    "u_range": ("m", "range of the slider's height, late"),
-    "force_max_separating": ("N", "greatest contact force, late"),
-    "cost": ("1", "processor time per simulated second before the first separation"),
-    "cost_separating": ("1", "the same, late"),
+    "modes": Variable("1", "number of real modes"),
+    "contact_compliance": Variable("m N-1", "compliance of the contact"),
+    "lowest_coupled": Variable("rad s-1", "lowest frequency of disc and slider at rest"),
+    "frequency_error": Variable("1", "largest relative error of the coupled frequencies in the band"),
+    "growth_rate": Variable("s-1", "growth rate of the stick-slip cycle"),
+    "first_separation": Variable("s", "first separation"),
+    "separations": Variable("s-1", "separations per second, late"),
+    "separated_share": Variable("1", "share of the time spent separated, late"),
+    "u_range": Variable("m", "range of the slider's height, late"),
+    "force_max_separating": Variable("N", "greatest contact force, late"),
+    "cost": Variable("1", "processor time per simulated second before the first separation"),
+    "cost_separating": Variable("1", "the same, late"),
 }
 
 
@@ -166,10 +167,7 @@ def contact_study(
                     data[name][i, j, k] = value
     dims = ("case", "contact", "model")
     return xr.Dataset(
-        {
-            name: (dims, data[name], {"units": unit, "long_name": text})
-            for name, (unit, text) in CONTACT_VARIABLES.items()
-        },
+        {name: (dims, data[name], own.attributes) for name, own in CONTACT_VARIABLES.items()},
         coords={"case": list(named), "contact": list(CONTACTS), "model": [f"{d},{c}" for d, c in models]},
         attrs={
             "Conventions": "CF-1.11",

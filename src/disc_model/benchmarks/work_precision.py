@@ -45,17 +45,17 @@ def all_settings() -> Settings:
     }
 
 
-VARIABLES: Mapping[str, tuple[str, str]] = {
-    "value": ("1", "setting of the method: tolerance, step (s) or regularisation (rad/s)"),
-    "seconds": ("s", "wall time of the integration, median of the repeats"),
-    "seconds_spread": ("s", "largest less smallest wall time of the repeats"),
-    "cost": ("1", "seconds of wall time per simulated second"),
-    "event_error": ("s", "largest error of an event time, nan if events are missing or invented"),
-    "state_error": ("1", "energy norm of the error of the state at the end over that of the state"),
-    "work": ("1", "right-hand sides evaluated; steps for methods that work with series"),
-    "events": ("1", "number of events found"),
-    "separations": ("1", "number of separations found"),
-    "repeats": ("1", "number of times measured"),
+VARIABLES: Mapping[str, Variable] = {
+    "value": Variable("1", "setting of the method: tolerance, step (s) or regularisation (rad/s)"),
+    "seconds": Variable("s", "wall time of the integration, median of the repeats"),
+    "seconds_spread": Variable("s", "largest less smallest wall time of the repeats"),
+    "cost": Variable("1", "seconds of wall time per simulated second"),
+    "event_error": Variable("s", "largest error of an event time, nan if events are missing or invented"),
+    "state_error": Variable("1", "energy norm of the error of the state at the end over that of the state"),
+    "work": Variable("1", "right-hand sides evaluated; steps for methods that work with series"),
+    "events": Variable("1", "number of events found"),
+    "separations": Variable("1", "number of separations found"),
+    "repeats": Variable("1", "number of times measured"),
 }
 VERDICT = Variable("1", "what became of the method", VERDICT_WORDS)
 LOOK = {"colour": "colour in charts", "marker": "marker in charts", "dash": "line style in charts"}
@@ -170,7 +170,7 @@ def _dataset(
             data[name][place] = values[name]
     dims = ("scene", "solver", "point")
     dataset = xr.Dataset(
-        {name: (dims, data[name], {"units": unit, "long_name": text}) for name, (unit, text) in VARIABLES.items()},
+        {name: (dims, data[name], own.attributes) for name, own in VARIABLES.items()},
         coords={"scene": names, "solver": methods},
         attrs={"Conventions": "CF-1.11", "machine": machine(), "title": "Speed against accuracy"}
         | {"versions": json_attribute(versions() | _extra_versions())}

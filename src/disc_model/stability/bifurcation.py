@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from disc_model.data.variables import Variable
 from disc_model.errors import ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import carried_over, simulate
@@ -18,11 +19,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _VARIABLES = {
-    "psi": ("rad", "angle of the drive point ahead of the slider"),
-    "psi_velocity": ("rad/s", "its rate, Omega - f"),
-    "P": ("N", "contact force"),
-    "u": ("m", "height of the slider"),
-    "w_point": ("m", "displacement of the disc's point"),
+    "psi": Variable("rad", "angle of the drive point ahead of the slider"),
+    "psi_velocity": Variable("rad/s", "its rate, Omega - f"),
+    "P": Variable("N", "contact force"),
+    "u": Variable("m", "height of the slider"),
+    "w_point": Variable("m", "displacement of the disc's point"),
 }
 STATUS_NAMES = tuple(status.value for status in Status)
 
@@ -97,26 +98,21 @@ def bifurcation_samples(
         if follow and run.status.complete:
             given = run.final_state
     both, one = (name, "sample"), (name,)
-    variables = {key: (both, array, _attributes(key)) for key, array in data.items()}
+    variables = {key: (both, array, _VARIABLES[key].attributes) for key, array in data.items()}
     flags = {"flag_values": np.array([-1, 0, 1, 2], np.int8), "flag_meanings": "none stick slip separation"}
     codes = np.arange(len(STATUS_NAMES), dtype=np.int8)
     return xr.Dataset(
         {
             **variables,
             "phase": (both, phase, flags),
-            "first_separation": (one, first, {"units": "s", "long_name": "first loss of contact of the run"}),
-            "separations": (one, separations, {"units": "1", "long_name": "losses of contact in the run"}),
-            "stick_fraction": (one, stick, {"units": "1", "long_name": "share of the run in stick"}),
+            "first_separation": (one, first, Variable("s", "first loss of contact of the run").attributes),
+            "separations": (one, separations, Variable("1", "losses of contact in the run").attributes),
+            "stick_fraction": (one, stick, Variable("1", "share of the run in stick").attributes),
             "status": (one, status, {"flag_values": codes, "flag_meanings": " ".join(STATUS_NAMES)}),
         },
         coords={name: (one, values, {"units": Parameters.unit(name)}), "sample": np.arange(samples)},
         attrs={"parameters": p.canonical_json, "transient": transient, "tol": tol, "follow": int(follow)},
     )
-
-
-def _attributes(variable: str) -> dict[str, str]:
-    unit, meaning = _VARIABLES[variable]
-    return {"units": unit, "long_name": meaning}
 
 
 def _check(p: object, name: str, values: list[float], transient: float, samples: int) -> None:
