@@ -40,6 +40,33 @@ def test_a_departure_by_multipliers_ends_as_the_simulated_one() -> None:
     assert found.simulated < 0.6 * whole
 
 
+def test_a_departure_is_followed_where_its_phase_drifts() -> None:
+    """Long before growth changes, the frequency does: the amplitude of the leading part alone is asked for."""
+    p = Parameters(N=200, Omega=13.4375)
+    found, early = fate(p, 1000), fate(p, 1000, furthest=0.005)
+    assert found.departed is not None
+    assert found.simulated < 0.7 * early.simulated
+    # the rate is taken to within a quarter (DEPARTS), and the cubic term of that is corrected for
+    assert found.first_separation == pytest.approx(early.first_separation, abs=0.25 / found.departed.growth_rate)
+
+
+def test_growth_that_has_saturated_is_not_simulated_to_the_horizon() -> None:
+    """On a torus since 220 s; simulated to 1000 s the contact force stays within 9 % of the preload."""
+    p = Parameters(N=516.666666667, Omega=12.734375)
+    found = fate(p, 1000)
+    assert (found.outcome, found.saturated) == ("unstable", True)
+    assert found.state is not None
+    assert found.state.time < 500
+    on = simulate(p, found.state.time + 20, initial_state=found.state, stop_at="first_separation")
+    assert math.isnan(on.first_separation)
+
+
+def test_a_slow_rise_is_no_rest() -> None:
+    """At 96 % of the preload, and 1 % more each leg: it separates at 847 s, and is not left before."""
+    found = fate(Parameters(N=216.666666667, Omega=11.328125), 1000)
+    assert found.outcome == "separation"
+
+
 def test_without_a_cycle_the_motion_is_simulated_from_its_start() -> None:
     p = Parameters(N=385, Omega=15.1)
     assert not isinstance(published_start_near(p), Near)

@@ -10,8 +10,11 @@ they agree,
 - from an unstable one the motion departs as J^n d says, up to a distance at which the same test is passed again; only
   what follows is simulated, or nothing if the horizon comes before.
 
-Where they do not agree, or there is no such cycle, the motion is simulated, and now and then looked at again: it may
-have come near another cycle, or to steady sliding.
+Once a motion has departed, it is simulated until it separates or its growth has saturated: the range of the contact
+force has not risen for a time over which the cycle's leading multiplier would have enlarged it severalfold.
+
+Where motion and multipliers do not agree, or there is no such cycle, the motion is simulated, and now and then looked
+at again: it may have come near another cycle, or to steady sliding.
 """
 
 from __future__ import annotations
@@ -30,8 +33,8 @@ from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record
-from disc_model.simulation.result import State
+from disc_model.simulation.case import Record, Window
+from disc_model.simulation.result import Result, State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, cycle_of, find_cycle
 from disc_model.stability.return_map import OUTCOMES, RETURNED, ReturnMap, newton
 from disc_model.stability.settling import GROWTH, LARGEST_PERIOD, NOISE
@@ -49,16 +52,29 @@ AGREES = 0.1
 """Largest difference between the two motions, relative to the linear one."""
 RATE_AGREES = 0.5
 """Largest difference between their rates of growth, as a share of the linear one's."""
-AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+AMPLITUDES = (0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 """Distances from the cycle, over the static deflection, up to which a departure may be followed by multipliers."""
+DEPARTURE_TIMES = (1.5, 6.0)
+"""Times at which a departing motion is looked at, s."""
+DEPARTS = 0.25
+"""Largest share of a departing motion, on its section, that is not the leading multiplier's part; and largest
+difference between the rate at which that part grows and the multiplier's, as a share of it."""
 FIRST_LEG = 5.0
 """s, simulated before the motion is looked at again; each leg is twice as long as the one before."""
 NEARLY_PERIODIC = 0.05
 """Change over a period, relative to the static deflection, from which a cycle is looked for."""
 NEAR = 0.1
 """Distance from a cycle, relative to the static deflection, within which a motion may be near it."""
+LEG, SHORTEST_LEG, STILL = 0.5, 40.0, 3
+"""Length of a leg after a departure, over the time in which the leading multiplier enlarges it by e, and at least, s;
+and so many legs in which the contact force ranges no further end the simulation: growth has saturated."""
+RISES = 1.01
+"""Growth of that range that counts."""
+WATCH, FOLD = 100.0, 250
+"""Rate at which the contact force is sampled for its range, Hz, and samples of which the range is kept."""
 SLIDING_TIMES = (1.0, 4.0)
 """Times over which the approach to steady sliding is compared with its eigenvalues, s."""
+_NOTHING = Record(events=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +106,8 @@ class Fate:
         "unknown", the simulation failed
     simulated : s, 0 if multipliers decide
     cycle : the stable one to which the motion has come, or else the unstable one from which it departs; None if neither
+    departed : the unstable cycle from which its multipliers have led the motion away, None if all was simulated
+    saturated : whether the simulation was ended since growth had saturated
     sliding : whether it has come to steady sliding
     first_separation : s, nan if there is none
     state : where the simulation ended; None if there was none
@@ -99,6 +117,8 @@ class Fate:
     outcome: str
     simulated: float
     cycle: FloquetResult | None
+    departed: FloquetResult | None = None
+    saturated: bool = False
     sliding: bool = False
     first_separation: float = math.nan
     state: State | None = None
@@ -115,16 +135,25 @@ def published_start_near(p: Parameters) -> Near | FloquetResult:
     return _near(map_, cycle, map_.static)
 
 
-def fate(p: Parameters, horizon: float, *, tol: float = 1e-10, start: Near | FloquetResult | None = None) -> Fate:
+def fate(
+    p: Parameters,
+    horizon: float,
+    *,
+    tol: float = 1e-10,
+    start: Near | FloquetResult | None = None,
+    furthest: float = AMPLITUDES[0],
+) -> Fate:
     """What becomes of the published start within a horizon (s).
 
     Parameters
     ----------
     tol : of what is simulated, as in `simulate`
     start : what `published_start_near` says, if it is known
+    furthest : distance from a cycle, over the static deflection, up to which multipliers may tell of a departure: the
+        shorter, the better is the time of the first separation known
     """
     start = published_start_near(p) if start is None else start
-    return _Course(p, horizon, tol).run(start if isinstance(start, Near) and start.own else None)
+    return _Course(p, horizon, tol, furthest).run(start if isinstance(start, Near) and start.own else None)
 
 
 def departs_after(near: Near, horizon: float) -> bool:
@@ -136,7 +165,7 @@ def departs_after(near: Near, horizon: float) -> bool:
     right = _left_vector(near.jacobian.T)
     part = float(abs(leading @ near.distance)) / float(abs(leading @ right))
     grown = math.log(max(part / size, 1e-300)) + room * math.log(abs(near.cycle.multipliers[0]))
-    return grown <= math.log(2 * AMPLITUDES[0]) and _departure(near, room)[0] >= room
+    return grown <= math.log(2 * AMPLITUDES[0]) and _departure(near, room)[0] >= (room - 1) * near.cycle.period
 
 
 class _Course:
@@ -145,16 +174,19 @@ class _Course:
     shown : the cycle that it follows linearly: the first, or the stable one to which it has come
     left : the unstable cycle that it has departed from
     changes : from one period to the next, relative, at the end of each leg
+    reached : range of the contact force when it has last risen, since the departure, N
+    still : legs since then
     """
 
-    def __init__(self, p: Parameters, horizon: float, tol: float) -> None:
-        self.p, self.horizon, self.tol = p, horizon, tol
+    def __init__(self, p: Parameters, horizon: float, tol: float, furthest: float) -> None:
+        self.p, self.horizon, self.tol, self.furthest = p, horizon, tol, furthest
         self.map = ReturnMap(p, CYCLE_TOL)
         self.state: State | None = None
         self.time, self.simulated = 0.0, 0.0
         self.shown: FloquetResult | None = None
         self.left: Near | None = None
         self.changes: list[float] = []
+        self.reached, self.still = 0.0, 0
 
     def run(self, near: Near | None) -> Fate:
         if near is not None:
@@ -168,43 +200,63 @@ class _Course:
                     return self._ended("stable" if self.left is None or self._quiet(near.x) else "unstable")
                 if self._depart(near) >= self.horizon:
                     return self._ended("unstable")
-                leg = FIRST_LEG
             elif self.time >= self.horizon:
                 return self._ended("unstable" if self.left or _growing(self.changes) else "undecided")
-            result = simulate(
-                self.p,
-                min(self.time + leg, self.horizon),
-                tol=self.tol,
-                initial_state=self.state,
-                record=Record(events=False),
-                stop_at="first_separation",
-            )
-            self.simulated += result.final_state.time - self.time
-            self.state, self.time, leg = result.final_state, result.final_state.time, 2 * leg
+            if self.left is not None:
+                leg = max(SHORTEST_LEG, LEG / self.left.cycle.growth_rate)
+            result = self._simulated(leg)
+            leg *= 2
             if result.status is Status.STOPPED:
                 return self._ended("separation", first_separation=result.first_separation)
             if not result.status.complete:
                 return self._ended("unknown", status=result.status.value, message=result.message)
-            code, x = self.map.next_release(self.state)
             near = None
+            if self.left is not None and self.still == 0:
+                continue
+            code, x = self.map.next_release(result.final_state)
             if code == RETURNED:
                 near = self._look(x)
-            elif OUTCOMES[code] == "time_over" and _nears_sliding(self.p, self.state, self.tol):
+            elif OUTCOMES[code] == "time_over" and _nears_sliding(self.p, result.final_state, self.tol):
                 self.shown = None
                 return self._ended("stable", sliding=True)
+            if near is None and self.still >= STILL:
+                return self._ended("unstable", saturated=True)
+
+    def _simulated(self, leg: float) -> Result:
+        """Go on for a time (s), or to the first separation."""
+        watch = Record(windows=(Window(rate=WATCH, envelope=FOLD),), events=False)
+        result = simulate(
+            self.p,
+            min(self.time + leg, self.horizon),
+            tol=self.tol,
+            initial_state=self.state,
+            record=_NOTHING if self.left is None else watch,
+            stop_at="first_separation",
+        )
+        self.simulated += result.final_state.time - self.time
+        self.state, self.time = result.final_state, result.final_state.time
+        if self.left is not None:
+            P = result.samples[0]
+            reached = max((P["P_max"] - P["P_min"]), default=0.0)
+            if reached > RISES * self.reached:  # a slow rise adds up, since only a rise sets a new mark
+                self.reached, self.still = reached, 0
+            else:
+                self.still += 1
+        return result
 
     def _quiet(self, x: Array) -> bool:
         """Whether a cycle is so near the start that a motion between them counts as quiet."""
         return bool(np.linalg.norm(x - self.map.static) <= NEAR * np.linalg.norm(self.map.static))
 
     def _ended(self, outcome: str, **more: Any) -> Fate:
-        return Fate(outcome, self.simulated, self.shown, state=self.state, **more)
+        departed = None if self.left is None else self.left.cycle
+        return Fate(outcome, self.simulated, self.shown, departed, state=self.state, **more)
 
     def _depart(self, near: Near) -> float:
         """Follow the linear map away from an unstable cycle, as far as it may be; the time then, s."""
         room = max(0, math.ceil((self.horizon - self.time) / near.cycle.period))
-        periods, distance = _departure(near, room)
-        self.time += periods * near.cycle.period
+        time, distance = _departure(near, room, self.furthest)
+        self.time += time
         self.state = near.map.state(near.x + distance).replace(time=self.time)
         self.left = near
         return self.time
@@ -272,13 +324,19 @@ def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
 
-def _departure(near: Near, room: int) -> tuple[int, Array]:
-    """Number of periods that the linear map may stand for, at most `room`, and the distance from the cycle then."""
-    size = float(np.linalg.norm(near.map.static))
+def _departure(near: Near, room: int, furthest: float = AMPLITUDES[0]) -> tuple[float, Array]:
+    """How long the leading multiplier tells of a motion's departure, at most `room` periods, and its distance then.
+
+    Returns
+    -------
+    time : s, 0 if it does not tell
+    distance : on the section
+    """
+    size, period = float(np.linalg.norm(near.map.static)), near.cycle.period
     powers = [near.jacobian]
     while 2 ** len(powers) <= room:
         powers.append(powers[-1] @ powers[-1])
-    for amplitude in AMPLITUDES:
+    for amplitude in (a for a in AMPLITUDES if a <= furthest):
         n, distance = 0, near.distance
         for i in reversed(range(len(powers))):
             ahead = powers[i] @ distance
@@ -286,9 +344,38 @@ def _departure(near: Near, room: int) -> tuple[int, Array]:
                 n, distance = n + 2**i, ahead
         if n == 0:
             break
-        if any(_linear(near.map, near.cycle, near.x, near.jacobian, distance, times) for times in TESTS):
-            return n, distance
-    return 0, near.distance
+        faster = _faster(near, distance)
+        if abs(faster) <= DEPARTS:
+            # the rate changes with the square of the amplitude: a' = rate a (1 + faster a^2 / amplitude^2)
+            sooner = math.log1p(faster) / (2 * near.cycle.growth_rate)
+            return max(n * period - sooner, period), distance
+    return 0.0, near.distance
+
+
+def _faster(near: Near, distance: Array) -> float:
+    """By what share a departing motion grows faster than the leading multiplier says; infinite if it is another one.
+
+    Its phase is not asked for: it drifts with the amplitude long before the growth does, and decides nothing.
+    """
+    left, right = _left_vector(near.jacobian), _left_vector(near.jacobian.T)
+    right = right / (left @ right)
+    real = near.cycle.multipliers[0].imag == 0
+    moved, done, before = near.x + distance, 0, float(abs(left @ distance))
+    faster = math.inf
+    for time in DEPARTURE_TIMES:
+        count = max(done + 1, round(time / near.cycle.period))
+        flight, moved, _, _ = near.map.evaluate(
+            moved, releases=(count - done) * near.cycle.releases, tangent=False, coarse=True
+        )
+        if flight.outcome != RETURNED:
+            return math.inf
+        done, apart = count, moved - near.x
+        part = left @ apart
+        plane = np.real(part * right) * (1 if real else 2)
+        if not np.linalg.norm(apart - plane) <= DEPARTS * np.linalg.norm(apart):
+            return math.inf
+        faster = math.log(abs(part) / before) / (count * near.cycle.period) / near.cycle.growth_rate - 1
+    return faster
 
 
 def _period(map_: ReturnMap, x: Array) -> tuple[float, int]:

@@ -53,14 +53,9 @@ SCAN = {"start": 12, "stop": 15, "step": 0.5}
 
 @pytest.fixture
 def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
-    def follow(p, horizon, **_):
-        first = separates_at(p)
-        end = min(first, horizon)
-        status = Status.STOPPED if first <= horizon else Status.OK
-        return SimpleNamespace(
-            result=SimpleNamespace(status=status, message=""), simulated=end,
-            first_separation=first if first <= horizon else math.nan,
-        )  # fmt: skip
+    def motion(p, options):
+        first, horizon = separates_at(p), options.horizons[-1]
+        return critical_speed.Motion(first if first <= horizon else math.nan, min(first, horizon), "ok", "")
 
     def late_stretch(p, state, duration, late, tol):
         """Separation begins at 14 rad/s on the way up, and stays down to 13."""
@@ -70,7 +65,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         found = Late(**values | {"share_separation": share, "share_slip": 1 - share, "separation_rate": 40 * share})
         return SimpleNamespace(final_state=apart, status=Status.OK, message=""), found
 
-    monkeypatch.setattr(critical_speed, "follow", follow)
+    monkeypatch.setattr(critical_speed, "motion", motion)
     monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
 
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.studies.grids.quantities import critical_speed
 from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions
@@ -37,15 +35,12 @@ def test_every_crossing_is_found(speeds: xr.Dataset) -> None:
 def test_a_run_that_breaks_off_is_no_quiet_run(
     fails_at: float | None, lowest: float, crossings: int, fake_motions: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    whole = critical_speed.follow
+    whole = critical_speed.motion
 
-    def follow(p, horizon, **more):
-        if p.Omega != fails_at:
-            return whole(p, horizon, **more)
-        result = SimpleNamespace(status=Status.PARADOX, message="why")
-        return SimpleNamespace(result=result, simulated=1.0, first_separation=math.nan)
+    def motion(p, options):
+        return whole(p, options) if p.Omega != fails_at else critical_speed.Motion(math.nan, 1.0, "paradox", "why")
 
-    monkeypatch.setattr(critical_speed, "follow", follow)
+    monkeypatch.setattr(critical_speed, "motion", motion)
     options = CriticalSpeedOptions.model_validate({"horizons": [1000], "scan": SCAN | {"stop": 14}})
     found = compute(critical_speed, [Parameters(N=400, Omega=0)], options).arrays
     assert found["critical_speed"][0, 0] == pytest.approx(lowest, nan_ok=True)

@@ -48,6 +48,9 @@ COLUMNS = {
     "origin": Column(Variable("1", "how the outcome is known; undivided_cell: like that cell's corners", ORIGINS)),
     "first_separation": Column(SCALARS["first_separation"]),
     "simulated": Column(Variable("s", "simulated time")),
+    "saturated": Column(
+        Variable("1", "whether the simulation was ended before the horizon, since growth had saturated", JOINED)
+    ),
     "cycle": Column(
         Variable("1", "whether the published start follows the cycle found; without one, what it does", CYCLES)
     ),
@@ -66,6 +69,8 @@ COLUMNS = {
     "other_cycles": Column(Variable("1", "number of other cycles known, followed from neighbours"), whole=True),
 }
 
+FINE = 2
+"""Intervals along the side of a cell, at most, in which the middle of an edge is presumed to be like its ends."""
 SMOOTH = 0.002
 """Cycles of neighbours nearer than this, over the static deflection, are one that goes on."""
 ANOTHER = 0.02
@@ -124,6 +129,7 @@ class _Tile:
         self.starts: dict[Place, Near | FloquetResult | Exception] = {}
         self.fates: dict[Place, Fate | Exception] = {}
         self.filled: dict[Place, str] = {}
+        self.presumed: dict[Place, str] = {}
         for i, j in product(range(self.shape[0]), range(self.shape[1])):
             self.starts[i, j] = self._start((i, j))
         self.trends = {place: self._trend(place) for place in self.starts}
@@ -135,6 +141,7 @@ class _Tile:
         while known < len(self.fates):
             known = len(self.fates)
             self.filled.clear()
+            self.presumed.clear()
             for across, along in product(pairwise(rows), pairwise(columns)):
                 self._refine(across, along)
 
@@ -181,16 +188,35 @@ class _Tile:
             return
         corners = [corner for corner in product(rows, columns) if self.trends[corner] == "open"]
         for place in corners or ([] if any(place in self.fates for place in undecided) else [_middle(undecided)]):
-            self.outcome(place)
+            if place not in self.presumed:
+                self.outcome(place)
         # on the way from slow growth to separation there may be growth that is faster, and still no separation
         outcomes = {self.outcome(place) for place in undecided if place in self.fates}
+        outcomes |= {self.presumed[corner] for corner in corners if corner not in self.fates}
         outcomes |= {"unstable" for place in inside if self.trends[place] == "slow"}
         halves = [_halves(*edges) for edges in (rows, columns)]
         if len(outcomes) == 1:
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
+            if max(rows[1] - rows[0], columns[1] - columns[0]) <= FINE:
+                self._presume(rows, columns)
             for i, j in product(*halves):
                 self._refine(i, j)
+
+    def _presume(self, rows: Place, columns: Place) -> None:
+        """Between corners that are alike an edge is expected to be like them; a cell beside it may find it is not."""
+        edges = [((row, columns[0]), (row, columns[1])) for row in rows]
+        edges += [((rows[0], column), (rows[1], column)) for column in columns]
+        for one, two in edges:
+            middle = (one[0] + two[0]) // 2, (one[1] + two[1]) // 2
+            if middle not in (one, two) and self.trends[middle] == "open" and self._said(one) == self._said(two):
+                self.presumed.setdefault(middle, self._said(one))
+
+    def _said(self, place: Place) -> str:
+        """The outcome at a corner, worked out or presumed."""
+        if self.trends[place] != "open":
+            return {"quiet": "stable", "slow": "unstable"}[self.trends[place]]
+        return self.presumed[place] if place not in self.fates else self.outcome(place)
 
     def rows(self) -> list[list[tuple[Row, str]]]:
         others = self._others()
@@ -235,10 +261,11 @@ class _Tile:
                 "origin": "simulation" if found.simulated else "multipliers",
                 "first_separation": found.first_separation,
                 "simulated": found.simulated,
+                "saturated": "yes" if found.saturated else "no",
             }
             message = found.message
         elif self.trends[place] == "open":
-            row |= {"outcome": self.filled[place], "origin": "undivided_cell"}
+            row |= {"outcome": self.filled.get(place, self.presumed.get(place)), "origin": "undivided_cell"}
         else:
             row |= {"outcome": {"quiet": "stable", "slow": "unstable"}[self.trends[place]], "origin": "multipliers"}
         row["joined_first"] = self._joined(place, (place[0] + 1, place[1]))

@@ -69,7 +69,7 @@ class RegionsOptions(Strict):
     coarse : intervals of the grid along the side of a cell, before it is divided
     """
 
-    tol: Tolerance = 1e-10
+    tol: Tolerance = 1e-8
     horizon: Positive
     coarse: Annotated[Count, Field(ge=1, le=1000)] = 8
 
