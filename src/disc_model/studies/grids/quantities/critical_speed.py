@@ -16,8 +16,8 @@ import numpy as np
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
-from disc_model.stability.contact import contact_faults
 from disc_model.stability.fate import Fate, fate
+from disc_model.stability.return_map import modes_faults
 from disc_model.stability.settling import follow
 from disc_model.studies.grids.dimensions import values_of
 from disc_model.studies.grids.run import STATUS, Column
@@ -127,7 +127,7 @@ class Motion(NamedTuple):
 def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
     """The motion from the published start, up to the longest horizon."""
     horizon, simulated = options.horizons[-1], 0.0
-    if not contact_faults(case, "fate") and min(case.N, case.Omega, case.k_p, case.mu_s) > 0:
+    if not modes_faults(case, "fate") and min(case.N, case.Omega, case.k_p, case.mu_s) > 0:
         found = fate(case, horizon, tol=options.tol, furthest=FURTHEST)
         if not _doubtful(found, options.horizons):
             return Motion(found.first_separation, found.simulated, found.status, found.message)
