@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, QuadMesh
 
 from disc_model.figures.grids import region_map as maps
 from disc_model.figures.grids.kinds import Mark, RegionMap
@@ -60,9 +60,45 @@ def test_cells_borders_and_marks(x: str, values: list[float], scale: str, tmp_pa
     assert {text.get_text() for text in outcome.texts} == {"a", "b"}
     above, below = ([text.get_text() for text in legend.get_texts()] for legend in figure.legends)
     assert {"stays quiet", "separation", "undecided", "cycle loses stability"} <= set(above)
+    assert "the paper's answer; F2: in its Fig. 2" in above
+    assert not any("undivided" in text for text in above)
     assert "no cycle found" in below
-    assert "Within 900 s of the published start. 24 of 24 points simulated." in below
+    said = "Within 900 s of the published start. 24 of 24 points simulated."
+    assert f"{said}\nb: the paper says “separation”, the published start: undecided." in below
     save(figure, tmp_path / "map.png")
+
+
+def colours(ax) -> set[tuple]:
+    return {
+        tuple(np.round(mesh.cmap(mesh.norm(code)), 3))
+        for mesh in ax.collections
+        if isinstance(mesh, QuadMesh)
+        for code in np.unique(mesh.get_array().compressed())
+    }
+
+
+def test_what_lies_inside_an_undivided_cell_is_paler(tmp_path) -> None:
+    study = made_up("Omega", [5.0, 10, 20], ["as_published"])
+    worked_out = colours(maps.draw(study, {}, RegionMap(x="Omega", y="N")).axes[0])
+    study["origin"][0] = regions.ORIGINS.index("undivided_cell")
+    figure = maps.draw(study, {}, RegionMap(x="Omega", y="N"))
+    assert colours(figure.axes[0]) > worked_out
+    assert "paler: inside an undivided cell" in [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> None:
+    study = made_up("Omega", [5.0, 10, 20], ["as_published"])
+    marks = {
+        "F1": Mark(x=5, y=100, paper="stable"),  # quiet, as the paper says, and the cycle is stable
+        "F2": Mark(x=5, y=200, paper="separation"),  # quiet, and the paper separates
+        "F3": Mark(x=20, y=100, paper="separation"),
+    }
+    study["growth_rate"].loc[{"Omega": 20}] = -0.2
+    said = maps.contradictions(study, RegionMap(x="Omega", y="N", marks=marks))
+    assert said == [
+        "F2: the paper says “separation”, the published start: stays quiet.",
+        "F3: separation, beside a cycle that is stable (-0.2/s): another motion is reached.",
+    ]
 
 
 def test_a_plane_that_lies_the_other_way_round(tmp_path) -> None:

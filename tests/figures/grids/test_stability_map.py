@@ -37,7 +37,7 @@ def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str, t
     assert figure.axes[0].get_xscale() == scale
     assert {text.get_text() for text in figure.axes[0].texts} == {"a", "b"}
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert {"stays quiet", "separation", "no cycle found", "what the paper says"} <= set(labels)
+    assert {"stays quiet", "separation", "no cycle found", "the paper's answer; F2: in its Fig. 2"} <= set(labels)
     save(figure, tmp_path / "map.png")
     bare = maps.draw(study.sel(normalization="orthonormal"), {}, StabilityMap(x=x, y="N"))
     (ax,) = bare.axes

@@ -104,7 +104,16 @@ def numbers_of(curves: Sequence[Curve]) -> dict[str, int]:
 def number_handles(numbers: Mapping[str, int]) -> list[Line2D]:
     """For legends: what the numbers stand for."""
     return [
-        Line2D([], [], linestyle="", marker=f"${number}$", color=BLACK, markersize=4, label=_shown(label))
+        Line2D(
+            [],
+            [],
+            linestyle="",
+            marker=f"${number}$",
+            color=BLACK,
+            markersize=4,
+            markeredgewidth=0,
+            label=_shown(label),
+        )
         for label, number in numbers.items()
     ]
 

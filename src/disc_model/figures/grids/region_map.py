@@ -12,7 +12,7 @@ from cmcrameri import cm
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, QuadMesh
-from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.colors import BoundaryNorm, ListedColormap, to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import RegionMap
-from disc_model.figures.grids.stability_map import LARGE, PAPER, growth_bar, growth_norm, set_scales
+from disc_model.figures.grids.stability_map import LARGE, PAPER, growth_bar, growth_norm, paper_ring, set_scales
 from disc_model.figures.grids.stability_map import OUTCOMES as MARKERS
 from disc_model.figures.parts import BLACK, GREY, PAGE, SEPARATED, new_figure, styled
 
@@ -32,6 +32,10 @@ Names = NDArray[np.str_]
 
 DOTTED = (0, (1.2, 0.8))
 """Of a border along cells, so short that corners stay visible."""
+
+
+PALER = 0.35
+"""How far the colours inside undivided cells are from the others' towards white."""
 
 
 class Look(NamedTuple):
@@ -83,7 +87,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
         if norm == "as_published":
             _marks(ax, plot)
     growth_bar(figure, mesh, list(axes[1]))
-    _legends(figure, axes, study, bool(plot.marks) and "as_published" in norms)
+    _legends(figure, study, plot)
     return figure
 
 
@@ -132,7 +136,17 @@ def _hatch(ax: Axes, cells: tuple[Array, Array], there: NDArray[np.bool_], look:
 
 
 def _outcomes(ax: Axes, data: xr.Dataset, plot: RegionMap) -> None:
-    _fill(ax, _cells(data, plot.x, plot.y), _words(data, "outcome", plot.x, plot.y), OUTCOMES)
+    """Outcomes, paler where they were not worked out."""
+    cells, words = _cells(data, plot.x, plot.y), _words(data, "outcome", plot.x, plot.y)
+    inside = _words(data, "origin", plot.x, plot.y) == "undivided_cell"
+    _fill(ax, cells, np.where(inside, "", words), OUTCOMES)
+    _fill(ax, cells, np.where(inside, words, ""), {name: _paler(look) for name, look in OUTCOMES.items()})
+
+
+def _paler(look: Look) -> Look:
+    """The look inside an undivided cell."""
+    face = np.array(to_rgb(look.face))
+    return look._replace(face=to_hex(face + PALER * (1 - face)))
 
 
 def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
@@ -202,27 +216,41 @@ def _marks(ax: Axes, plot: RegionMap) -> None:
         )
 
 
-def _legends(figure: Figure, axes: NDArray[np.object_], study: xr.Dataset, marked: bool) -> None:
+def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap) -> None:
     """Outcomes and lines above, what stands for no cycle below; and what is to be said of how it was computed."""
     outcomes = set(np.unique(flag_names(study["outcome"])))
     above: list[Artist] = [_patch(look) for name, look in OUTCOMES.items() if name in outcomes]
     above.append(Line2D([], [], color=BLACK, linewidth=1.0, label="cycle loses stability"))
     above.append(Line2D([], [], color=BLACK, linewidth=1.0, linestyle=DOTTED, label="stable cycle ends (fold)"))
-    if marked:
-        ring = Line2D([], [], linestyle="", marker="o", markerfacecolor="none", markersize=6, markeredgewidth=1.4)
-        ring.set(
-            markeredgecolor=PAPER,
-            label="what the paper says",
-            path_effects=[withStroke(linewidth=2.4, foreground=BLACK)],
-        )
-        above.append(ring)
+    if (flag_names(study["origin"]) == "undivided_cell").any():
+        above.append(_patch(_paler(OUTCOMES["separation"])._replace(label="paler: inside an undivided cell")))
+    if plot.marks and "as_published" in parts.normalizations(study):
+        above.append(paper_ring())
     figure.legend(handles=above, loc="outside upper center", ncols=min(len(above), 4))
     below = cycle_patches(study)
     horizon = json.loads(study.attrs["options"])["horizon"]
     simulated = (flag_names(study["origin"]) == "simulation").sum()
     said = f"Within {horizon:g} s of the published start. {simulated} of {study['outcome'].size} points simulated."
-    below.append(Line2D([], [], linestyle="", label=said))
+    below.append(Line2D([], [], linestyle="", label="\n".join([said, *contradictions(study, plot)])))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)
+
+
+def contradictions(study: xr.Dataset, plot: RegionMap) -> list[str]:
+    """A sentence for each case of the paper at which its answer, the start's outcome and the cycle do not agree."""
+    if "as_published" not in parts.normalizations(study):
+        return []
+    data, said = parts.of(study, "as_published"), []
+    for name, mark in plot.marks.items():
+        here = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
+        outcome, rate = str(flag_names(here["outcome"])), float(here["growth_rate"])
+        found = OUTCOMES[outcome].label
+        if outcome != mark.paper:
+            said.append(f"{name}: the paper says “{OUTCOMES[mark.paper].label}”, the published start: {found}.")
+        if (outcome == "stable") != (rate < 0) and np.isfinite(rate):
+            kind = "stable" if rate < 0 else "unstable"
+            why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
+            said.append(f"{name}: {found}, beside a cycle that is {kind} ({rate:.2g}/s): {why}.")
+    return said
 
 
 def cycle_patches(study: xr.Dataset) -> list[Artist]:

@@ -172,6 +172,17 @@ def _marks(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
         )
 
 
+def paper_ring() -> Line2D:
+    """For legends: the marks of the paper's cases."""
+    ring = Line2D([], [], linestyle="", marker="o", markerfacecolor="none", markersize=6, markeredgewidth=1.4)
+    ring.set(
+        markeredgecolor=PAPER,
+        label="the paper's answer; F2: in its Fig. 2",
+        path_effects=[withStroke(linewidth=2.4, foreground=BLACK)],
+    )
+    return ring
+
+
 def _far(values: np.ndarray, value: float) -> bool:
     """Whether a value lies in the last eighth of an axis."""
     return bool(np.searchsorted(values, value) >= 7 * (len(values) - 1) / 8)
@@ -216,11 +227,5 @@ def _legend(figure: Figure, study: xr.Dataset, marked: bool, mapped: bool) -> No
         handles.append(Line2D([], [], color=BLACK, linewidth=0.8, label="growth rate 0"))
         handles.append(no_cycle_patch())
     if marked:
-        ring = Line2D([], [], linestyle="", marker="o", markerfacecolor="none", markersize=6, markeredgewidth=1.4)
-        ring.set(
-            markeredgecolor=PAPER,
-            label="what the paper says",
-            path_effects=[withStroke(linewidth=2.4, foreground=BLACK)],
-        )
-        handles.append(ring)
+        handles.append(paper_ring())
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
