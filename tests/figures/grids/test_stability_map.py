@@ -58,5 +58,5 @@ def test_maps_of_one_normalization_over_any_number(x: str, values: list[float], 
     assert panel.get_title(loc="left") == "orthonormal modes"
     assert panel.get_xlabel() == {"c": "Damper c (N s/m)"}.get(x, f"Nodal {x[2:]}")
     # the paper's cases are of the other modes
-    assert "what the paper says" not in [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "the paper's answer; F2: in its Fig. 2" not in [text.get_text() for text in figure.legends[0].get_texts()]
     save(figure, tmp_path / "map.png")

@@ -145,8 +145,8 @@ def _outcomes(ax: Axes, data: xr.Dataset, plot: RegionMap) -> None:
 
 def _paler(look: Look) -> Look:
     """The look inside an undivided cell."""
-    face = np.array(to_rgb(look.face))
-    return look._replace(face=to_hex(face + PALER * (1 - face)))
+    red, green, blue = (part + PALER * (1 - part) for part in to_rgb(look.face))
+    return look._replace(face=to_hex((red, green, blue)))
 
 
 def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
