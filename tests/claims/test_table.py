@@ -11,6 +11,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
+from disc_model.analysis.classify import shortest_period
 from disc_model.claims import SCANS, disc, measures
 from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim, Finding, Needed
@@ -166,8 +167,8 @@ def test_phase_share() -> None:
 
 def test_shortest_period() -> None:
     intervals = np.tile([1.0, 2.0, 3.0], 10)
-    assert measures.shortest_period(intervals, 1e-9) == 3
-    assert measures.shortest_period(intervals + np.arange(30), 1e-9) == 0
+    assert shortest_period(intervals, 1e-9) == 3
+    assert shortest_period(intervals + np.arange(30), 1e-9) == 0
     assert measures.irregularity(np.ones(5)) == 0
 
 

@@ -16,11 +16,12 @@ from disc_model.analysis import classify
 from disc_model.claims import disc, ledger, measures, section44
 from disc_model.claims.ledger import CLAIMS, check_claims
 from disc_model.claims.measures import cycle_of
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Missing
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Finding, Missing
 from disc_model.claims.pages import to_markdown
+from disc_model.data.variables import EVENT_KINDS
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 from tests.claims import made_up
-from tests.claims.damaged import damaged, growing_in_the_end
+from tests.claims.damaged import Damage, Groups, damaged, growing_in_the_end
 
 #: Wrong whatever the motion does: about the disc alone, misprints, and attributions that contradict Table 2.
 NEVER = {"P06b", "P07", "E17", "T2c", "T2d", "T2e"}
@@ -74,6 +75,9 @@ WORLDS = {
     "to the contrary": World(made_up.to_the_contrary(), made_up.cycle_to_the_contrary, stick=0.0),
     "a slower disc": World({}, disc={"plate_modes": slower}, claims=("P01", "P07")),
     "fewer modes": World({}, disc={"plate_modes": lambda p: plate_modes(p.replace(n_diameters=3))}, claims=("P02",)),
+    "another lowest mode": World(
+        {}, disc={"plate_modes": lambda p: plate_modes(p).assign(omega=lambda modes: -modes["omega"])}, claims=("P02",)
+    ),
     "no slider": World(
         {},
         disc={"slider_at_rest_frequencies": lambda p: np.sort(np.append(*[plate_modes(p)["omega"]] * 2))[1:]},
@@ -241,6 +245,82 @@ def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.M
     monkeypatch.setattr(measures, "release_intervals", lambda case: 0.1 + 0.01 * np.random.default_rng(1).random(400))
     table = verdicts(monkeypatch, made_up.cycle_as_told, tree)
     assert set(table.loc[["F05", "F07", "F22", "F28"], "verdict"]) == {UNDECIDED}
+
+
+def judged(
+    monkeypatch: pytest.MonkeyPatch, claim: str, tree: xr.DataTree, damage: Mapping[str, Damage] | None = None
+) -> Finding:
+    """What one claim makes of made-up cases, some of them changed."""
+    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
+    changed = {name: damaged(tree[name], change) for name, change in (damage or {}).items()}
+    cases = {name: CaseView(name, node) for name, node in (dict(tree.children) | changed).items()}
+    return next(one for one in CLAIMS if one.id == claim).evaluate(cases)
+
+
+def without_the_last_reattachment(groups: Groups) -> Groups:
+    events = groups["events"]
+    last = int(np.flatnonzero(events["kind"].values == EVENT_KINDS.index("reattachment"))[-1])
+    return groups | {"events": events.isel(event=slice(last))}
+
+
+def test_a_separation_that_does_not_end_is_not_short(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+    """F03b looked only at those that ended, though it says that all do."""
+    assert judged(monkeypatch, "F03b", told).verdict == HOLDS
+    found = judged(monkeypatch, "F03b", told, {"F02": without_the_last_reattachment})
+    assert found.verdict == FAILS
+    assert "the last one lasts since" in found.ours
+
+
+def never_separates(groups: Groups) -> Groups:
+    return groups | {"": groups[""].assign(first_separation=np.nan, n_separations=0)}
+
+
+def test_more_modes_that_do_not_separate_are_a_change(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+    """P03 passed over a number of modes without separation: nan is no maximum."""
+    assert judged(monkeypatch, "P03", told).verdict == REMARK
+    assert judged(monkeypatch, "P03", told, {"P03l6": never_separates}).verdict == FAILS
+
+
+def test_growth_of_a_narrow_range_is_growth(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A thousandth of the preload was allowed besides the 2 % that S43d states: a range of as much could double."""
+    grows = made_up.STILL.replace(early=1e-3, late=1.9e-3)
+    tree = made_up.made_up(dict.fromkeys(("S43a126", "S43a10"), grows))
+    assert judged(monkeypatch, "S43d", tree).verdict == FAILS
+
+
+@pytest.mark.parametrize("claim", ["S43c", "S43z"])
+def test_how_long_a_separation_was_waited_for_counts(
+    claim: str, told: xr.DataTree, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A run that ended early was taken for one without separation."""
+    found = judged(monkeypatch, claim, told, {"S43c11": lambda groups: groups | {"": ended(groups[""], 100.0)}})
+    assert found.verdict == f"{NOT_COMPUTED}: case S43c11 ends at 100 s, 2000 s are needed"
+
+
+def ended(root: xr.Dataset, time: float) -> xr.Dataset:
+    return root.assign(time_reached=time)
+
+
+def test_a_claim_looks_at_its_own_cases_only(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+    """S43c took every case whose name begins as those of its scan do."""
+    mine = damaged(told["F17"], lambda groups: groups | {"": groups[""].assign(first_separation=100.0)})
+    more = xr.DataTree.from_dict(dict(told.children) | {"S43c_mine": mine})
+    assert judged(monkeypatch, "S43c", more) == judged(monkeypatch, "S43c", told)
+
+
+@pytest.mark.parametrize("claim", ["F21", "F29b"])
+def test_between_regular_and_chaotic_nothing_is_decided(
+    claim: str, told: xr.DataTree, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """These two were called refuted where F05, F07, F22 and F28 were called undecided."""
+    monkeypatch.setattr(classify, "zero_one", lambda values: 0.5)
+    assert judged(monkeypatch, claim, told).verdict == UNDECIDED
+
+
+def test_remarks_do_not_contradict_their_verdicts(found: dict[str, dict[str, str]]) -> None:
+    """ "Not monotonous" and "only those near 2 f_s are" stood beside claims that held."""
+    assert found["as told"]["S43k"] == HOLDS
+    assert found["natural frequencies where the lines are"]["T2e"] == HOLDS
 
 
 def test_growth_is_that_of_the_cycle(told: xr.DataTree) -> None:

@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import FEWEST, Kind, Motion, closure, irregularity, motion_of, shortest_period
+from disc_model.analysis.classify import FEWEST, Kind, Motion, irregularity, motion_of
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims.model import CaseView, Finding, Missing, Range, finding, undecided
 from disc_model.data.variables import EVENT_KINDS, PHASES
@@ -22,8 +22,10 @@ if TYPE_CHECKING:
     from disc_model.stability.cycle import FloquetResult
 
 
-__all__ = ["closure", "irregularity", "shortest_period"]  # beside what is defined here
+__all__ = ["irregularity"]  # beside what is defined here
 Array = NDArray[np.float64]
+BETWEEN = "the 0-1 test lies between regular and chaotic motion"
+"""Why a motion that does not repeat may be neither quasi-periodic nor irregular."""
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 
 
@@ -97,7 +99,7 @@ def is_quasi_periodic(case: CaseView) -> Finding:
     motion = late_motion(case)
     ours = said_motion(case, motion)
     if motion.kind is Kind.UNDECIDED:
-        return undecided(ours, "the 0-1 test lies between regular and chaotic motion")
+        return undecided(ours, BETWEEN)
     remark = ""
     if motion.kind is Kind.PERIODIC:
         remark = "it repeats, but only after a time that is long beside what the paper shows"
@@ -126,6 +128,16 @@ def separation_durations(case: CaseView) -> Array:
     if not apart.size:
         raise Missing(f"case {case.name} keeps no whole separation")
     return np.asarray(together[np.searchsorted(together, apart, side="right")] - apart)
+
+
+def open_separation(case: CaseView) -> float:
+    """How long the last separation of the events kept has lasted where they end without a reattachment, s; else 0."""
+    events = case.events
+    switched = is_kind(events, "separation") | is_kind(events, "reattachment")
+    last = events.isel(event=np.flatnonzero(switched)[-1:])
+    if not is_kind(last, "separation").any():
+        return 0.0
+    return kept_span(case).high - float(last["time"].values[0])
 
 
 def phase_share(case: CaseView, phase: str, start: float = -np.inf) -> float:

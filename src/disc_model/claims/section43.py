@@ -10,7 +10,7 @@ import numpy as np
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import Kind, separation_location
 from disc_model.claims import measures
-from disc_model.claims.measures import first_separation, said_growth
+from disc_model.claims.measures import BETWEEN, first_separation, said_growth
 from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding, undecided
 from disc_model.claims.section41 import RETURNS
 from disc_model.claims.section42 import ELSEWHERE
@@ -28,6 +28,8 @@ STIFFNESSES = (50, 60, 70, 80, 90, 100, 110, 130, 148, 200)
 """Of the spring normal to the disc, kN/m: between those that the paper tries."""
 ORDER = "only the order is claimed"
 SEEN = "the paper shows or says that it happens, without a time"
+WAITED = 2000.0
+"""How long a separation is waited for at low speeds, s: longer than any of the paper's runs."""
 _SPEEDS = {"10": 10, "11": 11, "12": 12, "122": 12.2, "124": 12.4, "126": 12.6, "14": 14, "145": 14.5}
 
 
@@ -111,17 +113,18 @@ def stick_longer(cases: Cases, claim: Claim) -> Finding:
     reason="half a unit of the last digit printed",
     bound=0.05,
     needs={"F17": Needed(F17.parameters, 850, separates=True)}
-    | {f"S43c{name}": Needed({"N": 200, "Omega": speed}) for name, speed in _SPEEDS.items()},
+    | {f"S43c{name}": Needed({"N": 200, "Omega": speed}, WAITED) for name, speed in _SPEEDS.items()},
 )
 def critical_speed(cases: Cases, claim: Claim) -> Finding:
-    scan = {case["Omega"]: case["first_separation"] for name, case in cases.items() if name.startswith("S43c")}
+    scan = {cases[name]["Omega"]: cases[name]["first_separation"] for name in claim.needs if name != "F17"}
     horizon = cases["F17"]["first_separation"]
     times = ", ".join(f"{speed:g}: {'none' if math.isnan(t) else f'{t:.0f} s'}" for speed, t in sorted(scan.items()))
     lower = [speed for speed, t in scan.items() if t <= horizon and speed < 12.6 - claim.bound]
     latest = [speed for speed, t in scan.items() if not math.isnan(t)]
     remark = (
         f"it depends on how long one waits; within the {horizon:.0f} s that the paper's own case at 15 rad/s takes, "
-        f"{min(lower, default=math.nan):g} rad/s separates too; given 2000 s, {min(latest, default=math.nan):g} rad/s"
+        f"{min(lower, default=math.nan):g} rad/s separates too; given {WAITED:g} s, "
+        f"{min(latest, default=math.nan):g} rad/s"
     )
     return finding(f"first separation by speed in rad/s: {times}", scan[12.6] <= horizon and not lower, remark)
 
@@ -242,19 +245,22 @@ def undamped_trajectory(cases: Cases, claim: Claim) -> Finding:
     "Sec. 4.3",
     "N = 200 N: without damping of the disc separation occurs at lower speeds than with D* = 1e-5 N m s",
     paper="10 rad/s against 12.6 rad/s",
-    tolerance="within 2000 s",
+    tolerance=f"within {WAITED:g} s",
     reason="longer than any of the paper's runs; how long one waits decides, see S43c",
-    bound=2000.0,
+    bound=WAITED,
     needs={
         "F18": F18,
         "S43z4": Needed({"N": 200, "Omega": 4, "D_star": 0}),
-        **{f"S43c{name}": Needed({"N": 200, "Omega": speed}, 0.0) for name, speed in _SPEEDS.items() if speed <= 12},
+        **{f"S43c{name}": Needed({"N": 200, "Omega": speed}, WAITED) for name, speed in _SPEEDS.items() if speed <= 12},
     },
 )
 def undamped_separates_lower(cases: Cases, claim: Claim) -> Finding:
     found = sorted((cases[name]["D_star"], cases[name]["Omega"], cases[name]) for name in claim.needs)
     lowest = {
-        damping: min((speed for d, speed, case in found if d == damping and case.separates), default=math.inf)
+        damping: min(
+            (speed for d, speed, case in found if d == damping and case["first_separation"] <= claim.bound),
+            default=math.inf,
+        )
         for damping in (0.0, 1e-5)
     }
     ours = "; ".join(f"D* = {damping:g}, {speed:g} rad/s: {first_separation(case)}" for damping, speed, case in found)
@@ -374,9 +380,11 @@ def soft_disc(cases: Cases, claim: Claim) -> Finding:
         f"{last.low:.0f}..{last.high:.0f} N; then {measures.said_motion(case, motion)}"
     )
     bounded = max(third.width, last.width) < 1.5 * min(third.width, last.width)
-    return finding(
-        ours, not case.separates and last.width > 2 * early.width and bounded and motion.kind is Kind.IRREGULAR
-    )
+    unstable = not case.separates and last.width > 2 * early.width and bounded
+    if unstable and motion.kind is Kind.UNDECIDED:
+        return undecided(ours, BETWEEN)
+    remark = "irregular for good: 'seems quasi-periodic', as the paper also says, it is not by the 0-1 test"
+    return finding(ours, unstable and motion.kind is Kind.IRREGULAR, remark if motion.kind is Kind.IRREGULAR else "")
 
 
 @claim(
@@ -417,7 +425,7 @@ def soft_inplane(cases: Cases, claim: Claim) -> Finding:
     motion = measures.late_motion(case)
     ours = f"{first_separation(case)}; then {measures.said_motion(case, motion)}"
     if case.separates and motion.kind is Kind.UNDECIDED:
-        return undecided(ours, "the 0-1 test lies between regular and chaotic motion")
+        return undecided(ours, BETWEEN)
     remark = "it wanders within a range, but repeats exactly" if motion.period else ""
     return finding(ours, case.separates and motion.kind is Kind.IRREGULAR, remark)
 
@@ -461,13 +469,17 @@ def lowest_position(cases: Cases, claim: Claim) -> Finding:
     if not starts.size:
         raise Missing("no separation in the window of case F23")
     found = separation_location(time, height, starts, claim.bound)
-    where = float(np.median(height[starts]))
+    # by its switches: samples come late, and the velocity of a light slider changes fast
+    events = case.events.isel(event=measures.is_kind(case.events, "separation"))
+    if not events.sizes["event"]:
+        raise Missing("case F23 keeps no separation")
+    where, speed = (float(np.median(events[name].values)) for name in ("u", "u_velocity"))
     ours = (
-        f"{first_separation(case)}; {found.kind}: {1e3 * where:.1f} mm from equilibrium, {100 * found.height:.0f} % of "
-        f"the swing above its lowest point, {found.velocity:+.2f} m/s"
+        f"{first_separation(case)}; {found.kind}: {1e3 * (where - case['u_0']):.1f} mm from equilibrium, "
+        f"{100 * found.height:.0f} % of the swing above its lowest point, {speed:+.2f} m/s"
     )
     remark = f"still falling: the lowest point is {100 * found.to_lowest:.0f} % of the swing further down"
-    return finding(ours, found.kind == "at the lowest position", remark if found.velocity < 0 else "")
+    return finding(ours, found.kind == "at the lowest position", remark if speed < 0 else "")
 
 
 @claim(
@@ -508,7 +520,7 @@ def always_upward(cases: Cases, claim: Claim) -> Finding:
     "In-plane damping destabilises at a large preload, though not in general",
     paper="destabilises at 385 N",
     tolerance="none",
-    reason="runs of 300 s from the published start decide it",
+    reason="runs of 200 s and more from the published start decide it",
     needs={
         "F11": F11,
         "F19": F19,
@@ -552,10 +564,15 @@ def elasticity(cases: Cases, claim: Claim) -> Finding:
     low = cases["F21"]
     low_rates = [measures.growth_rate(low), measures.cycle_of(low.parameters.replace(E=150e9)).growth_rate]
     remark = (
-        f"not monotonous: at 20 rad/s the soft disc is {'stable' if rates[0] < 0 else 'unstable'}; at 11 rad/s growth "
+        f"at 20 rad/s the soft disc is {'stable' if rates[0] < 0 else 'unstable'}; at 11 rad/s growth "
         f"is {low_rates[0]:+.4f}/s for 100 GPa and {low_rates[1]:+.4f}/s for 150 GPa"
     )
-    return finding("at 20 rad/s, " + "; ".join(said), rates[0] > rates[1] > rates[2] and rates[2] < 0, remark)
+    monotonous = rates[0] > rates[1] > rates[2]
+    return finding(
+        "at 20 rad/s, " + "; ".join(said),
+        monotonous and rates[2] < 0,
+        remark if monotonous else f"not monotonous: {remark}",
+    )
 
 
 @claim(
@@ -670,15 +687,16 @@ def _where_damping_helps(case: CaseView) -> str:
 
 
 def _between(case: CaseView) -> str:
-    """Growth at stiffnesses between those of the paper, at its speed and at a higher one."""
-    said = []
+    """Growth at stiffnesses between those of the paper, at its speed and at a higher one; nothing if it only falls."""
+    said, falls = [], True
     for speed in (case["Omega"], 50.0):
         rates = [_rate_or_nan(case.parameters.replace(Omega=speed, k=1e3 * k)) for k in STIFFNESSES]
+        falls &= not np.any(np.diff(rates) > 0)
         said.append(
             f"at {speed:g} rad/s growth is {', '.join(f'{rate:+.4f}' for rate in rates)}/s for "
             f"{', '.join(map(str, STIFFNESSES))} kN/m"
         )
-    return f"in between, the effect is not monotonous: {'; '.join(said)}"
+    return "" if falls else f"in between, the effect is not monotonous: {'; '.join(said)}"
 
 
 def _rate_or_nan(p: Parameters) -> float:
@@ -689,9 +707,9 @@ def _rate_or_nan(p: Parameters) -> float:
 
 
 def _grew(cases: Cases, name: str) -> bool:
-    """Whether the contact force ranges wider at the end than at first, by more than sampling can feign."""
+    """Whether the contact force ranges wider at the end than at first, by more than 2 %; sampling feigns far less."""
     early, late = (measures.early_range(cases[name], "P"), measures.late_range(cases[name], "P"))
-    return late.width > 1.02 * early.width + 1e-3 * cases[name]["N"]
+    return late.width > 1.02 * early.width
 
 
 def _range(cases: Cases, name: str) -> str:

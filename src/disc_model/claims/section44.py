@@ -7,8 +7,8 @@ import numpy as np
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import Kind
 from disc_model.claims import measures
-from disc_model.claims.measures import many, separates_at
-from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding
+from disc_model.claims.measures import BETWEEN, many, separates_at
+from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding, undecided
 from disc_model.claims.paper_tables import LISTED, SEARCHED, TABLE_2, stick_slip_rate, table_2, table_2_lines
 from disc_model.claims.section41 import RETURNS
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
@@ -169,8 +169,11 @@ def close_to_natural(cases: Cases, claim: Claim) -> Finding:
     nearest = [float(natural[np.argmin(np.abs(natural - f))]) for f in table["ours_Hz"]]
     off = np.abs(np.array(nearest) - table["ours_Hz"].to_numpy())
     said = ", ".join(f"{f:.1f} ({n:.1f})" for f, n in zip(table["ours_Hz"], nearest, strict=True))
-    remark = f"only those near 2 f_s are, by chance; the others are {off[2:].min():.0f} to {off[2:].max():.0f} Hz away"
-    return finding(f"{said} Hz, in brackets the nearest natural frequency", bool(off.max() <= claim.bound), remark)
+    far = off[off > claim.bound]
+    remark = f"{far.size} of {off.size} are {far.min():.0f} to {far.max():.0f} Hz away" if far.size else ""
+    if 0 < far.size < off.size:
+        remark += "; the others, near 2 f_s, are close by chance"
+    return finding(f"{said} Hz, in brackets the nearest natural frequency", not far.size, remark)
 
 
 @claim(
@@ -305,7 +308,9 @@ def multiples(cases: Cases, claim: Claim) -> Finding:
         f"f_h = {rate:.2f} Hz; of {len(after)} lines the farthest from n f_h is {max(after):.2f} Hz off; before, "
         f"{sum(off > claim.bound for off in before)} of {len(before)} lines are no n f_h"
     )
-    return finding(ours, max(after) <= claim.bound, "f_h is the rate of stick and slip, not 70 Hz: see T2d")
+    releases = measures.rate_of(case, "stick_to_slip") / rate
+    remark = f"f_h is the rate at which stick and slip repeat, {releases:.2g} releases each time, not 70 Hz: see T2d"
+    return finding(ours, max(after) <= claim.bound, remark)
 
 
 @claim(
@@ -461,7 +466,10 @@ def erratic(cases: Cases, claim: Claim) -> Finding:
         f"{len(found)} lines above a hundredth of the strongest, {len(other)} of them no n f_s + m f_Ω; "
         f"in-plane motion {measures.said_motion(case, motion)}"
     )
-    return finding(ours, len(other) >= claim.bound and motion.kind is Kind.IRREGULAR)
+    several = len(other) >= claim.bound
+    if several and motion.kind is Kind.UNDECIDED:
+        return undecided(ours, BETWEEN)
+    return finding(ours, several and motion.kind is Kind.IRREGULAR)
 
 
 # ----------------------------------------------------------------------------------------------------
