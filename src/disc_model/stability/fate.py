@@ -135,6 +135,11 @@ def published_start_near(p: Parameters) -> Near | FloquetResult:
     return _near(map_, cycle, map_.static)
 
 
+def follows(near: Near, at: Array) -> bool:
+    """Whether the motion at a point of the section departs from a cycle, or nears it, as its multipliers say."""
+    return any(_linear(near.map, near.cycle, near.x, near.jacobian, at - near.x, times) for times in TESTS)
+
+
 def fate(
     p: Parameters,
     horizon: float,

@@ -32,6 +32,8 @@ from disc_model.figures.parts import (
 COLORS = (SKY, BLUE, BLACK, GREEN, ORANGE)
 MARKERS = "o^sDv"
 QUIET = "#e3e3e3"
+WIDTH = 20.0
+"""Of what is measured at one load, N: well within the step of the sweeps."""
 
 
 @styled
@@ -41,7 +43,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
     Parameters
     ----------
     study : of the quantity `critical_speed`, over N
-    others : ``hysteresis`` of that quantity, over N; ``cycle`` of the quantity `floquet` over N and Omega; if given
+    others : ``hysteresis`` of that quantity, over N; ``cycle`` of the quantity `floquet` over N and Omega; ``basins``
+        of that quantity, over Omega; if given
     """
     norm = parts.normalizations(study)[0]
     study = parts.without_failed(parts.of(study, norm), "critical_speed", "crossing")
@@ -58,7 +61,12 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
         )
     if sweep is not None:
         cycle = parts.of(others["cycle"], norm) if "cycle" in others else None
-        _sweep(axes[1], parts.without_failed(parts.of(sweep, norm), "onset", "persists_to"), study, cycle)
+        sweep = parts.without_failed(parts.of(sweep, norm), "onset", "persists_to")
+        if "basins" in others:
+            _measured(axes[1], parts.of(others["basins"], norm))
+        elif cycle is not None:
+            _both(axes[1], cycle, sweep)
+        _sweep(axes[1], sweep, study)
     scan = study["scan_Omega"].values
     for ax, letter in zip(axes, "ab", strict=False):
         ax.set(xlabel="Preload N (N)", xlim=(0, 1.03 * float(study["N"].max())), ylim=(scan[0] - 0.5, 1.02 * scan[-1]))
@@ -83,7 +91,24 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
         return
     cells = np.ma.masked_where(~there, np.ones(there.shape))
     ax.pcolormesh(loads, speeds, cells, cmap=ListedColormap([ORANGE]), alpha=0.25, shading="nearest", rasterized=True)
-    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating")
+    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating,\nnot measured")
+
+
+def _measured(ax: Axes, basins: xr.Dataset) -> None:
+    """Speeds at which of many starts some come to the quiet cycle, and some to lasting separation.
+
+    Both shares are above zero with their intervals. Each speed stands for half the way to the next ones.
+    """
+    load = json.loads(basins.attrs["base"])["N"]
+    speeds = basins["Omega"].values
+    both = (basins["share_low"].sel(fate=["quiet", "separating"]) > 0).all("fate").values
+    halves = np.diff(speeds) / 2
+    below, above = np.append(halves[:1], halves), np.append(halves, halves[-1:])
+    heights = (below + above)[both]
+    ax.bar(
+        np.full(both.sum(), load), heights, WIDTH, (speeds - below)[both], color=ORANGE, alpha=0.6, linewidth=0,
+        label=f"quiet or separating,\nmeasured at {load:g} N",
+    )  # fmt: skip
 
 
 def _stable_cycle(ax: Axes, cycle: xr.Dataset, study: xr.Dataset) -> None:
@@ -142,12 +167,10 @@ def _horizons(ax: Axes, study: xr.Dataset) -> None:
     parts.mark_failed(ax, N[parts.failed(study).values])
 
 
-def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, cycle: xr.Dataset | None) -> None:
-    """Where separation is found on the way up and on the way down; shaded where the quiet cycle is stable besides."""
+def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset) -> None:
+    """Where separation is found on the way up and on the way down."""
     N = sweep["N"].values
     onset, last = sweep["onset"].values, sweep["persists_to"].values
-    if cycle is not None:
-        _both(ax, cycle, sweep)
     ax.plot(N, onset, color=BLUE, marker="^", markersize=3.5, label="sweep up: separation begins", clip_on=False)
     ax.plot(N, last, color=VERMILION, marker="v", markersize=3.5, label="sweep down: persists to", clip_on=False)
     longest = float(study["horizon"].max())

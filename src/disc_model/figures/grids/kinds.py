@@ -231,7 +231,7 @@ class CriticalSpeed(Plot):
 
     @property
     def roles(self) -> dict[str, Role]:
-        return {"hysteresis": Role("hysteresis", ("N",)), "cycle": CYCLE}
+        return {"hysteresis": Role("hysteresis", ("N",)), "cycle": CYCLE, "basins": Role("basins", ("Omega",))}
 
     @property
     def module(self) -> str:
@@ -311,6 +311,25 @@ class Bifurcation(Plot):
     @property
     def module(self) -> str:
         return "disc_model.figures.grids.bifurcation"
+
+
+class BasinShares(Plot):
+    """Shares of what many starts come to, the attractors, and the least kick that separates, against a parameter."""
+
+    kind: Literal["basins"] = "basins"
+    x: str
+
+    @property
+    def quantity(self) -> str:
+        return "basins"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return (self.x,)
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.basins"
 
 
 MOST_PANELS, MOST_LINES = 4, 12
@@ -440,4 +459,5 @@ PLOTS: dict[str, type[Plot]] = {
     "thresholds": Thresholds,
     "growth_map": GrowthMap,
     "bifurcation": Bifurcation,
+    "basins": BasinShares,
 }

@@ -157,6 +157,38 @@ class LyapunovOptions(Lead):
     interval: Positive = 0.01
 
 
+class BasinsOptions(Lead):
+    """What many starts come to; see `disc_model.stability.basins`.
+
+    energies : J, of the kicks that are added to the start in random directions; 0 adds nothing
+    starts : of each energy
+    seed : whole number; directions follow from it and from the place of the energy and the number of the start
+    horizon : s
+    near : a motion whose range is within this of a known attractor's, relative, and comes ever closer, is left; 0: all
+        are followed to the horizon
+    confidence : of the intervals of shares
+    bisected : number of directions along which the least kick is looked for, those that separate at the least energies
+    precision : relative, of the least kick
+    """
+
+    energies: Annotated[tuple[Annotated[Real, Field(ge=0, allow_inf_nan=False)], ...], Field(min_length=1)] = (0.0,)
+    starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
+    seed: Annotated[Count, Field(ge=0)] = 1
+    horizon: Positive = 200.0
+    near: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
+    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
+    bisected: Annotated[Count, Field(ge=0, le=1000)] = 1
+    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
+
+    @model_validator(mode="after")
+    def _different(self) -> Self:
+        if list(self.energies) != sorted(set(self.energies)):
+            raise ValueError("energies must ascend")
+        if self.starts > 1 and 0.0 in self.energies:
+            raise ValueError("starts must be 1 where an energy is 0, since no direction tells them apart")
+        return self
+
+
 Free = Literal["Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m"]
 
 
@@ -235,6 +267,7 @@ QUANTITIES = {
     "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
     "floquet": Quantity(FloquetOptions, motions=7, motion="The stick-slip cycle itself, stable or not."),
     "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),
+    "basins": Quantity(BasinsOptions),
     "bifurcation": Quantity(BifurcationOptions, motions=8, motion="After the transient."),
     "lyapunov": Quantity(LyapunovOptions, motions=8, motion="After the transient."),
     "stability_curves": Quantity(StabilityCurvesOptions),

@@ -1,0 +1,189 @@
+"""What many starts come to at one point: the attractors, their shares, and the least kick that leads to separation.
+
+Start i of each stated energy is kicked in a direction that follows from the study's seed, the place of the energy in
+its list, and i.  All first starts come first, then all second ones: further starts leave those before as they are.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import prepared, published_start
+from disc_model.simulation.result import State
+from disc_model.stability.basins import KINDS, Attractor, Basins, Reached, random_kick
+from disc_model.studies.grids.run import STATUS, Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import BasinsOptions
+
+FATES = KINDS[1:]
+"""What a start can come to."""
+ROOM = 12
+"""For attractors, those reached by most starts; there are seven at 10 rad/s and 385 N."""
+SMALLEST = 2.0**-40
+"""Of the least energy that separates in the sample: where the search for one that does not is given up."""
+_EACH, _SHARES, _POOLED, _KNOWN = ("energy", "start"), ("energy", "fate"), ("fate",), ("attractor",)
+
+
+def _share(what: str, dims: tuple[str, ...]) -> dict[str, Column]:
+    bounds = {"": "", "_low": ", lower end of its confidence interval", "_high": ", upper end of it"}
+    return {f"{what}{end}": Column(Variable("1", f"share of the starts{more}"), dims) for end, more in bounds.items()}
+
+
+COLUMNS = {
+    "status": Column(STATUS),
+    "kind": Column(Variable("1", "what the start comes to", KINDS), _EACH),
+    "reached": Column(Variable("1", "number of the attractor reached, from 1"), _EACH, whole=True),
+    "simulated": Column(Variable("s", "simulated time until that was known"), _EACH),
+    "separated": Column(Variable("1", "whether contact was lost on the way", ("no", "yes")), _EACH),
+    **_share("energy_share", _SHARES),
+    **_share("share", _POOLED),
+    "least_kick": Column(Variable("J", "least energy found that leads to lasting separation, by bisection")),
+    "least_kick_not": Column(Variable("J", "greatest energy below it, in the same direction, that does not")),
+    "least_kick_sample": Column(Variable("J", "least energy among the starts that come to lasting separation")),
+    "attractor_kind": Column(Variable("1", "what the attractor is", KINDS), _KNOWN),
+    "attractor_starts": Column(Variable("1", "number of starts that reach it"), _KNOWN, whole=True),
+    "attractor_range": Column(Variable("m", "range of the slider's height on it"), _KNOWN),
+    "attractor_separation_rate": Column(Variable("s-1", "separations per second on it"), _KNOWN),
+    "attractor_share_stick": Column(Variable("1", "share of the time spent sticking on it"), _KNOWN),
+    "attractor_share_separation": Column(Variable("1", "share of the time spent separated on it"), _KNOWN),
+    "attractor_releases": Column(Variable("1", "stick releases in its period, 0 if not periodic"), _KNOWN, whole=True),
+    "attractor_period": Column(Variable("s", "its period, nan if not periodic"), _KNOWN),
+    "attractor_growth_rate": Column(Variable("s-1", "growth rate of disturbances of it, if periodic"), _KNOWN),
+}
+
+
+def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
+    """Energies of the kicks, numbers of the starts, what they may come to, and numbers of the attractors."""
+    return {
+        "energy": (np.array(options.energies), Variable("J", "energy of the kick")),
+        "start": (np.arange(options.starts), Variable("1", "number of the start")),
+        "fate": (np.array(FATES), Variable("", "what the starts come to")),
+        "attractor": (np.arange(1, ROOM + 1), Variable("1", "number of the attractor")),
+    }
+
+
+def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
+    """Starts that fail have a status of their own share; the point fails if all do."""
+    sample = _Sample(p, options)
+    found = [[sample.reached(j, i) for i in range(options.starts)] for j in range(len(options.energies))]
+    rows = [reached for row in found for reached in row]
+    attractors = _by_starts(rows)
+    failed = [reached for reached in rows if reached.kind == "failed"]
+    values: dict[str, Any] = {
+        "status": failed[0].status if len(failed) == len(rows) else "ok",
+        "kind": [[reached.kind for reached in row] for row in found],
+        "reached": np.array([[_number(reached.attractor, attractors) for reached in row] for row in found]),
+        "simulated": np.array([[reached.simulated for reached in row] for row in found]),
+        "separated": [["yes" if reached.separated else "no" for reached in row] for row in found],
+    }
+    values |= _shares("energy_share", found, options.confidence) | _shares("share", [rows], options.confidence, 0)
+    values |= sample.least_kick(found) | _described(attractors, rows)
+    message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
+    return values, message
+
+
+class _Sample:
+    """The starts of a point, by the number of their energy and their own."""
+
+    def __init__(self, p: Parameters, options: BasinsOptions) -> None:
+        self.p, self.options = p, options
+        self.start: State = prepared(p, options, options.tol) or published_start(p)
+        self.basins = Basins(p, options.horizon, near=options.near, tol=options.tol)
+        self.done: dict[tuple[int, int], Reached] = {}
+        for i in range(options.starts):
+            for j, energy in enumerate(options.energies):
+                self.done[j, i] = self.kicked(energy, j, i)
+
+    def reached(self, j: int, i: int) -> Reached:
+        return self.done[j, i]
+
+    def kicked(self, energy: float, j: int, i: int) -> Reached:
+        """What a kick of any energy in the direction of a start comes to."""
+        return self.basins.reached(random_kick(self.p, self.start, energy, (self.options.seed, j, i)))
+
+    def least_kick(self, found: Sequence[Sequence[Reached]]) -> dict[str, float]:
+        """By bisection of the energy's logarithm, in the directions of the starts that separate at the least energy."""
+        energies = self.options.energies
+        separating = sorted(
+            (energies[j], i, j)
+            for j, row in enumerate(found)
+            for i, reached in enumerate(row)
+            if reached.kind == "separating"
+        )
+        if not separating:
+            return {}
+        least = {"least_kick_sample": separating[0][0]}
+        if separating[0][0] == 0 or not self.options.bisected:
+            return least
+        if self.kicked(0.0, 0, 0).kind == "separating":
+            return least | {"least_kick": 0.0}
+        low, high = min((self._bisected(*one) for one in separating[: self.options.bisected]), key=lambda ends: ends[1])
+        return least | {"least_kick_not": low, "least_kick": high}
+
+    def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
+        """Energies without and with lasting separation, nearer to each other than the precision asked for."""
+        low, first = high / 4, high
+        while self.kicked(low, j, i).kind == "separating":
+            low, high = low / 4, low
+            if low < SMALLEST * first:
+                return math.nan, high
+        while high > low * (1 + self.options.precision):
+            middle = math.sqrt(low * high)
+            if self.kicked(middle, j, i).kind == "separating":
+                high = middle
+            else:
+                low = middle
+        return low, high
+
+
+def _shares(
+    name: str, found: Sequence[Sequence[Reached]], confidence: float, only: int | None = None
+) -> dict[str, Any]:
+    """Shares of what each row comes to, with Wilson's intervals; of a single row if `only` says which."""
+    from scipy.stats import binomtest
+
+    share = np.empty((3, len(found), len(FATES)))
+    for j, row in enumerate(found):
+        for k, fate in enumerate(FATES):
+            test = binomtest(sum(reached.kind == fate for reached in row), len(row))
+            interval = test.proportion_ci(confidence, method="wilson")
+            share[:, j, k] = test.statistic, interval.low, interval.high
+    kept = share if only is None else share[:, only]
+    return dict(zip((name, f"{name}_low", f"{name}_high"), kept, strict=True))
+
+
+def _by_starts(rows: Sequence[Reached]) -> list[Attractor]:
+    """Attractors, that of most starts first; of those of as many the one that was reached first."""
+    attractors = list(dict.fromkeys(reached.attractor for reached in rows if reached.attractor is not None))
+    return sorted(attractors, key=lambda attractor: -sum(reached.attractor is attractor for reached in rows))
+
+
+def _number(attractor: Attractor | None, attractors: Sequence[Attractor]) -> int:
+    return 0 if attractor is None else attractors.index(attractor) + 1
+
+
+def _described(attractors: Sequence[Attractor], rows: Sequence[Reached]) -> dict[str, Any]:
+    values: dict[str, Any] = {name: column.empty((ROOM,)) for name, column in COLUMNS.items() if column.dims == _KNOWN}
+    for i, attractor in enumerate(attractors[:ROOM]):
+        signature = attractor.signature
+        one = {
+            "kind": KINDS.index(attractor.kind),
+            "starts": sum(reached.attractor is attractor for reached in rows),
+            "range": signature.range,
+            "separation_rate": signature.separation_rate,
+            "share_stick": signature.share_stick,
+            "share_separation": signature.share_separation,
+            "releases": attractor.releases,
+            "period": attractor.period,
+            "growth_rate": attractor.growth_rate,
+        }
+        for name, value in one.items():
+            values[f"attractor_{name}"][i] = value
+    return values

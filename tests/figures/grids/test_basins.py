@@ -1,0 +1,69 @@
+"""Shares of what many starts come to, by themselves and in Fig. 15."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.figures.grids import basins as drawn
+from disc_model.figures.grids import critical_speed
+from disc_model.figures.grids.kinds import BasinShares, CriticalSpeed
+from disc_model.figures.parts import save
+from disc_model.stability.basins import Attractor, Reached, Signature
+from disc_model.studies.grids.quantities import basins
+from tests.studies.grids.conftest import computed, growth_over, with_failed
+
+QUIET, APART = Attractor("quiet", Signature(1e-5, 0, 0.3, 0)), Attractor("separating", Signature(0.03, 135, 0.2, 0.1))
+
+
+@pytest.fixture
+def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
+    """All quiet at 12 rad/s, some at 13 and 14, none at 15."""
+
+    class Made:
+        def __init__(self, p, *_, **__) -> None:
+            self.least = {12: 9.0, 13: 0.5, 14: 0.05, 15: -1.0}[p.Omega]
+
+        def reached(self, energy: float) -> Reached:
+            attractor = APART if energy > self.least else QUIET
+            return Reached(attractor.kind, attractor, 50.0, False)
+
+    monkeypatch.setattr(basins, "Basins", Made)
+    monkeypatch.setattr(basins, "random_kick", lambda p, state, energy, key: energy)
+    return computed(
+        quantity="basins", options={"energies": [0.01, 0.1, 1], "starts": 4}, base={"N": 385},
+        axes={"Omega": [12, 13, 14, 15]},
+    )  # fmt: skip
+
+
+def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset, tmp_path) -> None:
+    figure = drawn.draw(shares, {}, BasinShares(x="Omega"))
+    labels = figure.axes[0].get_legend_handles_labels()[1]
+    assert labels == ["quiet", "separating"]
+    least = next(line for line in figure.axes[2].lines if line.get_label() == "least, by bisection")
+    np.testing.assert_allclose(least.get_ydata(), [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
+    save(figure, tmp_path / "shares.png")
+    # a point that failed is marked
+    save(drawn.draw(with_failed(shares, Omega=13.0), {}, BasinShares(x="Omega")), tmp_path / "failed.png")
+
+
+def test_the_band_of_fig_15_is_where_both_shares_are_above_zero(
+    shares: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset, tmp_path
+) -> None:
+    others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7))}
+
+    def legend(figure) -> list[str]:
+        return [text.get_text() for text in figure.axes[1].get_legend().get_texts()]
+
+    before = critical_speed.draw(speeds, others, CriticalSpeed())
+    assert "quiet or separating,\nnot measured" in legend(before)
+    figure = critical_speed.draw(speeds, others | {"basins": shares}, CriticalSpeed())
+    assert "quiet or separating,\nmeasured at 385 N" in legend(figure)
+    assert "quiet or separating,\nnot measured" not in legend(figure)
+    bars = [(bar.get_y(), bar.get_y() + bar.get_height()) for bar in figure.axes[1].patches if bar.get_height() > 0]
+    assert bars[-2:] == [(12.5, 13.5), (13.5, 14.5)]
+    assert json.loads(shares.attrs["base"])["N"] == 385
+    save(figure, tmp_path / "both.png")

@@ -1,0 +1,126 @@
+"""Shares of what many starts come to, and the least kick that separates."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from disc_model.parameters import Parameters
+from disc_model.stability.basins import Attractor, Reached, Signature
+from disc_model.studies.grids.quantities import basins
+from disc_model.studies.grids.quantities.schema import BasinsOptions
+from disc_model.studies.grids.run import STATUSES, compute
+from tests.studies.grids.conftest import computed
+
+QUIET = Attractor("quiet", Signature(1e-5, 0, 0.3, 0), 0.015, 1, -0.1, np.zeros((1, 2)))
+APART = Attractor("separating", Signature(0.03, 135, 0.2, 0.1))
+
+
+class Made:
+    """Of a start i, what is kicked by more than 0.02 (i + 1) J separates; further starts are as said."""
+
+    fates: ClassVar[dict[int, Reached]] = {}
+
+    def __init__(self, p, horizon, **_) -> None:
+        self.known = [QUIET, APART]
+
+    def reached(self, state: tuple[float, int]) -> Reached:
+        energy, i = state
+        if i in self.fates:
+            return self.fates[i]
+        attractor = APART if energy > 0.02 * (i + 1) else QUIET
+        return Reached(attractor.kind, attractor, 50.0, attractor is APART)
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(basins, "Basins", Made)
+    monkeypatch.setattr(basins, "random_kick", lambda p, state, energy, key: (energy, key[2]))
+
+
+def found(**options):
+    return compute(basins, [Parameters(N=385, Omega=14)], BasinsOptions.model_validate(options))
+
+
+def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:
+    """Three of ten: 0.108 to 0.603 (Wilson 1927, at 95 %)."""
+    table = found(energies=[0.07], starts=10).arrays
+    fates = list(basins.FATES)
+    place = (0, fates.index("separating"))
+    assert table["share"][place] == 0.3
+    assert table["share_low"][place] == pytest.approx(0.1078, abs=1e-4)
+    assert table["share_high"][place] == pytest.approx(0.6032, abs=1e-4)
+    assert table["share"][0, fates.index("quiet")] == 0.7
+    assert table["share_low"][0, fates.index("undecided")] == pytest.approx(0, abs=1e-12)
+    assert table["energy_share"][0, 0].sum() == 1
+    assert table["attractor_starts"][0, :3].tolist() == [7, 3, 0]
+    assert table["reached"][0, 0].tolist() == [2, 2, 2, *[1] * 7]
+
+
+def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: None) -> None:
+    table = found(energies=[0.05, 1.0], starts=3, bisected=2, precision=0.01).arrays
+    assert table["least_kick_sample"] == 0.05
+    low, high = table["least_kick_not"][0], table["least_kick"][0]
+    assert low <= 0.02 < high <= low * 1.01
+    assert np.isnan(found(energies=[0.01], starts=3).arrays["least_kick"][0])
+
+
+def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    lost = Reached("failed", None, 3.0, False, "paradox", "paradox: at t = 3 s")
+    monkeypatch.setattr(Made, "fates", {1: lost, 2: Reached("undecided", None, 200.0, True)})
+    table = found(energies=[0.1], starts=4)
+    fates = list(basins.FATES)
+    assert STATUSES[table.arrays["status"][0]] == "ok"
+    assert table.arrays["share"][0, fates.index("failed")] == 0.25
+    assert table.arrays["share"][0, fates.index("undecided")] == 0.25
+    assert table.messages == ["1 of 4 starts failed, such as paradox: at t = 3 s"]
+    assert (table.arrays["reached"][0, 0] > 0).tolist() == [True, False, False, True]
+    monkeypatch.setattr(Made, "fates", dict.fromkeys(range(4), lost))
+    assert STATUSES[found(energies=[0.1], starts=4).arrays["status"][0]] == "paradox"
+
+
+@pytest.mark.parametrize(
+    ("options", "rule"),
+    [
+        ({"energies": [1.0, 0.1]}, "energies must ascend"),
+        ({"energies": [0.0, 0.1], "starts": 2}, "starts must be 1 where an energy is 0"),
+        ({"energies": [-0.1]}, "greater than or equal to 0"),
+        ({"seed": -1}, "greater than or equal to 0"),
+    ],
+)
+def test_options_that_make_no_sense_are_refused(options: dict, rule: str) -> None:
+    with pytest.raises(ValidationError, match=rule):
+        BasinsOptions.model_validate(options)
+
+
+@pytest.mark.compiled
+def test_shares_are_the_same_to_the_last_digit_whatever_the_batch() -> None:
+    """And more starts leave those before as they are."""
+    study = {
+        "quantity": "basins",
+        "options": {"energies": [0.1, 1.0], "starts": 2, "seed": 7, "horizon": 60, "bisected": 0},
+        "base": {"N": 385},
+        "axes": {"Omega": [14.5, 15]},
+    }
+    one, two = (computed(**study, batch={"size": size}) for size in (1, 2))
+    for name in one.data_vars:
+        assert np.array_equal(one[name].values, two[name].values, equal_nan=one[name].dtype.kind == "f"), name
+    more = computed(**study | {"options": study["options"] | {"starts": 3}})
+    assert np.array_equal(more["kind"].sel(start=[0, 1]).values, one["kind"].values)
+    assert np.array_equal(more["simulated"].sel(start=[0, 1]).values, one["simulated"].values)
+
+
+@pytest.mark.compiled
+def test_kicks_of_an_axis_are_starts_of_their_own() -> None:
+    """A plane of two coordinates: at 15 rad/s a kick of 0.3 mm leads to separation, one of 0.1 mm dies out."""
+    plane = computed(
+        quantity="basins",
+        options={"horizon": 200, "bisected": 0},
+        base={"N": 385, "Omega": 15},
+        axes={"kick_u": [1e-4, 3e-4], "kick_u_velocity": [0.0]},
+    )
+    kinds = plane["kind"].squeeze().values
+    assert [basins.KINDS[kind] for kind in kinds] == ["quiet", "separating"]
