@@ -82,8 +82,9 @@ class Signature(NamedTuple):
 
     def difference(self, other: Signature, smallest: float) -> float:
         """Largest relative difference; ranges below `smallest` (m) count as that."""
+        one, two = (signature._replace(range=max(signature.range, smallest)) for signature in (self, other))
         least = Signature(smallest, 2 / LEG, LEAST_SHARE, LEAST_SHARE)
-        return max(abs(a - b) / max(a, b, floor) for a, b, floor in zip(self, other, least, strict=True))
+        return max(abs(a - b) / max(a, b, floor) for a, b, floor in zip(one, two, least, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,8 +227,8 @@ class Basins:
         last = signatures[-SETTLING:]
         if len(last) < SETTLING or any(one.difference(last[-1], self.smallest) > SETTLED for one in last[:-1]):
             return False
-        ranges, size = [signature.range for signature in last], max(last[-1].range, self.smallest)
-        return abs(ranges[-1] - ranges[0]) <= STEADY * size or _left(ranges) <= LEFT * size
+        ranges = [max(signature.range, self.smallest) for signature in last]
+        return abs(ranges[-1] - ranges[0]) <= STEADY * ranges[-1] or _left(ranges) <= LEFT * ranges[-1]
 
     def _settled_on(self, signatures: Sequence[Signature], state: State, over: bool) -> Attractor | None:
         """The attractor of a motion that has settled since the first signature; None as long as that is not sure."""

@@ -176,7 +176,7 @@ def _values(grid: Any) -> dict[str, list[Any]]:
 
 def test_every_plot_knows_its_quantity_its_dimensions_and_who_draws_it() -> None:
     plane = {"x": "N", "y": "Omega"}
-    needed = {"stability_map": plane, "region_map": plane, "bifurcation": {"x": "Omega"}}
+    needed = {"stability_map": plane, "region_map": plane, "bifurcation": {"x": "Omega"}, "basins": {"x": "Omega"}}
     for kind, plot in PLOTS.items():
         if issubclass(plot, General):  # of any quantity, see test_general
             continue
