@@ -118,6 +118,29 @@ def test_columns_along_one_phase(phase: str, direction: int, n_circles: int) -> 
     assert np.max(np.abs(got - expected) / size) < 1e-5
 
 
+def test_jacobian_of_an_impact() -> None:
+    """With a circle there are two modes without nodal diameter, each with its own share of the impulse."""
+    p = LIVELY.replace(n_circles=1)
+    start = lively("separation", 0, p)
+    run = Disturbed(p, start)
+    saltation.impact_change(run.model, run.state, run.tangent)
+    n = len(run.rows) - 2  # u and u' are the disc's from now on
+    got = run.columns[:n]
+
+    def after(change: np.ndarray) -> np.ndarray:
+        other = Disturbed(p, start)
+        other.moved(change)
+        assert switches.touch_down(other.model, other.state) == outcomes.CONSISTENT
+        return other.coordinates[:n]
+
+    steps = 1e-3 * np.maximum(np.abs(run.coordinates), 1e-4)
+    expected = np.array(
+        [differences(lambda s, i=i: after(s * np.eye(len(steps))[i]), h) for i, h in enumerate(steps)]
+    ).T
+    # bilinear: nothing but rounding of values over steps
+    np.testing.assert_allclose(got, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+
+
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_rates_are_those_of_the_paper(phase: str, direction: int) -> None:
     start = lively(phase, direction, LIVELY)
