@@ -141,3 +141,8 @@ def test_a_case_for_which_no_number_of_modes_does_is_a_fault(monkeypatch: pytest
     raw["cases"] = {"A": {"title": "A", "t_end": 0.01, "parameters": {"N": 385}}}
     with pytest.raises(StudyError, match=r"base\.n_diameters = 'auto': tolerance=0\.001: no model up to"):
         parse_study(raw)
+
+
+def test_bad_input_is_named_in_full():
+    with pytest.raises(ParameterError, match=r"band=True: must be finite and > 0; rich=\(-1, 0\): .*; case='x': "):
+        choose_modes("x", band=True, rich=(-1, 0))

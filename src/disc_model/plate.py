@@ -83,6 +83,8 @@ def mode_arrays(p: Parameters) -> Modes:
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
     """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`."""
+    if p.n_diameters < 0:  # a rigid disc
+        return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
     radial = np.column_stack([shapes.at(float(x), p.normalization == "orthonormal") for x in r / p.b])
     return np.where(shapes.l > 0, np.sqrt(2), 1.0)[:, None] * radial / np.sqrt(p.rho * p.h * p.b**2)

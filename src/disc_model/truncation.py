@@ -21,7 +21,7 @@ from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
-from disc_model.schema import number, shown
+from disc_model.schema import is_number, number, shown
 
 AUTO = "auto"
 """What a file gives as ``n_diameters`` to have the modes chosen."""
@@ -85,13 +85,19 @@ def choose_modes(
     Raises
     ------
     ParameterError
-        If a value of the case breaks a rule, the tolerance is below `TRUSTED`, or the band not above 0.
+        If a value of the case breaks a rule, the tolerance is below `TRUSTED`, the band not above 0, or ``rich`` no
+        pair of whole numbers.
     DiscModelError
         If no smaller model meets the tolerance.
     """
     tolerance, faults = _checked("tolerance", tolerance)
-    if not (isinstance(band, int | float) and 0 < band < math.inf):
-        faults.append(f"band={band!r}: must be finite and > 0")
+    if not (is_number(band) and 0 < band < math.inf):
+        faults.append(Fault(("band",), shown(band), "must be finite and > 0"))
+    if not (isinstance(rich, tuple | list) and len(rich) == 2 and all(isinstance(n, int) and n >= 0 for n in rich)):
+        faults.append(Fault(("rich",), shown(rich), "must be two whole numbers >= 0, of diameters and circles"))
+    given: object = case
+    if not isinstance(given, Parameters | Mapping):
+        faults.append(Fault(("case",), shown(case), "must be Parameters, or a mapping of names to values"))
     if faults:
         raise ParameterError(*faults)
     size = {"n_diameters": rich[0], "n_circles": rich[1]}

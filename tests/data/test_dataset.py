@@ -16,7 +16,18 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import ParameterError, Parameters, Poincare, Record, Result, Status, StepLimit, Window, simulate
+from disc_model import (
+    ParameterError,
+    Parameters,
+    Poincare,
+    Record,
+    Result,
+    Status,
+    StepLimit,
+    Window,
+    flexibility,
+    simulate,
+)
 from disc_model.data.dataset import DamagedFile, WriteError, check_whole, load, save, write_whole
 from disc_model.data.inputs import InputsError, load_inputs, merge_cases
 from disc_model.data.variables import STATUSES, attributes, flag_names
@@ -62,6 +73,13 @@ def test_a_result_is_laid_out_as_its_file_is(result: Result, tree: xr.DataTree) 
     assert float(mine["N"]) == 385
     assert int(mine["n_events"]) == len(result.events)
     assert mine.attrs["parameters"] == P.canonical_json
+
+
+@pytest.mark.parametrize("names", [["a"], ["a", "a"], ["a", "events"], ["a", "N"], ["a", "b/c"]])
+def test_a_window_takes_no_others_name(names: list[str]) -> None:
+    record = Record(windows=(Window(stop=0.001, rate=1e4), Window(stop=0.001, rate=1e3)))
+    with pytest.raises(ParameterError, match=r"names=.*: must be 2 different names"):
+        simulate(Parameters(N=200, Omega=20), 0.001, record=record).to_tree(names)
 
 
 def test_a_group_of_a_result_is_a_dataset(result: Result) -> None:
@@ -170,6 +188,17 @@ def test_a_failed_case_is_a_status_in_the_table(
     assert list(flag_names(table["status"])) == ["ok", "failed"]
     assert "too many steps" in str(table["message"].values[1])
     assert list(table["N"].values) == [385, 385]
+
+
+def test_a_case_that_fails_of_its_compliance_is_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its scalars asked for the compliance once more, and the error that had been caught ended the job."""
+    monkeypatch.setattr(flexibility, "MODAL_SUM", (4, 0))  # a case with so many modes leaves none out
+    p = Parameters(N=201, Omega=20, n_diameters=4, n_circles=0, contact_compliance="residual")
+    spec = CaseSpec(p, 1.0, 1e-10, None, (), None, None, energy=False)
+    failed = run_case(spec)
+    assert failed.attrs["status"] == "failed"
+    assert "contact_compliance='residual'" in failed.attrs["message"]
+    assert np.isnan(failed["contact_compliance"])
 
 
 def test_every_status_of_a_result_can_be_stored() -> None:

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from disc_model.data.variables import flag_names
+from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import carried_over, kicked, prepared, published_start, simulate
-from disc_model.simulation.case import CaseSpec, Start
+from disc_model.simulation.case import CaseSpec, Preparation, Start
 from disc_model.simulation.result import State
 from disc_model.studies.cases.run import run_case
 from disc_model.studies.files import StudyError
@@ -207,3 +208,13 @@ def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     assert simulate(p, 0.01, initial_state=state).status.complete
     apart = other.replace(phase="separation", direction=0)
     assert carried_over(p, apart).u == apart.u
+
+
+def test_a_prepared_disc_has_as_many_modes() -> None:
+    start = Start(prepare=Preparation(parameters={"n_diameters": 2}, time=0.1))
+    p = Parameters(N=200, Omega=20)
+    with pytest.raises(ParameterError, match=r"start.prepare.parameters.n_diameters=2: must be that of the case, 4"):
+        prepared(p, start, 1e-10)
+    other = published_start(p.replace(n_diameters=2))
+    with pytest.raises(ParameterError, match=r"initial_state.a: must be 5 finite numbers"):
+        simulate(p, 0.1, initial_state=carried_over(p, other))

@@ -22,6 +22,7 @@ def faults_of(function, *arguments, **options) -> list[str]:
 def test_every_fault_is_named():
     assert faults_of(floquet, "x", tol=1, releases=0) == ["p", "tol", "releases"]
     assert faults_of(floquet, P, releases=2) == ["releases"]
+    assert faults_of(floquet, P, near="x", releases=1.5) == ["near", "releases"]
     assert faults_of(steady_sliding, "x") == ["p"]
     assert faults_of(lyapunov_exponents, "x", -1, transient=math.nan, count=9, interval=0) == [
         "p", "duration", "transient", "count", "interval",

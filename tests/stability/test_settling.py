@@ -115,6 +115,16 @@ def test_a_slider_that_never_sticks_is_judged_by_its_contact_force() -> None:
     assert settling.return_difference(weightless, np.zeros((0, 4))) == 0
 
 
+def test_what_has_not_slipped_yet_has_not_settled() -> None:
+    """In stick at rest nothing differs from cycle to cycle: the first release comes at 0.4 s."""
+    slow = Parameters(N=200, Omega=0.1, n_diameters=1)
+    stuck = simulate(slow, 0.1, tol=1e-8, record=settling._watching(0.0, 0.1))
+    assert math.isnan(settling.return_difference(stuck, settling.releases(stuck)))
+    held = simulate(slow.replace(k_p=0), 0.1, tol=1e-8, record=settling._watching(0.0, 0.1))
+    assert settling.return_difference(held, settling.releases(held)) == 0, "for ever"
+    assert made_of([math.nan, 1e-4, 1e-5, 1e-8, 1e-10]).settled(1e-9, 1e-4), "released after the first probe"
+
+
 def test_a_late_stretch_goes_on_from_a_state() -> None:
     start = simulate(DAMPED, 0.1, tol=1e-8).final_state
     result, late = late_stretch(DAMPED, start, 0.1, 0.05, 1e-8)

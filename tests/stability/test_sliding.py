@@ -74,3 +74,10 @@ def test_steady_sliding_says_why_there_is_none():
     fine = steady_sliding(P)
     assert fine.status is SlidingStatus.OK
     assert fine.stable == (fine.growth_rate < 0)
+
+
+def test_without_a_spring_the_slope_of_the_disc_is_not_balanced_either():
+    loose = P.replace(k_p=0, mu_k=0)
+    assert steady_sliding(loose).status is SlidingStatus.OK
+    assert steady_sliding(loose.replace(contact_force="normal")).status is SlidingStatus.NO_SPRING
+    assert steady_sliding(loose.replace(contact_force="normal", D_star=0)).status is SlidingStatus.OK

@@ -77,7 +77,7 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
     for name in SCALARS:
         value = np.int8(values[name]) if name == "status" else values.get(name, math.nan)
         data[name] = ((), np.int64(value) if name in COUNTS else value, attributes(name))
-    for name, value in (p.model_dump() | {"contact_compliance": contact_give(p)}).items():
+    for name, value in (p.model_dump() | {"contact_compliance": _compliance(p)}).items():
         stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
         data[name] = ((), stored, attributes(name))
     attrs = {
@@ -88,6 +88,14 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
         "message": message,
     }
     return xr.Dataset(data, attrs=attrs)
+
+
+def _compliance(p: Parameters) -> float:
+    """Of the contact, m/N; nan where the modes leave nothing out to make it of: then the case has failed of that."""
+    try:
+        return contact_give(p)
+    except DiscModelError:
+        return math.nan
 
 
 def _column(events: Any, name: str) -> np.ndarray:

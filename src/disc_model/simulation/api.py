@@ -367,12 +367,19 @@ def prepared(p: Parameters, start: Start, tol: float) -> State | None:
     Raises
     ------
     SimulationError, ParameterError
-        If the other motion ends early, or its parameters are not right.
+        If the other motion ends early, or its parameters are not right: the disc must have as many modes.
     """
     kick = {name: value for name, value in start.kick.items() if value}
     state = None
     if start.prepare is not None:
-        state = carried_over(p, _end_of(p.replace(**start.prepare.parameters), start.prepare.time, tol))
+        other = p.replace(**start.prepare.parameters)
+        if differing := [name for name in ("n_diameters", "n_circles") if getattr(other, name) != getattr(p, name)]:
+            place = ("start", "prepare", "parameters")
+            rule = "must be that of the case, {}"
+            raise ParameterError(
+                *(Fault((*place, n), shown(getattr(other, n)), rule.format(getattr(p, n))) for n in differing)
+            )
+        state = carried_over(p, _end_of(other, start.prepare.time, tol))
     return kicked(p, published_start(p) if state is None else state, **kick) if kick else state
 
 
@@ -416,7 +423,10 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
 
 
 def carried_over(p: Parameters, state: State) -> State:
-    """A state of another case as a start of case `p`: at time 0, and in rigid contact where the disc of `p` then is."""
-    in_contact = state.phase != "separation" and p.contact_compliance == 0
-    u = float(mode_arrays(p).psi @ state.a) if in_contact else state.u
-    return state.replace(time=0.0, time_low=0.0, u=u)
+    """A state of another case as a start of case `p`: at time 0, and in rigid contact where the disc of `p` then is.
+
+    One with another number of modes is left for `simulate` to refuse.
+    """
+    psi = mode_arrays(p).psi
+    in_contact = state.phase != "separation" and p.contact_compliance == 0 and len(psi) == len(state.a)
+    return state.replace(time=0.0, u=float(psi @ state.a) if in_contact else state.u)

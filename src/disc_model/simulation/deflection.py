@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,10 +47,13 @@ def snapshots(
     SimulationError
         If the motion cannot go on to the last of them.
     """
+    faults = _foreign(p, initial_state)
+    wanted = _numbers(times)
+    if wanted is None or np.any(np.diff(wanted) < 0):
+        faults.append(Fault(("times",), shown(times), "must be finite and ascend"))
+    if faults or wanted is None:
+        raise ParameterError(*faults)
     state = published_start(p) if initial_state is None else initial_state
-    wanted = np.atleast_1d(np.asarray(times, dtype=float))
-    if wanted.ndim != 1 or not np.all(np.isfinite(wanted)) or np.any(np.diff(wanted) < 0):
-        raise ParameterError(Fault(("times",), shown(times), "must be finite and ascend"))
     if wanted.size and wanted[0] < state.time:
         rule = f"must be >= {shown(state.time)} (the time of the initial state)"
         raise ParameterError(Fault(("times",), shown(float(wanted[0])), rule))
@@ -80,24 +83,12 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     Raises
     ------
     ParameterError
-        Radii off the disc; states of another number of modes.
+        Radii off the disc, angles that are no finite numbers, states of another number of modes.
     """
     import xarray as xr
 
-    given: Sequence[State] = [states] if isinstance(states, State) else list(states)
-    radii, angles = (np.atleast_1d(np.asarray(values, dtype=float)) for values in (r, theta))
+    given, radii, angles = _checked(p, states, r, theta)
     modes = mode_arrays(p)
-    faults = []
-    if radii.ndim != 1 or not np.all((radii >= p.a) & (radii <= p.b)):
-        faults.append(Fault(("r",), shown(r), f"must be within a={shown(p.a)} and b={shown(p.b)}"))
-    if angles.ndim != 1 or not np.all(np.isfinite(angles)):
-        faults.append(Fault(("theta",), shown(theta), "must be finite"))
-    for i, state in enumerate(given):
-        if len(state.a) != len(modes.omega):
-            rule = f"must have {len(modes.omega)} modes, as the case, and not {len(state.a)}"
-            faults.append(Fault(("states", str(i)), "", rule))
-    if faults:
-        raise ParameterError(*faults)
     shapes = mode_shapes(p, radii)
     w = np.empty((len(given), len(radii), len(angles)))
     for i, state in enumerate(given):
@@ -111,3 +102,44 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     }
     attrs = {"units": "m", "long_name": "displacement of the disc"}
     return xr.DataArray(w, coords, ("time", "r", "theta"), name="w", attrs=attrs)
+
+
+def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> tuple[list[State], Array, Array]:
+    """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
+    if faults := _foreign(p, None):
+        raise ParameterError(*faults)
+    given: list[Any] = list(states) if isinstance(states, Iterable) else [states]
+    n_modes = len(mode_arrays(p).omega)
+    radii, angles = _numbers(r), _numbers(theta)
+    if radii is None or not np.all((radii >= p.a) & (radii <= p.b)):
+        faults.append(Fault(("r",), shown(r), f"must be within a={shown(p.a)} and b={shown(p.b)}"))
+    if angles is None:
+        faults.append(Fault(("theta",), shown(theta), "must be finite"))
+    for i, state in enumerate(given):
+        if not isinstance(state, State):
+            faults.append(Fault(("states", str(i)), shown(state), "must be a State"))
+        elif len(state.a) != n_modes:
+            rule = f"must have {n_modes} modes, as the case, and not {len(state.a)}"
+            faults.append(Fault(("states", str(i)), "", rule))
+    if faults or radii is None or angles is None:
+        raise ParameterError(*faults)
+    return given, radii, angles
+
+
+def _foreign(p: object, initial_state: object) -> list[str]:
+    """Arguments of another type."""
+    faults: list[str] = []
+    if not isinstance(p, Parameters):
+        faults.append(Fault(("p",), shown(p), "must be Parameters"))
+    if initial_state is not None and not isinstance(initial_state, State):
+        faults.append(Fault(("initial_state",), shown(initial_state), "must be a State"))
+    return faults
+
+
+def _numbers(values: ArrayLike) -> Array | None:
+    """Finite numbers, shape (n,); None if they are none."""
+    try:
+        array = np.atleast_1d(np.asarray(values, dtype=float))
+    except (TypeError, ValueError):
+        return None
+    return array if array.ndim == 1 and bool(np.all(np.isfinite(array))) else None

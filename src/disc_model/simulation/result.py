@@ -188,6 +188,11 @@ class Result:
         Parameters
         ----------
         names : of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
+
+        Raises
+        ------
+        ParameterError
+            If they are not as many different names as windows.
         """
         from disc_model.data.dataset import to_tree
 
@@ -216,7 +221,7 @@ class Result:
 
         scalars = scalars_dataset(self.parameters, self._scalars(), self.status.value, self.message)
         groups = {"": scalars, "events": events_dataset(self.events)}
-        names = [f"sample_{i}" for i in range(len(self.samples))] if names is None else names
+        names = [f"sample_{i}" for i in range(len(self.samples))] if names is None else _checked_names(names, self)
         for name, window, data in zip(names, self.record.windows, self.samples, strict=True):
             groups[name] = samples_dataset(data, window.theta)
         if self.poincare is not None and self.record.poincare is not None:
@@ -245,6 +250,8 @@ class Result:
 
         Raises
         ------
+        ParameterError
+            As of `to_tree`.
         disc_model.data.dataset.WriteError
             If the disk is full.
         """
@@ -277,6 +284,16 @@ class Result:
         if not self.status.complete:
             raise _ERRORS[self.status](f"{self.message}. {self.status.advice}")
         return self
+
+
+def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
+    """Names of a result's windows: each becomes a group of a file, beside those that are there in any case."""
+    taken = {"events", "poincare", *SCALARS, *Parameters.model_fields}
+    good = len(names) == len(result.samples) == len(set(names))
+    if not good or any(not isinstance(name, str) or not name or "/" in name or name in taken for name in names):
+        rule = f"must be {len(result.samples)} different names without /, one a window, none of them that of a variable"
+        raise ParameterError(Fault(("names",), shown(list(names)), rule))
+    return names
 
 
 # ----------------------------------------------------------------------------------------------------

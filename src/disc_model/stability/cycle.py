@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import DiscModelError, ParameterError, StatusBase
 from disc_model.parameters import Parameters
-from disc_model.schema import CYCLE_TOLERANCES, limits_faults
+from disc_model.schema import CYCLE_TOLERANCES, limits_faults, shown
 from disc_model.simulation.result import State
 from disc_model.stability.return_map import (
     OUTCOMES,
@@ -70,7 +70,8 @@ class FloquetResult:
     parameters, tol : what was asked
     status, message : what was found; without a cycle numbers are nan, arrays empty and `state` None
     period : s
-    multipliers : complex, shape (n,), largest modulus first; n = 4 per pair of modes + 2 per axisymmetric mode
+    multipliers : complex, shape (n,), largest modulus first; n = 4 per pair of modes + 2 per axisymmetric mode, and 2
+        more on a compliant contact
     exponents : 1/s, complex, log(multipliers) / period
     growth_rate : 1/s, largest real part of the exponents
     stick_fraction : share of the period in stick
@@ -146,13 +147,16 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
     """
     faults: list[str] = []
     given: object = p
+    around: object = near
     if not isinstance(given, Parameters):
         faults.append(f"p={p!r}: must be Parameters")
     else:
         faults += modes_faults(given, "floquet")
     faults += limits_faults("tol", tol, CYCLE_TOLERANCES)
-    if releases < 1 or (near is None and releases != 1):
-        faults.append(f"releases={releases!r}: must be >= 1, and 1 without a state to look near")
+    if around is not None and not isinstance(around, State):
+        faults.append(f"near={shown(near)}: must be a State")
+    if not isinstance(releases, int) or releases < 1 or (near is None and releases != 1):
+        faults.append(f"releases={releases!r}: must be a whole number >= 1, and 1 without a state to look near")
     if faults:
         raise ParameterError(*faults)
     return find_cycle(p, tol) if near is None else find_cycle_near(p, near, releases, tol)

@@ -61,7 +61,13 @@ _NOTHING = Record(events=False)
 
 @dataclass(frozen=True)
 class Late:
-    """What a stretch of motion was like: range of the contact force (N), shares of the phases, separations per s."""
+    """What a stretch of motion was like.
+
+    P_min, P_max : N, range of the contact force
+    u_min, u_max : m, of the slider's height over static equilibrium
+    share_stick, share_slip, share_separation : of the time
+    separation_rate : 1/s
+    """
 
     P_min: float
     P_max: float
@@ -95,7 +101,7 @@ class Settling:
             return False
         if not (d[-1] <= d[-2] <= d[-3] or max(d[-1], d[-2]) <= tolerance):
             return False
-        fallen = d[-1] <= tolerance and d[-1] * FALL <= max(d)
+        fallen = d[-1] <= tolerance and d[-1] * FALL <= np.nanmax(d)
         if self.cycle is None:
             return fallen
         distance = self.distance
@@ -274,14 +280,17 @@ def return_difference(result: Result, states: Array) -> float:
     """Root mean square of the change from one release to the next, relative.
 
     If a period of the motion has several releases, states that many releases apart are compared. If the slider never
-    sticks, the range of the contact force relative to the preload stands in, which is 0 in steady sliding. nan if there
-    are releases, but too few to compare.
+    sticks, or will stick for ever, the range of the contact force relative to the preload stands in, which is 0 in
+    steady sliding and at rest. nan if there are too few releases to compare, or none as yet.
     """
-    if result.parameters.N == 0:
+    p = result.parameters
+    if p.N == 0:
         return 0.0
     if not len(states):
+        if result.statistics["time_stick"] > 0 and p.k_p * p.Omega > 0:
+            return math.nan  # the drive goes on to load the spring
         P = result.samples[0]["P"]
-        return float(P.max() - P.min()) / result.parameters.N
+        return float(P.max() - P.min()) / p.N
     spans = range(1, min(LARGEST_PERIOD, len(states) // 2) + 1)
     return min((_root_mean_square(states[n:] - states[:-n]) for n in spans), default=math.nan)
 

@@ -79,14 +79,14 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     Raises
     ------
     ParameterError
-        If `p` is no `Parameters`.
+        If `p` is no `Parameters`, or has no modes.
     """
     if not isinstance(p, Parameters):
         raise ParameterError(f"p={p!r}: must be Parameters")
     check_modes(p, "steady_sliding")
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
-    if p.k_p == 0 and p.mu_k > 0:
+    if p.k_p == 0 and (p.mu_k > 0 or (p.contact_force == "normal" and p.D_star > 0)):
         return _absent(SlidingStatus.NO_SPRING)
     modes = mode_arrays(p)
     damping = modal_damping(p)
