@@ -165,7 +165,7 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel], word: st
             yield Fault(path, "", "is required")
         elif kind == "extra_forbidden":
             known = _fields_at(model, item["loc"][:-1])
-            yield Fault(path, shown(value), f"unknown {word}{_suggestion(path[-1], known, all_of_them=word == 'key')}")
+            yield Fault(path, shown(value), f"unknown {word}{suggestion(path[-1], known, all_of_them=word == 'key')}")
         else:
             yield Fault(path, _shown_faulty(kind, value), _rule(item))
 
@@ -199,7 +199,10 @@ def _shown_faulty(kind: str, value: Any) -> str:
     """A value that breaks a rule; a mapping says nothing that its path does not."""
     if isinstance(value, Mapping | BaseModel):
         return ""
-    return shown(number(value)) if kind in _BOUNDS else shown(value)
+    try:
+        return shown(number(value) if kind in _BOUNDS else value)
+    except ValueError:  # pydantic counts False, which is no number here
+        return shown(value)
 
 
 def shown(value: Any) -> str:
@@ -210,7 +213,7 @@ def shown(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _suggestion(name: str, known: Collection[str], all_of_them: bool) -> str:
+def suggestion(name: str, known: Collection[str], all_of_them: bool) -> str:
     """What may have been meant, and what there is; of many names only the one that comes close, if one does."""
     folded = {field.lower(): field for field in known}
     close = difflib.get_close_matches(name.lower(), folded, n=1, cutoff=0.6)

@@ -11,6 +11,8 @@ rule warm_cache:
         f"results/compiled/{SOLVER}.txt",
     log:
         f"results/compiled/{SOLVER}.log",
+    message:
+        "Compiling the solver, once: two minutes or so on one core. What depends on it waits."
     conda:
         "../envs/disc_model.yaml"
     shell:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -113,3 +114,18 @@ def _parameter_variable(name: str) -> Variable:
     field = Parameters.model_fields[name]
     unit = Parameters.unit(name) or "1"
     return Variable(_CF_UNITS.get(unit, unit), field.description or name, CHOICES.get(name, ()))
+
+
+_SYMBOLS = {"Omega": "Ω", "D_star": "D*"}
+
+
+def said_values(values: Mapping[str, Any]) -> str:
+    """N, Omega and whatever differs from Table 1 among values of parameters, with units."""
+    said = []
+    for name, field in Parameters.model_fields.items():
+        if name in values and name not in ("normalization", "contact"):
+            value, unit = values[name], Parameters.unit(name)
+            if name in ("N", "Omega") or value != field.default:
+                shown = f"{value:g}" if isinstance(value, float | int) else str(value)
+                said.append(f"{_SYMBOLS.get(name, name)} = {shown}" + (f" {unit}" if unit not in ("", "1") else ""))
+    return ", ".join(said)

@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data import inputs
 from disc_model.data.inputs import Missing
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import flag_names, said_values
 from disc_model.figures import STYLE
 
 # ----------------------------------------------------------------------------------------------------
@@ -166,6 +166,16 @@ def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.Da
     words = {dim: value for dim, value in at.items() if isinstance(value, str)}
     numbers = {dim: value for dim, value in at.items() if not isinstance(value, str)}
     return study[name].sel(words).sel(numbers, method="nearest").squeeze()
+
+
+def head(figure: Figure, study: xr.Dataset, title: str) -> None:
+    """Over a figure of a grid: its title, or the study's, and what did not vary."""
+    values = json.loads(study.attrs.get("base", "{}"))
+    said = said_values({name: value for name, value in values.items() if name not in study.coords})
+    texts = [title or study.attrs.get("title", ""), said]
+    if any(texts):
+        width = round(figure.get_figwidth() / 0.06)
+        figure.suptitle("\n".join(fill(text, width) for text in texts if text), fontsize=8)
 
 
 def value_said(one: xr.DataArray, by: str) -> str:

@@ -33,7 +33,7 @@ class Window(Checked):
 
     What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
     before.  So it is 6e-14 of the time later, because the time of a switch is rounded.  A sample at the start of a run
-    shows the state from which the run starts.
+    shows the state from which the run starts.  Of a window that reaches beyond the run there is what the run covers.
 
     Parameters
     ----------

@@ -40,7 +40,8 @@ def quicklook(result: Sampled) -> Figure:
         If the result holds no window.
     """
     if not result.samples:
-        raise ParameterError(Fault(("record", "windows"), "", "must have one window or more to be drawn"))
+        example = "simulate(p, 20, record=Record(windows=(Window(rate=2000),)))"
+        raise ParameterError(Fault(("record", "windows"), "", f"must have one window or more to be drawn: {example}"))
     columns = len(result.samples)
     figure, axes = plt.subplots(
         len(PANELS),

@@ -48,7 +48,7 @@ class CycleStatus(StatusBase):
     NO_CYCLE = (
         "no_cycle",
         "The slider sticks and slips, but no cycle of up to three releases exists near the published start, "
-        "as beyond a fold; follow the cycle from other parameters with disc_model.stability.continuation.",
+        "as beyond a fold. From parameters that have one disc_model.stability.continuation.continue_cycle follows it.",
     )
     SEPARATES = "separates", "Near the published start no cycle keeps contact, and contact is soon lost: simulate."
     NO_STICK_SLIP = "no_stick_slip", "The slider does not stick again: look at disc_model.stability.sliding."
@@ -100,6 +100,11 @@ class FloquetResult:
     separations: int
     sticks: int
     residual: float
+
+    def __repr__(self) -> str:
+        p, found = self.parameters, self.status is CycleStatus.OK
+        told = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s" if found else self.status.value
+        return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {told}, {len(self.multipliers)} multipliers)"
 
     @cached_property
     def sliding(self) -> SteadySliding:

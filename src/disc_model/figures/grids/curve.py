@@ -41,6 +41,5 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -
         parts.mark_failed(ax, along[np.isnan(found.transpose(plot.x, ...).values.reshape(len(along), -1)).any(axis=1)])
     if by is not None:
         figure.legend(loc="outside right upper")
-    if plot.title:
-        figure.suptitle(plot.title, fontsize=8)
+    parts.head(figure, study, plot.title)
     return figure

@@ -42,10 +42,10 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> 
     axes[0].set_ylabel(parts.label_of(found[plot.y])[0])
     _bar(figure, mesh, axes, found, plot)
     if "flag_meanings" not in found.attrs and bool(found.isnull().any()):
-        gap = Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label="no value")
+        said = "no such cycle" if plot.variable == "growth_rate" else "no value"
+        gap = Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label=said)
         figure.legend(handles=[gap], loc="outside lower right")
-    if plot.title:
-        figure.suptitle(plot.title, fontsize=8)
+    parts.head(figure, study, plot.title)
     return figure
 
 

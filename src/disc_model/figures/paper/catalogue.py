@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from disc_model.data.variables import said_values
 from disc_model.figures import STYLE
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window
@@ -319,18 +320,8 @@ _MODES = {
     "as_published": "modes scaled as in the published results",
     "orthonormal": "modes normalised as Eq. (17) says",
 }
-_SYMBOLS = {"Omega": "Ω", "D_star": "D*", "k_p": "k_p", "c_p": "c_p"}
 
 
 def said_parameters(p: Parameters) -> str:
     """N, Omega and whatever differs from Table 1, with units."""
-    skipped = ("normalization", "contact")
-    changed = [
-        name
-        for name, field in Parameters.model_fields.items()
-        if name in ("N", "Omega") or (name not in skipped and getattr(p, name) != field.default)
-    ]
-    units = {name: Parameters.unit(name) for name in changed}
-    return ", ".join(
-        f"{_SYMBOLS.get(n, n)} = {getattr(p, n):g}" + (f" {units[n]}" if units[n] != "1" else "") for n in changed
-    )
+    return said_values({name: getattr(p, name) for name in Parameters.model_fields})

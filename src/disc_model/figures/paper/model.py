@@ -123,9 +123,10 @@ def _above(ax: Axes, p: Parameters) -> None:
         angle = np.radians(degrees)
         _arrow(ax, (0, 0), _at(angle, radius), style="->")
         _write(ax, _at(angle, 0.6 * radius, 0.1 * _at(angle - np.pi / 2, 1)), text)
-    ax.text(-1.72, 1.25, "clamped at $a$,\nfree at $b$", fontsize=SMALL)
+    radii = f"clamped at\n$a$ = {_mm(p.a)} mm,\nfree at\n$b$ = {_mm(p.b)} mm"
+    ax.text(-1.72, 1.66, radii, fontsize=SMALL, va="top")
     ax.set(xlim=(-1.75, 2.05), ylim=(-1.3, 1.7))
-    ax.set_title(f"(b) from above: a = {_mm(p.a)}, $r_0$ = {_mm(p.r_0)}, b = {_mm(p.b)} mm", loc="left")
+    ax.set_title(f"(b) from above, $r_0$ = {_mm(p.r_0)} mm", loc="left")
 
 
 def _forces(ax: Axes) -> None:

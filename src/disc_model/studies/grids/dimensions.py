@@ -13,7 +13,7 @@ from pydantic import Field, model_validator
 from disc_model.data.variables import KICKS
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import RESIDUAL, Parameters, cross_faults
-from disc_model.schema import Count, Finite, Real, Strict, number, shown
+from disc_model.schema import Count, Finite, Real, Strict, number, shown, suggestion
 from disc_model.simulation.case import START, SomeParameters
 from disc_model.studies.files import Faults, add_parameter_faults, mapping, validated
 from disc_model.truncation import AUTO
@@ -192,7 +192,7 @@ def parse_dimensions(
     for name, given in mapping(raw.get("axes")).items():
         path = ("axes", str(name))
         if name not in VARIED:
-            faults.add(path, "", f"cannot be an axis (known: {', '.join(VARIED)})")
+            faults.add(path, "", f"cannot be an axis{suggestion(str(name), VARIED, all_of_them=False)}")
             continue
         blocks = parse_blocks(given, path, faults, resolution)
         checked = None if blocks is None else _checked(str(name), blocks, starts, path, faults)
@@ -223,7 +223,7 @@ def _zipped(
     columns: dict[str, list[Value]] = {}
     for name, given in group.items():
         if name not in VARIED:
-            faults.add((*path, str(name)), "", f"cannot be an axis (known: {', '.join(VARIED)})")
+            faults.add((*path, str(name)), "", f"cannot be an axis{suggestion(str(name), VARIED, all_of_them=False)}")
             continue
         blocks = parse_blocks(given, (*path, name), faults)
         checked = None if blocks is None else _checked(name, blocks, starts, (*path, name), faults)
