@@ -83,6 +83,8 @@ KICKS = {
     "kick_f": Variable("rad s-1", "kick of the slider's angular velocity"),
 }
 """What grids may add to a coordinate where motions start; coordinates of their datasets."""
+SAMPLE = "sample"
+"""The dimension of a grid along which distributed parameters are drawn, by number."""
 _CF_UNITS = {
     "N m s": "N m s",
     "N s/m": "N s m-1",

@@ -336,8 +336,8 @@ def test_overrides_are_laid_over_the_file(tmp_path: Path) -> None:
 
 def test_the_studies_of_the_repository_are_right() -> None:
     every = load_grids(STUDIES)
-    after = ("bifurcation", "lyapunov")
-    grids = {name: grid for name, grid in every.items() if grid.quantity not in after}
+    others = ("bifurcation", "lyapunov", "sensitivity", "campbell")
+    grids = {name: grid for name, grid in every.items() if grid.quantity not in others}
     laws = {"normalization", "contact_force"}
     pairs = {frozenset(dim.name for dim in grid.dims) - laws for grid in grids.values() if grid.plots}
     planes = {frozenset(("Omega", name)) for name in ("N", "D_star", "c", "k", "k_p", "E", "m")}

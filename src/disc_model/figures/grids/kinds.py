@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Protocol
 
 from pydantic import Field
 
-from disc_model.data.variables import KICKS
+from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.parameters import Parameters
 from disc_model.schema import Real, Strict
 
@@ -336,6 +336,57 @@ MOST_PANELS, MOST_LINES = 4, 12
 """Values of a dimension that a general figure has room for."""
 
 
+class Sensitivity(Plot):
+    """Probabilities with their intervals, and Sobol indices of each distributed parameter; for up to four points."""
+
+    kind: Literal["sensitivity"] = "sensitivity"
+
+    @property
+    def quantity(self) -> str:
+        return "sensitivity"
+
+    def _wrong_dims(self, values: Values) -> Iterator[Fault]:
+        points = math.prod(len(along) for name, along in values.items() if name != SAMPLE)
+        if points > MOST_PANELS:
+            yield Fault(("kind",), self.kind, f"has room for {MOST_PANELS} points beside their samples, not {points}")
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.sensitivity"
+
+
+class Campbell(Plot):
+    """Frequencies and growth rates against the speed, and where modes meet multiples of the stick-slip frequency.
+
+    normalization : the one that is shown, where the study has several
+    """
+
+    kind: Literal["campbell"] = "campbell"
+    normalization: Literal["as_published", "orthonormal"] | None = None
+
+    @property
+    def quantity(self) -> str:
+        return "campbell"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return ("Omega",)
+
+    @property
+    def several(self) -> bool:
+        return self.normalization is not None
+
+    def faults(self, values: Values) -> Iterator[Fault]:
+        yield from super().faults(values)
+        known = [str(one) for (one,) in values.get(NORM, ())]
+        if self.normalization is not None and known and self.normalization not in known:
+            yield Fault((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.campbell"
+
+
 class General(Plot):
     """Any variable of any quantity over dimensions of the study, those of the quantity's own included.
 
@@ -460,4 +511,6 @@ PLOTS: dict[str, type[Plot]] = {
     "growth_map": GrowthMap,
     "bifurcation": Bifurcation,
     "basins": BasinShares,
+    "sensitivity": Sensitivity,
+    "campbell": Campbell,
 }

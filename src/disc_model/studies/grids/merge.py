@@ -3,8 +3,8 @@
     study = xarray.open_dataset("results/map_N/map_N.nc")
     study["first_separation"].sel(normalization="as_published").plot()
 
-Every point of the grid is there with its `status`. A zip is one dimension without coordinate of its own, named after
-its parameters, which lie along it.
+Every point of the grid is there with its `status`, and what `disc_model.studies.grids.summaries` says of all of them. A
+zip is one dimension without coordinate of its own, named after its parameters, which lie along it.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
 from disc_model.studies.grids.run import POINT, STATUSES, describe
+from disc_model.studies.grids.summaries import summarised
 
 
 class MergeError(DiscModelError):
@@ -64,7 +65,7 @@ def merge_batches(
     coords = dict(_coordinates(grid)) | {name: flat[name] for name in flat.coords if name not in names}
     merged = xr.Dataset(data, coords)
     merged.attrs = {"Conventions": CONVENTIONS, **attrs, **_common(batches, names)}
-    return merged
+    return summarised(merged, str(merged.attrs["quantity"]), json.loads(str(merged.attrs["options"])))
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:

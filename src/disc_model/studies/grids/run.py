@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
-from disc_model.data.variables import CHOICES, KICKS, Variable, attributes
+from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Variable, attributes
 from disc_model.errors import DiscModelError, Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import START, Start
@@ -99,7 +99,9 @@ def _only(names: Collection[str], values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _started(options: Any, values: Mapping[str, Any], starts: Mapping[str, Any]) -> Any:
-    """The options of a point, with its start and its kicks."""
+    """The options of a point, with its start and its kicks, or as those of its sample."""
+    if SAMPLE in values:
+        return options.numbered(values[SAMPLE])
     if START in values:
         start = Start.model_validate(starts[values[START]])
         options = options.model_copy(update={"prepare": start.prepare, "kick": start.kick})
@@ -124,6 +126,8 @@ def describe(name: str) -> dict[str, Any]:
     """Attributes of what varies, a coordinate; choices are stored as words, without unit."""
     if name == START:
         return {"long_name": "where the motion starts"}
+    if name == SAMPLE:
+        return {"units": "1", "long_name": "number of the sample"}
     described = attributes(name)
     return {"long_name": described["long_name"]} if name in CHOICES else described
 

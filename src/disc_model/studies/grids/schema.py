@@ -21,7 +21,7 @@ import numpy as np
 from pydantic import Field
 
 from disc_model.data.provenance import source_hash
-from disc_model.data.variables import KICKS
+from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
@@ -51,7 +51,9 @@ from disc_model.studies.grids.dimensions import (
     parse_dimensions,
     thinned,
 )
+from disc_model.studies.grids.distributions import Sampled, check_distributions
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
+from disc_model.studies.grids.summaries import summary_of
 from disc_model.truncation import AUTO, asked_modes
 
 # ----------------------------------------------------------------------------------------------------
@@ -330,13 +332,15 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     )
     base, automatic = _base(mapping(raw.get("base")), faults)
     starts = _starts(mapping(raw.get("starts")), faults)
-    dims = parse_dimensions(raw, fineness, starts, faults)
+    dims = (*parse_dimensions(raw, fineness, starts, faults), *_samples(options))
     varied = [name for dim in dims for name in dim.names]
     _check_names(raw, dims, varied, () if quantity is None else quantity.scanned(options), quantity, faults)
     _check_starts(raw, quantity, faults)
     _check_truncation(raw, automatic, faults)
     if not faults:
         check_points(dims, base, faults)
+    if not faults and isinstance(options, Sampled):
+        check_distributions(options, base, dims[:-1], faults)
     check_size(dims, faults)
     # what is only meant to be a dimension, and has faults, counts as one without values
     values: Values = dict.fromkeys(sorted(asked(raw) - set(varied)), ()) | {dim.name: dim.values for dim in dims}
@@ -410,6 +414,13 @@ def _starts(given: Mapping[Any, Any], faults: Faults) -> dict[str, Start]:
     return starts
 
 
+def _samples(options: Strict | None) -> tuple[Dimension, ...]:
+    """The dimension of samples, the last; one block, which a longer one begins with."""
+    if not isinstance(options, Sampled):
+        return ()
+    return (Dimension((SAMPLE,), (tuple((number,) for number in range(options.samples)),)),)
+
+
 def _check_starts(raw: Mapping[str, Any], quantity: Quantity | None, faults: Faults) -> None:
     """What starts elsewhere must be followed by the quantity, and its start be said in one place."""
     wanted = [name for name in (START, *KICKS) if name in asked(raw)]
@@ -458,6 +469,8 @@ def _check_names(
     for name in REQUIRED:
         if name not in wanted and name not in base and name not in scanned and quantity is not None:
             faults.add(("axes", name), "", "is required, here, in a zip or in base")
+    if quantity is not None and quantity.over not in ("", SAMPLE, *(dim.name for dim in dims), *wanted):
+        faults.add(("axes", quantity.over), "", f"is required: {raw['quantity']} looks along it")
     known = [dim.name for dim in dims]
     over = mapping(raw.get("batch")).get("over")
     for name in over if isinstance(over, list) and not faults else ():
@@ -503,4 +516,8 @@ def _general(plot: General, quantity: str, options: Strict, values: Values) -> I
     grid = {name: [one[0] if len(one) == 1 else one for one in along] for name, along in values.items()}
     own = {name: np.asarray(along).tolist() for name, (along, _) in module.coordinates(options).items()}
     variables = {name: (*grid, *column.dims) for name, column in module.COLUMNS.items()}
+    if (summary := summary_of(quantity)) is not None:
+        others = [name for name in grid if name != QUANTITIES[quantity].over]
+        variables |= {name: (*others, *column.dims) for name, column in summary.COLUMNS.items()}
+        own |= {name: np.asarray(along).tolist() for name, (along, _) in summary.coordinates(options).items()}
     return plot.faults_among(grid | own, variables)

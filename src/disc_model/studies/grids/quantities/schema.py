@@ -11,9 +11,11 @@ from typing import Annotated, Literal, NamedTuple, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
+from disc_model.data.variables import SAMPLE
 from disc_model.schema import Count, CycleTolerance, Finite, Positive, Real, Strict, Tolerance
 from disc_model.simulation.case import Start
 from disc_model.studies.grids.dimensions import MOST, Range
+from disc_model.studies.grids.distributions import Sampled
 
 Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
 
@@ -229,6 +231,38 @@ class StabilityCurvesOptions(Strict):
         return (self.x, self.y)
 
 
+class SensitivityOptions(Sampled):
+    """The stick-slip cycle at samples of distributed parameters, and what becomes of the published start.
+
+    outcomes : of so many samples, the first ones, the motion is followed as well
+    horizon : s, to which it is followed
+    cap : 1/s, growth rates above which count as this in their indices: a few violent ones would be all the variance
+    tol : of the cycles; motion_tol : of the motions
+    """
+
+    outcomes: Annotated[Count, Field(ge=0)] = 0
+    horizon: Positive = 500.0
+    cap: Positive = 0.5
+    tol: CycleTolerance = 1e-12
+    motion_tol: Tolerance = 1e-10
+
+
+class CampbellOptions(Strict):
+    """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
+
+    modes : room for that many, the lowest in frequency
+    window : Hz, on either side of a crossing, within which growth rates are looked at
+    rise : 1/s, of a growth rate within the window over that at its ends, from which it counts as one
+    max_crossings : room for that many
+    """
+
+    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
+    window: Positive = 1.0
+    rise: Positive = 0.01
+    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
+    tol: CycleTolerance = 1e-12
+
+
 # ----------------------------------------------------------------------------------------------------
 # All of them
 
@@ -239,7 +273,8 @@ class Quantity(NamedTuple):
 
     Options with a property ``scans`` name those parameters themselves. ``motions`` is how many values of each axis get
     a motion to be looked at (`disc_model.studies.grids.motions`): the fewer, the more one costs. 0: none.
-    ``motion`` says what they show: where the quantity's ``state_at`` lets the motion go on.
+    ``motion`` says what they show: where the quantity's ``state_at`` lets the motion go on. ``over`` is the dimension
+    over which `disc_model.studies.grids.summaries` summarises a merged study, which has to have it.
     """
 
     options: type[Strict]
@@ -247,6 +282,7 @@ class Quantity(NamedTuple):
     motions: int = 0
     motion: str = ""
     tiled: bool = False
+    over: str = ""
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
         """Parameters that the quantity varies by itself, given its options."""
@@ -256,6 +292,11 @@ class Quantity(NamedTuple):
     def starts(self) -> bool:
         """Whether it follows motions that may start elsewhere than from the published start."""
         return issubclass(self.options, Start)
+
+    @property
+    def sampled(self) -> bool:
+        """Whether its points are samples of distributed parameters as well."""
+        return issubclass(self.options, Sampled)
 
 
 COME_TO = (
@@ -271,6 +312,8 @@ QUANTITIES = {
     "bifurcation": Quantity(BifurcationOptions, motions=8, motion="After the transient."),
     "lyapunov": Quantity(LyapunovOptions, motions=8, motion="After the transient."),
     "stability_curves": Quantity(StabilityCurvesOptions),
+    "sensitivity": Quantity(SensitivityOptions, over=SAMPLE),
+    "campbell": Quantity(CampbellOptions, over="Omega"),
 }
 
 

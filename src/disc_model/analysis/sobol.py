@@ -1,0 +1,101 @@
+"""Sobol' indices of samples by the design of Saltelli et al. (2010), and shares with confidence intervals.
+
+A row of the outputs is a sample: f(A), f(B), and f of A with each of d inputs in turn taken from B. First-order indices
+are the share of the output's variance that an input accounts for by itself, total ones its share with all
+interactions. Rows of which an output is missing are left out: give their share beside the indices.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import binomtest
+
+Array = NDArray[np.float64]
+
+CONFIDENCE = 0.95
+RESAMPLES = 500
+"""Bootstrap samples: the ends of an interval of 95 % are right to about a tenth of its half width."""
+AT_ONCE = 50
+"""Resamples that are held in memory together."""
+
+
+class Indices(NamedTuple):
+    """First-order and total indices, shape (d,) each, and the ends of their intervals; nan if nothing varies."""
+
+    first: Array
+    first_low: Array
+    first_high: Array
+    total: Array
+    total_low: Array
+    total_high: Array
+
+
+def sobol_indices(outputs: Array) -> tuple[Array, Array]:
+    """First-order and total indices.
+
+    As `scipy.stats.sobol_indices` with outputs that are given, which takes powers of two of samples only: rows that are
+    left out would make them none.
+
+    Parameters
+    ----------
+    outputs : shape (..., n, d + 2): f(A), f(B), f(AB_1) ...
+
+    Returns
+    -------
+    first, total : (..., d); nan where the outputs do not vary
+    """
+    a, b, mixed = outputs[..., 0, None], outputs[..., 1, None], outputs[..., 2:]
+    both = outputs[..., :2]
+    mean = both.mean(axis=(-2, -1))[..., None, None]
+    variance = both.var(axis=(-2, -1))[..., None]
+    # what is left of equal numbers' variance is rounding
+    variance = np.where(variance > 1e-24 * np.square(mean[..., 0]), variance, np.nan)
+    first = np.mean((b - mean) * (mixed - a), axis=-2) / variance
+    total = 0.5 * np.mean((a - mixed) ** 2, axis=-2) / variance
+    return first, total
+
+
+def sobol_intervals(outputs: Array, seed: int = 0) -> Indices:
+    """Indices of outputs (n, d + 2), rows with nan left out, with bootstrap intervals (percentiles) over the rows."""
+    outputs = outputs[np.isfinite(outputs).all(axis=1)]
+    n, d = len(outputs), outputs.shape[1] - 2
+    if n < 2:
+        return Indices(*np.full((6, d), np.nan))
+    rng = np.random.default_rng(seed)
+    chosen = rng.integers(n, size=(RESAMPLES, n))
+    parts = [sobol_indices(outputs[chosen[i : i + AT_ONCE]]) for i in range(0, RESAMPLES, AT_ONCE)]
+    ends = []
+    for found, own in zip(map(np.concatenate, zip(*parts, strict=True)), sobol_indices(outputs), strict=True):
+        tail = (1 - CONFIDENCE) / 2
+        ends += [own, *_percentiles(found, (tail, 1 - tail))]
+    return Indices(*ends)
+
+
+def _percentiles(found: Array, shares: tuple[float, float]) -> Array:
+    """Of each column of resamples; those in which nothing varies are left out."""
+    if not np.isfinite(found).any():
+        return np.full((2, found.shape[1]), np.nan)
+    return np.asarray(np.nanquantile(found, shares, axis=0), dtype=float)
+
+
+class Share(NamedTuple):
+    """A share and the ends of its interval."""
+
+    value: float
+    low: float
+    high: float
+
+
+def share(hits: int, trials: int, unknown: int = 0) -> Share:
+    """Share of hits among trials whose result is known, with its Wilson interval.
+
+    unknown : further trials; the interval takes them for misses at its lower end and for hits at its upper end
+    """
+    if trials == 0:
+        return Share(np.nan, 0.0, 1.0)
+    low = binomtest(hits, trials + unknown).proportion_ci(CONFIDENCE, "wilson").low
+    high = binomtest(hits + unknown, trials + unknown).proportion_ci(CONFIDENCE, "wilson").high
+    return Share(hits / trials, float(low), float(high))

@@ -1,0 +1,157 @@
+"""Frequencies of steady sliding, and those of the stick-slip cycle's multipliers beside them.
+
+A multiplier's angle gives a frequency modulo that of the cycle, f = (angle / 2 pi + n) / T, and without its sign, since
+multipliers come with their conjugates.  The eigenvector tells the rest.  Near a mode of steady sliding a disturbance
+moves as exp(i omega t) times that mode's shape, so that each multiplier goes to the mode whose shape is most like its
+own, by one assignment for all; of two conjugates that one counts that is like the mode of positive frequency; and n is
+the whole number that brings f nearest to the mode's own frequency.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
+from disc_model.simulation.result import State
+from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
+from disc_model.stability.return_map import ReturnMap
+from disc_model.stability.sliding import SteadySliding
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False)
+class Frequencies:
+    """Modes of steady sliding, by ascending frequency in the slider's frame, and what the cycle makes of them.
+
+    Attributes
+    ----------
+    cycle : the stick-slip cycle of the case
+    frequency, growth_rate : Hz, 1/s, shape (n,), of steady sliding; what does not oscillate is left out
+    diameters : of the modes of the disc with most of the energy; -1 if the slider's motion in the plane has most
+    forward : share of those modes' energy in waves that travel with the slider, which it sees at f - l Omega / 2 pi
+    cycle_frequency, cycle_growth_rate : Hz, 1/s, (n,), of the multipliers that go to each mode, the larger growth rate
+        of two; nan without a cycle, and for the slider's motion in the plane, which stick forgets
+    likeness : (n,), squared cosine of the angle between the shapes of the mode and of its multiplier
+    """
+
+    cycle: FloquetResult
+    frequency: Array
+    growth_rate: Array
+    diameters: NDArray[np.int64]
+    forward: Array
+    cycle_frequency: Array
+    cycle_growth_rate: Array
+    likeness: Array
+
+
+def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
+    """Of steady sliding and of the stick-slip cycle near the published start; arrays are empty without the former."""
+    cycle = floquet(p, tol=tol)
+    modes = _sliding_modes(p, cycle.sliding)
+    found = np.full((3, len(modes.frequency)), math.nan)
+    if cycle.status is CycleStatus.OK and len(modes.frequency):
+        found[:, modes.diameters >= 0] = _of_cycle(p, cycle, modes, tol)
+    return Frequencies(cycle, modes.frequency, modes.growth_rate, modes.diameters, modes.forward, *found)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Steady sliding
+
+
+@dataclass(frozen=True, eq=False)
+class _Sliding:
+    """As of `Frequencies`; shapes : rows of a, alpha, b, beta of all modes of the disc, u, u', shape (m, n)."""
+
+    frequency: Array
+    growth_rate: Array
+    diameters: NDArray[np.int64]
+    forward: Array
+    shapes: ComplexArray
+
+
+def _sliding_modes(p: Parameters, sliding: SteadySliding) -> _Sliding:
+    if not len(sliding.eigenvalues):
+        nothing = np.zeros(0)
+        return _Sliding(nothing, nothing, np.zeros(0, np.int64), nothing, np.zeros((0, 0), complex))
+    values, vectors = np.linalg.eig(sliding.jacobian)
+    order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
+    values, vectors = values[order], vectors[:, order]
+    modes = mode_arrays(p)
+    l, omega, n = modes.diameters, modes.omega[:, None], len(modes.omega)
+    pairs = np.flatnonzero(l > 0)
+    m = len(pairs)
+    a, alpha, b, beta = (np.zeros((n, len(order)), complex) for _ in range(4))
+    a[:], alpha[:] = vectors[:n], vectors[n : 2 * n]
+    b[pairs], beta[pairs] = vectors[2 * n : 2 * n + m], vectors[2 * n + m : 2 * n + 2 * m]
+    psi, f = vectors[2 * n + 2 * m : 2 * n + 2 * m + 2]
+    u = vectors[2 * n + 2 * m + 2 :] if len(vectors) > 2 * n + 2 * m + 2 else np.zeros((2, len(order)), complex)
+    energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
+    by_l = np.array([energy[l == one].sum(axis=0) for one in range(int(l.max(initial=0)) + 1)])
+    diameters = by_l.argmax(axis=0)
+    of_l = l[:, None] == diameters
+    # a + i b turns one way, a - i b the other
+    waves = [np.sum(np.abs(omega * (a + side * b)) ** 2, axis=0, where=of_l) for side in (1j, -1j)]
+    in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
+    diameters = np.where(in_plane > energy.sum(axis=0), -1, diameters)
+    return _Sliding(
+        values.imag / (2 * math.pi),
+        np.asarray(values.real, dtype=float),
+        diameters.astype(np.int64),
+        np.asarray(waves[0] / (waves[0] + waves[1]), dtype=float),
+        np.vstack([a, alpha, b, beta, u]),
+    )
+
+
+# ----------------------------------------------------------------------------------------------------
+# The cycle
+
+
+def _of_cycle(p: Parameters, cycle: FloquetResult, modes: _Sliding, tol: float) -> Array:
+    """Frequency, growth rate and likeness, shape (3, n), for each mode of the disc."""
+    assert cycle.state is not None
+    map_ = ReturnMap(p, tol)
+    *_, jacobian, _ = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
+    multipliers, vectors = np.linalg.eig(jacobian)
+    here = modes.diameters >= 0
+    shapes = np.array([_on_section(map_, cycle.state, shape) for shape in modes.shapes.T[here]]).T
+    shapes = shapes / np.linalg.norm(shapes, axis=0)
+    # each mode has room for two multipliers: one like its shape, one like the conjugate
+    likeness = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
+    rows, columns = linear_sum_assignment(-likeness)
+    place = np.full(len(likeness), -1)
+    place[rows] = columns
+    own, other = place[: shapes.shape[1]], place[shapes.shape[1] :]
+    rate = 1 / cycle.period
+    angle = np.angle(multipliers[own]) / (2 * math.pi)
+    seen = modes.frequency[here]
+    with np.errstate(divide="ignore"):
+        growth = np.log(np.abs(multipliers)) * rate
+    found = np.array(
+        [
+            (angle + np.round(seen / rate - angle)) * rate,
+            np.maximum(growth[own], growth[other]),
+            likeness[np.arange(len(own)), own],
+        ]
+    )
+    # where there are fewer multipliers than room, some mode got none
+    found[:, (own < 0) | (other < 0)] = math.nan
+    return found
+
+
+def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexArray:
+    """A shape in the coordinates of the return map's section, (n,); these are linear in it."""
+    parts = []
+    for part in (shape.real, shape.imag):
+        a, alpha, b, beta = part[:-2].reshape(4, -1)
+        # apart, since in contact the height would be the disc's
+        given = state.replace(phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, known=0)
+        parts.append(map_.point(given.replace(u=float(part[-2]), u_velocity=float(part[-1]))))
+    return np.asarray(parts[0] + 1j * parts[1], dtype=complex)

@@ -1,0 +1,198 @@
+"""How uncertain parameters are distributed: what a study file may say, and whether parameters can have such values.
+
+What the values amount to is worked out where they are used, in `disc_model.studies.grids.quantities.sensitivity`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, PrivateAttr, model_validator
+
+from disc_model.errors import Fault, ParameterError
+from disc_model.parameters import Parameters, cross_faults
+from disc_model.schema import Count, Finite, Positive, Strict, is_number, shown
+from disc_model.simulation.case import SomeParameters
+from disc_model.studies.files import Faults, add_parameter_faults
+from disc_model.studies.grids.dimensions import RELATED, Dimension
+
+# ----------------------------------------------------------------------------------------------------
+# What a file may say
+
+FARTHEST = 6.47
+"""Standard deviations that a normal distribution reaches: 1e-10 of it lies beyond, and is left out."""
+
+
+class _Distribution(Strict):
+    """Of one parameter.
+
+    relative : whether the numbers are multiples of the point's own value of the parameter
+    """
+
+    relative: bool = False
+
+    def ends(self) -> tuple[float, float]:
+        """Least and greatest value that is drawn."""
+        raise NotImplementedError
+
+
+class Uniform(_Distribution):
+    """All values from low to high are equally likely."""
+
+    distribution: Literal["uniform"]
+    low: Finite
+    high: Finite
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.low < self.high:
+            raise ValueError(f"low={self.low:g} must be < high={self.high:g}")
+        return self
+
+    def ends(self) -> tuple[float, float]:
+        return self.low, self.high
+
+
+class Normal(_Distribution):
+    """By mean and standard deviation, to 6.47 deviations."""
+
+    distribution: Literal["normal"]
+    mean: Finite
+    deviation: Positive
+
+    def ends(self) -> tuple[float, float]:
+        return self.mean - FARTHEST * self.deviation, self.mean + FARTHEST * self.deviation
+
+
+class TruncatedNormal(_Distribution):
+    """What lies between low and high of a normal distribution that has this mean and this deviation as a whole."""
+
+    distribution: Literal["truncated_normal"]
+    mean: Finite
+    deviation: Positive
+    low: Finite
+    high: Finite
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.low < self.high:
+            raise ValueError(f"low={self.low:g} must be < high={self.high:g}")
+        if max(self.low - self.mean, self.mean - self.high) > FARTHEST * self.deviation:
+            raise ValueError(f"low and high must be within {FARTHEST:g} deviations of mean={self.mean:g}")
+        return self
+
+    def ends(self) -> tuple[float, float]:
+        return self.low, self.high
+
+
+Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
+
+
+class Sampled(Strict):
+    """Options of a quantity that is computed at samples of distributed parameters, each a point of the grid.
+
+    distributions : by parameter
+    samples : number of them, a power of two; more of them leave those that there are
+    seed : whole number; a sample hangs on it and on the sample's own number alone
+    """
+
+    distributions: Annotated[dict[str, Distribution], Field(min_length=1)]
+    # the grid says it already: what is computed of a sample does not hang on how many there are
+    samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
+    seed: Annotated[Count, Field(ge=0)] = 0
+    _number: int = PrivateAttr(0)
+
+    @model_validator(mode="after")
+    def _balanced(self) -> Self:
+        if self.samples & (self.samples - 1):
+            raise ValueError(f"samples={self.samples} must be a power of two")
+        return self
+
+    @property
+    def number(self) -> int:
+        """Of the sample at hand."""
+        return self._number
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the distributed parameters, in the order in which they are drawn, whatever the file's."""
+        return tuple(sorted(self.distributions))
+
+    def numbered(self, number: int) -> Self:
+        """The options of one sample."""
+        found = self.model_copy()
+        found._number = int(number)
+        return found
+
+
+# ----------------------------------------------------------------------------------------------------
+# Whether parameters can have such values
+
+PLACE = ("options", "distributions")
+NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
+"""Parameters that can be distributed."""
+
+
+def check_distributions(options: Sampled, base: Mapping[str, Any], dims: Sequence[Dimension], faults: Faults) -> None:
+    """Faults of distributions: of no number, of what varies besides, or reaching what a parameter may not be.
+
+    Each rule is shown where it is broken first.
+    """
+    varied = {name for dim in dims for name in dim.names}
+    before = len(faults)
+    for name, given in options.distributions.items():
+        if name not in NUMBERS:
+            faults.add((*PLACE, name), "", f"must be of a parameter that is a number (known: {', '.join(NUMBERS)})")
+        elif not given.relative and name in varied:
+            faults.add((*PLACE, name), "", "must be relative, since it varies along an axis as well")
+        elif given.relative and name not in varied and (not is_number(value := _own(name, base)) or value == 0):
+            faults.add((*PLACE, name), "", f"must not be relative to {shown(value)}")
+    if len(faults) > before:
+        return
+    broken: set[str] = set()
+    for fault in _broken(options, base, dims):
+        name = fault.path[0]
+        if name not in broken:
+            broken.add(name)
+            fault = Fault(fault.path, fault.value, f"{fault.rule}; distributions reach that far")
+            add_parameter_faults(
+                [fault], lambda name: (*(PLACE if name in options.distributions else ("base",)), name), faults
+            )
+
+
+def _broken(options: Sampled, base: Mapping[str, Any], dims: Sequence[Dimension]) -> Iterator[Fault]:
+    """Rules that ends of the distributions break, at any point; those between parameters hold if their corners do."""
+    related = [name for name in options.names if name in RELATED]
+    wanted = [dim for dim in dims if not {*options.names, *RELATED}.isdisjoint(dim.names)]
+    varied = [name for dim in wanted for name in dim.names]
+    for point in product(*(dim.values for dim in wanted)):
+        here = {**base, **dict(zip(varied, (value for part in point for value in part), strict=True))}
+        ends = {name: drawn_ends(given, _own(name, here)) for name, given in options.distributions.items()}
+        for name, both in ends.items():
+            for end in both:
+                yield from _refused(name, end)
+        for corner in product(*(ends[name] for name in related)):
+            values = {**here, **dict(zip(related, corner, strict=True))}
+            yield from (fault for fault in cross_faults(Parameters, values) if isinstance(fault, Fault))
+
+
+def drawn_ends(given: Uniform | Normal | TruncatedNormal, own: float) -> tuple[float, float]:
+    """Least and greatest value that is drawn, of a parameter whose own value at the point is given."""
+    scale = own if given.relative else 1.0
+    low, high = given.ends()
+    return scale * low, scale * high
+
+
+def _own(name: str, values: Mapping[str, Any]) -> Any:
+    return values.get(name, Parameters.model_fields[name].default)
+
+
+def _refused(name: str, value: float) -> Iterator[Fault]:
+    try:
+        SomeParameters(**{name: value})
+    except ParameterError as error:
+        for fault in error.faults:
+            if isinstance(fault, Fault):
+                yield fault

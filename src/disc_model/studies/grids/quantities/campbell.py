@@ -1,0 +1,66 @@
+"""Frequencies and growth rates of steady sliding and of the stick-slip cycle, for Campbell diagrams."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
+from disc_model.stability.campbell import frequencies
+from disc_model.stability.cycle import CycleStatus
+from disc_model.studies.grids.quantities.floquet import STATUSES
+from disc_model.studies.grids.run import Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import CampbellOptions
+
+KINDS = ("none", "disc", "slider")
+_EACH = ("mode",)
+COLUMNS = {
+    "status": Column(Variable("1", "what was found near the published start", STATUSES)),
+    "growth_rate": Column(Variable("s-1", "growth rate of disturbances of the stick-slip cycle")),
+    "stick_slip_frequency": Column(Variable("Hz", "releases of stick per second on the stick-slip cycle, f_s")),
+    "rotation_frequency": Column(Variable("Hz", "turns of the drive per second, f_Omega")),
+    "mode_kind": Column(Variable("1", "what moves most: the disc, or the slider in the disc's plane", KINDS), _EACH),
+    "diameters": Column(Variable("1", "nodal diameters of the modes with most of the energy"), _EACH, whole=True),
+    "forward": Column(Variable("1", "share of their energy in waves that travel with the slider"), _EACH),
+    "sliding_frequency": Column(Variable("Hz", "frequency of steady sliding, in the slider's frame"), _EACH),
+    "sliding_growth_rate": Column(Variable("s-1", "growth rate of that mode of steady sliding"), _EACH),
+    "cycle_frequency": Column(Variable("Hz", "frequency of the cycle's multiplier that goes to the mode"), _EACH),
+    "cycle_growth_rate": Column(Variable("s-1", "growth rate of the cycle's multipliers that go to the mode"), _EACH),
+    "likeness": Column(Variable("1", "how like the shapes of mode and multiplier are: squared cosine"), _EACH),
+}
+
+
+def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
+    """Numbers of the modes."""
+    return {"mode": (np.arange(1, options.modes + 1), Variable("1", "number of the mode, lowest frequency first"))}
+
+
+def at(p: Parameters, options: CampbellOptions) -> tuple[dict[str, Any], str]:
+    """Of this point; modes are numbered by their frequency here, whatever they are at its neighbours."""
+    found = frequencies(p, tol=options.tol)
+    cycle, room = found.cycle, options.modes
+    values: dict[str, Any] = {
+        "status": cycle.status.value,
+        "growth_rate": cycle.growth_rate,
+        "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
+        "rotation_frequency": p.Omega / (2 * math.pi),
+    }
+    arrays = {
+        "mode_kind": np.where(found.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
+        "diameters": np.maximum(found.diameters, 0),
+        "forward": found.forward,
+        "sliding_frequency": found.frequency,
+        "sliding_growth_rate": found.growth_rate,
+        "cycle_frequency": found.cycle_frequency,
+        "cycle_growth_rate": found.cycle_growth_rate,
+        "likeness": found.likeness,
+    }
+    for name, array in arrays.items():
+        values[name] = COLUMNS[name].empty((room,))
+        values[name][: len(array)] = array[:room]
+    return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice

@@ -1,0 +1,174 @@
+"""The stick-slip cycle at samples of distributed parameters: how sure is it that a case is stable?
+
+Each sample is drawn twice, as A and as B, from a scrambled Sobol' sequence of twice as many dimensions as there are
+distributed parameters; and there is a variant of A for each parameter, with this one taken from B. That is the design
+of Saltelli et al. (2010) for first-order and total indices, see `disc_model.analysis.sobol`. What is drawn hangs on the
+seed and the sample's number alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtr, ndtri
+from scipy.stats import qmc
+
+from disc_model.data.variables import SCALARS, Variable
+from disc_model.parameters import Parameters
+from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
+from disc_model.stability.fate import fate
+from disc_model.studies.grids.run import NUMERICAL, STATUS, Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.distributions import Distribution
+    from disc_model.studies.grids.quantities.schema import SensitivityOptions
+
+Array = NDArray[np.float64]
+
+STABLE = ("stable", "slides", "sticks")
+UNSTABLE = ("unstable", "no_cycle", "separates", "slips")
+CYCLES = ("failed", *STABLE, *UNSTABLE)
+"""What there is near the published start: a stable cycle, stable steady sliding, or rest on the disc; or an unstable
+cycle, none though the slider sticks and slips, loss of contact at once, or unstable sliding."""
+OUTCOMES = ("not_followed", "stable", "unstable", "separation", "undecided", "failed")
+DRAWS = ("A", "B")
+COLUMNS = {
+    "status": Column(STATUS),
+    "drawn": Column(Variable("", "values of the distributed parameters, SI units"), ("draw", "parameter")),
+    "cycle": Column(Variable("1", "what there is near the published start", CYCLES), ("variant",)),
+    "growth_rate": Column(
+        Variable("s-1", "growth rate of disturbances of the stick-slip cycle, nan without one"), ("variant",)
+    ),
+    "outcome": Column(Variable("1", "what becomes of the published start of A within the horizon", OUTCOMES)),
+    "first_separation": Column(SCALARS["first_separation"]),
+}
+
+
+def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
+    """Draws, distributed parameters, and variants of a sample."""
+    return {
+        "draw": (np.array(DRAWS), Variable("", "one of the two draws of a sample")),
+        "parameter": (np.array(options.names), Variable("", "distributed parameter")),
+        "variant": (
+            np.array([*DRAWS, *options.names]),
+            Variable("", "draw A, draw B, or A with this parameter taken from B"),
+        ),
+    }
+
+
+def at(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
+    """The sample of this number about the point's own parameters."""
+    shares = unit_draws(options.seed, len(options.names), options.number)
+    given = [(options.distributions[name], float(getattr(p, name))) for name in options.names]
+    drawn = np.array([[quantile(*one, part) for one, part in zip(given, row, strict=True)] for row in shares])
+    found = [_evaluated(p, options.names, row, options.tol) for row in variants(drawn)]
+    values: dict[str, Any] = {
+        "status": "ok",
+        "drawn": drawn,
+        "cycle": [one.cycle for one in found],
+        "growth_rate": [one.growth_rate for one in found],
+        "outcome": "not_followed",
+    }
+    messages = [one.message for one in found if one.message]
+    if options.number < options.outcomes:
+        more, message = _followed(p.replace(**_named(options.names, drawn[0])), options)
+        values |= more
+        messages += [message] if message else []
+    return values, "; ".join(dict.fromkeys(messages))
+
+
+# ----------------------------------------------------------------------------------------------------
+# Samples
+
+BLOCK = 64
+"""Samples that are drawn at once."""
+EDGE = 1e-10
+"""Of a normal distribution that is left out, in both tails together."""
+
+
+def unit_draws(seed: int, count: int, number: int) -> Array:
+    """A and B of one sample, shape (2, count), in the unit cube."""
+    block, row = divmod(number, BLOCK)
+    return _block(seed, count, block)[row].reshape(2, count)
+
+
+@lru_cache(maxsize=8)
+def _block(seed: int, count: int, block: int) -> Array:
+    sequence = qmc.Sobol(2 * count, scramble=True, rng=np.random.default_rng(seed))
+    if block:  # scipy cannot go forward by nothing
+        sequence.fast_forward(block * BLOCK)
+    return np.asarray(sequence.random(BLOCK), dtype=float)
+
+
+def quantile(given: Distribution, own: float, share: float) -> float:
+    """Value of a parameter below which a share of its distribution lies, about its own value at the point."""
+    scale = own if given.relative else 1.0
+    if given.distribution == "uniform":
+        return float(scale * (given.low + share * (given.high - given.low)))
+    first, last = EDGE / 2, 1 - EDGE / 2
+    if given.distribution == "truncated_normal":
+        first, last = (ndtr((end - given.mean) / given.deviation) for end in (given.low, given.high))
+        # not beyond the ends by rounding
+        value = given.mean + given.deviation * float(ndtri(first + share * (last - first)))
+        return float(scale * min(max(value, given.low), given.high))
+    return float(scale * (given.mean + given.deviation * float(ndtri(first + share * (last - first)))))
+
+
+def variants(drawn: Array) -> Array:
+    """A, B, and A with each parameter in turn taken from B: shape (2 + n, n), of draws of shape (2, n)."""
+    a, b = drawn
+    return np.vstack([a, b, np.where(np.eye(len(a), dtype=bool), b, a)])
+
+
+# ----------------------------------------------------------------------------------------------------
+# What is computed of one
+
+
+class Evaluated(NamedTuple):
+    """A variant: which of `CYCLES` there is, its growth rate (1/s), and what went wrong."""
+
+    cycle: str
+    growth_rate: float
+    message: str = ""
+
+
+def _named(names: Sequence[str], values: Array) -> dict[str, float]:
+    return dict(zip(names, map(float, values), strict=True))
+
+
+def _evaluated(p: Parameters, names: Sequence[str], values: Array, tol: float) -> Evaluated:
+    try:
+        return evaluate(p, _named(names, values), tol)
+    except NUMERICAL as error:
+        return Evaluated("failed", float("nan"), f"{type(error).__name__}: {error}")
+
+
+def evaluate(p: Parameters, values: Mapping[str, float], tol: float) -> Evaluated:
+    """The cycle of a case some of whose parameters are replaced."""
+    found = floquet(p.replace(**values), tol=tol)
+    cycle = cycle_word(found)
+    return Evaluated(cycle, found.growth_rate, found.message if cycle == "failed" else "")
+
+
+def cycle_word(found: FloquetResult) -> str:
+    """Which of `CYCLES` it is."""
+    if found.status is CycleStatus.OK:
+        return "stable" if found.stable else "unstable"
+    if found.status is CycleStatus.NO_STICK_SLIP:
+        return "slides" if found.sliding.stable else "slips"
+    words = {CycleStatus.NO_CYCLE: "no_cycle", CycleStatus.SEPARATES: "separates", CycleStatus.AT_REST: "sticks"}
+    return words.get(found.status, "failed")
+
+
+def _followed(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
+    """What becomes of the published start."""
+    try:
+        found = fate(p, options.horizon, tol=options.motion_tol)
+    except NUMERICAL as error:
+        return {"outcome": "failed"}, f"{type(error).__name__}: {error}"
+    outcome = "failed" if found.outcome == "unknown" else found.outcome
+    return {"outcome": outcome, "first_separation": found.first_separation}, found.message

@@ -1,0 +1,68 @@
+"""What a merged study says beyond its points: a summary over one of its dimensions, for each value of the others.
+
+A summary is a module here, of its quantity's name, with ``COLUMNS`` and ``coordinates(options)`` as quantities have
+them, and ``of(cell, options)``: values by column, of a merged dataset of which only that dimension is left. It is
+worked out again at each merge, so that a change of it computes no batch anew. Which dimension it is, is said with the
+quantity's entry in `disc_model.studies.grids.quantities.schema`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import product
+from typing import Any, Protocol
+
+import xarray as xr
+
+from disc_model.studies.grids.quantities.schema import QUANTITIES
+from disc_model.studies.grids.run import Described, Row, table_of
+
+
+class Summary(Described, Protocol):
+    """A module of a summary."""
+
+    def of(self, cell: xr.Dataset, options: Any) -> Row:
+        """Values by column over the one dimension that is left."""
+
+
+def summary_of(quantity: str) -> Summary | None:
+    """The summary of a quantity, if it has one."""
+    # the engine comes with them, which most merges do without
+    if quantity == "campbell":
+        from disc_model.studies.grids.summaries import campbell
+
+        return campbell
+    if quantity == "sensitivity":
+        from disc_model.studies.grids.summaries import sensitivity
+
+        return sensitivity
+    return None
+
+
+def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> xr.Dataset:
+    """A merged study with the summary of its quantity, if this has one.
+
+    Parameters
+    ----------
+    options : of the study, as its batches hold them
+    """
+    summary = summary_of(quantity)
+    if summary is None:
+        return study
+    entry = QUANTITIES[quantity]
+    checked = entry.options.model_validate(options)
+    others = [dim for dim in map(str, study["status"].dims) if dim != entry.over]
+    places = [dict(zip(others, place, strict=True)) for place in product(*(range(study.sizes[dim]) for dim in others))]
+    rows = [summary.of(study.isel(place), checked) for place in places]
+    arrays = table_of(summary, rows, [""] * len(rows), checked).arrays
+    sizes = [study.sizes[dim] for dim in others]
+    variables = {
+        name: xr.Variable(
+            (*others, *column.dims), arrays[name].reshape((*sizes, *arrays[name].shape[1:])), column.variable.attributes
+        )
+        for name, column in summary.COLUMNS.items()
+    }
+    coords = {
+        name: (name, values, variable.attributes) for name, (values, variable) in summary.coordinates(checked).items()
+    }
+    return study.assign_coords(coords).assign(variables)

@@ -1,0 +1,158 @@
+"""Where modes meet multiples of the stick-slip frequency or of the rotation's, and what the growth rate does there.
+
+A crossing is where the frequency of steady sliding equals that of a line, by linear interpolation between two speeds.
+The stick-slip frequency is interpolated over speeds without a cycle. What happens there is read from the cycle's growth
+rates within a window of frequency about the crossing, mode by mode, against those at the window's ends.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from disc_model.data.variables import Variable
+from disc_model.studies.grids.run import Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import CampbellOptions
+
+Array = NDArray[np.float64]
+
+LINES = ("none", "stick_slip", "rotation")
+EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
+"""At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
+there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
+FEWEST = 3
+_EACH = ("crossing",)
+COLUMNS: Mapping[str, Column] = {
+    "n_crossings": Column(Variable("1", "number of crossings found"), whole=True),
+    "crossing_Omega": Column(Variable("rad s-1", "speed of the crossing"), _EACH),
+    "crossing_frequency": Column(Variable("Hz", "frequency of the crossing"), _EACH),
+    "crossing_mode": Column(Variable("1", "number of the mode"), _EACH, whole=True),
+    "crossing_line": Column(Variable("1", "what the line is a multiple of", LINES), _EACH),
+    "crossing_multiple": Column(Variable("1", "which multiple; half-integer where a period may double"), _EACH),
+    "crossing_growth_rate": Column(Variable("s-1", "largest growth rate of the cycle within the window"), _EACH),
+    "crossing_rise": Column(
+        Variable("s-1", "largest rise of a mode's growth rate within the window over that at its ends"), _EACH
+    ),
+    "crossing_growing_mode": Column(
+        Variable("1", "number of the mode whose growth rate rises most"), _EACH, whole=True
+    ),
+    "crossing_effect": Column(Variable("1", "what the growth rates do at the crossing", EFFECTS), _EACH),
+}
+
+
+def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
+    """Numbers of the crossings."""
+    return {"crossing": (np.arange(1, options.max_crossings + 1), Variable("1", "number of the crossing"))}
+
+
+class Crossing(NamedTuple):
+    """Where a mode meets a line.
+
+    detuning : Hz, shape (n,), frequency of the line less that of the mode, at all speeds
+    place : index of the speed before it
+    """
+
+    Omega: float
+    frequency: float
+    mode: int
+    line: str
+    multiple: float
+    detuning: Array
+    place: int
+
+
+def of(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
+    """Over the speeds, which ascend."""
+    cell = cell.transpose("Omega", ...)
+    found = sorted(crossings(cell), key=lambda one: (one.Omega, one.mode, one.multiple))
+    kept = found[: options.max_crossings]
+    columns: dict[str, list[Any]] = {name: [] for name in COLUMNS if name.startswith("crossing_")}
+    growth = cell["cycle_growth_rate"].transpose("Omega", "mode").values
+    for one in kept:
+        effect, highest, rise, mode = effect_of(one, growth, cell["growth_rate"].values, options.window, options.rise)
+        row = {name: getattr(one, name) for name in ("Omega", "frequency", "mode", "line", "multiple")}
+        row |= {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": mode}
+        for name, value in row.items():
+            columns[f"crossing_{name}"].append(value)
+    return {"n_crossings": len(found)} | {name: _filled(name, column, options) for name, column in columns.items()}
+
+
+def _filled(name: str, found: list[Any], options: CampbellOptions) -> NDArray[Any]:
+    column = COLUMNS[name]
+    whole = column.empty((options.max_crossings,))
+    words = column.variable.flags
+    whole[: len(found)] = [words.index(value) for value in found] if words else found
+    return whole
+
+
+def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
+    """All of a study over ``Omega``, mode by mode; n f_s, (n + 1/2) f_s and l f_Omega, l up to that of the modes."""
+    speeds = cell["Omega"].values
+    releases = bridged(speeds, cell["stick_slip_frequency"].values)
+    turns = cell["rotation_frequency"].values
+    highest = int(cell["diameters"].max())
+    for i, mode in enumerate(cell["mode"].values):
+        own = cell["sliding_frequency"].isel(mode=i).values
+        if not np.isfinite(own).any():
+            continue
+        most = math.floor(2 * np.nanmax(own) / np.nanmin(releases)) + 1 if np.isfinite(releases).any() else 0
+        lines = [("stick_slip", half / 2, half / 2 * releases) for half in range(1, most + 1)]
+        lines += [("rotation", float(l), l * turns) for l in range(1, highest + 1)]
+        for line, multiple, frequency in lines:
+            detuning = frequency - own
+            for place in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
+                if detuning[place] == detuning[place + 1] or (detuning[place + 1] == 0 and place + 2 < len(speeds)):
+                    continue  # the next interval begins there
+                part = detuning[place] / (detuning[place] - detuning[place + 1])
+                at = float(speeds[place] + part * (speeds[place + 1] - speeds[place]))
+                seen = float(own[place] + part * (own[place + 1] - own[place]))
+                yield Crossing(at, seen, int(mode), line, multiple, detuning, int(place))
+
+
+def bridged(speeds: Array, values: Array) -> Array:
+    """Values with gaps, but not the ends, filled by linear interpolation."""
+    known = np.isfinite(values)
+    if not known.any():
+        return values
+    return np.interp(speeds, speeds[known], values[known], left=np.nan, right=np.nan)
+
+
+def effect_of(
+    one: Crossing, growth: Array, leading: Array, window: float, least: float
+) -> tuple[str, float, float, int]:
+    """Which of `EFFECTS` a crossing has, the largest growth rate, and the largest rise with its mode's number.
+
+    growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
+    """
+    inside = np.abs(one.detuning) <= window
+    first, last = one.place, one.place + 1
+    while first >= 0 and (inside[first] or first == one.place + 1):
+        first -= 1
+    while last < len(inside) and inside[last]:
+        last += 1
+    within = slice(first + 1, last)
+    if first < 0 or last >= len(inside) or last - first - 1 < FEWEST:
+        return "unresolved", math.nan, math.nan, 0
+    highest = float(np.nanmax(leading[within])) if np.isfinite(leading[within]).any() else math.nan
+    if not np.isfinite(leading[within]).all():
+        return "no_cycle", highest, math.nan, 0
+    if not np.isfinite(leading[[first, last]]).all():
+        return "no_cycle", highest, math.nan, 0
+    ends = np.array([growth[first], growth[last]])
+    rises = growth[within].max(axis=0) - ends.max(axis=0)
+    if not np.isfinite(rises).any():
+        return "unresolved", highest, math.nan, 0
+    mode = int(np.nanargmax(rises))
+    rise = float(rises[mode])
+    beside = max(leading[first], leading[last])
+    if highest > 0 >= beside:
+        return "destabilises", highest, rise, mode + 1
+    effect = "rises" if highest - beside >= least else "mode_rises" if rise >= least else "no_rise"
+    return effect, highest, rise, mode + 1

@@ -1,0 +1,98 @@
+"""How probable instability and separation are among the samples, and which parameters decide it.
+
+Shares of the cycles are of all draws, A and B, and shares of outcomes of those that were followed. Their Wilson
+intervals are those of independent samples: quasi-random ones lie more evenly, and their shares are mostly nearer to the
+truth than the intervals say. What failed is neither stable nor unstable: intervals take it for the one at one end and
+for the other at the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from disc_model.analysis.sobol import share, sobol_intervals
+from disc_model.data.variables import Variable, flag_names
+from disc_model.studies.grids.quantities.sensitivity import CYCLES, DRAWS, OUTCOMES, UNSTABLE
+from disc_model.studies.grids.run import Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import SensitivityOptions
+
+Array = NDArray[np.float64]
+
+FAILED = "failed"
+FOLLOWED = tuple(word for word in OUTCOMES if word not in ("not_followed", FAILED))
+KNOWN = tuple(word for word in CYCLES if word != FAILED)
+OUTPUTS = ("instability", "growth_rate")
+"""Of which indices are given: whether there is no stable motion (1, else 0), and the cycle's growth rate, capped."""
+_INDEX = ("output", "parameter")
+
+
+def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[str, Column]:
+    said = {name: words, f"{name}_low": f"{words}, lower end", f"{name}_high": f"{words}, upper end"}
+    return {key: Column(Variable("1", value), dims) for key, value in said.items()}
+
+
+COLUMNS: Mapping[str, Column] = {
+    "n_draws": Column(Variable("1", "number of draws, A and B, whose cycle is known"), whole=True),
+    "n_followed": Column(Variable("1", "number of draws whose outcome is known"), whole=True),
+    **_with_interval("probability_unstable", "probability that the published start is near no stable motion"),
+    **_with_interval("probability_separation", "probability of separation within the horizon"),
+    **_with_interval("cycle_share", "share of the draws near whose published start there is this", ("cycle_class",)),
+    **_with_interval("outcome_share", "share of the followed draws that have this outcome", ("outcome_class",)),
+    **_with_interval("first_index", "first-order Sobol index", _INDEX),
+    **_with_interval("total_index", "total Sobol index", _INDEX),
+    "left_out": Column(Variable("1", "share of samples that the indices leave out: an output is missing"), ("output",)),
+}
+
+
+def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
+    """Classes of cycles and of outcomes, and outputs."""
+    return {
+        "cycle_class": (np.array(KNOWN), Variable("", "what there is near the published start")),
+        "outcome_class": (np.array(FOLLOWED), Variable("", "what becomes of the published start")),
+        "output": (np.array(OUTPUTS), Variable("", "of what the indices are")),
+        "parameter": (np.array(options.names), Variable("", "distributed parameter")),
+    }
+
+
+def of(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
+    """Over the samples."""
+    words = flag_names(cell["cycle"].transpose("sample", "variant"))
+    drawn = words[:, : len(DRAWS)].ravel()
+    outcomes = flag_names(cell["outcome"])
+    outcomes = outcomes[outcomes != "not_followed"]
+    values: dict[str, Any] = {
+        "n_draws": np.count_nonzero(drawn != FAILED),
+        "n_followed": np.count_nonzero(outcomes != FAILED),
+    }
+    values |= _shares("cycle_share", drawn, [(word,) for word in KNOWN])
+    values |= _shares("outcome_share", outcomes, [(word,) for word in FOLLOWED])
+    values |= _shares("probability_unstable", drawn, [UNSTABLE])
+    values |= _shares("probability_separation", outcomes, [("separation",)])
+    outputs = outputs_of(words, cell["growth_rate"].transpose("sample", "variant").values, options.cap)
+    found = [sobol_intervals(output, options.seed) for output in outputs]
+    for kind in ("first", "total"):
+        for end in ("", "_low", "_high"):
+            values[f"{kind}_index{end}"] = np.array([getattr(one, f"{kind}{end}") for one in found])
+    values["left_out"] = np.array([np.mean(~np.isfinite(output).all(axis=1)) for output in outputs])
+    return values
+
+
+def outputs_of(words: NDArray[np.str_], growth_rate: Array, cap: float) -> tuple[Array, Array]:
+    """Whether there is no stable motion, 1 or 0, and the growth rate: (samples, variants); nan where not known."""
+    unstable = np.where(words == FAILED, np.nan, np.isin(words, UNSTABLE))
+    return unstable, np.minimum(growth_rate, cap)
+
+
+def _shares(name: str, words: NDArray[np.str_], classes: list[tuple[str, ...]]) -> dict[str, Any]:
+    """Of each class of words among those that are known, with its interval."""
+    known = words[words != FAILED]
+    found = np.array([share(int(np.isin(known, one).sum()), len(known), len(words) - len(known)) for one in classes])
+    ends = found[0] if len(classes) == 1 else found.T
+    return {f"{name}{end}": values for end, values in zip(("", "_low", "_high"), ends, strict=True)}

@@ -1,0 +1,89 @@
+"""Sobol' indices against scipy's and known ones; shares with intervals against their definition."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import stats
+from scipy.stats import qmc
+
+from disc_model.analysis.sobol import share, sobol_indices, sobol_intervals
+
+RNG = np.random.default_rng(5)
+
+
+def test_indices_are_those_of_scipy() -> None:
+    outputs = RNG.normal(size=(64, 7)) + 3
+    a, b, mixed = outputs[:, 0], outputs[:, 1], outputs[:, 2:]
+    theirs = stats.sobol_indices(func={"f_A": a[None], "f_B": b[None], "f_AB": mixed.T[:, None]}, n=64)
+    first, total = sobol_indices(outputs)
+    # sums of 64 terms in another order
+    np.testing.assert_allclose(first, np.ravel(theirs.first_order), rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(total, np.ravel(theirs.total_order), rtol=1e-12)
+
+
+def linear(n: int, seed: int) -> np.ndarray:
+    """Outputs of 3 x + 2 y + z over the unit cube: indices 9/14, 4/14, 1/14, first-order and total."""
+    unit = qmc.Sobol(6, rng=np.random.default_rng(seed)).random(n)
+    a, b = unit[:, :3], unit[:, 3:]
+    mixed = [np.where(np.arange(3) == i, b, a) for i in range(3)]
+    return np.stack([x @ [3, 2, 1] for x in (a, b, *mixed)], axis=1)
+
+
+def test_intervals_hold_the_truth_as_often_as_they_say() -> None:
+    """Those of resampled rows are too wide for quasi-random samples, and never much too narrow."""
+    truth = np.array([9, 4, 1]) / 14
+    held = []
+    for seed in range(20):
+        found = sobol_intervals(linear(64, seed), seed)
+        held += [(found.first_low <= truth) & (truth <= found.first_high)]
+        held += [(found.total_low <= truth) & (truth <= found.total_high)]
+    # of 120, of which 95 % should: fewer than 90 % has a chance below 1 % if they were independent
+    assert np.mean(held) >= 0.9
+
+
+def test_rows_with_a_gap_are_left_out_and_what_does_not_vary_has_no_indices() -> None:
+    outputs = linear(64, 1)
+    holed = np.vstack([outputs, np.full((1, 5), np.nan), [[1, 2, np.nan, 4, 5]]])
+    for one, other in zip(sobol_intervals(outputs), sobol_intervals(holed), strict=True):
+        np.testing.assert_array_equal(one, other)
+    assert np.isnan(sobol_intervals(np.full((32, 5), 0.1))).all()
+    assert np.isnan(sobol_intervals(np.full((4, 5), np.nan))).all()
+
+
+def test_a_share_has_wilsons_interval() -> None:
+    n, k, z = 40, 9, stats.norm.ppf(0.975)
+    centre, half = (k + z**2 / 2) / (n + z**2), z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
+    assert share(k, n) == pytest.approx((k / n, centre - half, centre + half), rel=1e-12)
+    assert share(0, n).low == 0
+    assert share(n, n).high == 1
+
+
+def test_what_is_unknown_counts_against_both_ends() -> None:
+    found = share(9, 40, unknown=5)
+    assert found.value == 9 / 40
+    assert found.low == share(9, 45).low < share(9, 40).low
+    assert found.high == share(14, 45).high > share(9, 40).high
+    assert share(0, 0, unknown=3)[1:] == (0, 1)
+
+
+def test_shares_of_quasi_random_samples_are_within_the_interval_at_least_as_often() -> None:
+    """Of a corner of the cube, whose true share is known."""
+    inside = [
+        np.count_nonzero((qmc.Sobol(4, rng=np.random.default_rng(seed)).random(64) < 0.8).all(axis=1))
+        for seed in range(40)
+    ]
+    held = [low <= 0.8**4 <= high for _, low, high in (share(hits, 64) for hits in inside)]
+    assert np.mean(held) >= 0.95
+
+
+def test_ishigamis_indices_are_approached() -> None:
+    """a = 7, b = 0.1; closed form."""
+    unit = 2 * np.pi * qmc.Sobol(6, rng=np.random.default_rng(2)).random(2**14) - np.pi
+    a, b = unit[:, :3], unit[:, 3:]
+    mixed = [np.where(np.arange(3) == i, b, a) for i in range(3)]
+    outputs = [np.sin(x) + 7 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x) for x, y, z in (m.T for m in (a, b, *mixed))]
+    first, total = sobol_indices(np.stack(outputs, axis=1))
+    # independent samples would leave some 2 / sqrt(2^14) = 0.016
+    np.testing.assert_allclose(first, [0.31391, 0.44241, 0.0], atol=0.01)
+    np.testing.assert_allclose(total, [0.55759, 0.44241, 0.24368], atol=0.01)

@@ -1,0 +1,91 @@
+"""Frequencies of steady sliding against another eigenproblem, those of the cycle against its return map."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import linear_sum_assignment
+
+from disc_model import Parameters, plate_modes, slider_at_rest_frequencies
+from disc_model.stability.campbell import frequencies
+from disc_model.stability.cycle import CycleStatus
+from disc_model.stability.return_map import ReturnMap
+
+BASE = Parameters(N=385, Omega=14)
+SMALL = Parameters(N=200, Omega=20, n_diameters=1)
+
+
+@pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
+def test_at_low_speed_sliding_has_the_frequencies_at_rest(normalization: str) -> None:
+    """Those of the symmetric eigenproblem of Section 4.4, and that of the slider on its spring in the plane."""
+    p = Parameters(N=1e-3, Omega=1e-3, D_star=0, mu_s=0, mu_k=0, normalization=normalization)
+    found = frequencies(p)
+    expected = np.append(slider_at_rest_frequencies(p), math.sqrt(p.k_p / p.m)) / (2 * math.pi)
+    # modes are shifted by up to l Omega / 2 pi = 6e-4 Hz
+    np.testing.assert_allclose(found.frequency, np.sort(expected), atol=1e-3)
+    assert found.diameters[0] == -1
+
+
+def test_a_light_slider_sees_waves_that_turn_with_and_against_it() -> None:
+    """Without force and mass of the slider: f -/+ l Omega / 2 pi, with it and against it."""
+    p = Parameters(N=1e-6, Omega=30, m=1e-9, k=1e-6, k_p=1e-9, D_star=0, mu_s=0, mu_k=0)
+    found = frequencies(p)
+    modes = plate_modes(p)
+    turns = p.Omega / (2 * math.pi)
+    expected = {
+        (int(mode.diameters), side): mode.omega / (2 * math.pi) - side * mode.diameters * turns
+        for mode in modes.itertuples()
+        for side in ((-1, 1) if mode.diameters else (0,))
+    }
+    there = found.diameters > 0
+    sides = np.where(found.forward > 0.5, 1, -1)[there]
+    for l, side, frequency in zip(found.diameters[there], sides, found.frequency[there], strict=True):
+        assert frequency == pytest.approx(expected.pop((int(l), int(side))), abs=1e-4)
+    assert list(expected) == [(0, 0)]
+
+
+@pytest.mark.parametrize("p", [SMALL, pytest.param(BASE, marks=pytest.mark.compiled)], ids=["small", "base"])
+def test_frequencies_and_growth_rates_are_those_of_the_multipliers(p: Parameters) -> None:
+    """exp((g + 2 pi i f) T) is a multiplier of each mode, and its conjugate; none is left."""
+    found = frequencies(p)
+    cycle = found.cycle
+    here = found.diameters >= 0
+    complex_rate = found.cycle_growth_rate[here] + 2j * math.pi * found.cycle_frequency[here]
+    own = np.exp(complex_rate * cycle.period)
+    both = np.concatenate([own, own.conj()])
+    apart = np.abs(both[:, None] - cycle.multipliers[None, :])
+    rows, columns = linear_sum_assignment(apart)
+    assert len(columns) == len(cycle.multipliers)
+    assert apart[rows, columns].max() < 1e-9
+    assert np.isnan(found.cycle_frequency[~here]).all()
+    # away from resonances the cycle's modes are those of sliding: 0.1 Hz of what is apart by f_s / 2 = 33 Hz
+    np.testing.assert_allclose(found.cycle_frequency[here], found.frequency[here], atol=0.2)
+    assert found.likeness[here].min() > 0.9
+
+
+def test_a_disturbance_in_a_modes_shape_returns_as_its_multiplier_says() -> None:
+    """By differences of the return map, not by its variational equations."""
+    found = frequencies(SMALL)
+    cycle = found.cycle
+    assert cycle.status is CycleStatus.OK
+    assert cycle.state is not None
+    map_ = ReturnMap(SMALL)
+    x = map_.point(cycle.state)
+    size = 1e-6 * np.linalg.norm(x)
+    columns = []
+    for unit in np.eye(map_.size):
+        ends = [map_.evaluate(x + side * size * unit, tangent=False)[1] for side in (-1, 1)]
+        columns.append((ends[1] - ends[0]) / (2 * size))
+    values = np.linalg.eigvals(np.array(columns).T)
+    here = found.diameters >= 0
+    own = np.exp((found.cycle_growth_rate[here] + 2j * math.pi * found.cycle_frequency[here]) * cycle.period)
+    # differences of a step of 1e-6: squares of it, and 1e-12 / 1e-6 of the map's tolerance
+    assert np.abs(values[:, None] - own[None, :]).min(axis=0).max() < 1e-5
+
+
+def test_without_steady_sliding_or_cycle_there_is_nothing_to_say() -> None:
+    assert len(frequencies(SMALL.replace(Omega=0)).frequency) == 0
+    held = frequencies(SMALL.replace(N=0))
+    assert np.isnan(held.cycle_frequency).all()

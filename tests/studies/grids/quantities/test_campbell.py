@@ -1,0 +1,138 @@
+"""Campbell diagrams: rows of the table, crossings against root finding, and what growth rates do there."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.optimize import brentq
+
+from disc_model.data.variables import flag_names
+from disc_model.parameters import Parameters
+from disc_model.stability.campbell import frequencies
+from disc_model.studies.files import StudyError
+from disc_model.studies.grids.quantities.schema import CampbellOptions
+from disc_model.studies.grids.schema import parse_grid
+from disc_model.studies.grids.summaries import campbell
+from disc_model.studies.grids.summaries.campbell import LINES, bridged
+from tests.studies.grids.conftest import SMALL, computed
+
+
+def words(study: xr.Dataset, name: str) -> list[str]:
+    return flag_names(study[name]).tolist()
+
+
+def test_a_crossing_is_where_root_finding_says() -> None:
+    """Between speeds f_s is almost straight."""
+    base = {"N": 200, **SMALL}
+    found = computed(quantity="campbell", options={}, base=base, axes={"Omega": {"start": 9, "stop": 13, "step": 0.25}})
+    assert set(words(found, "status")) == {"ok"}
+    count = int(found["n_crossings"])
+    assert count
+    for i in range(count):
+        one = found.isel(crossing=i)
+        mode, multiple = int(one["crossing_mode"]) - 1, float(one["crossing_multiple"])
+
+        def detuning(speed: float, mode: int = mode, multiple: float = multiple) -> float:
+            there = frequencies(Parameters(Omega=speed, **base))
+            return multiple / there.cycle.period - float(there.frequency[mode])
+
+        speed = float(one["crossing_Omega"])
+        # the line bends by f_s'' d^2 / 8 between speeds, some 0.05 Hz of a slope of some Hz per rad/s
+        assert speed == pytest.approx(brentq(detuning, speed - 0.25, speed + 0.25, xtol=1e-6), abs=0.02)
+        assert words(one, "crossing_line") == "stick_slip"
+
+
+def test_a_row_has_the_modes_of_its_point() -> None:
+    found = computed(quantity="campbell", options={"modes": 5}, base={"N": 200, **SMALL}, axes={"Omega": [0, 20]})
+    assert words(found, "status") == ["at_rest", "ok"]
+    there = frequencies(Parameters(N=200, Omega=20, **SMALL))
+    n = len(there.frequency)
+    one = found.sel(Omega=20)
+    np.testing.assert_array_equal(one["sliding_frequency"][:n], there.frequency)
+    np.testing.assert_array_equal(one["cycle_growth_rate"][:n], there.cycle_growth_rate)
+    assert words(one, "mode_kind") == ["slider", "disc", "disc", "disc", "none"]
+    assert float(one["rotation_frequency"]) == pytest.approx(20 / (2 * math.pi))
+    assert np.isnan(found.sel(Omega=0)["sliding_frequency"]).all()
+
+
+def made_up(**changes: Any) -> xr.Dataset:
+    """f_s = 10 Omega, a mode at 100 Hz with l = 1: crossings of n f_s at 20 / 2 n, of f_Omega at 200 pi."""
+    speeds = np.linspace(8, 12, 401)
+    rate = -0.2 + 0.1 / (1 + ((speeds - 10) / 0.02) ** 2)
+    values = {
+        "growth_rate": ("Omega", rate),
+        "stick_slip_frequency": ("Omega", 10 * speeds),
+        "rotation_frequency": ("Omega", speeds / (2 * np.pi)),
+        "diameters": (("Omega", "mode"), np.ones((401, 1), int)),
+        "sliding_frequency": (("Omega", "mode"), np.full((401, 1), 100.0)),
+        "cycle_growth_rate": (("Omega", "mode"), rate[:, None]),
+    }
+    return xr.Dataset(values | changes, {"Omega": speeds, "mode": [1]})
+
+
+def effects(cell: xr.Dataset, **options: Any) -> list[str]:
+    found = campbell.of(cell, CampbellOptions(**options))
+    return [campbell.EFFECTS[i] for i in found["crossing_effect"][: found["n_crossings"]]]
+
+
+def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not() -> None:
+    """The line meets the mode at 10 rad/s; the window of 1 Hz is 0.1 rad/s there on either side."""
+    peak = made_up()
+    found = campbell.of(peak, CampbellOptions())
+    assert found["n_crossings"] == 1
+    assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
+    assert LINES[found["crossing_line"][0]] == "stick_slip"
+    assert found["crossing_multiple"][0] == 1
+    assert found["crossing_growth_rate"][0] == pytest.approx(-0.1)
+    # at the window's ends, one step beyond it, the peak has fallen to 1 / (1 + 5.5^2)
+    assert found["crossing_rise"][0] == pytest.approx(0.1 - 0.1 / (1 + 5.5**2), rel=1e-3)
+    assert effects(peak) == ["rises"]
+    assert effects(peak, rise=0.2) == ["no_rise"]
+    rate = peak["growth_rate"].values
+    raised = {"growth_rate": ("Omega", rate + 0.15), "cycle_growth_rate": (("Omega", "mode"), rate[:, None] + 0.15)}
+    assert effects(made_up(**raised)) == ["destabilises"]
+    assert effects(made_up(growth_rate=("Omega", np.full(401, -0.05)))) == ["mode_rises"]
+    flat = {
+        "growth_rate": ("Omega", np.full(401, -0.1)),
+        "cycle_growth_rate": (("Omega", "mode"), np.full((401, 1), -0.1)),
+    }
+    assert effects(made_up(**flat)) == ["no_rise"]
+    assert effects(peak.isel(Omega=slice(0, 401, 20))) == ["unresolved"]
+    assert effects(peak.isel(Omega=slice(195, 401))) == ["unresolved"]
+
+
+def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
+    gone = made_up()
+    for name in ("growth_rate", "stick_slip_frequency"):
+        gone[name][195:210] = np.nan
+    gone["cycle_growth_rate"][195:210] = np.nan
+    found = campbell.of(gone, CampbellOptions())
+    assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
+    assert effects(gone) == ["no_cycle"]
+
+
+def test_gaps_are_bridged_and_ends_are_not() -> None:
+    speeds = np.arange(6.0)
+    values = np.array([np.nan, 1, np.nan, 3, 4, np.nan])
+    np.testing.assert_array_equal(bridged(speeds, values), [np.nan, 1, 2, 3, 4, np.nan])
+    assert np.isnan(bridged(speeds, np.full(6, np.nan))).all()
+
+
+def test_the_rotation_meets_a_mode_at_its_critical_speed() -> None:
+    """f_Omega = 100 Hz at 200 pi rad/s, the speed of a moving load."""
+    cell = made_up().assign_coords(Omega=np.linspace(500, 700, 401))
+    cell["rotation_frequency"] = cell["Omega"] / (2 * np.pi)
+    cell["stick_slip_frequency"] = ("Omega", np.full(401, 70.0))
+    found = campbell.of(cell, CampbellOptions())
+    assert [LINES[i] for i in found["crossing_line"][: found["n_crossings"]]] == ["rotation"]
+    assert found["crossing_Omega"][0] == pytest.approx(200 * np.pi, rel=1e-9)
+
+
+def test_a_diagram_needs_speeds() -> None:
+    raw = {"study": "s", "quantity": "campbell", "base": {"Omega": 15}, "axes": {"N": [200, 300]}}
+    with pytest.raises(StudyError, match=r"axes.Omega: is required: campbell looks along it"):
+        parse_grid(raw)
