@@ -2,18 +2,19 @@
 
 Columns of the variational equations travel with the motion and are made orthonormal again at equal times (Benettin's
 method); the mean rates at which they grow are the largest exponents.  One of them is zero, along the motion, unless
-it comes to rest.
+it comes to rest.  It says nothing, and a column turns towards the motion slowly; so that it can be left out: the first
+column is then the motion's own rate, which stays that, and the others are kept orthogonal to it.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import layout, outcomes, tangent, variational
+from disc_model.engine import layout, outcomes, saltation, tangent, variational
 from disc_model.errors import ParameterError, StatusBase
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -48,6 +49,9 @@ _OUTCOMES = {
     outcomes.NON_FINITE: LyapunovStatus.NON_FINITE,
 }
 _BLOCKS = 16
+CONVERGED = 0.2, 0.01
+"""An exponent has converged if the first half of the time gives the same as the second, to this share or this much in
+1/s."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +66,7 @@ class Lyapunov:
     duration : s, time covered after the transient
     separations : losses of contact in that time
     history : 1/s, shape (16, count), the exponents of the stretches
+    along : 1/s, the exponent along the motion that was left out; nan if none was
     final_state : where the motion ended, to go on from
     """
 
@@ -72,6 +77,14 @@ class Lyapunov:
     separations: int
     history: Array
     final_state: State
+    along: float = math.nan
+
+    @property
+    def converged(self) -> NDArray[np.bool_]:
+        """Whether the first half of the time gives the same exponent as the second, shape (count,); see `CONVERGED`."""
+        one, two = (np.mean(half, axis=0) for half in np.split(self.history, 2))
+        share, least = CONVERGED
+        return np.asarray(np.abs(one - two) <= np.maximum(share * np.abs(self.exponents), least))
 
     @property
     def chaotic(self) -> bool:
@@ -88,6 +101,7 @@ def lyapunov_exponents(
     interval: float = 0.01,
     initial_state: State | None = None,
     tol: float = 1e-10,
+    leave_out_trivial: bool = False,
 ) -> Lyapunov:
     """The `count` largest Lyapunov exponents of the motion.
 
@@ -97,17 +111,19 @@ def lyapunov_exponents(
     duration : s, over which rates are averaged, after the transient and after a quarter of as much time again, in which
         the columns turn into their directions
     transient : s, simulated first and left out
-    count : 1 to 8
+    count : 1 to 8, or to 7 if the trivial one is left out
     interval : s, between orthonormalisations
     initial_state : None is the published start
     tol : of the series
+    leave_out_trivial : leave out the exponent along the motion, which is zero; there is none if no switch occurs, as in
+        steady sliding
 
     Raises
     ------
     ParameterError
         Bad input; the message names each argument, its value and the rule.
     """
-    _check(p, duration, transient, count, interval)
+    _check(p, duration, transient, count, interval, leave_out_trivial)
     start = initial_state
     if transient > 0:
         begin = 0.0 if initial_state is None else initial_state.time
@@ -128,7 +144,10 @@ def lyapunov_exponents(
     metric, rows = _metric(model), tangent.n_rows(model)
     columns = t.now.reshape(rows, layout.WIDTH)
     columns[:] = 0.0
+    asked, count = count, count + leave_out_trivial
     columns[:, :count] = _first_columns(model, state, metric, count)
+    if leave_out_trivial:
+        _set_first_along(model, state, t, columns)
     steps = max(_BLOCKS, math.ceil(duration / interval))
     longest = tangent.longest_step(order, 10 * tolerance)
     course = variational.Course(order, tolerance, longest, duration / steps, 0, may_separate=True, tangent=True)
@@ -149,7 +168,8 @@ def lyapunov_exponents(
             with np.errstate(divide="ignore"):
                 logs[i] = np.log(size)
             done = i + 1
-    return _summary(case, state, t, status, logs[:done], duration / steps)
+    found = _summary(case, state, t, status, logs[:done], duration / steps)
+    return _without_trivial(found, t, logs[:done], asked) if leave_out_trivial else found
 
 
 def _summary(
@@ -174,13 +194,33 @@ def _summary(
     )
 
 
+def _set_first_along(model: layout.Model, state: layout.State, t: tangent.Tangent, columns: Array) -> None:
+    """The motion's own rate as the first column, if it moves."""
+    saltation.rates(model, state, t.before)
+    along = t.before.reshape(columns.shape)[:, 0]
+    if np.any(along):
+        columns[:, 0] = along
+
+
+def _without_trivial(found: Lyapunov, t: tangent.Tangent, logs: Array, count: int) -> Lyapunov:
+    """The exponents but for that of the first column; the largest ones if the motion has come to rest or slides."""
+    exponents, errors, history, along = found.exponents, found.errors, found.history, math.nan
+    switches = t.log[variational.RELEASES] + t.log[variational.STICKS] + t.log[variational.SEPARATIONS]
+    if len(logs) >= _BLOCKS and switches > 0:
+        along = float(np.sum(logs[:, 0]) / found.duration)
+        first = int(np.flatnonzero(np.argsort(-np.sum(logs, axis=0), kind="stable") == 0)[0])
+        exponents, errors = np.delete(exponents, first), np.delete(errors, first)
+        history = np.delete(history, first, axis=1)
+    return replace(found, exponents=exponents[:count], errors=errors[:count], history=history[:, :count], along=along)
+
+
 def _nothing(status: LyapunovStatus, count: int, covered: float, state: State) -> Lyapunov:
     """No exponents: too little time was covered."""
     nan = np.full(count, math.nan)
     return Lyapunov(status, nan, nan, covered, 0, np.full((_BLOCKS, count), math.nan), state)
 
 
-def _check(p: object, duration: float, transient: float, count: int, interval: float) -> None:
+def _check(p: object, duration: float, transient: float, count: int, interval: float, leave_out_trivial: bool) -> None:
     faults = []
     if not isinstance(p, Parameters):
         faults.append(f"p={p!r}: must be Parameters")
@@ -190,8 +230,9 @@ def _check(p: object, duration: float, transient: float, count: int, interval: f
         faults.append(f"duration={duration!r}: must be finite and > 0")
     if not (math.isfinite(transient) and transient >= 0):
         faults.append(f"transient={transient!r}: must be finite and >= 0")
-    if not (isinstance(count, int) and 1 <= count <= layout.WIDTH):
-        faults.append(f"count={count!r}: must be a whole number from 1 to {layout.WIDTH}")
+    most = layout.WIDTH - leave_out_trivial
+    if not (isinstance(count, int) and 1 <= count <= most):
+        faults.append(f"count={count!r}: must be a whole number from 1 to {most}")
     if not (math.isfinite(interval) and interval > 0):
         faults.append(f"interval={interval!r}: must be finite and > 0")
     if faults:

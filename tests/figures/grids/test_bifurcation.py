@@ -31,6 +31,18 @@ def test_diagrams_mark_points_that_failed() -> None:
     assert not crosses(attractors.draw(samples, {}, Bifurcation(x="N")).axes[0])
 
 
+def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
+    samples, exponents = made_up_samples()
+    words = {"flag_meanings": "unknown no yes"}
+    samples["steady"] = ("N", np.array([2, 1, 2], np.int8), words)
+    exponents["converged"] = (("N", "exponent_number"), np.array([[2], [2], [1]], np.int8), words)
+    above, below = attractors.draw(samples, {"lyapunov": exponents}, Bifurcation(x="N")).axes
+    by = {line.get_label(): list(line.get_xdata()) for ax in (above, below) for line in ax.lines}
+    assert by["not steady"] == [2, 2]
+    assert 2 not in by["stick"]
+    assert by["not converged"] == [3]
+
+
 def test_diagrams_show_samples_and_exponents(tmp_path) -> None:
     options = {"transient": 0.1, "samples": 2, "tol": 1e-8}
     samples = computed(quantity="bifurcation", options=options, base={"N": 200} | SMALL, axes={"Omega": [45, 50]})

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import Bifurcation
 from disc_model.figures.parts import BLACK, BLUE, GREY, ORANGE, PAGE, PHASE_COLOURS, VERMILION, new_figure, styled
@@ -29,7 +30,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
 def bifurcation_diagram(
     samples: xr.Dataset, name: str, variable: str = "psi", scale: float = 1e3, lyapunov: xr.Dataset | None = None
 ) -> Figure:
-    """Samples once a turn against a parameter; those in stick apart from those in slip or separation.
+    """Samples against a parameter; those in stick apart from those in slip or separation, and grey where the motion
+    was not steady yet.
 
     Where all samples or the largest exponent are missing, a cross says so.
 
@@ -45,8 +47,14 @@ def bifurcation_diagram(
     label, factor = parts.axis_of(name)
     along = values[name].values * factor
     position = np.broadcast_to(along[:, None], values.shape)
+    unsteady = np.zeros(phase.shape, dtype=bool)
+    if "steady" in samples:
+        unsteady[:] = (flag_names(samples["steady"].transpose(name)) == "no")[:, None]
+    if (there := unsteady & (phase >= 0)).any():
+        shown = values.values[there] * scale
+        ax.plot(position[there], shown, ".", color=GREY, markersize=1.5, alpha=0.5, label="not steady")
     for code, (name_of_phase, color) in enumerate(PHASE_COLOURS.items()):
-        here = phase == code
+        here = (phase == code) & ~unsteady
         if np.any(here):
             ax.plot(position[here], values.values[here] * scale, ".", color=color, markersize=1.5, label=name_of_phase)
     parts.mark_failed(ax, along[(phase == -1).all(axis=1)])
@@ -56,12 +64,12 @@ def bifurcation_diagram(
     ax.set_ylabel(f"{parts.MOTION[variable]} ({prefix}{unit.replace(' s-1', '/s')})")
     if lyapunov is not None:
         _exponents(axes[1], lyapunov, name)
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, markerscale=5, borderaxespad=0.2)
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, markerscale=5, borderaxespad=0.2)
     return figure
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
-    """The largest exponents with four standard errors."""
+    """The largest exponents with four standard errors; rings where they have not converged."""
     exponent = lyapunov["exponent"].transpose("exponent_number", name)
     error = lyapunov["exponent_error"].transpose("exponent_number", name)
     along = exponent[name].values * parts.axis_of(name)[1]
@@ -71,6 +79,14 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
         low, high = (exponent[i].values + s * 4 * error[i].values for s in (-1, 1))
         ax.plot(along, exponent[i], ".-", color=color, markersize=3, linewidth=0.8, label=label)
         ax.fill_between(along, low, high, color=color, alpha=0.15, linewidth=0)
+    if "converged" in lyapunov:
+        moving = (flag_names(lyapunov["converged"].transpose("exponent_number", name)) == "no") & np.isfinite(exponent)
+        at = np.broadcast_to(along, moving.shape)
+        if moving.any():
+            ax.plot(
+                at[moving], exponent.values[moving], "o", color=BLACK, markerfacecolor="none", markersize=4,
+                markeredgewidth=0.6, label="not converged",
+            )  # fmt: skip
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
     ax.set_ylabel("Lyapunov exponents (1/s)")
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, borderaxespad=0.2)
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, borderaxespad=0.2)

@@ -16,10 +16,15 @@ from disc_model.studies.grids.run import STATUS, Column
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import LyapunovOptions
 
+CONVERGED = ("unknown", "no", "yes")
 COLUMNS = {
     "status": Column(STATUS),
-    "exponent": Column(Variable("s-1", "Lyapunov exponent"), ("exponent_number",)),
+    "exponent": Column(Variable("s-1", "Lyapunov exponent, the one along the motion left out"), ("exponent_number",)),
     "exponent_error": Column(Variable("s-1", "its standard error, from 16 stretches"), ("exponent_number",)),
+    "converged": Column(
+        Variable("1", "whether both halves of the time give it, to a fifth or 0.01 /s", CONVERGED), ("exponent_number",)
+    ),
+    "along": Column(Variable("s-1", "exponent along the motion: 0 but for what the time is too short for")),
     "covered": Column(Variable("s", "time over which the rates are averaged")),
     "separations": Column(Variable("1", "number of separations in that time"), whole=True),
 }
@@ -40,11 +45,15 @@ def at(p: Parameters, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
         interval=options.interval,
         initial_state=prepared(p, options, options.tol),
         tol=options.tol,
+        leave_out_trivial=True,
     )
+    known = np.isfinite(found.exponents)
     values = {
         "status": found.status.value,
         "exponent": found.exponents,
         "exponent_error": found.errors,
+        "converged": np.where(known, 1 + found.converged, 0),
+        "along": found.along,
         "covered": found.duration,
         "separations": found.separations,
     }

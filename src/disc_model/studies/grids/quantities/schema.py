@@ -145,17 +145,17 @@ class BifurcationOptions(Lead):
 
 
 class LyapunovOptions(Lead):
-    """The largest Lyapunov exponents of the motion.
+    """The largest Lyapunov exponents of the motion but for the one along it, which is zero.
 
     transient : s, left out
     duration : s, over which the rates are averaged
-    exponents : how many, 1 to 8
+    exponents : how many, 1 to 7
     interval : s, between orthonormalisations
     """
 
     transient: Positive
     duration: Positive
-    exponents: Annotated[Count, Field(ge=1, le=8)] = 2
+    exponents: Annotated[Count, Field(ge=1, le=7)] = 2
     interval: Positive = 0.01
 
 
