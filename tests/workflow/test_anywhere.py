@@ -81,9 +81,19 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
 
 
 def test_what_is_stale_is_listed(elsewhere: Path) -> None:
-    command = [sys.executable, "-m", "disc_model", "list", "stale", "mine.yaml"]
-    done = subprocess.run(command, cwd=elsewhere, capture_output=True, text=True, check=False, timeout=300)
-    assert re.fullmatch(r"0 of \d\d files are missing or out of date\n", done.stdout), said(done)
+    def listed(text: str) -> str:
+        (elsewhere / "asked.yaml").write_text(text)
+        command = [sys.executable, "-m", "disc_model", "list", "stale", "asked.yaml"]
+        done = subprocess.run(command, cwd=elsewhere, capture_output=True, text=True, check=False, timeout=300)
+        assert done.returncode == 0, said(done)
+        return done.stdout
+
+    assert re.fullmatch(r"0 of \d\d files are missing or out of date\n", listed(STUDY))
+    another = listed(STUDY.replace("[0.3, 0.4]", "[0.3, 0.45]"))
+    # the batch of the new value is missing, and the figure of the grid is to be drawn again; the case stays
+    assert re.search(r"^results/mine/batches/\w+\.nc: missing$", another, re.MULTILINE), another
+    assert "results/mine/figures/growth.png: " in another
+    assert "cases/A.nc" not in another
 
 
 def test_the_paper_is_the_study_if_none_is_given(tmp_path: Path) -> None:
