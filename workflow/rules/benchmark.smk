@@ -9,6 +9,11 @@ FAILURE_MAPS = [
     for scene in rival.maps
     if not rival.requires or not (CONDA or rival.missing())
 ]
+ANSWER_MAPS = [
+    rival.name
+    for rival in RIVALS
+    if rival.maps and (not rival.requires or not (CONDA or rival.missing()))
+]
 BENCH_FIGURES = [
     "overview",
     *(f"work_precision_{scene}" for scene in SCENES),
@@ -16,16 +21,20 @@ BENCH_FIGURES = [
     "truncation",
     "contact_truncation",
     "answers",
+    "prices",
+    "answer_maps",
 ]
 BENCH_INPUTS = {
     "answers": f"{BENCH}/answers.nc",
+    "prices": f"{BENCH}/answers.nc",
+    "answer_maps": collect(f"{BENCH}/answer_maps/{{method}}.nc", method=ANSWER_MAPS),
     "truncation": f"{BENCH}/truncation.nc",
     "contact_truncation": f"{BENCH}/contact_truncation.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
 }
 BENCH_DATA = [
     PACKAGE / "benchmarks" / "data" / name
-    for name in ("benchmark_reference.json", "separating_start.json")
+    for name in ("benchmark_reference.json", "separating_start.json", "answers.json")
 ]
 
 
@@ -91,6 +100,23 @@ rule map_failures:
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_failures.py {wildcards.method}"
         " {wildcards.scene} {output} > {log} 2>&1"
+
+
+rule map_answers:
+    output:
+        f"{BENCH}/answer_maps/{{method}}.nc",
+    log:
+        f"{BENCH}/logs/map_answers/{{method}}.log",
+    wildcard_constraints:
+        method="[A-Za-z0-9-]+",
+    conda:
+        "../envs/disc_model.yaml"
+    threads: 1024
+    params:
+        sources=sources_of("map_answers", files=BENCH_DATA),
+    shell:
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_answers.py {wildcards.method} {output}"
+        " > {log} 2>&1"
 
 
 rule study_truncation:

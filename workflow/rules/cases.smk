@@ -11,10 +11,10 @@ rule warm_cache:
         f"results/compiled/{SOLVER}.txt",
     log:
         f"results/compiled/{SOLVER}.log",
-    message:
-        "Compiling the solver, once: two minutes or so on one core. What depends on it waits."
     conda:
         "../envs/disc_model.yaml"
+    message:
+        "Compiling the solver, once: two minutes or so on one core. What depends on it waits."
     shell:
         "python -m disc_model warm > {output} 2> {log}"
 

@@ -14,10 +14,10 @@ rule warm_studies:
         f"results/compiled/studies-{COMPILED}.txt",
     log:
         f"results/compiled/studies-{COMPILED}.log",
-    message:
-        "Compiling the stability analysis, once: a minute or so on one core. Grid studies wait."
     conda:
         "../envs/disc_model.yaml"
+    message:
+        "Compiling the stability analysis, once: a minute or so on one core. Grid studies wait."
     shell:
         "python workflow/scripts/warm_studies.py > {output} 2> {log}"
 

@@ -8,12 +8,17 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.benchmarks.answers import Row, measure, to_markdown
+from disc_model.benchmarks.answers.measure import Row, measure
+from disc_model.benchmarks.answers.words import to_markdown
 from disc_model.data.dataset import save
 
 
 def report(row: Row) -> None:
-    logging.info("%s %s %g: %.10g, error %.3g, %.4g s", *row)
+    found = row.found
+    logging.info(
+        "%s %s %g: %.10g, error %.3g, %.4g s, %s %s",
+        *(row.answer, row.line, row.setting, found.value, row.error, found.seconds, found.status.name, found.message),
+    )
 
 
 def main() -> None:

@@ -31,6 +31,7 @@ class Rival(NamedTuple):
 
 RIVALS = (
     Rival("series", "series:Series"),
+    Rival("series-fewest", "series:Fewest", maps=()),
     Rival("RK4", "rk4:FixedStep", maps=("stick_slip", "separating")),
     Rival("RK45", "solve_ivp:SolveIvp", ("RK45", 5)),
     Rival("DOP853", "solve_ivp:SolveIvp", ("DOP853", 8)),

@@ -5,17 +5,20 @@ Pure functions of the datasets of `disc_model.benchmarks`.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, Colormap, ListedColormap, LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, Rectangle
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
@@ -49,6 +52,8 @@ WORDS = {
 }
 _HALO = [withStroke(linewidth=1.5, foreground="white")]
 SHADES = ("#08519C", "#9ECAE1", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
+ANSWER_SHADES = ("#08519C", "#B2182B", "#D9D9D9")
+ANSWER_WORDS = ("right", "wrong, without a warning", "no answer")
 SETTING_LABELS = {"tol": "Tolerance", "step": "Step (s)", "epsilon": r"$\epsilon$ (rad/s)"}
 ERRORS = {"event": "Event-time error (s)", "state": "State error (energy norm)"}
 
@@ -163,52 +168,143 @@ def _method_handles(part: xr.Dataset) -> list[Line2D]:
 
 ANSWERS = {
     "first_separation": "First separation, error (s)",
+    "separation_rate": "Separations per second, error",
+    "disc_range": "Range of the disc, error (m)",
     "onset": "Speed of onset, error (rad/s)",
     "growth_rate": "Growth rate, error (1/s)",
+    "region": "Share of cells judged wrong",
 }
+HEADS = {
+    "first_separation": "First\nseparation",
+    "separation_rate": "Separations\nper second",
+    "disc_range": "Range of\nthe disc",
+    "period": "Period in\nreleases",
+    "onset": "Speed of\nonset",
+    "growth_rate": "Growth\nrate",
+    "region": "Region,\n32 x 32 cells",
+}
+RIGHT, WRONG, NO_ANSWER = range(3)
+MODELS = ("rigid", "residual")
+_ENOUGH = "#E4F1E4"
+_RED = "#B2182B"
 
 
 @styled
 def answers(dataset: xr.Dataset) -> Figure:
-    """Wall time against the error of each answer; dotted, with their numbers of nodal diameters, the errors of models.
+    """Wall time against the error of each answer; with their numbers of nodal diameters, the errors of models.
 
-    Answers that a method does not find stand hollow at the right edge.
+    Shaded: right.  What a method says not to exist stands hollow at the right edge; errors below all others, exact
+    zeros among them, at the left one.
     """
+    about = json.loads(dataset.attrs["questions"])
     names = [name for name in ANSWERS if name in dataset["answer"].values]
-    figure = new_figure(PAGE, 2.9)
-    axes = np.ravel(figure.subplots(1, len(names), squeeze=False))
+    columns = min(3, len(names))
+    rows = -(-len(names) // columns)
+    figure = new_figure(PAGE, 0.7 + 2.1 * rows)
+    axes = np.ravel(figure.subplots(rows, columns, squeeze=False))
     handles: dict[str, Line2D] = {}
-    for ax, name, letter in zip(axes, names, "abc", strict=False):
+    for ax, name, letter in zip(axes, names, "abcdef", strict=False):
         part = dataset.isel(row=dataset["answer"].values == name)
         ax.set(xscale="log", yscale="log", xlabel=ANSWERS[name])
         ax.margins(0.06)  # no marker cut at the edge
         ax.set_title(f"({letter})", loc="left")
+        errors = part["error"].values
+        positive = errors[np.isfinite(errors) & (errors > 0)]
+        least = min(0.3 * float(positive.min(initial=math.inf)), 0.1 * about[name]["enough"])
         for line in dict.fromkeys(map(str, part["line"].values)):
             points = part.isel(row=part["line"].values == line)
-            handles[line] = _answer_line(ax, points, counted=line == "modes")
-    axes[0].set_ylabel("Wall time (s)")
-    figure.legend(handles=list(handles.values()), loc="outside right center")
+            handles[line] = _answer_line(ax, points, least, counted=line in MODELS)
+        low, _ = ax.get_xlim()
+        ax.axvspan(low, about[name]["enough"], color=_ENOUGH, zorder=0)
+        ax.set_xlim(left=low)
+        ax.xaxis.set_minor_formatter(NullFormatter())
+    for ax in axes[::columns]:
+        ax.set_ylabel("Wall time (s)")
+    for ax in axes[len(names) :]:
+        ax.set_axis_off()
+    figure.legend(handles=list(handles.values()), loc="outside lower center", ncols=4)
     return figure
 
 
-def _answer_line(ax: Axes, points: xr.Dataset, *, counted: bool) -> Line2D:
+def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -> Line2D:
     """Draw a line; returns its legend entry."""
     color, marker, dash = _look(points.isel(row=0))
     x, y = points["error"].values, points["seconds"].values
-    right = np.isfinite(x)
+    found = np.isfinite(x)
     size = 4.0
     style: dict[str, Any] = {"color": color, "linestyle": dash, "marker": "" if counted else marker, "markersize": size}
-    # an error of exactly zero is below every rounding
-    drawn = np.maximum(x[right], np.finfo(float).eps)
-    ax.plot(drawn, y[right], linewidth=0.9, **style)
+    drawn = np.maximum(x[found], least)
+    ax.plot(drawn, y[found], linewidth=0.9, **style)
     if counted:
-        for at_x, at_y, count in zip(drawn, y[right], points["setting"].values[right], strict=True):
-            ax.annotate(f"{int(count)}", (at_x, at_y), ha="center", va="center", fontsize=6.5, path_effects=_HALO)
-    elif not right.all():
-        edge = np.full(np.count_nonzero(~right), 0.97)
-        ax.plot(edge, y[~right], transform=ax.get_yaxis_transform(), linestyle="", marker=marker, color=color,
+        for at_x, at_y, count in zip(drawn, y[found], points["setting"].values[found], strict=True):
+            ax.annotate(f"{int(count)}", (at_x, at_y), ha="center", va="center", fontsize=6, path_effects=_HALO)
+    denied = ~found & (points["verdict"].values == WRONG) & np.isfinite(y)
+    if denied.any() and not counted:
+        edge = np.full(np.count_nonzero(denied), 0.97)
+        ax.plot(edge, y[denied], transform=ax.get_yaxis_transform(), linestyle="", marker=marker, color=color,
                 markerfacecolor="white", markersize=size)  # fmt: skip
     return Line2D([], [], label=str(points["label"].values[0]), **style)
+
+
+@styled
+def prices(dataset: xr.Dataset) -> Figure:
+    """What each method asks for each right answer: wall time at its cheapest right setting.
+
+    Below it the setting; in red the settings at which it answers wrongly without a warning.
+    """
+    names = [name for name in HEADS if name in dataset["answer"].values]
+    lines = [line for line in dict.fromkeys(map(str, dataset["line"].values)) if line not in MODELS]
+    figure = new_figure(PAGE, 0.9 + 0.4 * len(lines))
+    ax = figure.subplots()
+    colors = colormaps["YlGnBu"]
+    norm = LogNorm(1e-3, 1e3)
+    for row, line in enumerate(lines):
+        for column, name in enumerate(names):
+            part = dataset.isel(row=(dataset["line"].values == line) & (dataset["answer"].values == name))
+            if part.sizes["row"]:
+                _price(ax, part, column, row, colors, norm)
+    labels = [str(dataset["label"].values[dataset["line"].values == line][0]) for line in lines]
+    ax.set_xticks(range(len(names)), [HEADS[name] for name in names], fontsize=7)
+    ax.set_yticks(range(len(lines)), labels, fontsize=7)
+    ax.set_xlim(-0.5, len(names) - 0.5)
+    ax.set_ylim(len(lines) - 0.5, -0.5)
+    ax.tick_params(length=0, top=False, labeltop=True, bottom=False, labelbottom=False)
+    for spine in ax.spines.values():
+        spine.set_visible(False)
+    bar = figure.colorbar(ScalarMappable(norm, colors), ax=ax, shrink=0.7, pad=0.01)
+    bar.set_label("Wall time (s)")
+    return figure
+
+
+def _price(ax: Axes, part: xr.Dataset, column: int, row: int, colors: Colormap, norm: LogNorm) -> None:
+    """A cell of `prices`."""
+    verdict, seconds, setting = (part[name].values for name in ("verdict", "seconds", "setting"))
+    right, wrong = verdict == RIGHT, verdict == WRONG
+    face: Any = "#F4F4F4"
+    texts = [("wrong" if wrong.any() else "no answer", 6.5, _RED if wrong.any() else GREY)]
+    if right.any():
+        best = np.flatnonzero(right)[np.argmin(seconds[right])]
+        face = colors(norm(seconds[best]))
+        ink = "white" if seconds[best] > 3.0 else BLACK
+        texts = [(_seconds(seconds[best]), 6.5, ink), (f"at {_power(setting[best])}", 5.0, ink)]
+    if wrong.any():
+        listed = ", ".join(map(_power, setting[wrong]))
+        texts.append((f"wrong: {listed}" if right.any() else listed, 4.6, _RED))
+    ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
+    for place, (text, size, ink) in enumerate(texts):
+        at = row + 0.3 * (place - 0.5 * (len(texts) - 1))
+        halo = _HALO if ink == _RED else None
+        ax.text(column, at, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
+
+
+def _power(value: float) -> str:
+    return f"{value:.0e}".replace("e-0", "e-").replace("e+00", "")
+
+
+def _seconds(value: float) -> str:
+    if value < 0.1:
+        return f"{1e3 * value:.2g} ms"
+    return f"{value:.2g} s" if value < 100.0 else f"{value:.0f} s"
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -241,17 +337,7 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
 
 def _map_panel(ax: Axes, dataset: xr.Dataset, letter: str) -> set[int]:
     """Draw a map; returns the verdicts that occur."""
-    order = np.argsort(dataset["value"].values)
-    value = dataset["value"].values[order]
-    verdict = dataset["verdict"].values[:, order]
-    edges = _log_edges(value)
-    rows = np.arange(dataset.sizes["diameters"] + 1) - 0.5
-    colors = ListedColormap(SHADES)
-    ax.pcolormesh(edges, rows, verdict, cmap=colors, norm=BoundaryNorm(np.arange(-0.5, len(SHADES)), len(SHADES)))
-    ax.set_xscale("log")
-    ax.set_xlim(edges[-1], edges[0])  # fine to the right, where work grows
-    ax.set_yticks(np.arange(dataset.sizes["diameters"]), [f"{int(n)}" for n in dataset["modes"].values])
-    ax.set_xlabel(SETTING_LABELS[dataset.attrs["setting"]], labelpad=1)
+    _verdict_cells(ax, dataset, SHADES)
     suffix = ", contact" if dataset.attrs["scene"] == "stick_slip" else ""
     ax.set_title(f"({letter}) {dataset.attrs['label']}{suffix}", loc="left", fontsize=7)
     setting = dataset.attrs["setting"]
@@ -263,7 +349,42 @@ def _map_panel(ax: Axes, dataset: xr.Dataset, letter: str) -> set[int]:
         _steps_line(ax, dataset["stiff_epsilon"].values, "--")
     elif np.isfinite(dataset["longest_step"].values).any():
         _steps_line(ax, _crossing(dataset), ":")
-    return set(np.unique(verdict).astype(int).tolist())
+    return set(np.unique(dataset["verdict"]).astype(int).tolist())
+
+
+def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None:
+    """The cells of a map, one colour a verdict; fine settings to the right, where work grows."""
+    order = np.argsort(dataset["value"].values)
+    edges = _log_edges(dataset["value"].values[order])
+    rows = np.arange(dataset.sizes["diameters"] + 1) - 0.5
+    norm = BoundaryNorm(np.arange(-0.5, len(shades)), len(shades))
+    ax.pcolormesh(edges, rows, dataset["verdict"].values[:, order], cmap=ListedColormap(shades), norm=norm)
+    ax.set_xscale("log")
+    ax.set_xlim(edges[-1], edges[0])
+    ax.set_yticks(np.arange(dataset.sizes["diameters"]), [f"{int(n)}" for n in dataset["modes"].values])
+    ax.set_xlabel(SETTING_LABELS[dataset.attrs["setting"]], labelpad=1)
+
+
+@styled
+def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
+    """One panel a method: whether it finds the first separation, over setting and number of modes."""
+    columns = 4
+    rows = -(-len(maps) // columns)
+    figure = new_figure(PAGE, 1.35 * rows + 0.4)
+    axes = np.ravel(figure.subplots(rows, columns, squeeze=False))
+    for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
+        _verdict_cells(ax, dataset, ANSWER_SHADES)
+        ax.set_title(f"({letter}) {dataset.attrs['label']}", loc="left", fontsize=7)
+    for ax in axes[len(maps) :]:
+        ax.set_axis_off()
+    for ax in axes[::columns]:
+        ax.set_ylabel("Real modes")
+    handles = [
+        Patch(facecolor=shade, edgecolor=GREY, label=word)
+        for shade, word in zip(ANSWER_SHADES, ANSWER_WORDS, strict=True)
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    return figure
 
 
 def _steps_line(ax: Axes, x: np.ndarray, linestyle: str) -> None:

@@ -18,7 +18,18 @@ def test_fixed_steps_end_as_they_must():
 
     def run(t_end, h, max_steps, room=4, y=y):
         return kernels.rk4_run(
-            modes, c, kernels.SLIP, 1, y.copy(), t_end, h, max_steps, np.empty(room), np.empty(room, np.int64)
+            modes,
+            c,
+            kernels.SLIP,
+            1,
+            y.copy(),
+            t_end,
+            h,
+            max_steps,
+            False,
+            np.empty(room),
+            np.empty(room, np.int64),
+            np.zeros(2),
         )
 
     assert run(1e-4, 1e-5, 3)[0] == kernels.STEP_LIMIT

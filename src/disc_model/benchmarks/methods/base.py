@@ -36,6 +36,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.benchmarks.methods.heights import Heights
+from disc_model.benchmarks.methods.physics import Physics
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
@@ -66,11 +68,15 @@ class Problem:
     parameters : the case
     start : state of the slider's frame (arrays (n_modes,) in the order of `plate_modes`)
     t_end : s, absolute, greater than start.time
+    stop : whether to end at the first separation
+    watched : whether the range of the disc is asked for, which costs some methods time
     """
 
     parameters: Parameters
     start: State
     t_end: float
+    stop: bool = False
+    watched: bool = False
 
     @property
     def span(self) -> float:
@@ -91,6 +97,7 @@ class MethodResult:
     work : right-hand sides evaluated, or steps for methods that work with series
     outcome, message : how it ended
     longest_step : s, longest step taken; nan if not known
+    heights : m, least and greatest w of the disc under the slider; nan if not watched
     """
 
     times: Array
@@ -101,6 +108,7 @@ class MethodResult:
     outcome: Outcome
     message: str = ""
     longest_step: float = math.nan
+    heights: tuple[float, float] = (math.nan, math.nan)
 
     @property
     def separations(self) -> int:
@@ -163,12 +171,18 @@ class BudgetExceeded(Exception):
 
 @dataclass
 class Meter:
-    """Counts right-hand sides and watches the clock."""
+    """Counts right-hand sides, watches the clock and, if it is asked for, the disc's range."""
 
     budget: float
     work: int = 0
     longest_step: float = math.nan
+    heights: Heights | None = None
     began: float = field(default_factory=clock.perf_counter)
+
+    @classmethod
+    def of(cls, problem: Problem, physics: Physics, budget: float) -> Meter:
+        """For a problem."""
+        return cls(budget, heights=Heights(physics) if problem.watched else None)
 
     def start(self) -> None:
         """Set the clock to zero: everything before was preparation."""
@@ -179,10 +193,17 @@ class Meter:
         """Wall time since the start."""
         return clock.perf_counter() - self.began
 
-    def steps(self, times: Array) -> None:
-        """Note the steps between successive ``times`` (s)."""
+    def steps(self, times: Array, states: Array) -> None:
+        """Note the steps between successive ``times`` (s, shape (k,)) and the states there (k, size)."""
         if len(times) > 1:
             self.longest_step = float(np.fmax(self.longest_step, np.max(np.diff(times))))
+        if self.heights is not None:
+            self.heights.path(times, states)
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest w (m) so far; nan if they are not watched."""
+        return (math.nan, math.nan) if self.heights is None else (self.heights.low, self.heights.high)
 
     def check(self) -> None:
         """Raise `BudgetExceeded` if the time is used up."""

@@ -41,7 +41,7 @@ class Cvode(Method):
         warm = physics.pack(problem.start)
         kernels.rate(modes, c, 1, 1, warm, warm.copy())  # compiles
         kernels.switch_values(modes, c, 1, 1, warm, np.empty(3))
-        meter = Meter(budget)
+        meter = Meter.of(problem, physics, budget)
         solvers: dict[Phase, Any] = {}
 
         def solver(phase: Phase, watched: bool = True) -> Any:
@@ -79,9 +79,13 @@ class Cvode(Method):
             cvode.init_step(t, y)
             while True:
                 meter.check()
+                before = (t, y)
                 found = cvode.step(t_end, method="onestep", tstop=t_end)
                 if not found.success:
                     raise IntegrationFailed(str(found.message))
+                if meter.heights is not None:
+                    t, y = float(found.t), np.array(found.y)
+                    meter.heights.path(np.array([before[0], t]), np.array([before[1], y]))
                 if found.status == ROOT_FOUND:  # earlier roots stay listed: the last row is this one's
                     cause = int(np.flatnonzero(np.atleast_2d(found.i_events)[-1])[0])
                     return Ended(cause, float(found.t), np.array(found.y))

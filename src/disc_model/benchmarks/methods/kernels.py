@@ -206,10 +206,11 @@ def switch(modes, c, phase, cause, y, kinds):
 
 
 @_kernel
-def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, times, kinds):
+def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kinds, heights):
     """Fixed steps ``h`` from local time 0; conditions checked at step ends, the offending step bisected.
 
-    Returns (why, time, phase, direction, events, steps); ``y`` is overwritten, ``times`` and ``kinds`` are filled.
+    ``stop``: whether to end at the first separation.  Returns (why, time, phase, direction, events, steps); ``y`` is
+    overwritten, ``times`` and ``kinds`` are filled, and ``heights`` with the least and greatest w at step ends.
     """
     size, n = len(y), modes.shape[1]
     k, z = np.empty((4, size)), np.empty(size)
@@ -229,6 +230,10 @@ def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, times, kinds):
             if not abs(found[j]) < HUGE:
                 return NON_FINITE, local, phase, direction, events, steps
         cause = violated(modes, c, phase, direction, found)
+        w = 0.0
+        for j in range(n):
+            w += modes[1, j] * found[j]
+        heights[0], heights[1] = min(heights[0], w), max(heights[1], w)
         if cause == 0:
             y[:] = found
             local = following
@@ -256,4 +261,6 @@ def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, times, kinds):
         for j in range(added):
             times[events + j], kinds[events + j] = local, new[j]
         events += added
+        if stop and phase == SEPARATION:
+            break
     return FINISHED, local, phase, direction, events, steps

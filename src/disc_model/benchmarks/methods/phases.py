@@ -115,6 +115,8 @@ def run_phases(problem: Problem, physics: Physics, advance: Advance, meter: Mete
             for i in range(added):
                 times.append(t)
                 kinds.append(int(new[i]))
+            if problem.stop and phase.name == "separation":
+                break
             if crowd > CROWD:
                 raise _Stop(Outcome.STALLED, f"more than {CROWD} events at one instant")
     except _Stop as stop:
@@ -133,4 +135,5 @@ def run_phases(problem: Problem, physics: Physics, advance: Advance, meter: Mete
         outcome=outcome,
         message=message,
         longest_step=meter.longest_step,
+        heights=meter.range,
     )

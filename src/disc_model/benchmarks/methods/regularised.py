@@ -105,8 +105,9 @@ class Regularised(Method):
         law = Law(physics, value)
         y = self._start(problem, physics, law)
         law.rate(y)  # compiles
-        meter = Meter(budget)
+        meter = Meter.of(problem, physics, budget)
         events = [_event(lambda z: abs(z[physics.f]) - CREEP * value, 0), _event(law.force, 0)]
+        events += [_event(law.force, -1, last=True)] if problem.stop else []
         origin, outcome, message = problem.start.time, Outcome.FINISHED, ""
         times, t, span = np.empty(0), 0.0, problem.span
         kinds: tuple[str, ...] = ()
@@ -116,7 +117,7 @@ class Regularised(Method):
                     meter.counted(lambda _t, z: law.rate(z)), (0.0, span), y,
                     method=self.algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
                 )  # fmt: skip
-            meter.steps(found.t)
+            meter.steps(found.t, found.y.T)
             t, y = float(found.t[-1]), found.y[:, -1]
             times, kinds = _read_off(law, found.t_events, found.y_events)
             if found.status < 0:
@@ -134,6 +135,7 @@ class Regularised(Method):
             outcome=outcome,
             message=message,
             longest_step=meter.longest_step,
+            heights=meter.range,
         )
 
     @staticmethod
@@ -147,11 +149,11 @@ class Regularised(Method):
         return y
 
 
-def _event(function: Any, direction: int) -> Any:
+def _event(function: Any, direction: int, last: bool = False) -> Any:
     def g(_t: float, z: Array) -> float:
         return float(function(z))
 
-    g.terminal, g.direction = False, direction  # type: ignore[attr-defined]
+    g.terminal, g.direction = last, direction  # type: ignore[attr-defined]
     return g
 
 

@@ -46,11 +46,13 @@ class FixedStep(Method):
         times, kinds = np.empty(MAX_EVENTS), np.empty(MAX_EVENTS, np.int64)
         limit = int(max(1, min(budget, 1e6) * STEPS_PER_SECOND))
         phase = PHASES.index(start.phase)
-        kernels.rk4_run(modes, c, phase, start.direction, y.copy(), 0.0, value, 1, times, kinds)  # compiles
+        heights = np.array([math.inf, -math.inf])
+        case = (modes, c, phase, start.direction)
+        kernels.rk4_run(*case, y.copy(), 0.0, value, 1, problem.stop, times, kinds, heights)  # compiles
         began = clock.perf_counter()
         why, t, phase, direction, n, steps = kernels.rk4_run(
-            modes, c, phase, start.direction, y, problem.span, value, limit, times, kinds
-        )
+            *case, y, problem.span, value, limit, problem.stop, times, kinds, heights
+        )  # fmt: skip
         seconds = clock.perf_counter() - began
         return MethodResult(
             times=start.time + times[:n],
@@ -60,4 +62,5 @@ class FixedStep(Method):
             work=4 * steps,
             outcome=(Outcome.FINISHED, Outcome.NON_FINITE, Outcome.STALLED, Outcome.TOO_SLOW)[why],
             longest_step=value,
+            heights=(float(heights[0]), float(heights[1])),
         )

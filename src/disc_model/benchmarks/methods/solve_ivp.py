@@ -76,7 +76,7 @@ class SolveIvp(Method):
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         physics = Physics(problem.parameters)
         scale = absolute_scale(physics)
-        meter = Meter(budget)
+        meter = Meter.of(problem, physics, budget)
         parts = self._functions(physics)
 
         def integrate(phase: Phase, t: float, y: Array, t_end: float, *, watched: bool) -> Any:
@@ -92,7 +92,7 @@ class SolveIvp(Method):
                     max_step=self.max_step,
                     events=events if watched else [],
                 )
-            meter.steps(found.t)
+            meter.steps(found.t, found.y.T)
             if found.status == -1:
                 raise IntegrationFailed(found.message)
             return found

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from disc_model.benchmarks.methods.base import MAP_TOLERANCES, Meter, Method, MethodResult, Problem, decades
+from disc_model.benchmarks.methods.heights import Heights
 from disc_model.benchmarks.methods.phases import GUARD, Ended, IntegrationFailed, Phase, run_phases, switch_kinds
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.figures.parts import BROWN
@@ -46,25 +47,41 @@ class Heyoka(Method):
         import heyoka as hy
 
         physics = Physics(problem.parameters)
-        integrators = _integrators(problem.parameters, value, self.compact)
+        p = problem.parameters
+        integrators = _integrators(p.replace(N=1.0, Omega=1.0), value, self.compact)
+        given = (p.N, p.Omega, physics.u_0)  # in the order of `_system`
         places = _places(physics)
-        meter = Meter(budget)
+        meter = Meter.of(problem, physics, budget)
         limit = hy.taylor_outcome.time_limit
 
         def go(integrator: Any, t: float, state: Array, t_end: float) -> int | None:
-            integrator.time, integrator.state[:] = t, state
+            integrator.time, integrator.state[:], integrator.pars[:] = t, state, given
             if integrator.with_events:
                 integrator.reset_cooldowns()
             outcome = hy.taylor_outcome.step_limit
             while outcome == hy.taylor_outcome.step_limit:
                 meter.check()
-                outcome, _, _, steps, _, _ = integrator.propagate_until(t_end, max_steps=STEPS_PER_LOOK)
+                outcome, _, _, steps, _, _ = integrator.propagate_until(t_end, max_steps=STEPS_PER_LOOK, **seen)
                 meter.work += int(steps)
             if outcome == limit:
                 return None
             if int(outcome) >= 0 or outcome == hy.taylor_outcome.err_nf_state:
                 raise IntegrationFailed(str(outcome))
             return -int(outcome) - 1
+
+        path: list[tuple[float, Array]] = []
+
+        def note(integrator: Any) -> bool:
+            path.append((integrator.time, integrator.state.copy()))
+            return True
+
+        # called at every step, which takes longer than some of these do
+        seen = {"callback": note} if problem.watched else {}
+
+        def watch(heights: Heights, place: Array, t: float, y: Array) -> None:
+            states = np.tile(y, (len(path) + 1, 1))
+            states[1:, place] = [state for _, state in path]
+            heights.path(np.array([t, *(time for time, _ in path)]), states)
 
         def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
             meter.check()
@@ -79,7 +96,12 @@ class Heyoka(Method):
                     y[place] = state
                     return Ended(None, t_end, y)
             integrator = integrators[phase]
+            path.clear()
+            y[place], began = state, t
             cause = go(integrator, t, state, t_end)
+            if meter.heights is not None:
+                path.append((float(integrator.time), integrator.state.copy()))
+                watch(meter.heights, place, began, y)
             y[place] = integrator.state
             return Ended(cause, float(integrator.time), y)
 
@@ -111,7 +133,10 @@ def _places(physics: Physics) -> dict[str, Array]:
 
 @lru_cache(maxsize=32)
 def _integrators(p: Parameters, tol: float, compact: bool) -> dict[Any, Any]:
-    """Compiled integrators by phase; "quiet" is separation without its event."""
+    """Compiled integrators by phase; "quiet" is separation without its event.
+
+    Load, speed of the drive and height at rest are given at run time, so that cases that differ in these share them.
+    """
     import heyoka as hy
 
     physics = Physics(p)
@@ -131,6 +156,7 @@ def _system(physics: Physics, phase: Phase) -> tuple[list[Any], list[Any]]:
     import heyoka as hy
 
     p, n, l, s = physics.p, physics.n, physics.l, physics.shape
+    load, drive, rest = (hy.par[i] for i in range(3))
     turning = [i for i in range(n) if l[i] > 0]
     a, alpha = (
         hy.make_vars(*[f"a{i}" for i in range(n)], "_")[:-1],
@@ -139,7 +165,7 @@ def _system(physics: Physics, phase: Phase) -> tuple[list[Any], list[Any]]:
     b, beta = {i: hy.make_vars(f"b{i}") for i in turning}, {i: hy.make_vars(f"q{i}") for i in turning}
     psi, f, u, v = hy.make_vars("psi", "f", "u", "v")
     rate = f if phase.name != "stick" else hy.expression(0.0)
-    F = p.k_p * psi + p.c_p * (p.Omega - rate)
+    F = p.k_p * psi + p.c_p * (drive - rate)
     free = [-physics.damping[i] * alpha[i] - physics.stiffness[i] * a[i] for i in range(n)]
     w = hy.sum([s[i] * a[i] for i in range(n)])
     P, f_rate = hy.expression(0.0), F / p.m
@@ -152,7 +178,7 @@ def _system(physics: Physics, phase: Phase) -> tuple[list[Any], list[Any]]:
             A = A + rate * hy.sum([2 * l[i] * s[i] * beta[i] for i in turning] + zero)
             A = A - rate * rate * hy.sum([l[i] ** 2 * s[i] * a[i] for i in turning] + zero)
             velocity = velocity + rate * slope
-        top, below = p.N + p.k * (w - physics.u_0) + p.c * velocity + p.m * A, 1.0 + p.m * physics.compliance
+        top, below = load + p.k * (w - rest) + p.c * velocity + p.m * A, 1.0 + p.m * physics.compliance
         if phase.name == "slip":
             P = (top + slope * F) / (below + phase.direction * p.mu_k / p.r_0 * slope)
             f_rate = F / p.m - phase.direction * p.mu_k / (p.m * p.r_0) * P
@@ -164,9 +190,9 @@ def _system(physics: Physics, phase: Phase) -> tuple[list[Any], list[Any]]:
     rows += [
         (beta[i], -physics.damping[i] * beta[i] - physics.stiffness[i] * b[i] - l[i] * rate * alpha[i]) for i in turning
     ]
-    rows += [(psi, p.Omega - rate), (f, f_rate)]
+    rows += [(psi, drive - rate), (f, f_rate)]
     if phase.name == "separation":
-        rows += [(u, v), (v, -(p.N + p.k * (u - physics.u_0) + p.c * v) / p.m)]
+        rows += [(u, v), (v, -(load + p.k * (u - rest) + p.c * v) / p.m)]
         return rows, [u - w]
     if phase.name == "slip":
         functions = {"separation": P, "rest": phase.direction * f}

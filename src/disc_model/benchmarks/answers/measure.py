@@ -1,0 +1,177 @@
+"""Measure what each answer costs: error against wall time, all methods at all their settings, and our models.
+
+Kinds of lines:
+
+- of a method: its tolerance or step varies, with the nine modes of the published model; its error is that of the
+  numbers, against the stored right answer;
+- ``cycle``: onset and growth rate without a simulation, from the stick-slip cycle itself, at several tolerances;
+- ``rigid`` and ``residual``: the number of nodal diameters varies, the engine at its default tolerance; the error is
+  that of the model, against the richest one.  No tolerance makes up for it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from disc_model.benchmarks.answers import modelled, questions, simulated
+from disc_model.benchmarks.answers.questions import QUESTIONS, STATUS_WORDS, VERDICT_WORDS, Found, Status, verdict
+from disc_model.benchmarks.machine import machine, one_core
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.work_precision import LOOK
+from disc_model.data.dataset import json_attribute
+from disc_model.data.provenance import versions
+from disc_model.data.variables import Variable
+from disc_model.figures.parts import BLACK, VERMILION
+
+TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
+"""Those that the search for a cycle takes."""
+LINES: Mapping[str, tuple[str, str, tuple[str, str, str]]] = {
+    "cycle": ("series, from the cycle itself", "tol", (VERMILION, "P", "--")),
+    "rigid": ("series, modes, rigid contact", "diameters", (BLACK, "$n$", ":")),
+    "residual": ("series, modes, residual flexibility", "diameters", (BLACK, "$n$", "--")),
+}
+"""Lines that are no method's: name in words, what its setting is, how it is drawn."""
+
+
+class Row(NamedTuple):
+    """One measured point."""
+
+    answer: str
+    line: str
+    setting: float
+    right: float
+    found: Found
+
+    @property
+    def error(self) -> float:
+        """Distance from the right answer, nan without one."""
+        return abs(self.found.value - self.right)
+
+
+@one_core()
+def measure(
+    settings: Mapping[str, Sequence[float]] | None = None,
+    *,
+    asked: Sequence[str] = tuple(simulated.ASKED),
+    models: Mapping[str, Sequence[int]] | None = None,
+    progress: Callable[[Row], object] | None = None,
+) -> xr.Dataset:
+    """Measure all points.
+
+    Parameters
+    ----------
+    settings : by method, from coarse to fine; those of the scene ``stick_slip`` if not given
+    asked : questions put to methods
+    models : by contact, numbers of nodal diameters; `modelled.DIAMETERS` for both if not given
+    progress : called with each row
+
+    Returns
+    -------
+    Dataset along ``row``, the columns of `VARIABLES`, and how the line is called and drawn.
+    """
+    if settings is None:
+        settings = {name: method.settings.get("stick_slip", ()) for name, method in METHODS.items()}
+    if models is None:
+        models = dict.fromkeys(modelled.CONTACTS, modelled.DIAMETERS)
+    rows = []
+    for part in (_of_methods(settings, asked), _of_the_cycle() if models else (), _of_models(models)):
+        for row in part:
+            rows.append(row)
+            if progress is not None:
+                progress(row)
+    return _dataset(rows)
+
+
+def _of_methods(settings: Mapping[str, Sequence[float]], asked: Sequence[str]) -> Iterator[Row]:
+    """A method that is too slow for a question is not asked it at finer settings."""
+    for name, values in settings.items():
+        if METHODS[name].unavailable():
+            continue
+        hopeless: set[str] = set()
+        for value in values:
+
+            def solve(problem: Any, budget: float, name: str = name, value: float = value) -> Any:
+                return METHODS[name].solve(problem, value, budget)
+
+            for question in asked:
+                if question in hopeless:
+                    continue
+                for answer, found in simulated.ask(solve, (question,)):
+                    yield Row(answer, name, value, questions.reference(answer).value, found)
+                    if found.status is Status.TOO_SLOW:
+                        hopeless.add(question)
+
+
+def _of_the_cycle() -> Iterator[Row]:
+    for tol in TOLERANCES:
+        onset = modelled.onset(questions.SEPARATING, tol)
+        yield Row("onset", "cycle", tol, questions.reference("fold").value, onset)
+        growth = modelled.growth_rate(questions.GROWING, tol)
+        yield Row("growth_rate", "cycle", tol, questions.reference("growth_rate").value, growth)
+
+
+def _of_models(models: Mapping[str, Sequence[int]]) -> Iterator[Row]:
+    if not models:
+        return
+    right = {answer: found.value for answer, found in modelled.ask(modelled.RICHEST)}
+    for contact, diameters in models.items():
+        for count in diameters:
+            for answer, found in modelled.ask({"n_diameters": count} | modelled.CONTACTS[contact]):
+                yield Row(answer, contact, count, right[answer], found)
+
+
+VARIABLES: Mapping[str, Variable] = {
+    "answer": Variable("", "what is asked"),
+    "line": Variable("", "method; cycle; rigid or residual, where the number of modes varies"),
+    "setting": Variable("", "tolerance, step (s), regularisation (rad/s); number of nodal diameters"),
+    "found": Variable("", "answer in its own unit; nan if there was none"),
+    "right": Variable("", "right answer"),
+    "error": Variable("", "distance from the right answer, in its unit"),
+    "low": Variable("", "lower bound of the answer, where it has one"),
+    "high": Variable("", "upper bound of the answer"),
+    "cells": Variable("1", "cells of the region that were looked at"),
+    "seconds": Variable("s", "wall time"),
+    "status": Variable("1", "what became of the question", STATUS_WORDS),
+    "verdict": Variable("1", "whether the answer is right", VERDICT_WORDS),
+    "message": Variable("", "why there is no answer"),
+}
+
+
+def _dataset(rows: Sequence[Row]) -> xr.Dataset:
+    columns: dict[str, list[Any]] = {
+        "answer": [row.answer for row in rows],
+        "line": [row.line for row in rows],
+        "setting": [row.setting for row in rows],
+        "found": [row.found.value for row in rows],
+        "right": [row.right for row in rows],
+        "error": [row.error for row in rows],
+        "status": [np.int8(row.found.status) for row in rows],
+        "verdict": [np.int8(verdict(row.answer, row.found, row.right)) for row in rows],
+    }
+    columns |= {name: [getattr(row.found, name) for row in rows] for name in ("low", "high", "cells", "seconds")}
+    columns["message"] = [row.found.message for row in rows]
+    dataset = xr.Dataset({name: ("row", np.array(columns[name]), own.attributes) for name, own in VARIABLES.items()})
+    known = {name: (METHODS[name].label, METHODS[name].setting, METHODS[name].look) for name in METHODS} | dict(LINES)
+    dataset["label"] = ("row", [known[row.line][0] for row in rows], {"long_name": "line in words"})
+    dataset["varies"] = ("row", [known[row.line][1] for row in rows], {"long_name": "what the setting is"})
+    for i, (name, text) in enumerate(LOOK.items()):
+        dataset[name] = ("row", [known[row.line][2][i] for row in rows], {"long_name": text})
+    about = {
+        name: {"title": own.title, "units": own.units, "enough": own.enough, "error": _error(name)}
+        for name, own in QUESTIONS.items()
+    }
+    title = "What each answer costs"
+    return dataset.assign_attrs(
+        machine=machine(), title=title, questions=json_attribute(about), versions=json_attribute(versions())
+    )
+
+
+def _error(name: str) -> str:
+    own = questions.reference(name)
+    size = f"{own.error:.2g}" if math.isfinite(own.error) else "unknown"
+    return f"{size}, {own.by}"

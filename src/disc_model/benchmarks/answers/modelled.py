@@ -1,0 +1,134 @@
+"""Answers of this package with other modes, at its default tolerance; and of the cycle itself, without a simulation.
+
+A model's error is its distance from the richest one, `RICHEST` nodal diameters with residual flexibility: what rigid
+contact nears slowly as modes are added, residual flexibility has with a few.
+"""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache, partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.benchmarks.answers import questions, simulated
+from disc_model.benchmarks.answers.questions import SIDE, Found, Status
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.methods.base import MethodResult, Problem
+from disc_model.errors import ParameterError
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Record
+from disc_model.simulation.result import State
+from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.cycle import CycleStatus, floquet
+
+DEFAULT = 1e-10
+CONTACTS: Mapping[str, dict[str, Any]] = {"rigid": {}, "residual": {"contact_compliance": "residual"}}
+DIAMETERS = (0, 1, 2, 3, 4, 6, 8)
+RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
+CELLS = 64
+"""Cells of the region that models are compared on."""
+SETTLES_WITHIN, SETTLES_FOR = 400.0, 100.0
+"""s in which contact is lost, and s after that until the motion is looked at."""
+NEVER = 1e6
+"""s; a budget that is not used up: models take their time."""
+
+Model = Mapping[str, Any]
+
+
+def solve(problem: Problem, budget: float = NEVER) -> MethodResult:
+    """The engine at its default tolerance."""
+    return METHODS["series"].solve(problem, DEFAULT, budget)
+
+
+def ask(model: Model) -> Iterator[tuple[str, Found]]:
+    """The answers to all questions with these modes, given as fields of the parameters."""
+    yield from simulated.first_separation(solve, NEVER, questions.SEPARATING.replace(**model)).items()
+    yield from after_separation(questions.SETTLED.replace(**model)).items()
+    yield "onset", onset(questions.SEPARATING.replace(**model), DEFAULT)
+    yield "growth_rate", growth_rate(questions.GROWING.replace(**model), DEFAULT)
+    yield "region", region(model)
+
+
+def after_separation(p: Parameters) -> simulated.Answers:
+    """As `simulated.after_separation`, from where the motion of this model gets to."""
+    start = _settled(p)
+    if start is None:
+        nothing = Found(math.nan, math.nan, Status.NONE, f"no separation within {SETTLES_WITHIN:g} s")
+        return dict.fromkeys(("separation_rate", "disc_range", "period"), nothing)
+    return simulated.after_separation(solve, NEVER, p, start)
+
+
+def onset(p: Parameters, tol: float) -> Found:
+    """Speed (rad/s) of the first fold of the quiet cycle above 14.5 rad/s."""
+    low, high = 14.5, 16.0
+
+    def speed() -> Found:
+        try:
+            folds = continue_cycle(p.replace(Omega=14.8), "Omega", (low, high), tol=tol).folds
+        except ParameterError as error:
+            return Found(math.nan, 0.0, Status.NONE, f"no cycle to follow: {error}")
+        if not len(folds):
+            return Found(math.nan, 0.0, Status.NONE, f"no fold from {low:g} to {high:g} rad/s")
+        return Found(float(folds[0, 0]), 0.0, Status.FOUND)
+
+    return _timed(speed)
+
+
+def growth_rate(p: Parameters, tol: float) -> Found:
+    """Growth rate (1/s) of the stick-slip cycle, from its multipliers."""
+
+    def rate() -> Found:
+        found = floquet(p, tol=tol)
+        if found.status is not CycleStatus.OK:
+            return Found(math.nan, 0.0, Status.NONE, found.message)
+        return Found(float(found.growth_rate), 0.0, Status.FOUND)
+
+    return _timed(rate)
+
+
+def region(model: Model) -> Found:
+    """Share of the drawn cells that are judged otherwise than by the richest model."""
+    right = np.zeros(SIDE * SIDE, bool)
+    right[_drawn()] = _richest_region()
+    return simulated.judged(partial(_cell, model), right, NEVER, CELLS)
+
+
+def _cell(model: Model, place: int) -> tuple[bool, float]:
+    return simulated.cell(solve, questions.cell(place).replace(**model), NEVER)
+
+
+def _drawn() -> NDArray[np.int64]:
+    return simulated.drawn()[:CELLS]
+
+
+@lru_cache(maxsize=1)
+def _richest_region() -> NDArray[np.bool_]:
+    return np.array([_cell(RICHEST, int(place))[0] for place in _drawn()])
+
+
+@lru_cache(maxsize=32)
+def _settled(p: Parameters) -> State | None:
+    quiet = Record(events=False)
+    first = simulate(p, SETTLES_WITHIN, tol=DEFAULT, record=quiet, stop_at="first_separation")
+    if not math.isfinite(first.first_separation):
+        return None
+    state = first.final_state
+    return simulate(p, state.time + SETTLES_FOR, tol=DEFAULT, record=quiet, initial_state=state).final_state
+
+
+def _timed(find: Callable[[], Found]) -> Found:
+    """An answer and the least wall time (s); the first time may have compiled."""
+    seconds, found = math.inf, find()
+    for _ in range(simulated.REPEATS):
+        began = clock.perf_counter()
+        found = find()
+        seconds = min(seconds, clock.perf_counter() - began)
+        if seconds > simulated.QUICK:
+            break
+    return found._replace(seconds=seconds)

@@ -1,0 +1,165 @@
+"""The questions, their right answers, and what became of an answer.
+
+``first_separation``
+    N = 385 N, Omega = 15.1 rad/s: when contact is lost for the first time after the published start
+``separation_rate``, ``disc_range``, ``period``
+    N = 300 N, Omega = 20 rad/s, long after contact was first lost: separations per second, how far the disc moves under
+    the slider, and after how many releases from stick the motion repeats
+``onset``
+    N = 385 N: lowest speed from which the published start leads to a separation within `ONSET_HORIZON` s; by
+    continuation of the cycle, the fold in which the quiet cycle ends
+``growth_rate``
+    N = 200 N, Omega = 20 rad/s: how fast a small deviation from the stick-slip cycle grows
+``region``
+    `SIDE` x `SIDE` cells of speed and preload: share of the cells for which it is said wrongly whether the published
+    start leads to a separation within `REGION_HORIZON` s
+
+Right answers are stored in ``data/answers.json``, made by ``workflow/scripts/make_answer_references.py`` with methods
+that share no code with the engine; each with its own error.
+"""
+
+from __future__ import annotations
+
+import enum
+import json
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.parameters import Parameters
+from disc_model.simulation.result import State
+
+STORED = Path(__file__).parent.parent / "data" / "answers.json"
+
+SEPARATING = Parameters(N=385.0, Omega=15.1)
+SETTLED = Parameters(N=300.0, Omega=20.0)
+GROWING = Parameters(N=200.0, Omega=20.0)
+
+SEPARATION_HORIZON = 55.0
+"""s that are simulated for the first separation."""
+SETTLED_AT, SETTLED_SPAN = 250.0, 5.0
+"""s; the motion after separation is looked at from the one for the other, two periods and a little."""
+ONSET_BETWEEN, ONSET_WITHIN = (14.6, 15.6), 0.02
+"""rad/s: where the speed of onset is looked for, and how closely."""
+ONSET_HORIZON = 65.0
+"""s; at 15.09 rad/s contact is lost after 56 s, at 15.08 rad/s not within 300 s."""
+GROWING_AT, GROWING_SPAN = 100.0, 10.0
+"""s; by then a deviation is left that grows, and all others have died out."""
+SIDE = 32
+REGION_SPEEDS, REGION_LOADS = (14.0, 34.0), (480.0, 600.0)
+REGION_HORIZON = 25.0
+
+
+class Question(NamedTuple):
+    """An answer's name in words, its unit, and how far off (in the unit) it may be to count as right."""
+
+    title: str
+    units: str
+    enough: float
+
+
+QUESTIONS: Mapping[str, Question] = {
+    "first_separation": Question("first separation", "s", 0.1),
+    "separation_rate": Question("separations per second", "s-1", 1.0),
+    "disc_range": Question("range of the disc", "m", 2e-4),
+    "period": Question("period in releases", "1", 0.5),
+    "onset": Question("speed of onset", "rad s-1", 0.1),
+    "growth_rate": Question("growth rate", "s-1", 1e-3),
+    "region": Question("share of a region judged wrong", "1", 0.01),
+}
+"""The paper gives the first separation to 0.1 s and its critical speed to 0.1 rad/s; the rest is about one per cent (of
+the growth rate five)."""
+
+
+class Status(enum.IntEnum):
+    """What became of a question."""
+
+    FOUND = 0
+    NONE = 1  # the method ended well and says that there is no such thing
+    TOO_SLOW = 2
+    UNSTABLE = 3
+    STALLED = 4
+    FAILED = 5
+
+
+STATUS_WORDS = ("found", "none", "too_slow", "unstable", "stalled", "failed")
+
+
+class Verdict(enum.IntEnum):
+    """Whether the answer can be believed; a wrong one comes without a warning."""
+
+    RIGHT = 0
+    WRONG = 1
+    NO_ANSWER = 2
+
+
+VERDICT_WORDS = ("right", "wrong", "no_answer")
+
+
+class Found(NamedTuple):
+    """An answer: value (nan without one), wall time (s), what became of it, why, its bounds, cells looked at."""
+
+    value: float
+    seconds: float
+    status: Status
+    message: str = ""
+    low: float = math.nan
+    high: float = math.nan
+    cells: int = 0
+
+
+def verdict(question: str, found: Found, right: float) -> Verdict:
+    """To say that there is nothing where there is something is wrong; to give up is not."""
+    if found.status is Status.NONE:
+        return Verdict.RIGHT if math.isnan(right) else Verdict.WRONG
+    if found.status is not Status.FOUND:
+        return Verdict.NO_ANSWER
+    return Verdict.RIGHT if abs(found.value - right) <= QUESTIONS[question].enough else Verdict.WRONG
+
+
+# ----------------------------------------------------------------------------------------------------
+# What is stored
+
+
+class Reference(NamedTuple):
+    """A right answer, its own error, and what found it."""
+
+    value: float
+    error: float
+    by: str
+
+
+@lru_cache(maxsize=1)
+def stored() -> Mapping[str, Any]:
+    """What the file holds."""
+    found: Mapping[str, Any] = json.loads(STORED.read_text(encoding="utf-8"))
+    return found
+
+
+def reference(name: str) -> Reference:
+    """The right answer to a question, or ``fold``."""
+    if name == "region":
+        return Reference(0.0, stored()["region"]["error"], stored()["region"]["by"])
+    return Reference(**stored()["references"][name])
+
+
+def start(name: str) -> State:
+    """``settled`` or ``growing``: a state of the motion, by the engine at its tightest tolerance."""
+    values: dict[str, Any] = {k: np.array(v) if isinstance(v, list) else v for k, v in stored()["starts"][name].items()}
+    return State(**values)
+
+
+def region() -> NDArray[np.bool_]:
+    """Which cells separate, shape (`SIDE`, `SIDE`), loads along the first axis."""
+    return np.array([[letter == "1" for letter in row] for row in stored()["region"]["rows"]])
+
+
+def cell(place: int) -> Parameters:
+    """A cell by its place in the region, 0 to `SIDE`^2 - 1."""
+    load, speed = np.linspace(*REGION_LOADS, SIDE), np.linspace(*REGION_SPEEDS, SIDE)
+    return Parameters(N=float(load[place // SIDE]), Omega=float(speed[place % SIDE]))

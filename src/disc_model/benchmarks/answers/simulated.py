@@ -1,0 +1,270 @@
+"""Answers of a method that integrates, from the switches that it finds.
+
+Each function is given ``solve(problem, budget)``, a method at one setting, and seconds that all of it may take; it
+gives the answers by name.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import curve_fit
+from scipy.stats import binomtest
+
+from disc_model.benchmarks.answers import questions
+from disc_model.benchmarks.answers.questions import SIDE, Found, Status
+from disc_model.benchmarks.methods.base import MethodResult, Outcome, Problem
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import published_start
+from disc_model.simulation.result import State
+
+Array = NDArray[np.float64]
+Solve = Callable[[Problem, float], MethodResult]
+Answers = Mapping[str, Found]
+
+REPEATS = 3
+"""Runs of what is quick; the fastest counts, since disturbances only add."""
+QUICK = 0.3
+"""s"""
+ALIKE = 1e-3
+"""Two stretches between releases are the same if they differ by less, over the range of all of them."""
+SEED = 20
+"""Of the order in which cells are drawn where not all can be looked at."""
+TRIED = 4
+"""Cells that say how many a budget will do for."""
+FEWEST = 16
+"""Cells below which nothing is said."""
+
+_STATUS = {
+    Outcome.TOO_SLOW: Status.TOO_SLOW,
+    Outcome.NON_FINITE: Status.UNSTABLE,
+    Outcome.STALLED: Status.STALLED,
+    Outcome.FAILED: Status.FAILED,
+}
+
+
+class Broken(Exception):
+    """A run on which an answer depends did not reach its end."""
+
+    def __init__(self, result: MethodResult) -> None:
+        super().__init__(result.message or f"{result.outcome}")
+        self.status = _STATUS[result.outcome]
+
+
+def first_separation(
+    solve: Solve,
+    budget: float,
+    p: Parameters = questions.SEPARATING,
+    horizon: float = questions.SEPARATION_HORIZON,
+) -> Answers:
+    """When contact is first lost after the published start."""
+    problem = Problem(p, published_start(p), horizon, stop=True)
+    result, seconds = _timed(solve, problem, budget)
+    try:
+        time = _separation(result)
+    except Broken as broken:
+        return {"first_separation": Found(math.nan, seconds, broken.status, str(broken))}
+    return {"first_separation": _found(time, seconds, f"no separation within {horizon:g} s")}
+
+
+def after_separation(
+    solve: Solve, budget: float, p: Parameters = questions.SETTLED, start: State | None = None
+) -> Answers:
+    """Separations per second, the disc's range and the period, long after contact was first lost.
+
+    Timed without the disc's range, which some methods find by a call a step.
+    """
+    start = questions.start("settled") if start is None else start
+    problem = Problem(p, start, start.time + questions.SETTLED_SPAN, watched=True)
+    result = solve(problem, budget)
+    seconds = result.seconds
+    if seconds < 3.0:
+        _, seconds = _timed(solve, Problem(p, start, problem.t_end), budget)
+    names = ("separation_rate", "disc_range", "period")
+    if result.outcome is not Outcome.FINISHED:
+        broken = Broken(result)
+        return dict.fromkeys(names, Found(math.nan, seconds, broken.status, str(broken)))
+    low, high = result.heights
+    values = (result.separations / problem.span, high - low, period(_times(result, "stick_to_slip")))
+    return {
+        name: _found(value, seconds, "the motion does not repeat")
+        for name, value in zip(names, values, strict=True)
+    }  # fmt: skip
+
+
+def period(releases: Array) -> float:
+    """Number of releases after which a motion repeats; nan if it does not within half of them.
+
+    releases : times of the releases from stick, s
+    """
+    gaps = np.diff(releases)
+    for n in range(1, len(gaps) // 2 + 1):
+        if np.max(np.abs(gaps[n:] - gaps[:-n])) <= ALIKE * np.max(gaps):
+            return float(n)
+    return math.nan
+
+
+def onset(solve: Solve, budget: float, within: float = questions.ONSET_WITHIN) -> Answers:
+    """Lowest speed that leads to a separation, by halving; the answer is the middle of the bracket that is left.
+
+    within : rad/s, width of that bracket
+    """
+    used = 0.0
+
+    def separates(speed: float) -> bool:
+        nonlocal used
+        p = questions.SEPARATING.replace(Omega=speed)
+        result = solve(Problem(p, published_start(p), questions.ONSET_HORIZON, stop=True), max(budget - used, 0.1))
+        used += result.seconds
+        return math.isfinite(_separation(result))
+
+    low, high = questions.ONSET_BETWEEN
+    try:
+        if not separates(high):
+            return {"onset": Found(math.nan, used, Status.NONE, f"no separation at {high:g} rad/s")}
+        if separates(low):
+            return {"onset": Found(math.nan, used, Status.NONE, f"a separation already at {low:g} rad/s")}
+        while high - low > within:
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if separates(middle) else (middle, high)
+    except Broken as broken:
+        return {"onset": Found(math.nan, used, broken.status, str(broken), low, high)}
+    return {"onset": Found(0.5 * (low + high), used, Status.FOUND, "", low, high)}
+
+
+def growth_rate(solve: Solve, budget: float) -> Answers:
+    """Rate at which a deviation from the cycle grows, from the stretches between releases."""
+    start = questions.start("growing")
+    problem = Problem(questions.GROWING, start, start.time + questions.GROWING_SPAN)
+    result, seconds = _timed(solve, problem, budget)
+    if result.outcome is not Outcome.FINISHED:
+        broken = Broken(result)
+        return {"growth_rate": Found(math.nan, seconds, broken.status, str(broken))}
+    found = growth(_times(result, "stick_to_slip"))
+    return {"growth_rate": _found(found, seconds, "no oscillation that grows or dies out steadily")}
+
+
+def growth(releases: Array) -> float:
+    """Rate (1/s) of an oscillation in the stretches between releases (s), by least squares; nan if there is none."""
+    if len(releases) < 64:
+        return math.nan
+    gaps, times = np.diff(releases), 0.5 * (releases[1:] + releases[:-1])
+    times = times - times.mean()
+    size = float(np.std(gaps))
+    if size == 0.0:
+        return math.nan
+    y = (gaps - gaps.mean()) / size
+    spectrum = np.fft.rfft(y * np.hanning(len(y)), 8 * len(y))
+    line = int(np.argmax(np.abs(spectrum[8:]))) + 8
+    omega = 2.0 * math.pi * line / (8 * len(y)) * (len(times) - 1) / float(np.ptp(times))
+
+    def model(t: Array, rate: float, omega: float, cosine: float, sine: float, rest: float) -> Array:
+        value: Array = np.exp(rate * t) * (cosine * np.cos(omega * t) + sine * np.sin(omega * t)) + rest
+        return value
+
+    basis = np.column_stack([np.cos(omega * times), np.sin(omega * times), np.ones_like(times)])
+    first = np.linalg.lstsq(basis, y, rcond=None)[0]
+    try:
+        fitted = curve_fit(model, times, y, p0=[0.0, omega, *first])[0]
+    except RuntimeError:
+        return math.nan
+    return float(fitted[0])
+
+
+def region(solve: Solve, budget: float) -> Answers:
+    """Share of the cells judged wrong.
+
+    Where the budget does not do for all of them, as many (a power of two) as it does for, drawn at random with a fixed
+    seed, and Wilson's interval of 95 %.  The time is that of all cells, in proportion.
+    """
+    right = questions.region().ravel()
+    return {"region": judged(lambda place: cell(solve, questions.cell(place), budget), right, budget)}
+
+
+def drawn() -> NDArray[np.int64]:
+    """The cells by their places, in the order in which they are looked at."""
+    return np.random.default_rng(SEED).permutation(SIDE * SIDE)
+
+
+def judged(
+    judge: Callable[[int], tuple[bool, float]], right: NDArray[np.bool_], budget: float, most: int = SIDE * SIDE
+) -> Found:
+    """As `region`, for any judge of a cell by its place: whether it separates, and the seconds that took.
+
+    right : (`SIDE`^2,), whether each cell separates
+    most : cells to look at
+    """
+    places = drawn()
+    verdicts: list[tuple[bool, float]] = []
+    try:
+        verdicts += [judge(int(place)) for place in places[:TRIED]]
+        each = sum(seconds for _, seconds in verdicts) / TRIED
+        count = min(most, 2 ** int(math.log2(max(1.0, budget / max(each, 1e-9)))))
+        if count < FEWEST:
+            why = f"{each:.3g} s a cell"
+            return Found(math.nan, each * len(places), Status.TOO_SLOW, why, cells=TRIED)
+        verdicts += [judge(int(place)) for place in places[TRIED:count]]
+    except Broken as broken:
+        seconds = sum(s for _, s in verdicts)
+        return Found(math.nan, seconds, broken.status, str(broken), cells=len(verdicts))
+    wrong = sum(said != right[place] for (said, _), place in zip(verdicts, places, strict=False))
+    share = float(wrong) / count
+    low = high = share
+    if count < len(places):
+        low, high = binomtest(int(wrong), count).proportion_ci(method="wilson")
+    seconds = sum(s for _, s in verdicts) / count * len(places)
+    return Found(share, seconds, Status.FOUND, "", float(low), float(high), count)
+
+
+def cell(solve: Solve, p: Parameters, budget: float) -> tuple[bool, float]:
+    """Whether a case separates within the region's horizon, and the seconds that took."""
+    result = solve(Problem(p, published_start(p), questions.REGION_HORIZON, stop=True), budget)
+    return math.isfinite(_separation(result)), result.seconds
+
+
+ASKED: Mapping[str, tuple[Callable[[Solve, float], Answers], float]] = {
+    "first_separation": (first_separation, 12.0),
+    "after_separation": (after_separation, 8.0),
+    "onset": (onset, 20.0),
+    "growth_rate": (growth_rate, 8.0),
+    "region": (region, 20.0),
+}
+"""By name: the question, and the seconds that a method may take for it at one setting."""
+
+
+def ask(solve: Solve, names: Sequence[str] = tuple(ASKED)) -> Iterator[tuple[str, Found]]:
+    """The answers to all these questions, one after the other."""
+    for name in names:
+        question, budget = ASKED[name]
+        yield from question(solve, budget).items()
+
+
+def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult, float]:
+    """A result and the least wall time (s); what is quick is repeated, the first time it may have compiled."""
+    results = [solve(problem, budget)]
+    while results[-1].seconds < QUICK and len(results) <= REPEATS:
+        results.append(solve(problem, budget))
+    return results[0], min(result.seconds for result in results)
+
+
+def _found(value: float, seconds: float, missing: str) -> Found:
+    if math.isfinite(value):
+        return Found(float(value), seconds, Status.FOUND)
+    return Found(math.nan, seconds, Status.NONE, missing)
+
+
+def _times(result: MethodResult, kind: str) -> Array:
+    return result.times[[one == kind for one in result.kinds]]
+
+
+def _separation(result: MethodResult) -> float:
+    """Time of the first separation (s), nan if the motion came to its end without one; else raises `Broken`."""
+    times = _times(result, "separation")
+    if len(times):
+        return float(times[0])
+    if result.outcome is not Outcome.FINISHED:
+        raise Broken(result)
+    return math.nan

@@ -1,0 +1,143 @@
+"""What the measured answers come to: a sentence a question, and tables."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from disc_model.benchmarks.answers.questions import Status, Verdict
+from disc_model.data.dataset import markdown_table
+
+MODELS = ("rigid", "residual")
+
+
+class Point(NamedTuple):
+    """A row of the dataset."""
+
+    line: str
+    label: str
+    varies: str
+    setting: float
+    found: float
+    error: float
+    low: float
+    high: float
+    cells: int
+    seconds: float
+    status: Status
+    verdict: Verdict
+    message: str
+
+    @property
+    def at(self) -> str:
+        """The setting in words."""
+        if self.varies == "diameters":
+            return f"{self.setting:.0f} diameters"
+        return f"{self.varies}={self.setting:g}"
+
+    @property
+    def says(self) -> str:
+        """The answer in words."""
+        return f"{self.found:.6g}" if self.status is Status.FOUND else self.status.name.lower().replace("_", " ")
+
+
+def points(dataset: xr.Dataset, question: str) -> list[Point]:
+    """The rows of a question, in the order in which they were measured."""
+    part = dataset.isel(row=dataset["answer"].values == question)
+    columns = {name: part[name].values for name in Point._fields}
+    kinds: dict[str, Any] = {"status": Status, "verdict": Verdict, "cells": int, "setting": float} | dict.fromkeys(
+        ("line", "label", "varies", "message"), str
+    )
+    return [
+        Point(**{name: kinds.get(name, float)(values[i]) for name, values in columns.items()})
+        for i in range(part.sizes["row"])
+    ]
+
+
+def cheapest_right(found: Sequence[Point]) -> list[Point]:
+    """Of every line the point that is right and costs least, cheapest line first; models are left out."""
+    best: dict[str, Point] = {}
+    for point in found:
+        known = best.get(point.line)
+        if point.verdict is Verdict.RIGHT and (known is None or point.seconds < known.seconds):
+            best[point.line] = point
+    return sorted((p for p in best.values() if p.line not in MODELS), key=lambda p: p.seconds)
+
+
+def sentences(dataset: xr.Dataset, question: str) -> str:
+    """Which method answers a question rightly at what price, which wrongly, and which not at all."""
+    own, found = json.loads(dataset.attrs["questions"])[question], points(dataset, question)
+    right = cheapest_right(found)
+    unit = "" if own["units"] == "1" else f" {_unit(own['units'])}"
+    priced = _listed(f"{p.label} ({p.at}, {_time(p)})" for p in right)
+    text = [f"Right to {own['enough']:g}{unit}, cheapest first: {priced}."]
+    wrong = [p for p in found if p.verdict is Verdict.WRONG and p.line not in MODELS]
+    if wrong:
+        text.append(f"Wrong without a warning: {_listed(f'{p.label} at {p.at} ({p.says})' for p in wrong)}.")
+    answered = {p.line for p in found if p.verdict is not Verdict.NO_ANSWER}
+    silent = dict.fromkeys(p.label for p in found if p.line not in answered and p.line not in MODELS)
+    if silent:
+        text.append(f"No answer in the time given: {_listed(silent)}.")
+    for model in MODELS:
+        own_points = [p for p in found if p.line == model]
+        enough = [p.setting for p in own_points if p.verdict is Verdict.RIGHT]
+        if enough:
+            text.append(f"Modes, {model} contact: right with {_listed(f'{n:.0f}' for n in enough)} nodal diameters.")
+        elif own_points:
+            text.append(
+                f"Modes, {model} contact: with no number of nodal diameters up to {own_points[-1].setting:.0f}."
+            )
+    return " ".join(text)
+
+
+def to_markdown(dataset: xr.Dataset) -> str:
+    """A section a question: its sentence, its right answer, its table; the machine above."""
+    text = ["# What each answer costs", "", f"Machine: {dataset.attrs['machine']}, one core.", ""]
+    text += [
+        "The error of the lines of modes is that of the model, against the richest disc; that of the others is of the",
+        "numbers, with nine modes. A dash: no answer.",
+        "",
+    ]
+    for question, own in json.loads(dataset.attrs["questions"]).items():
+        found = points(dataset, question)
+        if not found:
+            continue
+        text += [f"## {own['title'].capitalize()}", "", sentences(dataset, question), ""]
+        text += [f"Right answer: error {own['error']}.", ""]
+        head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "wall time (s)", "verdict", "status")
+        text += [*markdown_table(head, map(_row, found)), ""]
+    return "\n".join(text)
+
+
+def _row(p: Point) -> Iterator[str]:
+    value = _short(p.found)
+    if math.isfinite(p.low) and math.isfinite(p.found) and p.low < p.high:
+        value += f" ({_short(p.low)} to {_short(p.high)})"
+    if p.cells:
+        value += f", {p.cells} cells"
+    why = f"{p.status.name.lower().replace('_', ' ')}{': ' + p.message if p.message else ''}"
+    yield from (p.label, p.at, value, _short(p.error, 3), _short(p.seconds, 3))
+    yield from (p.verdict.name.lower().replace("_", " "), why)
+
+
+def _short(number: float, digits: int = 8) -> str:
+    return f"{number:.{digits}g}" if np.isfinite(number) else "-"
+
+
+def _time(p: Point) -> str:
+    if p.seconds < 0.1:
+        return f"{1e3 * p.seconds:.2g} ms"
+    return f"{p.seconds:.2g} s" if p.seconds < 100.0 else f"{p.seconds:.0f} s"
+
+
+def _unit(units: str) -> str:
+    return units.replace("rad s-1", "rad/s").replace("s-1", "1/s")
+
+
+def _listed(parts: Any) -> str:
+    return "; ".join(parts) or "none"

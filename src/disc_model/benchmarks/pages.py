@@ -1,0 +1,173 @@
+"""What of a benchmark's run stands in README and docs: numbers, the page of the benchmark, and passages of others.
+
+`summary` takes what is needed from the datasets of one run; it is kept as ``docs/benchmark.json``.  All else is written
+from that, so that one run refreshes every number, and a test can say whether a page holds another one.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.benchmarks.answers import words
+from disc_model.benchmarks.answers.questions import QUESTIONS, Verdict
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.scenes import Verdict as EventVerdict
+from disc_model.benchmarks.table import DEFAULT, JUDGED, headline
+from disc_model.data.dataset import markdown_table
+from disc_model.errors import DiscModelError
+
+LETTERS = dict(zip(JUDGED, "ab", strict=True))
+"""Of the scenes in the overview."""
+FIGURES = ("overview", "failure_maps", "answers", "prices", "answer_maps")
+"""Those that stand in docs/gallery."""
+Summary = Mapping[str, Any]
+
+
+def summary(work_precision: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
+    """What the pages need of a run.
+
+    Raises
+    ------
+    disc_model.errors.DiscModelError
+        If the two were not measured on the same machine.
+    """
+    machines = {dataset.attrs["machine"] for dataset in (work_precision, answers)}
+    if len(machines) > 1:
+        raise DiscModelError(
+            f"the datasets are of one machine each, {' and '.join(sorted(machines))}: measure both anew"
+        )
+    own = {}
+    for scene in JUDGED:
+        line = work_precision.sel(scene=scene, solver="series")
+        at = np.flatnonzero(line["value"].values == DEFAULT)
+        if at.size:
+            own[scene] = {"cost": float(line["cost"][at[0]]), "error": float(line["event_error"][at[0]])}
+    asked = [name for name in QUESTIONS if name in answers["answer"].values]
+    return {
+        "machine": machines.pop(),
+        "versions": json.loads(work_precision.attrs["versions"]),
+        "own": own,
+        "times_slower": headline(work_precision),
+        "stiff": _stiff(work_precision),
+        "sentences": {name: words.sentences(answers, name) for name in asked},
+        "prices": {name: _prices(words.points(answers, name)) for name in asked},
+    }
+
+
+def _prices(found: list[words.Point]) -> dict[str, dict[str, Any]]:
+    """By line in words: its cheapest right answer, and where it answers wrongly without a warning."""
+    right = {p.line: p for p in words.cheapest_right(found)}
+    table: dict[str, dict[str, Any]] = {}
+    for line, label in {p.line: p.label for p in found if p.line not in words.MODELS}.items():
+        wrong = [p.setting for p in found if p.line == line and p.verdict is Verdict.WRONG]
+        best = right.get(line)
+        table[label] = {"seconds": best.seconds if best else None, "at": best.at if best else None, "wrong": wrong}
+    return table
+
+
+def _stiff(dataset: xr.Dataset) -> dict[str, float]:
+    """On the all but rigid disc: by method, seconds a simulated second at its cheapest point with converged events."""
+    if "rigid" not in dataset["scene"].values:
+        return {}
+    part = dataset.sel(scene="rigid")
+    found = {}
+    for method in map(str, part["solver"].values):
+        line = part.sel(solver=method)
+        good = line["verdict"].values == int(EventVerdict.CONVERGED)
+        if good.any():
+            found[method] = float(line["cost"].values[good].min())
+    return dict(sorted(found.items(), key=lambda item: item[1]))
+
+
+# ----------------------------------------------------------------------------------------------------
+# Passages
+
+
+def passages(run: Summary) -> dict[str, str]:
+    """Texts by the name under which pages ask for them."""
+    own, slower = run["own"], run["times_slower"]
+    ours = " and ".join(f"{1e3 * own[s]['cost']:.2g} ms for ({LETTERS[s]})" for s in own)
+    errors = " and ".join(f"{own[s]['error']:.0e}" for s in own)
+    methods = {name for ratios in slower.values() for name in ratios if name != "series"}
+    order = sorted(methods, key=lambda name: min(ratios[name] for ratios in slower.values() if name in ratios))
+    others = "; ".join(f"{METHODS[name].label} {_ratios(slower, name)}" for name in order)
+    stiff = "; ".join(f"{METHODS[name].label} {1e3 * cost:.2g} ms" for name, cost in run["stiff"].items())
+    first = run["prices"]["first_separation"]["series (this package)"]
+    cycle = run["prices"]["growth_rate"]["series, from the cycle itself"]
+    return {
+        "machine": run["machine"],
+        "first_separation": f"{1e3 * first['seconds']:.0f} ms",
+        "cycle": f"{1e3 * cycle['seconds']:.2g} ms",
+        "speed": (
+            f"At its default tolerance the series engine takes {ours} per simulated second, with event times right to "
+            f"{errors} s. With errors up to 1e-10 s allowed the others take, times that, for (a) and (b): {others}. "
+            f"On the disc of (d), all but rigid, a simulated second with the right events takes: {stiff}."
+        ),
+        "onset": run["sentences"]["onset"],
+    }
+
+
+def _ratios(slower: Mapping[str, Mapping[str, float]], name: str) -> str:
+    return " and ".join(f"{ratios[name]:.2g}" if name in ratios else "not at all" for ratios in slower.values())
+
+
+def filled(text: str, run: Summary) -> str:
+    """A page with its passages, ``<!-- bench NAME -->...<!-- end -->``, written anew."""
+    known = passages(run)
+
+    def passage(match: re.Match[str]) -> str:
+        name = match["name"]
+        if name not in known:
+            raise DiscModelError(f"no passage of the benchmark is called {name!r}; there are {', '.join(known)}")
+        return f"<!-- bench {name} -->{known[name]}<!-- end -->"
+
+    return re.sub(r"<!-- bench (?P<name>\w+) -->.*?<!-- end -->", passage, text, flags=re.DOTALL)
+
+
+def page(run: Summary) -> str:
+    """The page of the benchmark."""
+    known = passages(run)
+    text = ["# Speed against accuracy", "", "Made by `make bench` and `make bench-pages`, all in one run on one core."]
+    text += [f"Machine: {run['machine']}.", "", "## Event times", "", "![Speed against accuracy](gallery/overview.png)"]
+    text += ["", known["speed"], "", "## Answers", ""]
+    text += [
+        "What a study asks for, and what each method asks for it: the wall time of its cheapest right setting. Rivals",
+        "that stop at a right answer's tolerance too early are said to be wrong: nothing warned of it.",
+        "",
+        "![What each right answer costs](gallery/prices.png)",
+        "",
+        "![Error against wall time](gallery/answers.png)",
+        "",
+    ]
+    for name, sentence in run["sentences"].items():
+        text += [f"**{QUESTIONS[name].title.capitalize()}.** {sentence}", ""]
+    lines = dict.fromkeys(label for table in run["prices"].values() for label in table)
+    rows = [[label, *(_price(table.get(label)) for table in run["prices"].values())] for label in lines]
+    head = ("method", *(QUESTIONS[name].title for name in run["prices"]))
+    text += [*markdown_table(head, rows), ""]
+    text += ["## Where answers are wrong", "", "![Where the first separation is wrong](gallery/answer_maps.png)", ""]
+    text += [
+        "First separation at N = 600 N, 27 rad/s, over tolerance or step and number of modes.",
+        "",
+        "## Where methods fail",
+        "",
+        "![Where methods fail](gallery/failure_maps.png)",
+        "",
+        "Over step or tolerance and number of modes, in the separating second but for (a).",
+        "",
+    ]
+    return "\n".join(text)
+
+
+def _price(cell: Mapping[str, Any] | None) -> str:
+    if cell is None:
+        return "-"
+    if cell["seconds"] is None:
+        return "wrong" if cell["wrong"] else "no answer"
+    return f"{cell['seconds']:.2g} s ({cell['at']})"
