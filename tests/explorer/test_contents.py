@@ -57,6 +57,15 @@ def test_what_does_not_vary_is_told_with_its_unit(contents):
     ]
 
 
+def test_chosen_modes_are_told_with_their_tolerance():
+    """A study with `n_diameters: auto` ended the page in a KeyError."""
+    study = made_up.plane()
+    base = json.loads(study.attrs["base"]) | {"n_diameters": "auto", "truncation_tolerance": 1e-3}
+    told = study_contents("x", study.assign_attrs(base=json.dumps(base)))["fixed"]
+    assert [one["value"] for one in told if one["name"] in ("n_diameters", "truncation_tolerance")] == ["auto", 1e-3]
+    assert all(one["title"] for one in told)
+
+
 def test_a_zip_is_one_dimension_of_words():
     (dim,) = study_contents("line", made_up.line())["dims"]
     assert dim["values"][0] == "N = 100, Omega = 20"

@@ -128,6 +128,7 @@ def said_values(values: Mapping[str, Any]) -> str:
         if name in values and name not in ("normalization", "contact"):
             value, unit = values[name], Parameters.unit(name)
             if name in ("N", "Omega") or value != field.default:
-                shown = f"{value:g}" if isinstance(value, float | int) else str(value)
-                said.append(f"{_SYMBOLS.get(name, name)} = {shown}" + (f" {unit}" if unit not in ("", "1") else ""))
+                number = isinstance(value, float | int)  # some parameters may be words, which have no unit
+                shown = f"{value:g}" + (f" {unit}" if unit not in ("", "1") else "") if number else str(value)
+                said.append(f"{_SYMBOLS.get(name, name)} = {shown}")
     return ", ".join(said)

@@ -102,6 +102,7 @@ SYMBOLS = {
     "h": ("Thickness h", "mm", 1e3),
     "nu": ("Poisson's ratio ν", "", 1.0),
     "rho": ("Density ρ", "kg/m³", 1.0),
+    "contact_compliance": ("Contact compliance C", "μm/N", 1e6),
     "kick_u": ("Kick", "mm", 1e3),
     "kick_u_velocity": ("Kick", "m/s", 1.0),
     "kick_f": ("Kick", "rad/s", 1.0),

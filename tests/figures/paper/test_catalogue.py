@@ -13,9 +13,19 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window
-from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, function_of, label, module_of, number_of
+from disc_model.data.variables import KICKS
+from disc_model.figures.paper.catalogue import (
+    CATALOGUE,
+    SECTIONS,
+    caption,
+    function_of,
+    label,
+    module_of,
+    number_of,
+    said_parameters,
+)
 from disc_model.figures.paper.separations import complete_separations, separations
-from disc_model.figures.parts import COLUMN, PAGE, save
+from disc_model.figures.parts import COLUMN, PAGE, SYMBOLS, save
 from tests.claims.damaged import DAMAGES, damaged
 
 
@@ -188,6 +198,19 @@ def test_the_disc_is_named_at_the_angle_that_was_recorded(name: str) -> None:
     assert labels or "{theta}" not in CATALOGUE[name].caption or name == "fig25"
     # no number is said of what may be configured
     assert not any(character.isdigit() for character in CATALOGUE[name].title)
+
+
+def test_parameters_that_are_words_are_said_as_words() -> None:
+    """A case with another law of contact ended the whole study: words have no format of numbers."""
+    p = Parameters(N=200, Omega=20, contact_compliance="residual", contact_force="normal")
+    assert said_parameters(p) == "N = 200 N, Ω = 20 rad/s, contact_compliance = residual, contact_force = normal"
+    assert said_parameters(p.replace(contact_compliance=1e-7, contact_force="vertical")).endswith("= 1e-07 m/N")
+
+
+def test_every_number_that_varies_has_a_symbol() -> None:
+    """A map over the compliance of the contact passed the check of its file and ended in a KeyError."""
+    numbers = [name for name in Parameters.model_fields if Parameters.unit(name)]
+    assert {*numbers, *KICKS} <= SYMBOLS.keys()
 
 
 def test_two_angles_are_both_named() -> None:
