@@ -80,18 +80,26 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
 
 
 def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Table:
-    """Of a tile with its margin, which belongs to the next tiles: only its own points are kept, in the text's order."""
+    """Of a tile with its margin, which belongs to the next tiles: only its own points are kept, in the text's order.
+
+    What else varies among the points makes tiles of its own.
+    """
     tile, names = data["tile"], data["names"]
     (first, second), (rows, columns) = tile["names"], tile["along"]
-    fixed = dict(zip(names, data["points"][0], strict=True))
-    points = [
-        [_made(data["base"] | _only(Parameters.model_fields, fixed | {first: y, second: x})) for x in columns]
-        for y in rows
-    ]
-    found = quantity.over(points, options, [(i, j) for i, j in tile["sampled"]])
     sides = names.index(first), names.index(second)
-    own = [(rows.index(point[sides[0]]), columns.index(point[sides[1]])) for point in data["points"]]
-    return table_of(quantity, [found[i][j][0] for i, j in own], [found[i][j][1] for i, j in own], options)
+    tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
+    own: list[tuple[Row, str]] = []
+    for point in data["points"]:
+        others = {name: value for name, value in zip(names, point, strict=True) if name not in (first, second)}
+        key = tuple(others.values())
+        if key not in tiles:
+            made = [
+                [_made(data["base"] | _only(Parameters.model_fields, others | {first: y, second: x})) for x in columns]
+                for y in rows
+            ]
+            tiles[key] = quantity.over(made, options, [(i, j) for i, j in tile["sampled"]])
+        own.append(tiles[key][rows.index(point[sides[0]])][columns.index(point[sides[1]])])
+    return table_of(quantity, [row for row, _ in own], [message for _, message in own], options)
 
 
 def _only(names: Collection[str], values: Mapping[str, Any]) -> dict[str, Any]:

@@ -69,7 +69,7 @@ class BatchSpec(Strict):
     over : dimensions that are cut; of the others every value has batches of its own. The last dimension if not given
     size : points in a batch, at most; 20 to 60 s of work keep the cost of starting a job below a few per cent
     tile : intervals along the side of a tile, about, for a quantity that needs a plane at once; `over` names its two
-        dimensions
+        dimensions first, and then those of which all values share a batch, which saves the start of a job each
     """
 
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
@@ -146,8 +146,10 @@ def _tiles(
     dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
 ) -> Iterator[dict[str, Any]]:
     """Points of each tile; and the values along its sides, with those of the next tiles that bound its last cells."""
-    over = [dim for dim in dims if dim.name in (batch.over or ())]
-    others = [dim for dim in dims if dim not in over]
+    asked_for = batch.over or ()
+    over = [dim for dim in dims if dim.name in asked_for[:2]]
+    gathered = {dim.name: list(dim.values) for dim in dims if dim.name in asked_for[2:]}
+    others = [dim for dim in dims if dim.name not in asked_for]
     names = [dim.name for dim in over]
     sides = [_cuts([value for (value,) in dim.values], batch.tile) for dim in over]
     for chosen in product(*(dim.values for dim in others)):
@@ -155,7 +157,7 @@ def _tiles(
             own: dict[str, list[tuple[Value, ...]]] = {
                 name: [(value,) for value in kept] for name, (_, kept) in zip(names, tile, strict=True)
             }
-            own |= {dim.name: [value] for dim, value in zip(others, chosen, strict=True)}
+            own |= gathered | {dim.name: [value] for dim, value in zip(others, chosen, strict=True)}
             points = [
                 [value for part in point for value in part] for point in product(*(own[dim.name] for dim in dims))
             ]
@@ -477,10 +479,12 @@ def _check_names(
         if name not in known:
             faults.add(("batch", "over"), name, f"must name dimensions (known: {', '.join(known)})")
     if quantity is not None and quantity.tiled and not faults:
-        plane = [dim for dim in dims if isinstance(over, list) and dim.name in over]
+        plane = [dim for dim in dims if isinstance(over, list) and dim.name in over[:2]]
         if len(plane) != 2 or any(not is_number(value) for dim in plane for value in dim.values[0]):
             faults.add(
-                ("batch", "over"), over, f"must name the two dimensions, single numbers, of {raw['quantity']}'s plane"
+                ("batch", "over"),
+                over,
+                f"must name the two dimensions, single numbers, of {raw['quantity']}'s plane first",
             )
 
 

@@ -78,6 +78,18 @@ def test_the_border_does_not_depend_on_the_tiles(made_up) -> None:
     assert whole["outcome"].equals(parts["outcome"])
 
 
+def test_normalisations_may_share_batches(made_up) -> None:
+    axes = raw()["axes"] | {"normalization": ["as_published", "orthonormal"]}
+    apart = parse_grid({"study": "small", **raw(axes=axes)})
+    together = parse_grid({"study": "small", **raw(axes=axes, batch={"over": ["N", "Omega", "normalization"]})})
+    assert len(apart.batches) == 2 * len(together.batches)
+    one, two = (
+        computed(**raw(axes=axes, batch={"over": over, "tile": 64}))
+        for over in (["N", "Omega"], ["N", "Omega", "normalization"])
+    )
+    assert one.equals(two)
+
+
 def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
     axis = [Parameters(N=N, Omega=20) for N in np.linspace(50, 600, 17)]
     rows = [[p.replace(Omega=Omega) for p in axis] for Omega in np.linspace(5, 50, 17)]
