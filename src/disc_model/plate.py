@@ -125,15 +125,22 @@ def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, give: floa
     -------
     shape (n,); (n + 1,) on a compliant contact
     """
-    matrices = _coupling(omega, psi, m, k) if give == 0 else _compliant_coupling(omega, psi, m, k, give)
-    inverse_squares = linalg.eigh(*matrices, eigvals_only=True)
+    inverse_squares = linalg.eigh(*_matrices(omega, psi, m, k, give), eigvals_only=True)
     return np.sort(1 / np.sqrt(inverse_squares))
 
 
-def coupled_shapes(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Array]:
-    """As `coupled_frequencies`, but descending, and the shapes: columns (n, n), each mode times its own frequency."""
-    inverse_squares, shapes = linalg.eigh(*_coupling(omega, psi, m, k))
+def coupled_shapes(omega: Array, psi: Array, m: float, k: float, give: float = 0.0) -> tuple[Array, Array]:
+    """As `coupled_frequencies`, but descending, and the shapes in columns: n rows, each mode times its own frequency.
+
+    On a compliant contact a last row is the slider's.
+    """
+    inverse_squares, shapes = linalg.eigh(*_matrices(omega, psi, m, k, give))
     return 1 / np.sqrt(inverse_squares), shapes
+
+
+def _matrices(omega: Array, psi: Array, m: float, k: float, give: float) -> tuple[Array, Array]:
+    """Of the eigenvalue problem of either contact."""
+    return _coupling(omega, psi, m, k) if give == 0 else _compliant_coupling(omega, psi, m, k, give)
 
 
 def _coupling(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Array]:

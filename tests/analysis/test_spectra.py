@@ -91,3 +91,5 @@ def test_a_line_stands_out_or_it_is_noise() -> None:
     assert min(chances) > 1e-4  # the least of sixty is about 1/60
     assert np.median(chances) > 0.1
     assert spectra.chance(t, np.sin(2 * np.pi * 100.0 * t), spectra.Line(100.0, 1.0), 1.0) == 0.0
+    with pytest.raises(ValueError, match="no bin of the spectrum is 1 to 6 Hz from 100 Hz"):
+        spectra.chance(t[:100], noise[:100], spectra.Line(100.0, 1.0), 1.0)

@@ -26,10 +26,11 @@ from disc_model import ParameterError, Parameters, Poincare, Record, Window
 from disc_model.cli import main
 from disc_model.data.dataset import load
 from disc_model.engine import machine
+from disc_model.engine.machine import EVENT_ROW
 from disc_model.simulation import kept
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import CaseSpec
-from disc_model.simulation.result import EVENT_ROW, Result, State
+from disc_model.simulation.result import Result, State
 from disc_model.studies.cases.run import run_case
 from tests.workflow.conftest import Project, copy_repository
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from unittest import mock
 
 import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Record, simulate
+from disc_model.stability import bifurcation
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
 from tests.stability.test_settling import paradox
 
@@ -37,5 +39,10 @@ def test_samples_that_are_not_reached_are_missing():
 def test_bad_input_is_named_in_full():
     with pytest.raises(ParameterError, match=r"name='contact': .*; values=\[\]: .*; samples=0: "):
         bifurcation_samples(BASE, "contact", [], transient=1, samples=0)
+    with (
+        mock.patch.object(bifurcation, "simulate", side_effect=AssertionError("before all values were looked at")),
+        pytest.raises(ParameterError, match="N=-1: must be >= 0"),
+    ):
+        bifurcation_samples(BASE, "N", [100.0, -1.0], transient=1, samples=1)
     with pytest.raises(ParameterError, match="Omega: must be > 0"):
         bifurcation_samples(BASE, "Omega", [0.0], transient=1, samples=1)

@@ -40,8 +40,8 @@ class Motion(NamedTuple):
     period : number of releases after which it repeats, 0 if it does not
     spread : standard deviation over mean of the intervals; 0 for a motion with one release a period
     closure : s, largest difference of an interval and the one `period` (or one) later
-    longest : longest period that the record could have shown, in releases
     chaos : result of the 0-1 test, near 0 for regular and near 1 for chaotic motion; nan if it was not needed
+    longest : longest period that the record could have shown, in releases
     """
 
     kind: Kind

@@ -119,11 +119,15 @@ def chance(time: Array, values: Array, line: Line, searched: float, near: float 
     Notes
     -----
     The power of noise in a bin is distributed exponentially: above x medians with the probability 2^-x. Bins are taken
-    for independent, which the window makes them not; the probability is too large by that.
+    for independent, which the window makes them not; the probability is too large by that. Raises ValueError if there
+    is no bin in the neighbourhood: the samples are too short.
     """
     frequency, amplitude = amplitude_spectrum(time, values)
     apart = np.abs(frequency - line.frequency)
-    level = float(np.median(amplitude[(apart > near) & (apart < far)] ** 2))
+    around = amplitude[(apart > near) & (apart < far)]
+    if not around.size:
+        raise ValueError(f"no bin of the spectrum is {near:g} to {far:g} Hz from {line.frequency:g} Hz")
+    level = float(np.median(around**2))
     trials = max(1.0, 2 * searched / float(frequency[1]))
     if not level > 0:
         return 0.0

@@ -28,6 +28,7 @@ from disc_model.data.provenance import source_hash, versions
 from disc_model.engine import machine, sampling
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
+from disc_model.schema import is_number
 from disc_model.simulation.case import Poincare, Record, Window
 
 # ----------------------------------------------------------------------------------------------------
@@ -77,8 +78,7 @@ def faults(path: object, every: object) -> Iterator[str]:
     """What is wrong with the arguments ``checkpoint`` and ``checkpoint_every`` of `disc_model.simulation.api`."""
     if path is not None and not _may_be_file(path):
         yield f"checkpoint={str(path)!r}: must be a file in a folder that exists"
-    is_number = isinstance(every, int | float | np.floating | np.integer) and not isinstance(every, bool)
-    if not is_number or not 0 <= float(every) < math.inf:  # type: ignore[arg-type]
+    if not is_number(every) or not 0 <= float(every) < math.inf:  # type: ignore[arg-type]
         yield f"checkpoint_every={every!r}: must be finite and >= 0"
 
 

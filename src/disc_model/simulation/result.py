@@ -17,6 +17,7 @@ from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.engine import layout
 from disc_model.engine.lanes import aligned_pieces
+from disc_model.engine.machine import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
@@ -31,10 +32,6 @@ if TYPE_CHECKING:
 
 
 Array = NDArray[np.float64]
-
-EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
-"""Columns of `Result.event_rows`, as the engine writes them; phase by its place in `PHASES`, kind in `EVENT_KINDS`."""
-
 
 _ERRORS: dict[Status, type[errors.SimulationError]] = {
     Status.STEP_LIMIT: errors.StepLimit,
@@ -144,7 +141,8 @@ class Result:
     ----------
     parameters, t_end (s), tol, record : what was asked
     status, message : how it ended; the message says at what time, in what phase and why
-    event_rows : shape (n_events, len(EVENT_ROW)), what `events` is made of
+    event_rows : shape (n_events, len(EVENT_ROW)), what `events` is made of: phase by its place in `PHASES`, kind by
+        that in `EVENT_KINDS`
     events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
         just after the event; made when it is first asked for
     first_separation : s, nan if contact was never lost

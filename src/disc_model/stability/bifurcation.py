@@ -70,14 +70,14 @@ def bifurcation_samples(
 
     values = [float(value) for value in values]
     _check(p, name, values, transient, samples)
+    cases = [p.replace(**{name: value}) for value in values]
     shape = (len(values), samples)
     data = {variable: np.full(shape, math.nan) for variable in _VARIABLES}
     phase = np.full(shape, -1, np.int8)
     first, stick = np.full(len(values), math.nan), np.full(len(values), math.nan)
     separations, status = np.zeros(len(values), np.int64), np.zeros(len(values), np.int8)
     given = initial_state
-    for i, value in enumerate(values):
-        case = p.replace(**{name: value})
+    for i, case in enumerate(cases):
         start = None if given is None else carried_over(case, given)
         turn = 2 * math.pi / case.Omega
         begin = math.ceil(transient / turn)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from disc_model.errors import ParameterError
+from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_shapes, mode_arrays
 
@@ -81,12 +82,12 @@ def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
     """Frequency (Hz), number of diameters and whether the slider takes part, for every mode of disc and slider at rest.
 
     A coupled mode takes the diameters of the disc's mode that has most of its energy; its partner, which the slider
-    leaves alone, keeps its own.
+    leaves alone, keeps its own.  On a compliant contact there is one more, in which the slider moves against the disc.
     """
     modes = mode_arrays(p)
-    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, p.m, p.k)
+    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, p.m, p.k, contact_give(p))
     coupled = [
-        (float(frequency) / (2 * math.pi), int(modes.diameters[np.argmax(np.abs(shape))]), True)
+        (float(frequency) / (2 * math.pi), int(modes.diameters[np.argmax(np.abs(shape[: len(modes.omega)]))]), True)
         for frequency, shape in zip(frequencies, shapes.T, strict=True)
     ]
     alone = [
