@@ -81,6 +81,8 @@ def test_underscores_are_accepted_in_option_names(capsys: pytest.CaptureFixture[
         ((*BASE, "--t-end", "1", "--max-steps", "1.5"), ("max_steps=1.5: must be a whole number >= 1",)),
         ((*BASE, "--t-end", "1", "--save", "no/such/r.nc"), ("save='no/such/r.nc': must be in a folder that exists",)),
         ((*BASE, "--t-end", "1", "--window", "late"), ("window='late': must be NAME:KEY=VALUE,...",)),
+        # used to be refused by the file, after the simulation
+        ((*BASE, "--t-end", "1", "--window", "events:rate=100"), ("window='events:rate=100': must be NAME:KEY",)),
         ((*BASE, "--t-end", "1", "--window", "late:last=0,rate=1"), ("window.late.last=0: must be > 0",)),
         (
             (*BASE, "--t-end", "1", "--window", "w:start=0,stop=3,rate=1"),

@@ -38,21 +38,24 @@ def page(title: str, *body: str) -> str:
 
 def to_markdown(table: pd.DataFrame) -> str:
     """The table as a Markdown document, with a count of the verdicts above it."""
-    count = table["verdict"].str.partition(":")[0].value_counts()
-    summary = ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
     header = [name.replace("_", " ").replace("ours", "computed") for name in map(str, table.columns)]
-    lines = ["# The paper's claims", "", f"{len(table)} claims; {summary}.", ""]
+    lines = ["# The paper's claims", "", f"{len(table)} claims; {_counts(table)}.", ""]
     lines += markdown_table(header, table.itertuples(index=False))
     return "\n".join(lines) + "\n"
 
 
 def ledger(table: pd.DataFrame) -> str:
     """The table of claims as a page, with the counts of the verdicts above it."""
-    count = table["verdict"].str.partition(":")[0].value_counts()
-    summary = f"{len(table)} statements; " + ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
+    summary = f"{len(table)} statements; {_counts(table)}"
     rows = [_claim(row) for row in table.to_dict("records")]
     head = ("", "Place", "Statement, in our words", "Paper", "Computed", "Verdict", "Tolerance")
     return page("The paper's claims, checked", f"<p>{escape(summary)}.</p>", _table(head, rows, CLAIM_WIDTHS))
+
+
+def _counts(table: pd.DataFrame) -> str:
+    """How often each verdict was given."""
+    count = table["verdict"].str.partition(":")[0].value_counts()
+    return ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
 
 
 def _claim(row: Mapping[Any, Any]) -> str:

@@ -144,6 +144,7 @@ def _checked(
 
 def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, Window]:
     """Windows by name, of texts such as ``late:last=3,rate=4000``; adds to `faults` what is wrong with them."""
+    from disc_model.data.variables import BESIDE_WINDOWS
     from disc_model.simulation.case import Window
 
     found: dict[str, Window] = {}
@@ -151,8 +152,9 @@ def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, W
         name, named, said = text.rpartition(":")
         name = name if named else f"sample_{i}"
         pairs = [pair.partition("=") for pair in said.split(",")]
-        if not name.isidentifier() or name in found or not all(sign for _, sign, _ in pairs):
-            faults.append(Fault(("window",), shown(text), "must be NAME:KEY=VALUE,... with a name of its own"))
+        if not name.isidentifier() or name in {*found, *BESIDE_WINDOWS} or not all(sign for _, sign, _ in pairs):
+            rule = "must be NAME:KEY=VALUE,... with a name of its own, not that of a variable or of events"
+            faults.append(Fault(("window",), shown(text), rule))
             continue
         try:
             found[name] = Window(**{key.strip(): value for key, _, value in pairs})

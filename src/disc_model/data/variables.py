@@ -76,6 +76,8 @@ COUNTS = {
     "audited_steps": "audited_steps",
 }
 """Whole numbers among the scalars, and what `Result.statistics` calls them."""
+BESIDE_WINDOWS = frozenset({"events", "poincare", *SCALARS, *Parameters.model_fields})
+"""Groups and variables that stand beside the windows in a file: no window can be called so."""
 CHOICES = {"normalization": NORMALIZATIONS, "contact": CONTACTS, "contact_force": CONTACT_FORCES}
 KICKS = {
     "kick_u": Variable("m", "kick of the slider and of the disc under it, upward"),

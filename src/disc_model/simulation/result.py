@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model import errors
-from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
+from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.engine import layout
 from disc_model.engine.lanes import aligned_pieces
 from disc_model.engine.machine import EVENT_ROW
@@ -286,9 +286,10 @@ class Result:
 
 def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
     """Names of a result's windows: each becomes a group of a file, beside those that are there in any case."""
-    taken = {"events", "poincare", *SCALARS, *Parameters.model_fields}
     good = len(names) == len(result.samples) == len(set(names))
-    if not good or any(not isinstance(name, str) or not name or "/" in name or name in taken for name in names):
+    if not good or any(
+        not isinstance(name, str) or not name or "/" in name or name in BESIDE_WINDOWS for name in names
+    ):
         rule = f"must be {len(result.samples)} different names without /, one a window, none of them that of a variable"
         raise ParameterError(Fault(("names",), shown(list(names)), rule))
     return names

@@ -76,6 +76,16 @@ def test_a_section_has_slider_and_disc(case: xr.DataTree) -> None:
     assert disc.get_xlabel().startswith("Disc at")
 
 
+@pytest.mark.parametrize("kind", ["history", "spectrogram", "portrait"])
+def test_a_window_that_the_run_did_not_reach_is_said(kind: str, case: xr.DataTree) -> None:
+    """A case that stops at its first separation ended the job of a history in an IndexError."""
+    early = {f"/{name}": node.to_dataset(inherit=False) for name, node in case.children.items()}
+    early["/late"] = early["/late"].isel(time=slice(0))
+    figure = drawn(xr.DataTree.from_dict({"/": case.to_dataset()} | early), kind, window="late")
+    texts = [text.get_text().replace("\n", " ") for ax in figure.axes for text in ax.texts]
+    assert any("has 0 samples in late" in text for text in texts)
+
+
 @pytest.mark.parametrize("kind", CASE_PLOTS)
 def test_what_a_failed_case_lacks_is_said(kind: str) -> None:
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))

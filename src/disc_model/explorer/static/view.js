@@ -1,6 +1,6 @@
 // What is looked at, and the controls that choose it.
 
-const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: "auto", mark: NONE, hovered: null };
+const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: "auto", mark: NONE };
 
 const long = (study) => study.dims.filter((dim) => dim.values.length > 1);
 const along = (variable, ...dims) => dims.every((dim) => dim === NONE || variable.dims.includes(dim));

@@ -49,6 +49,8 @@ def _history(case: xr.DataTree, plot: History) -> Figure:
     with parts.or_say_why(*axes):
         window = inputs.group(case, plot.window)
         time = window["time"].values
+        if time.size < 2:  # the run ended before it
+            raise inputs.Missing(f"has {time.size} samples in {plot.window}, at least 2 are needed")
         for ax, name in zip(axes, plot.variables, strict=True):
             label, factor = _axis(name, window)
             colour = COLOURS.get(name, SLIDER)

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, StringConstraints, model_validator
 
-from disc_model.data.variables import SCALARS
+from disc_model.data.variables import BESIDE_WINDOWS, SCALARS
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.schema import Positive, Real, Strict, Tolerance
@@ -29,7 +29,7 @@ from disc_model.truncation import AUTO, read_parameters
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
 """Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
-TAKEN_WINDOWS = TAKEN | {"events", "poincare"}
+TAKEN_WINDOWS = TAKEN | BESIDE_WINDOWS
 
 
 class Span(Strict):

@@ -21,7 +21,7 @@ from disc_model.simulation.result import State
 from disc_model.studies.grids.run import STATUS, Column, quantity_of, run_as
 
 SAMPLES = 256
-"""In a history: some six in an oscillation of the disc's fastest mode of the paper over the longest."""
+"""In a history: nearly four in an oscillation of the disc's fastest mode of the paper over the longest."""
 CYCLES = 2
 """How many stick-slip cycles a history shows."""
 LONGEST = 0.05
