@@ -61,6 +61,14 @@ def test_growth_that_has_saturated_is_not_simulated_to_the_horizon() -> None:
     assert math.isnan(on.first_separation)
 
 
+def test_a_patient_look_sees_what_leaves_a_torus_that_is_unstable() -> None:
+    """The contact force ranges over a third of the preload from 190 s to 300 s and longer; then it separates."""
+    p = Parameters(N=550, Omega=12.7)
+    assert fate(p, 1000, furthest=0.02).saturated
+    found = fate(p, 1000, furthest=0.02, patient=True)
+    assert (found.outcome, found.saturated) == ("separation", False)
+
+
 def test_a_slow_rise_is_no_rest() -> None:
     """At 96 % of the preload, and 1 % more each leg: it separates at 847 s, and is not left before."""
     found = fate(Parameters(N=216.666666667, Omega=11.328125), 1000)

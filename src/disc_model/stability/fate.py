@@ -75,6 +75,7 @@ WATCH, FOLD = 100.0, 250
 SLIDING_TIMES = (1.0, 4.0)
 """Times over which the approach to steady sliding is compared with its eigenvalues, s."""
 _NOTHING = Record(events=False)
+_WATCHED = Record(windows=(Window(rate=WATCH, envelope=FOLD),), events=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,6 +148,7 @@ def fate(
     tol: float = 1e-10,
     start: Near | FloquetResult | None = None,
     furthest: float = AMPLITUDES[0],
+    patient: bool = False,
 ) -> Fate:
     """What becomes of the published start within a horizon (s).
 
@@ -156,9 +158,11 @@ def fate(
     start : what `published_start_near` says, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may tell of a departure: the
         shorter, the better is the time of the first separation known
+    patient : simulate to the horizon even if growth has saturated: a motion can rest for hundreds of seconds on a torus
+        that is itself unstable
     """
     start = published_start_near(p) if start is None else start
-    return _Course(p, horizon, tol, furthest).run(start if isinstance(start, Near) and start.own else None)
+    return _Course(p, horizon, tol, furthest, patient).run(start if isinstance(start, Near) and start.own else None)
 
 
 def departs_after(near: Near, horizon: float) -> bool:
@@ -183,8 +187,8 @@ class _Course:
     still : legs since then
     """
 
-    def __init__(self, p: Parameters, horizon: float, tol: float, furthest: float) -> None:
-        self.p, self.horizon, self.tol, self.furthest = p, horizon, tol, furthest
+    def __init__(self, p: Parameters, horizon: float, tol: float, furthest: float, patient: bool) -> None:
+        self.p, self.horizon, self.tol, self.furthest, self.patient = p, horizon, tol, furthest, patient
         self.map = ReturnMap(p, CYCLE_TOL)
         self.state: State | None = None
         self.time, self.simulated = 0.0, 0.0
@@ -208,7 +212,8 @@ class _Course:
             elif self.time >= self.horizon:
                 return self._ended("unstable" if self.left or _growing(self.changes) else "undecided")
             if self.left is not None:
-                leg = max(SHORTEST_LEG, LEG / self.left.cycle.growth_rate)
+                longer = 1 + self.still if self.patient else 1
+                leg = longer * max(SHORTEST_LEG, LEG / self.left.cycle.growth_rate)
             result = self._simulated(leg)
             leg *= 2
             if result.status is Status.STOPPED:
@@ -224,23 +229,24 @@ class _Course:
             elif OUTCOMES[code] == "time_over" and _nears_sliding(self.p, result.final_state, self.tol):
                 self.shown = None
                 return self._ended("stable", sliding=True)
-            if near is None and self.still >= STILL:
+            if near is None and self.still >= STILL and not self.patient:
                 return self._ended("unstable", saturated=True)
 
     def _simulated(self, leg: float) -> Result:
         """Go on for a time (s), or to the first separation."""
-        watch = Record(windows=(Window(rate=WATCH, envelope=FOLD),), events=False)
+        stop = min(self.time + leg, self.horizon)
+        watched = self.left is not None and stop - self.time > FOLD / WATCH
         result = simulate(
             self.p,
-            min(self.time + leg, self.horizon),
+            stop,
             tol=self.tol,
             initial_state=self.state,
-            record=_NOTHING if self.left is None else watch,
+            record=_WATCHED if watched else _NOTHING,
             stop_at="first_separation",
         )
         self.simulated += result.final_state.time - self.time
         self.state, self.time = result.final_state, result.final_state.time
-        if self.left is not None:
+        if watched:
             P = result.samples[0]
             reached = max((P["P_max"] - P["P_min"]), default=0.0)
             if reached > RISES * self.reached:  # a slow rise adds up, since only a rise sets a new mark
@@ -339,7 +345,8 @@ def _departure(near: Near, room: int, furthest: float = AMPLITUDES[0]) -> tuple[
     """
     size, period = float(np.linalg.norm(near.map.static)), near.cycle.period
     powers = [near.jacobian]
-    while 2 ** len(powers) <= room:
+    most = math.log(1e100) / max(math.log(abs(near.cycle.multipliers[0])), 1e-300)
+    while 2 ** len(powers) <= min(room, most):  # no departure is followed as far as numbers go
         powers.append(powers[-1] @ powers[-1])
     for amplitude in (a for a in AMPLITUDES if a <= furthest):
         n, distance = 0, near.distance

@@ -224,10 +224,14 @@ class _Tile:
         return [[self._row((i, j), int(others[i, j])) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
     def _follow(self, place: Place) -> _Followed | None:
-        """The cycle that the published start follows at a point, if that is known."""
+        """The cycle that the published start follows at a point, if that is known.
+
+        Its own as long as it departs from that: where it has grown to is known at simulated points alone, and would
+        stand out among their neighbours.
+        """
         start, found = self.starts[place], self.fates.get(place)
         own = isinstance(start, Near) and start.own
-        if isinstance(found, Fate) and not (own and found.cycle is start.cycle):  # type: ignore[union-attr]
+        if isinstance(found, Fate) and not (own and (found.outcome != "stable" or found.cycle is start.cycle)):  # type: ignore[union-attr]
             if found.cycle is None or found.cycle.state is None:
                 return None
             map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
