@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
 
-.PHONY: schema report explore orthonormal gallery docs linkcheck drawings env reproduce gc test test-portable test-long coverage test-study lint format bench lock clean
+.PHONY: schema report explore orthonormal gallery docs linkcheck drawings env reproduce gc test test-portable test-long coverage test-study lint format bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -104,6 +104,10 @@ $(VENV)/.bench: requirements-bench.lock $(STAMP)
 # Speed against accuracy, where methods fail, truncation: measured here and now, on one core at a time.
 bench: $(VENV)/.bench
 	$(BIN)/snakemake -j1 bench
+
+# What README and docs say about speed, and their pictures of it, from that run: all from one, with its machine's name.
+bench-pages: env
+	$(BIN)/python -m workflow.scripts.write_benchmark_pages
 
 # One version of each package for every system and every Python that the project supports.
 LOCK := $(BIN)/uv pip compile --quiet --upgrade --universal --fork-strategy fewest --python-version 3.11 \

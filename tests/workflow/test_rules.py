@@ -12,7 +12,14 @@ from tests.workflow.conftest import ROOT, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 SCRIPTS = ROOT / "workflow" / "scripts"
-ALONE = {"measure_work_precision", "measure_answers", "map_failures", "map_answers", "study_truncation"}
+ALONE = {
+    "measure_work_precision",
+    "measure_answers",
+    "merge_answers",
+    "map_failures",
+    "map_answers",
+    "study_truncation",
+}
 """Have the machine to themselves, so that no other job compiles meanwhile."""
 
 

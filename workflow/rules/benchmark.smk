@@ -9,7 +9,7 @@ FAILURE_MAPS = [
     for scene in rival.maps
     if not rival.requires or not (CONDA or rival.missing())
 ]
-ANSWER_MAPS = [
+QUESTIONED = [
     rival.name
     for rival in RIVALS
     if rival.maps and (not rival.requires or not (CONDA or rival.missing()))
@@ -27,7 +27,7 @@ BENCH_FIGURES = [
 BENCH_INPUTS = {
     "answers": f"{BENCH}/answers.nc",
     "prices": f"{BENCH}/answers.nc",
-    "answer_maps": collect(f"{BENCH}/answer_maps/{{method}}.nc", method=ANSWER_MAPS),
+    "answer_maps": collect(f"{BENCH}/answer_maps/{{method}}.nc", method=QUESTIONED),
     "truncation": f"{BENCH}/truncation.nc",
     "contact_truncation": f"{BENCH}/contact_truncation.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
@@ -70,18 +70,35 @@ rule measure_work_precision:
 
 rule measure_answers:
     output:
-        nc=f"{BENCH}/answers.nc",
-        md=f"{BENCH}/answers.md",
+        f"{BENCH}/answers/{{part}}.nc",
     log:
-        f"{BENCH}/logs/measure_answers.log",
+        f"{BENCH}/logs/measure_answers/{{part}}.log",
+    wildcard_constraints:
+        part="[A-Za-z0-9-]+",
     conda:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
         sources=sources_of("measure_answers", files=BENCH_DATA),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_answers.py {output.nc}"
-        " --md {output.md} > {log} 2>&1"
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_answers.py {wildcards.part} {output}"
+        " > {log} 2>&1"
+
+
+rule merge_answers:
+    input:
+        collect(f"{BENCH}/answers/{{part}}.nc", part=[*QUESTIONED, "cycle", "models"]),
+    output:
+        nc=f"{BENCH}/answers.nc",
+        md=f"{BENCH}/answers.md",
+    log:
+        f"{BENCH}/logs/merge_answers.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        sources=sources_of("merge_answers", files=BENCH_DATA),
+    shell:
+        "python workflow/scripts/merge_answers.py {input} --out {output.nc} --md {output.md} > {log} 2>&1"
 
 
 rule map_failures:

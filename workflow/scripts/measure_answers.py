@@ -1,15 +1,14 @@
-"""Measure what each answer costs; write the dataset, and the table as Markdown."""
+"""Measure what each answer costs one method, or this package in its own ways."""
 
 from __future__ import annotations
 
 import argparse
 import logging
-from pathlib import Path
 
 import xarray as xr
 
-from disc_model.benchmarks.answers.measure import Row, measure
-from disc_model.benchmarks.answers.words import to_markdown
+from disc_model.benchmarks.answers.measure import OWN, Row, measure
+from disc_model.benchmarks.register import RIVALS
 from disc_model.data.dataset import save
 
 
@@ -23,13 +22,11 @@ def report(row: Row) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("part", choices=[*(rival.name for rival in RIVALS), *OWN])
     parser.add_argument("output", help="netCDF file to write")
-    parser.add_argument("--md", type=Path, required=True)
     args = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(message)s")
-    dataset = measure(progress=report)
-    save(xr.DataTree(dataset), args.output)
-    args.md.write_text(to_markdown(dataset), encoding="utf-8")
+    save(xr.DataTree(measure(args.part, progress=report)), args.output)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from disc_model.benchmarks.pages import FIGURES, filled, page, summary
 from disc_model.data.dataset import load
 from disc_model.errors import exit_on_error
 
-PAGES = ("README.md", "docs/method.md", "docs/gallery.md")
+PAGES = ("README.md", "docs/method.md")
 """Those that hold passages."""
 
 

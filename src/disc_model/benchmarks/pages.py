@@ -133,12 +133,17 @@ def filled(text: str, run: Summary) -> str:
 def page(run: Summary) -> str:
     """The page of the benchmark."""
     known = passages(run)
-    text = ["# Speed against accuracy", "", "Made by `make bench` and `make bench-pages`, all in one run on one core."]
+    text = [
+        "# Speed against accuracy",
+        "",
+        "Made by `make bench` and `make bench-pages`, on one core; times are the processor's.",
+    ]
     text += [f"Machine: {run['machine']}.", "", "## Event times", "", "![Speed against accuracy](gallery/overview.png)"]
     text += ["", known["speed"], "", "## Answers", ""]
     text += [
-        "What a study asks for, and what each method asks for it: the wall time of its cheapest right setting. Rivals",
-        "that stop at a right answer's tolerance too early are said to be wrong: nothing warned of it.",
+        "What a study asks for, and what each method asks for it: time on one core at its cheapest right setting; in",
+        "red the settings at which it answers wrongly, without a warning. Right answers come from methods that share",
+        "no code with the engine. A region's cells are drawn at random, with a fixed seed, where all take too long.",
         "",
         "![What each right answer costs](gallery/prices.png)",
         "",

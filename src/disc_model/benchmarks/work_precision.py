@@ -47,9 +47,9 @@ def all_settings() -> Settings:
 
 VARIABLES: Mapping[str, Variable] = {
     "value": Variable("1", "setting of the method: tolerance, step (s) or regularisation (rad/s)"),
-    "seconds": Variable("s", "wall time of the integration, median of the repeats"),
-    "seconds_spread": Variable("s", "largest less smallest wall time of the repeats"),
-    "cost": Variable("1", "seconds of wall time per simulated second"),
+    "seconds": Variable("s", "processor time of the integration, median of the repeats"),
+    "seconds_spread": Variable("s", "largest less smallest time of the repeats"),
+    "cost": Variable("1", "seconds per simulated second"),
     "event_error": Variable("s", "largest error of an event time, nan if events are missing or invented"),
     "state_error": Variable("1", "energy norm of the error of the state at the end over that of the state"),
     "work": Variable("1", "right-hand sides evaluated; steps for methods that work with series"),

@@ -75,7 +75,7 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
         _cost_panel(ax, part, error, orders=True)
         parts.letter(ax, letter)
         ax.set_xlabel(ERRORS[error])
-    left.set_ylabel("Wall time per simulated second")
+    left.set_ylabel("Time per simulated second")
     figure.legend(handles=_method_handles(part), loc="outside right center", title=TITLES[scene])
     return figure
 
@@ -91,7 +91,7 @@ def overview(dataset: xr.Dataset) -> Figure:
     for ax in axes[2:]:
         ax.set_xlabel(ERRORS["event"])
     for ax in axes[::2]:
-        ax.set_ylabel("Wall time per simulated second")
+        ax.set_ylabel("Time per simulated second")
     figure.legend(handles=_method_handles(dataset), loc="outside right center")
     return figure
 
@@ -219,7 +219,7 @@ def answers(dataset: xr.Dataset) -> Figure:
         ax.set_xlim(left=low)
         ax.xaxis.set_minor_formatter(NullFormatter())
     for ax in axes[::columns]:
-        ax.set_ylabel("Wall time (s)")
+        ax.set_ylabel("Time on one core (s)")
     for ax in axes[len(names) :]:
         ax.set_axis_off()
     figure.legend(handles=list(handles.values()), loc="outside lower center", ncols=4)
@@ -272,7 +272,7 @@ def prices(dataset: xr.Dataset) -> Figure:
     for spine in ax.spines.values():
         spine.set_visible(False)
     bar = figure.colorbar(ScalarMappable(norm, colors), ax=ax, shrink=0.7, pad=0.01)
-    bar.set_label("Wall time (s)")
+    bar.set_label("Time on one core (s)")
     return figure
 
 

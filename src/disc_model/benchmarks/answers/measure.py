@@ -22,6 +22,7 @@ from disc_model.benchmarks.answers import modelled, questions, simulated
 from disc_model.benchmarks.answers.questions import QUESTIONS, STATUS_WORDS, VERDICT_WORDS, Found, Status, verdict
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.methods.base import MethodResult, Problem
 from disc_model.benchmarks.work_precision import LOOK
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
@@ -30,6 +31,8 @@ from disc_model.figures.parts import BLACK, VERMILION
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 """Those that the search for a cycle takes."""
+OWN = ("cycle", "models")
+"""Parts that are no method's."""
 LINES: Mapping[str, tuple[str, str, tuple[str, str, str]]] = {
     "cycle": ("series, from the cycle itself", "tol", (VERMILION, "P", "--")),
     "rigid": ("series, modes, rigid contact", "diameters", (BLACK, "$n$", ":")),
@@ -55,56 +58,62 @@ class Row(NamedTuple):
 
 @one_core()
 def measure(
-    settings: Mapping[str, Sequence[float]] | None = None,
+    part: str,
+    settings: Sequence[float] | None = None,
     *,
     asked: Sequence[str] = tuple(simulated.ASKED),
-    models: Mapping[str, Sequence[int]] | None = None,
+    models: Sequence[int] = modelled.DIAMETERS,
     progress: Callable[[Row], object] | None = None,
 ) -> xr.Dataset:
-    """Measure all points.
+    """Measure the points of a method, or of `OWN`.
 
     Parameters
     ----------
-    settings : by method, from coarse to fine; those of the scene ``stick_slip`` if not given
-    asked : questions put to methods
-    models : by contact, numbers of nodal diameters; `modelled.DIAMETERS` for both if not given
+    part : name of a method, ``cycle`` or ``models``
+    settings : of a method, from coarse to fine; those of the scene ``stick_slip``, or of its maps, if not given
+    asked : questions put to a method
+    models : numbers of nodal diameters, for each contact
     progress : called with each row
 
     Returns
     -------
     Dataset along ``row``, the columns of `VARIABLES`, and how the line is called and drawn.
     """
-    if settings is None:
-        settings = {name: method.settings.get("stick_slip", ()) for name, method in METHODS.items()}
-    if models is None:
-        models = dict.fromkeys(modelled.CONTACTS, modelled.DIAMETERS)
+    if part == "cycle":
+        found = _of_the_cycle()
+    elif part == "models":
+        found = _of_models(models)
+    else:
+        own = METHODS[part]
+        found = _of_method(part, settings or own.settings.get("stick_slip", own.map_values), asked)
     rows = []
-    for part in (_of_methods(settings, asked), _of_the_cycle() if models else (), _of_models(models)):
-        for row in part:
-            rows.append(row)
-            if progress is not None:
-                progress(row)
+    for row in found:
+        rows.append(row)
+        if progress is not None:
+            progress(row)
     return _dataset(rows)
 
 
-def _of_methods(settings: Mapping[str, Sequence[float]], asked: Sequence[str]) -> Iterator[Row]:
+def merged(parts: Sequence[xr.Dataset]) -> xr.Dataset:
+    """All parts as one dataset, with the attributes of the first."""
+    return xr.concat(parts, "row", combine_attrs="override")
+
+
+def _of_method(name: str, values: Sequence[float], asked: Sequence[str]) -> Iterator[Row]:
     """A method that is too slow for a question is not asked it at finer settings."""
-    for name, values in settings.items():
-        if METHODS[name].unavailable():
-            continue
-        hopeless: set[str] = set()
-        for value in values:
+    hopeless: set[str] = set()
+    for value in values:
 
-            def solve(problem: Any, budget: float, name: str = name, value: float = value) -> Any:
-                return METHODS[name].solve(problem, value, budget)
+        def solve(problem: Problem, budget: float, value: float = value) -> MethodResult:
+            return METHODS[name].solve(problem, value, budget)
 
-            for question in asked:
-                if question in hopeless:
-                    continue
-                for answer, found in simulated.ask(solve, (question,)):
-                    yield Row(answer, name, value, questions.reference(answer).value, found)
-                    if found.status is Status.TOO_SLOW:
-                        hopeless.add(question)
+        for question in asked:
+            if question in hopeless:
+                continue
+            for answer, found in simulated.ask(solve, (question,)):
+                yield Row(answer, name, value, questions.reference(answer).value, found)
+                if found.status is Status.TOO_SLOW:
+                    hopeless.add(question)
 
 
 def _of_the_cycle() -> Iterator[Row]:
@@ -115,13 +124,11 @@ def _of_the_cycle() -> Iterator[Row]:
         yield Row("growth_rate", "cycle", tol, questions.reference("growth_rate").value, growth)
 
 
-def _of_models(models: Mapping[str, Sequence[int]]) -> Iterator[Row]:
-    if not models:
-        return
+def _of_models(models: Sequence[int]) -> Iterator[Row]:
     right = {answer: found.value for answer, found in modelled.ask(modelled.RICHEST)}
-    for contact, diameters in models.items():
-        for count in diameters:
-            for answer, found in modelled.ask({"n_diameters": count} | modelled.CONTACTS[contact]):
+    for contact, fields in modelled.CONTACTS.items():
+        for count in models:
+            for answer, found in modelled.ask({"n_diameters": count} | fields):
                 yield Row(answer, contact, count, right[answer], found)
 
 
@@ -135,7 +142,7 @@ VARIABLES: Mapping[str, Variable] = {
     "low": Variable("", "lower bound of the answer, where it has one"),
     "high": Variable("", "upper bound of the answer"),
     "cells": Variable("1", "cells of the region that were looked at"),
-    "seconds": Variable("s", "wall time"),
+    "seconds": Variable("s", "processor time"),
     "status": Variable("1", "what became of the question", STATUS_WORDS),
     "verdict": Variable("1", "whether the answer is right", VERDICT_WORDS),
     "message": Variable("", "why there is no answer"),

@@ -226,11 +226,11 @@ def cell(solve: Solve, p: Parameters, budget: float) -> tuple[bool, float]:
 
 
 ASKED: Mapping[str, tuple[Callable[[Solve, float], Answers], float]] = {
-    "first_separation": (first_separation, 12.0),
-    "after_separation": (after_separation, 8.0),
-    "onset": (onset, 20.0),
-    "growth_rate": (growth_rate, 8.0),
-    "region": (region, 20.0),
+    "first_separation": (first_separation, 10.0),
+    "after_separation": (after_separation, 6.0),
+    "onset": (onset, 12.0),
+    "growth_rate": (growth_rate, 6.0),
+    "region": (region, 8.0),
 }
 """By name: the question, and the seconds that a method may take for it at one setting."""
 

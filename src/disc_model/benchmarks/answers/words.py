@@ -109,7 +109,7 @@ def to_markdown(dataset: xr.Dataset) -> str:
             continue
         text += [f"## {own['title'].capitalize()}", "", sentences(dataset, question), ""]
         text += [f"Right answer: error {own['error']}.", ""]
-        head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "wall time (s)", "verdict", "status")
+        head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "time (s)", "verdict", "status")
         text += [*markdown_table(head, map(_row, found)), ""]
     return "\n".join(text)
 

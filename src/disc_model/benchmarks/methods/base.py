@@ -19,7 +19,8 @@ A method is an object with
     advances ``problem`` with its setting equal to ``value``; gives up after ``budget`` seconds.  Never raises for
     what happens on the way: the result's status says it.
 
-What is timed is the integration alone: modes, compiling and setting up are left out for every method.
+What is timed is the integration alone: modes, compiling and setting up are left out for every method.  Times are the
+processor's: on a core of its own those of the wall clock, and elsewhere not blurred by what else runs.
 """
 
 from __future__ import annotations
@@ -93,7 +94,7 @@ class MethodResult:
     times : s, shape (n_events,)
     kinds : n_events words of `disc_model.data.variables.EVENT_KINDS`
     final : state at t_end, or where the method stopped
-    seconds : wall time of the integration
+    seconds : processor time of the integration
     work : right-hand sides evaluated, or steps for methods that work with series
     outcome, message : how it ended
     longest_step : s, longest step taken; nan if not known
@@ -177,7 +178,7 @@ class Meter:
     work: int = 0
     longest_step: float = math.nan
     heights: Heights | None = None
-    began: float = field(default_factory=clock.perf_counter)
+    began: float = field(default_factory=clock.thread_time)
 
     @classmethod
     def of(cls, problem: Problem, physics: Physics, budget: float) -> Meter:
@@ -186,12 +187,12 @@ class Meter:
 
     def start(self) -> None:
         """Set the clock to zero: everything before was preparation."""
-        self.began = clock.perf_counter()
+        self.began = clock.thread_time()
 
     @property
     def seconds(self) -> float:
-        """Wall time since the start."""
-        return clock.perf_counter() - self.began
+        """Processor time since the start."""
+        return clock.thread_time() - self.began
 
     def steps(self, times: Array, states: Array) -> None:
         """Note the steps between successive ``times`` (s, shape (k,)) and the states there (k, size)."""

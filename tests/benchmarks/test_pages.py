@@ -1,0 +1,40 @@
+"""What README and docs say of a benchmark's run."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+import xarray as xr
+
+from disc_model.benchmarks import pages
+from disc_model.errors import DiscModelError
+from tests.benchmarks.conftest import dataset, known
+from tests.benchmarks.test_answers import dataset as answers
+
+__all__ = ["answers", "dataset", "known"]
+
+
+def test_what_a_run_comes_to(dataset: xr.Dataset, answers: xr.Dataset) -> None:
+    run = pages.summary(dataset, answers)
+    assert run["machine"] == dataset.attrs["machine"]
+    # of conftest's methods, whose costs are laid down: 1.1 ms at the default, RK4 right to 1e-10 s nowhere
+    assert run["own"]["stick_slip"] == pytest.approx({"cost": 1.1e-3, "error": 5e-11}, rel=1e-6)
+    assert run["prices"]["first_separation"]["late"] == {"seconds": 2.0, "at": "tol=0.01", "wrong": [1.0, 0.3]}
+    assert json.loads(json.dumps(run)) == run
+
+
+def test_one_run_is_on_one_machine(dataset: xr.Dataset, answers: xr.Dataset) -> None:
+    with pytest.raises(DiscModelError, match="another machine"):
+        pages.summary(dataset, answers.assign_attrs(machine="another machine"))
+
+
+def test_a_page_is_filled_by_name(dataset: xr.Dataset, answers: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pages, "passages", lambda run: {"machine": run["machine"], "speed": "fast"})
+    run = pages.summary(dataset, answers)
+    text = "On <!-- bench machine -->an old one<!-- end -->: <!-- bench speed -->\nslow<!-- end -->."
+    filled = pages.filled(text, run)
+    assert filled == f"On <!-- bench machine -->{run['machine']}<!-- end -->: <!-- bench speed -->fast<!-- end -->."
+    assert pages.filled(filled, run) == filled
+    with pytest.raises(DiscModelError, match=r"no passage of the benchmark is called 'price'"):
+        pages.filled("<!-- bench price --><!-- end -->", run)
