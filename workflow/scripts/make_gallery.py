@@ -17,6 +17,11 @@ OTHERS = {
         "Fig. 15. Critical speed for separation against preload.",
         "(a) First separation from the published start within 500, 1000, 2000 s; (b) sweeps of the speed up and down.",
     ),
+    "basins/figures/basins.png": (
+        "What many starts come to at N = 385 N.",
+        "(a) Shares of random kicks of the energies dotted in (c); (b) the attractors, marks as large as their shares; "
+        "(c) the least kick found that leads to lasting separation.",
+    ),
     "map_N/figures/map_N.png": (
         "Stability over speed and preload.",
         "Above: what the published start comes to within 1000 s. Below: growth rate of the cycle that it follows.",

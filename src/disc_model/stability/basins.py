@@ -53,6 +53,8 @@ RATE = 1000.0
 SETTLED = 0.01
 """Largest relative change of a signature over those legs. Motions that are not periodic vary by half of it. A
 disturbance that dies out or grows by 0.00025/s or faster changes by more."""
+AGAIN = 0.8
+"""Share of its distance from the cycle after which a motion that did not follow the multipliers is tried again."""
 STEADY = 1e-3
 """Relative change of the range over those legs that is no drift: samples of a periodic motion vary by a tenth."""
 LEFT = 0.025
@@ -158,7 +160,7 @@ class Basins:
     def reached(self, state: State) -> Reached:
         """What the motion from a state at time 0 comes to; an attractor that is new is known from now on."""
         signatures: list[Signature] = []
-        separated, since = False, -1
+        separated, since, tried = False, -1, [math.inf]
         while True:
             result = self._leg(state, min(state.time + LEG, self.horizon))
             state = result.final_state
@@ -167,7 +169,7 @@ class Basins:
                 return Reached("failed", None, state.time, separated, result.status.value, result.message)
             signatures.append(_signature(result))
             over = state.time >= self.horizon
-            found = self._found(signatures, state) if self.near else None
+            found = self._found(signatures, state, tried) if self.near else None
             if not self._settled(signatures):
                 since = -1
             elif found is None and (over or (self.near and since < 0)):
@@ -194,9 +196,10 @@ class Basins:
         assert near.cycle.state is not None
         return self._periodic("quiet", _signature(self._leg(near.cycle.state, LEG)), near.cycle, near.x)
 
-    def _found(self, signatures: Sequence[Signature], state: State) -> Attractor | None:
-        """The attractor that the motion nears, before it has settled there."""
-        if self.cycle is not None and signatures[-1].separation_rate == 0 and self._nears(self.cycle, state):
+    def _found(self, signatures: Sequence[Signature], state: State, tried: list[float]) -> Attractor | None:
+        """The attractor that the motion nears, before it has settled there; see `_nears` for what was tried."""
+        calmer = signatures[-1].separation_rate == 0 and signatures[-1].range <= signatures[0].range
+        if self.cycle is not None and calmer and self._nears(self.cycle, state, tried):
             return self.known[0]
         ranges = [signature.range for signature in signatures[-NEARING:]]
         others = [attractor for attractor in self.known if attractor.kind != "quiet"]
@@ -211,13 +214,20 @@ class Basins:
         ends = _left(ranges) <= (2 * last + SETTLED) * ranges[-1]
         return others[nearest] if last <= self.near and nearing and ends else None
 
-    def _nears(self, near: Near, state: State) -> bool:
-        """Whether the motion is near the cycle on the section, and comes nearer as the multipliers say."""
+    def _nears(self, near: Near, state: State, tried: list[float]) -> bool:
+        """Whether the motion is near the cycle on the section, and comes nearer as the multipliers say.
+
+        tried : distances at which it did not; one that is hardly less is not tried, and one that is is added
+        """
         code, x = self.map.next_release(state)
         for _ in range(near.cycle.releases):
             if code != RETURNED:
                 return False
-            if np.linalg.norm(x - near.x) <= NEAR * self.size:
+            distance = float(np.linalg.norm(x - near.x))
+            if distance <= NEAR * self.size:
+                if distance > AGAIN * tried[-1]:
+                    return False
+                tried.append(distance)
                 return follows(near, x)
             flight, x, _, _ = self.map.evaluate(x, tangent=False)
             code = flight.outcome
