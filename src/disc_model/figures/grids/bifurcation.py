@@ -88,5 +88,5 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
                 markeredgewidth=0.6, label="not converged",
             )  # fmt: skip
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
-    ax.set_ylabel("Lyapunov exponents (1/s)")
+    ax.set_ylabel("Lyapunov exponents" + (",\ntrivial one left out" if "along" in lyapunov else "") + " (1/s)")
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, borderaxespad=0.2)
