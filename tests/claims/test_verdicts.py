@@ -297,6 +297,13 @@ def test_how_long_a_separation_was_waited_for_counts(
     assert found.verdict == f"{NOT_COMPUTED}: case S43c11 ends at 100 s, 2000 s are needed"
 
 
+def test_a_speed_that_did_not_separate_is_not_named(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+    """S43c said that "nan rad/s separates too"."""
+    one = judged(monkeypatch, "S43c", told)
+    assert one.verdict == REMARK
+    assert "nan" not in one.remark
+
+
 def ended(root: xr.Dataset, time: float) -> xr.Dataset:
     return root.assign(time_reached=time)
 
@@ -321,6 +328,8 @@ def test_remarks_do_not_contradict_their_verdicts(found: dict[str, dict[str, str
     """ "Not monotonous" and "only those near 2 f_s are" stood beside claims that held."""
     assert found["as told"]["S43k"] == HOLDS
     assert found["natural frequencies where the lines are"]["T2e"] == HOLDS
+    assert found["a slider of 70 Hz"]["T2d"] == HOLDS
+    assert found["a slower disc"]["P07"] == HOLDS
 
 
 def test_growth_is_that_of_the_cycle(told: xr.DataTree) -> None:
