@@ -12,6 +12,7 @@ import pytest
 from disc_model.explorer.contents import BITS, LEVELS, motion_contents, runs, shortened, study_contents, traces
 from disc_model.studies.grids.motions import SAMPLES
 from tests.explorer import made_up
+from tests.studies.grids.quantities import test_sensitivity as uncertain
 
 
 def numbers(stored, kind: str) -> np.ndarray:
@@ -116,3 +117,13 @@ def test_runs():
 def test_contents_are_json(contents):
     assert json.loads(json.dumps(contents, allow_nan=False)) == contents
     assert motion_contents(made_up.motions(), "After the transient.") == contents["motions"]
+
+
+def test_what_is_said_over_all_samples_is_told_beside_them():
+    """It lies along fewer dimensions than the points."""
+    contents = study_contents("doubts", uncertain.made_up())
+    told = {variable["name"]: variable["dims"] for variable in contents["variables"]}
+    assert told["growth_rate"] == ["N", "sample", "variant"]
+    assert told["probability_unstable"] == ["N"]
+    assert sorted(told["total_index"]) == ["N", "output", "parameter"]
+    assert {name for dims in told.values() for name in dims} <= {dim["name"] for dim in contents["dims"]}

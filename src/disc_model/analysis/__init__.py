@@ -1,1 +1,1 @@
-"""What kind of motion a recorded signal shows: Poincare sections, spectra, and the words for them."""
+"""What kind of motion a recorded signal shows: sections, spectra, words for them; and Sobol indices of samples."""
