@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+import yaml
 
 from disc_model.data.provenance import source_files
 from tests.workflow.conftest import ROOT, copy_repository
@@ -30,6 +31,14 @@ def rules() -> dict[str, str]:
         blocks = re.split(r"^ *rule (\w+):$", file.read_text(), flags=re.MULTILINE)
         texts |= dict(zip(blocks[1::2], blocks[2::2], strict=True))
     return texts
+
+
+def test_what_takes_the_whole_machine_takes_one_thread_of_a_node_of_its_own() -> None:
+    """The answers' rules asked SLURM for 1024 processors, which no node has."""
+    profile = yaml.safe_load((ROOT / "workflow" / "profiles" / "slurm" / "config.yaml").read_text())
+    whole = {name for name, text in rules().items() if "threads: 1024" in text}
+    assert whole == profile["set-threads"].keys()
+    assert all("--exclusive" in profile["set-resources"][name]["slurm_extra"] for name in whole)
 
 
 def test_a_script_has_the_name_of_its_rule() -> None:
