@@ -183,6 +183,8 @@ def _cuts(values: Sequence[Value], size: int) -> list[tuple[list[Value], list[Va
 # ----------------------------------------------------------------------------------------------------
 # Studies
 
+FIRST_SAMPLES = 64
+"""In the first block of samples."""
 REQUIRED = ("N", "Omega")
 """Parameters without a base value."""
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "batch", "starts"})
@@ -417,10 +419,13 @@ def _starts(given: Mapping[Any, Any], faults: Faults) -> dict[str, Start]:
 
 
 def _samples(options: Strict | None) -> tuple[Dimension, ...]:
-    """The dimension of samples, the last; one block, which a longer one begins with."""
+    """The dimension of samples, the last, in blocks that double their number: twice as many only add one."""
     if not isinstance(options, Sampled):
         return ()
-    return (Dimension((SAMPLE,), (tuple((number,) for number in range(options.samples)),)),)
+    ends = [0, min(FIRST_SAMPLES, options.samples)]
+    while ends[-1] < options.samples:
+        ends.append(2 * ends[-1])
+    return (Dimension((SAMPLE,), tuple(tuple((number,) for number in range(a, b)) for a, b in pairwise(ends))),)
 
 
 def _check_starts(raw: Mapping[str, Any], quantity: Quantity | None, faults: Faults) -> None:

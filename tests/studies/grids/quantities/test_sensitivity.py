@@ -124,6 +124,13 @@ def test_more_samples_keep_those_that_there_are() -> None:
     few, many = (parse_grid({"study": "s", **study({"k": UNIFORM}, options={"samples": n})}).batches for n in (16, 64))
     assert len(few) == 8
     assert few.items() < many.items()
+    both = {"over": ["N", "sample"], "size": 100}
+    few_cut, many_cut = (
+        parse_grid({"study": "s", **study({"k": UNIFORM}, options={"samples": n}, batch=both)}) for n in (128, 512)
+    )
+    assert len(few_cut.batches) == 4
+    assert few_cut.batches.items() < many_cut.batches.items()
+    assert [value for (value,) in many_cut.values["sample"]] == list(range(512))
     for change in ({"seed": 4}, {"outcomes": 1}, {"distributions": {"k": UNIFORM | {"high": 1.2}}}):
         other = parse_grid({"study": "s", **study({"k": UNIFORM}, options={"samples": 16, **change})})
         assert not few.keys() & other.batches.keys()
