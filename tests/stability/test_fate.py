@@ -62,9 +62,11 @@ def test_growth_that_has_saturated_is_not_simulated_to_the_horizon() -> None:
 
 
 def test_a_patient_look_sees_what_leaves_a_torus_that_is_unstable() -> None:
-    """The contact force ranges over a third of the preload from 190 s to 300 s and longer; then it separates."""
+    """The contact force ranges over a third of the preload from 190 s to 300 s and longer; then it separates.
+
+    How much longer turns on roundings: a look that is not patient sees rest on most processors, and is not asked here.
+    """
     p = Parameters(N=550, Omega=12.7)
-    assert fate(p, 1000, furthest=0.02).saturated
     found = fate(p, 1000, furthest=0.02, patient=True)
     assert (found.outcome, found.saturated) == ("separation", False)
 
