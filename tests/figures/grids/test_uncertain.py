@@ -26,6 +26,7 @@ def test_bars_and_probabilities_are_those_of_the_study() -> None:
     assert "N = 200 N" in first.get_title(loc="left")
 
 
+@pytest.mark.compiled
 def test_a_campbell_diagram_numbers_what_matters() -> None:
     study = computed(
         quantity="campbell",

@@ -25,6 +25,7 @@ def words(study: xr.Dataset, name: str) -> list[str]:
     return flag_names(study[name]).tolist()
 
 
+@pytest.mark.compiled
 def test_a_crossing_is_where_root_finding_says() -> None:
     """Between speeds f_s is almost straight."""
     base = {"N": 200, **SMALL}

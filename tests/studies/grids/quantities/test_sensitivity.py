@@ -211,6 +211,7 @@ def test_a_rule_between_parameters_is_checked_at_every_point() -> None:
         parse_grid({"study": "s", **raw})
 
 
+@pytest.mark.compiled
 def test_what_is_found_is_what_floquet_finds() -> None:
     options = {"samples": 2, "outcomes": 1, "horizon": 1}
     found = computed(
