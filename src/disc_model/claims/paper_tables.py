@@ -97,16 +97,3 @@ def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0
     part = measures.stretch(case, window, start, stop)
     found = measures.found_lines(spectra.lines(part["time"].values, part["psi"].values, above=20.0), case, window)
     return max(found, key=lambda line: line.amplitude).frequency
-
-
-def mixing(case: CaseView) -> tuple[float, list[tuple[spectra.Line, spectra.Combination]]]:
-    """The stick-slip rate, and the disc's eight strongest lines near its first four multiples with what they are."""
-    window = measures.stretch(case, "spectrum_a", 0, 10)
-    time, values = window["time"].values, window["w_point"].values
-    drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
-    found = []
-    for n in range(1, 5):
-        lines = spectra.lines(time, values, above=n * rate - 1.7 * drive, below=n * rate + 1.7 * drive, apart=drive)
-        pair = sorted(sorted(lines, key=lambda line: -line.amplitude)[:2])
-        found += [(line, spectra.identify(line.frequency, rate, drive)) for line in pair]
-    return rate, found
