@@ -13,7 +13,7 @@ from disc_model import Parameters
 from disc_model.claims.ledger import COLUMNS
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Needed
 from disc_model.claims.pages import ledger, table_page
-from disc_model.claims.paper_tables import LISTED, TABLE_1, stick_slip_rate, table_1, table_2
+from disc_model.claims.paper_tables import LISTED, TABLE_1, stick_slip_rate, table_1, table_2, table_2_or_why
 from disc_model.data.variables import STATUSES
 
 F_S, OMEGA = 67.63, 15.1
@@ -41,6 +41,19 @@ def test_table_2_names_the_lines() -> None:
     np.testing.assert_allclose(table["ours_Hz"], expected, atol=0.01)
     np.testing.assert_allclose(table["predicted_Hz"], expected, atol=0.02)
     assert table["level_dB"].iloc[1] == pytest.approx(20 * np.log10(3e-2), abs=0.3)
+
+
+def test_table_2_of_a_case_without_its_window_says_why() -> None:
+    """A window that begins later passed the check of the study and ended the table's job."""
+    case = case_of_known_lines()
+    late = case.node["spectrum_a"].to_dataset().assign_coords(time=case.node["spectrum_a"]["time"] + 50)
+    later = CaseView("F13", xr.DataTree.from_dict({"/": case.node.to_dataset(), "/spectrum_a": late}))
+    table, missing = table_2_or_why(later)
+    assert missing == "Not computed: case F13 has no samples in spectrum_a from 0 to 10 s."
+    assert list(table.columns) == list(table_2(case).columns)
+    assert table["ours_Hz"].isna().all()
+    assert tuple(table["paper_Hz"]) == LISTED
+    assert table_2_or_why(case)[1] == ""
 
 
 def test_the_stick_slip_rate_is_that_of_the_slider() -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 
 import pandas as pd
 
 from disc_model.claims.model import CaseView
 from disc_model.claims.pages import table_page
-from disc_model.claims.paper_tables import table_1, table_2
+from disc_model.claims.paper_tables import table_1, table_2_or_why
 from disc_model.data.dataset import markdown_table
 from disc_model.data.inputs import load_inputs
 from disc_model.errors import exit_on_error
@@ -47,18 +48,29 @@ def main() -> None:
     args = parser.parse_args()
     (tree,) = load_inputs([args.case])
     case = CaseView(args.case.stem, tree)
-    table = table_1(case.parameters) if args.table == "table1" else table_2(case).round(3)
+    note = NOTES[args.table]
+    if args.table == "table1":
+        table = table_1(case.parameters)
+    else:
+        table, missing = table_2_or_why(case)
+        table, note = table.round(3), missing or note
     table.to_csv(args.csv, index=False)
-    args.md.write_text(_markdown(args.table, table), encoding="utf-8")
-    args.html.write_text(table_page(TITLES[args.table], NOTES[args.table], table, NAMES), encoding="utf-8")
+    args.md.write_text(_markdown(args.table, note, table), encoding="utf-8")
+    args.html.write_text(table_page(TITLES[args.table], note, table, NAMES), encoding="utf-8")
 
 
-def _markdown(name: str, table: pd.DataFrame) -> str:
-    lines = [f"# {TITLES[name]}", "", NOTES[name], ""]
+def _markdown(name: str, note: str, table: pd.DataFrame) -> str:
+    lines = [f"# {TITLES[name]}", "", note, ""]
     head = [NAMES[str(column)] for column in table.columns]
-    rows = ([f"{x:g}" if isinstance(x, float) else x for x in row] for row in table.itertuples(index=False))
+    rows = ([_cell(x) for x in row] for row in table.itertuples(index=False))
     lines += markdown_table(head, rows)
     return "\n".join(lines) + "\n"
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, float):
+        return "" if math.isnan(value) else f"{value:g}"
+    return str(value)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import pandas as pd
 
 from disc_model.analysis import spectra
 from disc_model.claims import measures
-from disc_model.claims.model import CaseView
+from disc_model.claims.model import CaseView, Missing
 from disc_model.parameters import Parameters
 
 NATURAL = "natural frequency of the disc with the slider, shifted by the rotation"
@@ -83,6 +83,16 @@ def table_2(case: CaseView, found: Sequence[spectra.Line] | None = None) -> pd.D
             "paper_says": [said for _, said in TABLE_2.values()],
         }
     )
+
+
+def table_2_or_why(case: CaseView) -> tuple[pd.DataFrame, str]:
+    """`table_2` and ""; or what the paper says, beside nothing, and what the case lacks."""
+    try:
+        return table_2(case), ""
+    except Missing as reason:
+        table = pd.DataFrame({"symbol": list(TABLE_2), "paper_Hz": LISTED})
+        table = table.assign(ours_Hz=np.nan, level_dB=np.nan, ours_is="", predicted_Hz=np.nan)
+        return table.assign(paper_says=[said for _, said in TABLE_2.values()]), f"Not computed: {reason}."
 
 
 def table_2_lines(case: CaseView) -> list[spectra.Line]:
