@@ -39,7 +39,8 @@ def test_a_crossing_is_where_root_finding_says() -> None:
 
         def detuning(speed: float, mode: int = mode, multiple: float = multiple) -> float:
             there = frequencies(Parameters(Omega=speed, **base))
-            return multiple / there.cycle.period - float(there.frequency[mode])
+            own = there.cycle_frequency if np.isfinite(there.cycle_frequency[mode]) else there.frequency
+            return multiple / there.cycle.period - float(own[mode])
 
         speed = float(one["crossing_Omega"])
         # the line bends by f_s'' d^2 / 8 between speeds, some 0.05 Hz of a slope of some Hz per rad/s
@@ -70,6 +71,8 @@ def made_up(**changes: Any) -> xr.Dataset:
         "rotation_frequency": ("Omega", speeds / (2 * np.pi)),
         "diameters": (("Omega", "mode"), np.ones((401, 1), int)),
         "sliding_frequency": (("Omega", "mode"), np.full((401, 1), 100.0)),
+        "cycle_frequency": (("Omega", "mode"), np.full((401, 1), 100.0)),
+        "likeness": (("Omega", "mode"), np.ones((401, 1))),
         "cycle_growth_rate": (("Omega", "mode"), rate[:, None]),
     }
     return xr.Dataset(values | changes, {"Omega": speeds, "mode": [1]})
@@ -137,3 +140,17 @@ def test_a_diagram_needs_speeds() -> None:
     raw = {"study": "s", "quantity": "campbell", "base": {"Omega": 15}, "axes": {"N": [200, 300]}}
     with pytest.raises(StudyError, match=r"axes.Omega: is required: campbell looks along it"):
         parse_grid(raw)
+
+
+def test_a_line_that_meets_the_cycles_frequency_and_not_slidings_is_a_crossing() -> None:
+    """It was missed: 10 f_s at 23.85 rad/s, orthonormal modes, 1.8 Hz below the frequency of sliding."""
+    cell = made_up()
+    locked = np.abs(cell["Omega"].values - 10) < 0.05
+    own = np.where(locked, 10 * cell["Omega"].values, 100.0)
+    cell["cycle_frequency"] = (("Omega", "mode"), own[:, None])
+    cell["likeness"] = (("Omega", "mode"), np.where(locked, 0.5, 0.9)[:, None])
+    cell["sliding_frequency"] = (("Omega", "mode"), np.full((401, 1), 130.0))
+    found = campbell.of(cell, CampbellOptions())
+    # where the multiplier is bound to the line it says nothing of the mode
+    assert found["n_crossings"] == 1
+    assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)

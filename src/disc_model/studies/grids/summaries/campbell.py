@@ -1,8 +1,10 @@
 """Where modes meet multiples of the stick-slip frequency or of the rotation's, and what the growth rate does there.
 
-A crossing is where the frequency of steady sliding equals that of a line, by linear interpolation between two speeds.
-The stick-slip frequency is interpolated over speeds without a cycle. What happens there is read from the cycle's growth
-rates within a window of frequency about the crossing, mode by mode, against those at the window's ends.
+A crossing is where a mode's frequency equals that of a line, by linear interpolation between two speeds. It is that of
+the cycle's multiplier; where there is none, or its shape is not the mode's, which in a resonance it is not, that of
+steady sliding with the difference interpolated. The stick-slip frequency is interpolated over speeds without a cycle.
+What happens there is read from the cycle's growth rates within a window of frequency about the crossing, mode by mode,
+against those at the window's ends.
 """
 
 from __future__ import annotations
@@ -28,6 +30,9 @@ EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle",
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
 there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
 FEWEST = 3
+LIKE = 0.75
+"""Likeness from which a multiplier is taken for its mode: a real one, in a resonance, is as like to the conjugate, so
+that it has 0.5 at most."""
 _EACH = ("crossing",)
 COLUMNS: Mapping[str, Column] = {
     "n_crossings": Column(Variable("1", "number of crossings found"), whole=True),
@@ -99,7 +104,7 @@ def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
     turns = cell["rotation_frequency"].values
     highest = int(cell["diameters"].max())
     for i, mode in enumerate(cell["mode"].values):
-        own = cell["sliding_frequency"].isel(mode=i).values
+        own = frequency_of(cell.isel(mode=i))
         if not np.isfinite(own).any():
             continue
         most = math.floor(2 * np.nanmax(own) / np.nanmin(releases)) + 1 if np.isfinite(releases).any() else 0
@@ -114,6 +119,15 @@ def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
                 at = float(speeds[place] + part * (speeds[place + 1] - speeds[place]))
                 seen = float(own[place] + part * (own[place + 1] - own[place]))
                 yield Crossing(at, seen, int(mode), line, multiple, detuning, int(place))
+
+
+def frequency_of(mode: xr.Dataset) -> Array:
+    """Of a mode at all speeds, Hz, as this file's head says."""
+    sliding = mode["sliding_frequency"].values
+    more = mode["cycle_frequency"].values - sliding
+    known = np.isfinite(more) & (mode["likeness"].values >= LIKE)
+    speeds = mode["Omega"].values
+    return sliding + np.interp(speeds, speeds[known], more[known]) if known.any() else sliding
 
 
 def bridged(speeds: Array, values: Array) -> Array:
