@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from pathlib import Path
 
 import pytest
 import xarray as xr
@@ -13,6 +15,22 @@ from tests.benchmarks.conftest import dataset, known
 from tests.benchmarks.test_answers import dataset as answers
 
 __all__ = ["answers", "dataset", "known"]
+
+
+ROOT = Path(__file__).parents[2]
+STORED = ROOT / "docs" / "benchmark.json"
+
+
+@pytest.mark.skipif(not STORED.is_file(), reason="README has no run of the benchmark yet: make bench bench-pages")
+def test_every_number_on_speed_is_of_the_one_stored_run() -> None:
+    run = json.loads(STORED.read_text(encoding="utf-8"))
+    assert (ROOT / "docs" / "benchmark.md").read_text(encoding="utf-8") == pages.page(run)
+    named = set()
+    for name in ("README.md", "docs/method.md"):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        assert pages.filled(text, run) == text, f"{name}: run `make bench-pages`"
+        named |= set(re.findall(r"<!-- bench (\w+) -->", text))
+    assert named == {"speed", "first_separation", "prices", "cycle"}
 
 
 def test_what_a_run_comes_to(dataset: xr.Dataset, answers: xr.Dataset) -> None:

@@ -97,24 +97,33 @@ def passages(run: Summary) -> dict[str, str]:
     methods = {name for ratios in slower.values() for name in ratios if name != "series"}
     order = sorted(methods, key=lambda name: min(ratios[name] for ratios in slower.values() if name in ratios))
     others = "; ".join(f"{METHODS[name].label} {_ratios(slower, name)}" for name in order)
-    stiff = "; ".join(f"{METHODS[name].label} {1e3 * cost:.2g} ms" for name, cost in run["stiff"].items())
+    stiff = "; ".join(f"{METHODS[name].label} {_plain(1e3 * cost)} ms" for name, cost in run["stiff"].items())
     first = run["prices"]["first_separation"]["series (this package)"]
     cycle = run["prices"]["growth_rate"]["series, from the cycle itself"]
     return {
-        "machine": run["machine"],
         "first_separation": f"{1e3 * first['seconds']:.0f} ms",
         "cycle": f"{1e3 * cycle['seconds']:.2g} ms",
         "speed": (
-            f"At its default tolerance the series engine takes {ours} per simulated second, with event times right to "
-            f"{errors} s. With errors up to 1e-10 s allowed the others take, times that, for (a) and (b): {others}. "
-            f"On the disc of (d), all but rigid, a simulated second with the right events takes: {stiff}."
+            f"On {run['machine']}: at its default tolerance the series engine takes {ours} per simulated second, with "
+            f"event times right to {errors} s. With errors up to 1e-10 s allowed the others take, times that, for (a) "
+            f"and (b): {others}. On the disc of (d), all but rigid, a simulated second with the right events takes: "
+            f"{stiff}."
         ),
-        "onset": run["sentences"]["onset"],
+        "prices": (
+            "\n\n![What each right answer costs](docs/gallery/prices.png)\n\n*What each method asks for each right "
+            "answer: its time at its cheapest right setting; in red the settings at which it answers wrongly, without "
+            "a warning. More on [the page of the benchmark](docs/benchmark.md).*"
+        ),
     }
 
 
 def _ratios(slower: Mapping[str, Mapping[str, float]], name: str) -> str:
-    return " and ".join(f"{ratios[name]:.2g}" if name in ratios else "not at all" for ratios in slower.values())
+    return " and ".join(_plain(ratios[name]) if name in ratios else "not at all" for ratios in slower.values())
+
+
+def _plain(number: float) -> str:
+    """Two digits, without a power of ten."""
+    return f"{float(f'{number:.2g}'):,.10g}"
 
 
 def filled(text: str, run: Summary) -> str:
@@ -134,6 +143,10 @@ def page(run: Summary) -> str:
     """The page of the benchmark."""
     known = passages(run)
     text = [
+        "---",
+        "orphan: true",
+        "---",
+        "",
         "# Speed against accuracy",
         "",
         "Made by `make bench` and `make bench-pages`, on one core; times are the processor's.",

@@ -103,10 +103,9 @@ def to_markdown(dataset: xr.Dataset) -> str:
         "numbers, with nine modes. A dash: no answer.",
         "",
     ]
-    for question, own in json.loads(dataset.attrs["questions"]).items():
-        found = points(dataset, question)
-        if not found:
-            continue
+    about = json.loads(dataset.attrs["questions"])
+    for question in dict.fromkeys(map(str, dataset["answer"].values)):
+        own, found = about[question], points(dataset, question)
         text += [f"## {own['title'].capitalize()}", "", sentences(dataset, question), ""]
         text += [f"Right answer: error {own['error']}.", ""]
         head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "time (s)", "verdict", "status")
