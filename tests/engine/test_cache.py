@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import pickle
 import subprocess
 import sys
 import textwrap
+import types
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
+from unittest import mock
 
 import numba
 import pytest
@@ -57,6 +60,19 @@ def test_gives_back_what_was_saved_for_a_key(files: KernelFiles, tmp_path: Path)
 def test_other_sources_find_nothing(files: KernelFiles, tmp_path: Path) -> None:
     files.save("key", 1)
     assert KernelFiles(str(tmp_path), "module.kernel-1.py3", b"changed").load("key") is None
+
+
+def test_what_another_numba_saved_is_not_unpacked(files: KernelFiles, tmp_path: Path) -> None:
+    """It may name what this version does not have, and every simulation ended there."""
+    vanished = types.ModuleType("vanished")
+    vanished.Thing = type("Thing", (), {"__module__": "vanished"})
+    other = KernelFiles(str(tmp_path), "module.kernel-1.py3", b"source")
+    other._stamp = ("0.1", b"source")
+    with mock.patch.dict(sys.modules, vanished=vanished):
+        other.save("key", vanished.Thing)
+    with pytest.raises(ModuleNotFoundError):
+        pickle.loads(pickle.loads(only(tmp_path).read_bytes()[32:])[1])
+    assert files.load("key") is None
 
 
 def test_any_damage_is_noticed(files: KernelFiles, tmp_path: Path) -> None:

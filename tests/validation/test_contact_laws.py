@@ -75,6 +75,45 @@ def test_error_falls_with_tol(name):
         assert _difference(name, slice(0, 1), tol)[0] <= tol + EVENT_TIMES
 
 
+# ------------------------------------------------------------------------ where nothing but the disc's slope pulls
+SLOPING = {"n_diameters": 1, "contact_force": "normal", "mu_s": 0.02, "mu_k": 0.01}
+
+
+def _swinging(p, psi=0.0, **modal):
+    """The published start, but psi, and one of the mode's coordinates across the slider's direction."""
+    start = published_start(p)
+    return start.replace(psi=psi, **{name: np.array([0.0, value]) for name, value in modal.items()})
+
+
+@pytest.mark.parametrize("give", [0.0, 1e-7])
+@pytest.mark.parametrize(
+    ("modal", "psi"), [({"beta": 3.0}, 0), ({"beta": -3.0}, 0), ({"b": 2e-3}, 0), ({"beta": 3.0}, 1e-5)]
+)
+@pytest.mark.parametrize("weak", ["k_p", "Omega"])
+def test_a_slope_pulls_as_without_as_with_a_feeble_drive(weak, modal, psi, give):
+    """Without any the slider stuck, however steep the disc: the limit of contact alone was looked for."""
+    p = Parameters(N=200, Omega=20, contact_compliance=give, **SLOPING)
+    found = []
+    for value in (0.0, 1e-10):
+        case = p.replace(**{weak: value})
+        found.append(simulate(case, 8e-4, initial_state=_swinging(case, psi, **modal)))
+    none, feeble = found
+    assert none.events["kind"].iloc[0] == "stick_to_slip"
+    assert list(none.events["kind"]) == list(feeble.events["kind"])
+    # the feeble drive moves events by its share in the friction limit, 1e-10 rad/s times 20 kN/m in N
+    np.testing.assert_allclose(none.events["time"], feeble.events["time"], rtol=0, atol=1e-9)
+    assert none.final_state.f == pytest.approx(feeble.final_state.f, rel=1e-6)
+
+
+@pytest.mark.parametrize("give", [0.0, 1e-7])
+def test_contact_ends_where_its_force_does_although_friction_ends_there_too(give):
+    p = Parameters(N=200, Omega=20, k_p=0, contact_compliance=give, **SLOPING)
+    upward = np.array([0.0, 1.5])
+    velocity = float(plate_modes(p)["psi"] @ upward)
+    thrown = simulate(p, 8e-4, initial_state=_swinging(p, b=1e-5).replace(alpha=upward, u_velocity=velocity))
+    assert list(thrown.events["kind"])[:1] == ["separation"]
+
+
 # ------------------------------------------------------------------------ the series, coefficient by coefficient
 def _reference_step(p, start, law):
     modes = plate_modes(p)

@@ -178,7 +178,10 @@ def compliant_stick_series(model, s, order):
 
 @inlined
 def release_series(model, s, order):
-    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``switches.grip``."""
+    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``switches.grip``.
+
+    Where nothing but the slope pulls at a slider that may leave the disc, over their common factor V: mu_s +/- beta.
+    """
     s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     spring, growth = _spring(model, s, 0), model.k_p * s.slider[PSI_SERIES + 1]
     for k in range(order):
@@ -193,6 +196,11 @@ def release_series(model, s, order):
             pull -= _leverage(s, k) + s.slider[SLOPE_SERIES] * s.slider[P_ + k]
         s.slider[SWITCH + k] = model.mu_s * press - pull
         s.slider[SWITCH2 + k] = model.mu_s * press + pull
+    if is_normal(model) and not model.bonded and spring == 0.0 and growth == 0.0:
+        for k in range(order):
+            s.slider[SWITCH + k], s.slider[SWITCH2 + k] = s.slider[SLOPE_SERIES + k], -s.slider[SLOPE_SERIES + k]
+        s.slider[SWITCH] += model.mu_s
+        s.slider[SWITCH2] += model.mu_s
 
 
 @inlined

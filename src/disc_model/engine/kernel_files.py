@@ -40,12 +40,15 @@ class KernelFiles:
             return None
         if hashlib.sha256(body).digest() != digest:
             return None
-        stamp, found, data = pickle.loads(body)
-        return data if (stamp, found) == (self._stamp, key) else None
+        stamp, rest = pickle.loads(body)
+        if stamp != self._stamp:
+            return None  # and the rest may name what this version of numba does not have
+        found, data = pickle.loads(rest)
+        return data if found == key else None
 
     def save(self, key, data):
         """Write one file, in one piece."""
-        body = dumps((self._stamp, key, data))
+        body = dumps((self._stamp, dumps((key, data))))
         temporary = os.path.join(self._folder, f"{self._name}.{uuid.uuid4().hex}.tmp")
         try:
             with open(temporary, "wb") as file:

@@ -158,7 +158,7 @@ def _pull_change(model, state, x, at, parameters, q, changes):
 
 @inlined
 def _inertia(model, state, slipping):
-    """u'' without P and f', and P in stick (needed where the mass changes)."""
+    """u'' without P and f' (needed where the mass changes)."""
     f = state.x[SPEED] if slipping else 0.0
     acceleration = 0.0
     for j in range(len(model.force)):

@@ -128,25 +128,31 @@ def first_switch(model, s, state, order, x_end):
     if is_compliant(model):
         known, known_force = known % TOUCHING, known // TOUCHING
     set_powers(s.powers, x_end)
-    cause = NOTHING
+    cause, known_release = NOTHING, known_force
     if phase == STICK:
         if not model.bonded and never_pulled(model, state):
             # P = 0 and the friction limit coincide, and it is contact that ends
             x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots)
-            return (x, CONTACT_LOST) if x != NO_ROOT else (x_end, NOTHING)
-        x = first_root(s.switch, known_force, order - 1, x_end, s.powers, s.roots)
+            if x != NO_ROOT:
+                x_end, cause = x, CONTACT_LOST
+                set_powers(s.powers, x_end)
+            if not is_normal(model):
+                return x_end, cause
+            # the slope of the disc may pull: P is no factor of the release functions here
+            known_release = 0
+        x = first_root(s.switch, known_release, order - 1, x_end, s.powers, s.roots)
         if x != NO_ROOT:
             x_end, cause = x, RELEASE_FORWARD
             set_powers(s.powers, x_end)
         # under the vertical force the pull only grows; the slope of a disc that bends can turn it
         if is_normal(model) or s.switch2[0] < s.switch[0]:
-            x = first_root(s.switch2, known_force, order - 1, x_end, s.powers, s.roots)
+            x = first_root(s.switch2, known_release, order - 1, x_end, s.powers, s.roots)
             if x != NO_ROOT:
                 x_end, cause = x, RELEASE_BACKWARD
                 set_powers(s.powers, x_end)
         if model.mu_s == 0.0 and not model.bonded:
             # the friction limit is zero all along and says nothing of contact
-            x = first_root(s.P, 0, order - 1, x_end, s.powers, s.roots)
+            x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots)
             if x != NO_ROOT:
                 x_end, cause = x, CONTACT_LOST
         return x_end, cause

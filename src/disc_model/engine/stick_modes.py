@@ -1,4 +1,4 @@
-"""The modes of stick, in which the closed form of ``linear`` moves.
+"""The modes of stick, in which the closed form of ``coasting`` moves.
 
 With f = 0, disc and slider are one linear system.  In deviations d from the static equilibrium,
 
