@@ -65,7 +65,7 @@ NEARLY_PERIODIC = 0.05
 """Change over a period, relative to the static deflection, from which a cycle is looked for."""
 NEAR = 0.1
 """Distance from a cycle, relative to the static deflection, within which a motion may be near it."""
-LEG, SHORTEST_LEG, STILL = 0.5, 40.0, 3
+LEG, SHORTEST_LEG, STILL = 0.5, 40.0, 6
 """Length of a leg after a departure, over the time in which the leading multiplier enlarges it by e, and at least, s;
 and so many legs in which the contact force ranges no further end the simulation: growth has saturated."""
 RISES = 1.01
