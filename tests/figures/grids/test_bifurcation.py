@@ -31,6 +31,14 @@ def test_diagrams_mark_points_that_failed() -> None:
     assert not crosses(attractors.draw(samples, {}, Bifurcation(x="N")).axes[0])
 
 
+def test_a_motion_without_switches_has_not_failed() -> None:
+    samples, _ = made_up_samples()
+    samples["phase"][{"N": 1}] = 0  # not reached, as where a motion slides steadily
+    (ax,) = attractors.draw(samples, {}, Bifurcation(x="N")).axes
+    assert not crosses(ax)
+    assert [list(line.get_xdata()) for line in ax.lines if line.get_label() == "no switches"] == [[2]]
+
+
 def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
     samples, exponents = made_up_samples()
     words = {"flag_meanings": "unknown no yes"}

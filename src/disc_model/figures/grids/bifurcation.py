@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
@@ -19,16 +21,23 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     """The figure of a study of the quantity `bifurcation`; others: ``lyapunov`` of that quantity over the same axis."""
     norm = parts.normalizations(study)[0]
     study = parts.of(study, norm)
-    study = study.assign(phase=(study["phase"].astype(int) - 1).where(~parts.failed(study), -1))
+    went_well = ~parts.failed(study)
+    study = study.assign(phase=(study["phase"].astype(int) - 1).where(went_well, -1))
+    idle = study[plot.x].values[((study["phase"] == -1).all("sample") & went_well).values]
     exponents = None
     if "lyapunov" in others:
         exponents = parts.without_failed(parts.of(others["lyapunov"], norm), "exponent", "exponent_error")
-    return bifurcation_diagram(study, plot.x, plot.variable, plot.scale, exponents)
+    return bifurcation_diagram(study, plot.x, plot.variable, plot.scale, exponents, idle)
 
 
 @styled
 def bifurcation_diagram(
-    samples: xr.Dataset, name: str, variable: str = "psi", scale: float = 1e3, lyapunov: xr.Dataset | None = None
+    samples: xr.Dataset,
+    name: str,
+    variable: str = "psi",
+    scale: float = 1e3,
+    lyapunov: xr.Dataset | None = None,
+    idle: Sequence[float] | NDArray[np.float64] = (),
 ) -> Figure:
     """Samples against a parameter; those in stick apart from those in slip or separation, and grey where the motion
     was not steady yet.
@@ -38,6 +47,7 @@ def bifurcation_diagram(
     samples : as `disc_model.stability.bifurcation.bifurcation_samples` returns; name : its parameter's dimension
     scale : factor for the axis, 1e3 shows mrad or mm
     lyapunov : `exponent` and `exponent_error` (1/s) over the parameter and `exponent_number`, for a panel below
+    idle : values at which the motion has nothing to sample, as no switches; no failure
     """
     figure = new_figure(PAGE, 2.6 if lyapunov is None else 4.0)
     axes = figure.subplots(1 if lyapunov is None else 2, 1, sharex=True, squeeze=False)[:, 0]
@@ -57,14 +67,24 @@ def bifurcation_diagram(
         here = (phase == code) & ~unsteady
         if np.any(here):
             ax.plot(position[here], values.values[here] * scale, ".", color=color, markersize=1.5, label=name_of_phase)
-    parts.mark_failed(ax, along[(phase == -1).all(axis=1)])
+    none = (phase == -1).all(axis=1)
+    still = none & np.isin(values[name].values, idle)
+    parts.mark_failed(ax, along[none & ~still])
+    if still.any():
+        low = np.full(int(still.sum()), 0.02)
+        ax.plot(
+            along[still], low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="no switches"
+        )
     unit = values.attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(scale, f"{1 / scale:g} ")
     axes[-1].set_xlabel(label)
     ax.set_ylabel(f"{parts.MOTION[variable]} ({prefix}{unit.replace(' s-1', '/s')})")
     if lyapunov is not None:
         _exponents(axes[1], lyapunov, name)
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, markerscale=5, borderaxespad=0.2)
+    legend = ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, borderaxespad=0.2)
+    for handle in legend.legend_handles:  # dots of the diagram are too small for it
+        if isinstance(handle, Line2D):
+            handle.set_markersize(6)
     return figure
 
 
