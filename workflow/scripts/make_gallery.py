@@ -32,6 +32,16 @@ OTHERS = {
         "Where the cycle becomes unstable, and where separation follows.",
         "Neutral curves and folds by continuation, named after their resonances n f_s = f ± l Ω / 2π.",
     ),
+    "sensitivity/figures/sensitivity.png": (
+        "How sure is it that a case is stable.",
+        "(a) Probabilities at the three points (b) to (d), with intervals of 95 %; (b) to (d) Sobol indices of "
+        "instability and of the growth rate, published modes.",
+    ),
+    "campbell/figures/campbell.png": (
+        "Frequencies over speed.",
+        "(a) Frequencies of steady sliding and of the stick-slip cycle at N = 385 N, and multiples of the stick-slip "
+        "frequency; numbered crossings are those at which something happens. (b) Growth rates of the cycle's modes.",
+    ),
     "bench/figures/overview.png": (
         "Speed against accuracy.",
         "Wall time of a simulated second against the error of event times, one core, medians of repeats.",
@@ -41,7 +51,7 @@ OTHERS = {
         "Over step or tolerance and number of modes, in the separating second but for (a).",
     ),
 }
-"""Figures of other studies; left out as long as they are not there."""
+"""Figures of other studies; where they are not there, the pictures of an earlier run stay."""
 FILM = (
     "The stretch of Fig. 2b, 35 ms, slowed down about 170 times. Left: deflection of the disc from above, colours as "
     "in Fig. B1. Right: the disc along the circle of radius r_0, and the slider; red where it has left the disc."
@@ -70,8 +80,10 @@ def main() -> None:
     lines += ["![Disc and slider in motion](gallery/film.webp)", "", f"**Disc and slider in motion.** {FILM}", ""]
     for name, (title, text) in OTHERS.items():
         source = args.results.parents[1] / name
+        small = args.docs / "gallery" / source.name
         if source.is_file():
-            small = shrink(source, args.docs / "gallery" / source.name)
+            shrink(source, small)
+        if small.is_file():
             lines += [f"![{title}](gallery/{small.name})", "", f"**{title}** {text}", ""]
     (args.docs / "gallery.md").write_text("\n".join(lines), encoding="utf-8")
 
