@@ -67,7 +67,8 @@ def test_a_rough_tolerance_finds_the_cycle(tol: float) -> None:
         DAMPED,
         Parameters(N=300, Omega=50, k_p=2e3),
         Parameters(N=600, Omega=30, normalization="orthonormal"),
-        Parameters(N=200, Omega=20, n_diameters=6),
+        # half a minute to compile
+        pytest.param(Parameters(N=200, Omega=20, n_diameters=6), marks=pytest.mark.slow),
         Parameters(N=200, Omega=20, n_diameters=0),
         Parameters(N=200, Omega=20, contact="bonded"),
     ],

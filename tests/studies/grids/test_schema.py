@@ -205,7 +205,7 @@ def test_resolution_divides_the_ranges_in_blocks_too() -> None:
     assert coarse.batches.keys() < fine.batches.keys()
 
 
-AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "2e-3"}
+AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
 
 
 @pytest.mark.compiled
