@@ -143,10 +143,6 @@ def page(run: Summary) -> str:
     """The page of the benchmark."""
     known = passages(run)
     text = [
-        "---",
-        "orphan: true",
-        "---",
-        "",
         "# Speed against accuracy",
         "",
         "Made by `make bench` and `make bench-pages`, on one core; times are the processor's.",
@@ -157,6 +153,7 @@ def page(run: Summary) -> str:
         "What a study asks for, and what each method asks for it: time on one core at its cheapest right setting; in",
         "red the settings at which it answers wrongly, without a warning. Right answers come from methods that share",
         "no code with the engine. A region's cells are drawn at random, with a fixed seed, where all take too long.",
+        "Methods and settings that do not appear were not measured.",
         "",
         "![What each right answer costs](gallery/prices.png)",
         "",
