@@ -89,13 +89,13 @@ class Share(NamedTuple):
     high: float
 
 
-def share(hits: int, trials: int, unknown: int = 0) -> Share:
+def share(hits: int, trials: int, unknown: int = 0, confidence: float = CONFIDENCE) -> Share:
     """Share of hits among trials whose result is known, with its Wilson interval.
 
     unknown : further trials; the interval takes them for misses at its lower end and for hits at its upper end
     """
     if trials == 0:
         return Share(np.nan, 0.0, 1.0)
-    low = binomtest(hits, trials + unknown).proportion_ci(CONFIDENCE, "wilson").low
-    high = binomtest(hits + unknown, trials + unknown).proportion_ci(CONFIDENCE, "wilson").high
+    low = binomtest(hits, trials + unknown).proportion_ci(confidence, "wilson").low
+    high = binomtest(hits + unknown, trials + unknown).proportion_ci(confidence, "wilson").high
     return Share(hits / trials, float(low), float(high))

@@ -314,17 +314,10 @@ def _seconds(value: float) -> str:
 @styled
 def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: verdict over setting and number of modes, with what explains the borders."""
-    columns = 4
-    rows = -(-len(maps) // columns)
-    figure = new_figure(PAGE, 1.45 * rows + 0.75)
-    axes = np.ravel(figure.subplots(rows, columns, squeeze=False))
+    figure, axes = _panels(len(maps), 1.45, 0.75)
     used: set[int] = set()
     for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
         used |= _map_panel(ax, dataset, letter)
-    for ax in axes[len(maps) :]:
-        ax.set_axis_off()
-    for ax in axes[::columns]:
-        ax.set_ylabel("Real modes")
     handles: list[Any] = [Patch(facecolor=SHADES[i], edgecolor=GREY, label=WORDS[VERDICTS[i]]) for i in sorted(used)]
     handles += [
         Line2D([], [], color=BLACK, linewidth=1.4, label=r"RK4: $h\,\omega_{max} = 2\sqrt{2}$"),
@@ -333,6 +326,19 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
+
+
+def _panels(count: int, height: float, more: float) -> tuple[Figure, list[Axes]]:
+    """Panels of maps, four a row; a row is `height` inches high, and `more` are left for the legend."""
+    columns = 4
+    rows = -(-count // columns)
+    figure = new_figure(PAGE, height * rows + more)
+    axes = list(np.ravel(figure.subplots(rows, columns, squeeze=False)))
+    for ax in axes[count:]:
+        ax.set_axis_off()
+    for ax in axes[::columns]:
+        ax.set_ylabel("Real modes")
+    return figure, axes[:count]
 
 
 def _map_panel(ax: Axes, dataset: xr.Dataset, letter: str) -> set[int]:
@@ -368,17 +374,10 @@ def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None
 @styled
 def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: whether it finds the first separation, over setting and number of modes."""
-    columns = 4
-    rows = -(-len(maps) // columns)
-    figure = new_figure(PAGE, 1.35 * rows + 0.4)
-    axes = np.ravel(figure.subplots(rows, columns, squeeze=False))
+    figure, axes = _panels(len(maps), 1.35, 0.4)
     for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
         _verdict_cells(ax, dataset, ANSWER_SHADES)
         ax.set_title(f"({letter}) {dataset.attrs['label']}", loc="left", fontsize=7)
-    for ax in axes[len(maps) :]:
-        ax.set_axis_off()
-    for ax in axes[::columns]:
-        ax.set_ylabel("Real modes")
     handles = [
         Patch(facecolor=shade, edgecolor=GREY, label=word)
         for shade, word in zip(ANSWER_SHADES, ANSWER_WORDS, strict=True)

@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import curve_fit
-from scipy.stats import binomtest
 
+from disc_model.analysis.sobol import share
 from disc_model.benchmarks.answers import questions
 from disc_model.benchmarks.answers.questions import SIDE, Found, Status
 from disc_model.benchmarks.methods.base import MethodResult, Outcome, Problem
@@ -211,12 +211,12 @@ def judged(
         seconds = sum(s for _, s in verdicts)
         return Found(math.nan, seconds, broken.status, str(broken), cells=len(verdicts))
     wrong = sum(said != right[place] for (said, _), place in zip(verdicts, places, strict=False))
-    share = float(wrong) / count
-    low = high = share
+    part = float(wrong) / count
+    low = high = part
     if count < len(places):
-        low, high = binomtest(int(wrong), count).proportion_ci(method="wilson")
+        _, low, high = share(int(wrong), count)
     seconds = sum(s for _, s in verdicts) / count * len(places)
-    return Found(share, seconds, Status.FOUND, "", float(low), float(high), count)
+    return Found(part, seconds, Status.FOUND, "", low, high, count)
 
 
 def cell(solve: Solve, p: Parameters, budget: float) -> tuple[bool, float]:

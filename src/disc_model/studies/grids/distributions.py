@@ -38,10 +38,9 @@ class _Distribution(Strict):
         raise NotImplementedError
 
 
-class Uniform(_Distribution):
-    """All values from low to high are equally likely."""
+class _Bounded(_Distribution):
+    """Of values from low to high."""
 
-    distribution: Literal["uniform"]
     low: Finite
     high: Finite
 
@@ -53,6 +52,12 @@ class Uniform(_Distribution):
 
     def ends(self) -> tuple[float, float]:
         return self.low, self.high
+
+
+class Uniform(_Bounded):
+    """All values from low to high are equally likely."""
+
+    distribution: Literal["uniform"]
 
 
 class Normal(_Distribution):
@@ -66,25 +71,18 @@ class Normal(_Distribution):
         return self.mean - FARTHEST * self.deviation, self.mean + FARTHEST * self.deviation
 
 
-class TruncatedNormal(_Distribution):
+class TruncatedNormal(_Bounded):
     """What lies between low and high of a normal distribution that has this mean and this deviation as a whole."""
 
     distribution: Literal["truncated_normal"]
     mean: Finite
     deviation: Positive
-    low: Finite
-    high: Finite
 
     @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        if not self.low < self.high:
-            raise ValueError(f"low={self.low:g} must be < high={self.high:g}")
+    def _near_the_mean(self) -> Self:
         if max(self.low - self.mean, self.mean - self.high) > FARTHEST * self.deviation:
             raise ValueError(f"low and high must be within {FARTHEST:g} deviations of mean={self.mean:g}")
         return self
-
-    def ends(self) -> tuple[float, float]:
-        return self.low, self.high
 
 
 Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from disc_model.analysis.sobol import share
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared, published_start
@@ -147,15 +148,11 @@ def _shares(
     name: str, found: Sequence[Sequence[Reached]], confidence: float, only: int | None = None
 ) -> dict[str, Any]:
     """Shares of what each row comes to, with Wilson's intervals; of a single row if `only` says which."""
-    from scipy.stats import binomtest
-
-    share = np.empty((3, len(found), len(FATES)))
+    shares = np.empty((3, len(found), len(FATES)))
     for j, row in enumerate(found):
         for k, fate in enumerate(FATES):
-            test = binomtest(sum(reached.kind == fate for reached in row), len(row))
-            interval = test.proportion_ci(confidence, method="wilson")
-            share[:, j, k] = test.statistic, interval.low, interval.high
-    kept = share if only is None else share[:, only]
+            shares[:, j, k] = share(sum(reached.kind == fate for reached in row), len(row), confidence=confidence)
+    kept = shares if only is None else shares[:, only]
     return dict(zip((name, f"{name}_low", f"{name}_high"), kept, strict=True))
 
 
