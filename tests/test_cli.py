@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import disc_model
-from disc_model import Parameters, cli, simulate
+from disc_model import Parameters, cli, mode_choice, simulate
 from disc_model.cli.case import option_name
 from disc_model.cli.progress import compiling, simulating
 from disc_model.cli.run import _plot_record
@@ -333,6 +333,20 @@ def test_help_shows_what_there_is_to_choose_from(capsys: pytest.CaptureFixture[s
 def test_what_auto_chose_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = call(capsys, "modes", "--n-diameters", "auto")
     assert out.startswith("modes chosen")
+
+
+def test_auto_is_told_by_what_to_choose(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: 1.0 + 0.1 / p.n_diameters)
+    asked = ("modes", *SMALL_BASE[:4], "--n-diameters", "auto", "--truncation-quantity", "growth")
+    code, out, _ = call(capsys, *asked, "--truncation-tolerance", "0.05")
+    assert code == 0
+    assert '"n_diameters": 1, "quantity": "growth", "tolerance": 0.05' in out
+    code, _, err = call(capsys, *asked, "--truncation-tolerance", "1e-4")
+    assert code == 2
+    assert "n_diameters: undecided: growth still changes by" in err
+    code, _, err = call(capsys, "modes", "--truncation-quantity", "growth")
+    assert code == 2
+    assert "truncation_quantity='growth': is used with n_diameters='auto' only" in err
 
 
 def test_windows_are_saved_by_their_names(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -9,11 +9,12 @@ import pytest
 
 from disc_model import ParameterError, Parameters, choose_modes, truncation
 from disc_model.errors import DiscModelError
+from disc_model.mode_choice import read_parameters
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.cases.run import run_case
 from disc_model.studies.files import StudyError
 from disc_model.studies.schema import parse_study
-from disc_model.truncation import RICH, frequency_error, read_parameters
+from disc_model.truncation import RICH, frequency_error
 
 P = Parameters(N=385.0, Omega=15.1)
 
@@ -106,6 +107,10 @@ def test_a_plain_value_leaves_no_choice() -> None:
             ("N=-1: must be >= 0", "truncation_tolerance=1e-09: must be finite and >= 0.0001"),
         ),
         ({"n_diameters": "auto", "truncation_tolerance": "fine"}, ("truncation_tolerance='fine': must be a number",)),
+        (
+            {"n_diameters": "auto", "truncation_quantity": "x"},
+            ("truncation_quantity='x': must be one of frequencies, growth, first_separation, separation_rate",),
+        ),
         (
             {"n_diameters": 4, "truncation_tolerance": 1e-3},
             ("truncation_tolerance=0.001: is used with n_diameters='auto' only",),

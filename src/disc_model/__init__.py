@@ -19,7 +19,7 @@ _HOMES = {
     "Parameters": "parameters",
     "plate_modes": "plate",
     "slider_at_rest_frequencies": "plate",
-    "choose_modes": "truncation",
+    "choose_modes": "mode_choice",
     "residual_flexibility": "flexibility",
     "simulate": "simulation.api",
     "snapshots": "simulation.deflection",
@@ -59,6 +59,7 @@ if TYPE_CHECKING:
         StepLimit,
     )
     from disc_model.flexibility import residual_flexibility
+    from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Parameters
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
     from disc_model.simulation.api import simulate
@@ -67,7 +68,6 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result, State
     from disc_model.stability.cycle import floquet
     from disc_model.stability.sliding import steady_sliding
-    from disc_model.truncation import choose_modes
 
 
 def __getattr__(name: str) -> Any:

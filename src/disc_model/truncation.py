@@ -1,10 +1,11 @@
-"""How many modes a case needs: the fewest whose coupled frequencies meet a tolerance.
+"""How many modes a case needs: what may be asked, and the fewest modes whose coupled frequencies meet a tolerance.
 
 With ``contact_compliance="residual"`` every candidate has the flexibility of the modes that it leaves out, and so has
 the model compared with.
 
-Study files and the command line may say ``n_diameters: auto``; `read_parameters` makes `Parameters` of that.
-`disc_model.benchmarks.truncation` measures what the choice does to everything else.
+Study files and the command line may say ``n_diameters: auto``; `read_asked` reads that.  By quantities of the motion
+`disc_model.mode_choice` chooses, which simulates.  `disc_model.benchmarks.truncation` measures what the number of
+modes does to everything.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,17 +22,22 @@ from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
-from disc_model.schema import is_number, number, shown
+from disc_model.schema import number, shown
 
 AUTO = "auto"
 """What a file gives as ``n_diameters`` to have the modes chosen."""
-TOLERANCE = 1e-3
-"""Relative; taken where none is given."""
+FREQUENCIES = "frequencies"
+"""The quantity by which modes are chosen where none is given."""
+QUANTITIES = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
+"""By what modes may be chosen, and the tolerance, relative, that is taken where none is given."""
+CHOOSING = ("truncation_quantity", "truncation_tolerance")
+"""What files and command lines may say of the choice."""
 RICH = (20, 6)
 """Diameters and circles of the model that frequencies are compared with."""
 TRUSTED = 1e-4
 """Relative; how much the coupled frequencies of `RICH` change with still more modes (5e-5 as published, 2e-4
-orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only."""
+orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only; by any
+quantity, since growth rates and times follow the frequencies."""
 BAND = 2.0
 """Frequencies up to so many times the lowest one of the disc are what a study of this motion asks for."""
 
@@ -43,10 +49,12 @@ class ModeChoice:
     Attributes
     ----------
     parameters : with n_diameters and n_circles chosen
-    tolerance, error : asked for and reached, relative, of the coupled frequencies in the band
+    quantity : by what they were chosen
+    tolerance, error : asked for and reached, relative; of the coupled frequencies in the band, or of the quantity
     modes : number of real modes
-    rich : (diameters, circles) of the model compared with
-    band : see `frequency_error`
+    rich : (diameters, circles) of the largest model compared with
+    band : see `frequency_error`; None where they were not chosen by frequencies
+    values : the quantity for each model looked at, by (diameters, circles); empty where chosen by frequencies
     """
 
     parameters: Parameters
@@ -54,54 +62,41 @@ class ModeChoice:
     error: float
     modes: int
     rich: tuple[int, int]
-    band: float
+    band: float | None = None
+    quantity: str = FREQUENCIES
+    values: Mapping[tuple[int, int], float] = field(default_factory=dict)
 
     def to_json(self) -> str:
         """The choice as text, to be kept beside the results (a dataset's attribute)."""
-        chosen = {"n_diameters": self.parameters.n_diameters, "n_circles": self.parameters.n_circles}
-        record = {"tolerance": self.tolerance, "error": self.error, "modes": self.modes, "band": self.band}
-        return json.dumps(chosen | record | {"compared_with": list(self.rich)}, sort_keys=True)
+        record: dict[str, Any] = {
+            "n_diameters": self.parameters.n_diameters,
+            "n_circles": self.parameters.n_circles,
+            "tolerance": self.tolerance,
+            "error": self.error,
+            "modes": self.modes,
+            "compared_with": list(self.rich),
+        }
+        if self.quantity == FREQUENCIES:
+            record["band"] = self.band
+        else:
+            found = {f"{d},{c}": x if math.isfinite(x) else None for (d, c), x in self.values.items()}
+            record |= {"quantity": self.quantity, "values": found}
+        return json.dumps(record, sort_keys=True)
 
 
-def choose_modes(
-    case: Parameters | Mapping[str, Any],
-    tolerance: float = TOLERANCE,
-    *,
-    band: float = BAND,
-    rich: tuple[int, int] = RICH,
-) -> ModeChoice:
+class Asked(NamedTuple):
+    """What the number of modes is to be chosen by."""
+
+    quantity: str
+    tolerance: float
+
+
+def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tuple[int, int] = RICH) -> ModeChoice:
     """Find the model with the fewest real modes whose coupled frequencies in the band are right to ``tolerance``.
 
-        >>> disc_model.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
-        3
-
-    Parameters
-    ----------
-    case : `Parameters`, or values to make them of; their n_diameters and n_circles are ignored
-    tolerance : relative, at least `TRUSTED`
-    band : the frequencies asked for reach up to ``band`` times the lowest one of the disc
-    rich : highest diameters and circles of the model taken as right, and the largest candidate
-
-    Raises
-    ------
-    ParameterError
-        If a value of the case breaks a rule, the tolerance is below `TRUSTED`, the band not above 0, or ``rich`` no
-        pair of whole numbers.
-    DiscModelError
-        If no smaller model meets the tolerance.
+    `disc_model.choose_modes` checks what it is given, and says what it is.
     """
-    tolerance, faults = _checked("tolerance", tolerance)
-    if not (is_number(band) and 0 < band < math.inf):
-        faults.append(Fault(("band",), shown(band), "must be finite and > 0"))
-    if not (isinstance(rich, tuple | list) and len(rich) == 2 and all(isinstance(n, int) and n >= 0 for n in rich)):
-        faults.append(Fault(("rich",), shown(rich), "must be two whole numbers >= 0, of diameters and circles"))
-    given: object = case
-    if not isinstance(given, Parameters | Mapping):
-        faults.append(Fault(("case",), shown(case), "must be Parameters, or a mapping of names to values"))
-    if faults:
-        raise ParameterError(*faults)
-    size = {"n_diameters": rich[0], "n_circles": rich[1]}
-    p = case.replace(**size) if isinstance(case, Parameters) else Parameters.model_validate({**case, **size})
+    p = p.replace(n_diameters=rich[0], n_circles=rich[1])
     modes = mode_arrays(p)
     right, top = _frequencies(p), band * float(modes.omega.min())
     candidates = sorted((real_modes(d, c), c, d) for d in range(rich[0] + 1) for c in range(rich[1] + 1))
@@ -115,47 +110,57 @@ def choose_modes(
     raise DiscModelError(f"tolerance={tolerance:g}: no model up to {rich} (diameters, circles) meets it; enlarge rich")
 
 
-def read_parameters(values: Mapping[str, Any]) -> tuple[Parameters, str]:
-    """Parameters as files and command lines give them, and how their modes were chosen, as JSON.
+def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
+    """Parameters as files and command lines give them, and by what their modes are to be chosen.
 
-    With ``n_diameters="auto"`` the modes are chosen by ``truncation_tolerance`` (`TOLERANCE` if not given). The text is
-    empty where the number of modes is given.
+    With ``n_diameters="auto"`` they are to be chosen by ``truncation_quantity`` (`FREQUENCIES` if not given) and
+    ``truncation_tolerance`` (that of `QUANTITIES` if not given); the parameters' own number of modes then says nothing.
 
     Raises
     ------
     ParameterError
         Listing every fault.
-    DiscModelError
-        If no model meets the tolerance.
     """
-    rest, tolerance, faults = asked_modes(values)
-    if tolerance is None:
-        return _with_faults(rest, faults), ""
-    choice = choose_modes(_with_faults({**rest, "n_circles": 0}, faults), tolerance)
-    return choice.parameters, choice.to_json()
+    rest, asked, faults = asked_modes(values)
+    automatic = values.get("n_diameters") == AUTO
+    return _with_faults({**rest, "n_circles": 0} if automatic else rest, faults), asked
 
 
-def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], float | None, list[str]]:
+def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None, list[str]]:
     """What files and command lines say of the choice of modes.
 
     Returns
     -------
     values : without what asks for a choice
-    tolerance : by which to choose; None if the number of modes is given, or the tolerance is none
+    asked : by what to choose; None if the number of modes is given, or what asks for a choice has faults
     faults : in what asks for a choice
     """
-    rest = {name: value for name, value in values.items() if name != "truncation_tolerance"}
-    given = values.get("truncation_tolerance", TOLERANCE)
+    rest = {name: value for name, value in values.items() if name not in CHOOSING}
+    faults: list[str]
     if rest.get("n_diameters") != AUTO:
-        if "truncation_tolerance" not in values:
-            return rest, None, []
-        return rest, None, [Fault(("truncation_tolerance",), shown(given), f"is used with n_diameters={AUTO!r} only")]
+        faults = [
+            Fault((name,), shown(values[name]), f"is used with n_diameters={AUTO!r} only")
+            for name in CHOOSING
+            if name in values
+        ]
+        return rest, None, faults
     del rest["n_diameters"]
-    tolerance, faults = _checked("truncation_tolerance", given)
-    return rest, None if faults else tolerance, faults
+    quantity, faults = checked_quantity("truncation_quantity", values.get("truncation_quantity", FREQUENCIES))
+    given = values.get("truncation_tolerance", QUANTITIES.get(quantity, math.inf))
+    if quantity in QUANTITIES or "truncation_tolerance" in values:
+        tolerance, more = checked_tolerance("truncation_tolerance", given)
+        faults += more
+    return rest, None if faults else Asked(quantity, tolerance), faults
 
 
-def _checked(name: str, value: Any) -> tuple[float, list[str]]:
+def checked_quantity(name: str, value: Any) -> tuple[str, list[str]]:
+    """A quantity to choose modes by, "" if there is no such, and what is wrong with it."""
+    if isinstance(value, str) and value in QUANTITIES:
+        return value, []
+    return "", [Fault((name,), shown(value), f"must be one of {', '.join(QUANTITIES)}")]
+
+
+def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:
     """A tolerance as a number, and what is wrong with it."""
     try:
         tolerance = float(number(value))

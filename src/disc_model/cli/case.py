@@ -9,13 +9,16 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Callable, Iterable
+from contextlib import nullcontext
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
 
+from disc_model.cli.progress import compiling
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.schema import shown
+from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED
 
 
 def option_name(field: str) -> str:
@@ -48,6 +51,33 @@ def _case_options(placeholders: dict[str, str] | None = None) -> list[inspect.Pa
     return options
 
 
+def _choice_options() -> list[inspect.Parameter]:
+    """Options that say by what modes are chosen where ``--n-diameters auto`` leaves that open."""
+    tolerances = ", ".join(f"{default:g} for {name}" for name, default in QUANTITIES.items())
+    said = {
+        "truncation_quantity": ("|".join(QUANTITIES), f"what {AUTO} is to get right [default: {FREQUENCIES}]"),
+        "truncation_tolerance": ("VALUE", f"and how right, relative, at least {TRUSTED:g} [default: {tolerances}]"),
+    }
+    options = []
+    for name in CHOOSING:
+        metavar, told = said[name]
+        option = typer.Option(
+            option_name(name),
+            f"--{name}",
+            metavar=metavar,
+            autocompletion=_completing(tuple(QUANTITIES) if name == CHOOSING[0] else ()),
+            help=told.replace("[", r"\["),
+            show_default=False,
+            rich_help_panel="Parameters of the case",
+        )
+        options.append(
+            inspect.Parameter(
+                name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[str | None, option]
+            )
+        )
+    return options
+
+
 def _choices(annotation: Any) -> tuple[str, ...]:
     """The words that a parameter can be, if it is one of some."""
     if get_origin(annotation) is Literal:
@@ -68,7 +98,7 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
 
     def decorate(command: Callable[..., None]) -> Callable[..., None]:
         own = [p for p in inspect.signature(command, eval_str=True).parameters.values() if p.name != "case"]
-        case_options = _case_options(placeholders)
+        case_options = [*_case_options(placeholders), *_choice_options()]
 
         def wrapped(**values: Any) -> None:
             case = {option.name: values.pop(option.name) for option in case_options}
@@ -84,10 +114,12 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
 
 def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, str]:
     """Parameters of the options given and how their modes were chosen; what is wrong is added to `faults`."""
-    from disc_model.truncation import read_parameters
+    from disc_model.mode_choice import read_parameters
 
+    simulates = case.get("truncation_quantity", FREQUENCIES) != FREQUENCIES
     try:
-        return read_parameters(case)
+        with compiling() if simulates else nullcontext():
+            return read_parameters(case)
     except ParameterError as error:
         faults += error.faults
         return Parameters(N=0.0, Omega=0.0), ""

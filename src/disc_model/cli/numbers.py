@@ -23,9 +23,11 @@ def modes(*, case: dict[str, str]) -> None:
     """Print the disc's modes, its give under the slider, and the frequencies of both with the slider at rest."""
     from disc_model.flexibility import residual_flexibility
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
-    from disc_model.truncation import read_parameters
 
-    parameters, choice = read_parameters(case)
+    faults: list[str] = []
+    parameters, choice = parameters_of(case, faults)
+    if faults:
+        raise ParameterError(*faults)
     if choice:
         tell([("modes chosen", choice)])
     table = Table(title=f"Modes of the disc ({parameters.normalization})")

@@ -16,7 +16,10 @@ from disc_model.data.variables import Variable, attributes
 from disc_model.parameters import Parameters
 
 TRACES = ("P", "u", "psi")
-FURTHER = {"truncation_tolerance": Variable("1", "largest relative error of the frequencies by which modes are chosen")}
+FURTHER = {
+    "truncation_quantity": Variable("", "quantity by which modes are chosen"),
+    "truncation_tolerance": Variable("1", "largest relative error of the quantity by which modes are chosen"),
+}
 """What base values hold besides parameters, where the number of modes is chosen for each point."""
 LEVELS = 65535
 """Steps between the least and the greatest value of a stored history."""
@@ -108,7 +111,7 @@ def _shown(variable: xr.DataArray) -> bool:
 def _fixed(name: str, value: Any) -> dict[str, Any]:
     """A parameter that does not vary."""
     described = attributes(name) if name in Parameters.model_fields else FURTHER[name].attributes
-    return {"name": name, "title": described["long_name"], "unit": described["units"], "value": value}
+    return {"name": name, "title": described["long_name"], "unit": described.get("units", ""), "value": value}
 
 
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:

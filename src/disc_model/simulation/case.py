@@ -194,7 +194,9 @@ class CaseSpec:
     energy: bool
     start: Start = field(default_factory=Start)
     truncation: str = ""
-    """How the number of modes was chosen, as JSON; empty if it was given."""
+    """How the number of modes was chosen, as JSON; empty if it was given, or is to be chosen."""
+    modes: str = ""
+    """What the number of modes is to be chosen by when the case is run, as JSON; empty if it is known."""
 
     @property
     def record(self) -> Record:
@@ -227,6 +229,7 @@ class CaseSpec:
             }
             | ({"start": self.start.model_dump()} if self.start != Start() else {})
             | ({"truncation": self.truncation} if self.truncation else {})
+            | ({"modes": self.modes} if self.modes else {})
         )
 
     @property
@@ -248,6 +251,7 @@ class CaseSpec:
             energy=data["energy"],
             start=Start.model_validate(data.get("start", {})),
             truncation=data.get("truncation", ""),
+            modes=data.get("modes", ""),
         )
 
 

@@ -23,6 +23,7 @@ from disc_model.studies.grids.quantities.schema import QUANTITIES
 from disc_model.studies.grids.schema import BatchSpec
 from disc_model.studies.schema import Document
 from disc_model.truncation import AUTO
+from disc_model.truncation import QUANTITIES as CHOSEN_BY
 
 Schema = dict[str, Any]
 
@@ -91,6 +92,7 @@ def _parameters(defs: Schema) -> Schema:
     found = _of(Parameters, defs)
     properties = found["properties"]
     properties["n_diameters"] = {"anyOf": [properties["n_diameters"], {"const": AUTO}]}
+    properties["truncation_quantity"] = {"enum": list(CHOSEN_BY)}
     properties["truncation_tolerance"] = {"type": "number", "exclusiveMinimum": 0}
     found.pop("required", None)
     return found

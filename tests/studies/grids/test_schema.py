@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import json
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from disc_model import Parameters, floquet, truncation
+from disc_model import Parameters, floquet, mode_choice
 from disc_model.claims import SCANS
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
+from disc_model.mode_choice import read_parameters
+from disc_model.studies import modes
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import GridStudy, load_grid, load_grids, parse_grid
+from disc_model.truncation import ModeChoice
 from tests.studies.grids.conftest import study
 from tests.studies.refused import faults_of
 
@@ -217,7 +221,7 @@ def test_the_modes_are_chosen_for_each_point() -> None:
     [text] = grid.batches.values()
     done = run_batch(text)
     for i, normalization in enumerate(axes["normalization"]):
-        own, _ = truncation.read_parameters({"N": 300, "Omega": 20, "normalization": normalization, **AUTOMATIC})
+        own, _ = read_parameters({"N": 300, "Omega": 20, "normalization": normalization, **AUTOMATIC})
         assert (done["n_diameters"][i], done["n_circles"][i]) == (own.n_diameters, own.n_circles)
         assert done["growth_rate"][i] == pytest.approx(floquet(own).growth_rate, abs=1e-9)
     assert done["n_diameters"][0] < done["n_diameters"][1]
@@ -228,14 +232,14 @@ def test_the_modes_are_chosen_for_each_point() -> None:
 
 @pytest.mark.compiled
 def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    choose = truncation.choose_modes
+    choose = modes.by_frequencies
 
-    def not_on_a_wall(p: Parameters, tolerance: float) -> truncation.ModeChoice:
+    def not_on_a_wall(p: Parameters, tolerance: float) -> ModeChoice:
         if p.k > 1e6:
             raise DiscModelError("no model up to (20, 6) (diameters, circles) meets it")
         return choose(p, tolerance)
 
-    monkeypatch.setattr(truncation, "choose_modes", not_on_a_wall)
+    monkeypatch.setattr(modes, "by_frequencies", not_on_a_wall)
     base = {"N": 300, "Omega": 20, **AUTOMATIC}
     grid = parse_grid(study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={}))
     [text] = grid.batches.values()
@@ -259,11 +263,55 @@ def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pyte
             "base.truncation_tolerance = 1e-09: must be finite and >= 0.0001",
         ),
         ({"truncation_tolerance": 1e-3}, {}, "base.truncation_tolerance = 0.001: is used with n_diameters='auto' only"),
+        ({"truncation_quantity": "growth"}, {}, "base.truncation_quantity = 'growth': is used with n_diameters='auto'"),
+        (
+            {**AUTOMATIC, "truncation_quantity": "range"},
+            {},
+            "base.truncation_quantity = 'range': must be one of frequencies, growth, first_separation, separation_rate",
+        ),
     ],
 )
 def test_contradictions_about_the_modes_are_faults(base: dict[str, Any], axes: dict[str, Any], fault: str) -> None:
     raw = study(base={"m": 0.2, **base}, axes={"N": [1], "Omega": [1], **axes}, batch={})
     assert fault in "\n".join(faults_of(parse_grid, raw))
+
+
+def test_what_modes_are_chosen_by_makes_other_batches() -> None:
+    def batches(**said: Any) -> set[str]:
+        return set(parse_grid(study(base={"m": 0.2, "n_diameters": "auto", **said})).batches)
+
+    usual = batches()
+    assert batches(truncation_quantity="frequencies", truncation_tolerance=1e-3) == usual
+    others = [
+        batches(truncation_tolerance=1e-2),
+        batches(truncation_quantity="growth"),
+        batches(truncation_quantity="growth", truncation_tolerance=2e-2),
+        batches(truncation_quantity="first_separation"),
+    ]
+    assert all(a.isdisjoint(b) for a, b in combinations([usual, *others], 2))
+    assert batches(truncation_quantity="growth", truncation_tolerance="1e-2") == others[1]
+
+
+def test_only_batches_whose_modes_a_motion_chooses_depend_on_what_chooses() -> None:
+    def sources(**base: Any) -> str:
+        return str(json.loads(next(iter(parse_grid(study(base=base)).batches.values())))["sources"])
+
+    assert sources(n_diameters="auto") == sources(n_diameters=3)
+    assert sources(n_diameters="auto", truncation_quantity="growth") != sources(n_diameters="auto")
+
+
+def test_modes_chosen_by_a_motion_are_chosen_for_each_point(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Settled from 5 modes on; where the spring is hard it never does, and that point alone fails."""
+    settled = {1: 1.0, 2: 2.0, 4: 2.002, 8: 2.003}
+    monkeypatch.setitem(
+        mode_choice.MEASURES, "growth", lambda p: p.n_diameters if p.k > 1e6 else settled[p.n_diameters]
+    )
+    base = {"N": 300, "Omega": 0, "n_diameters": "auto", "truncation_quantity": "growth"}
+    raw = study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={})
+    [text] = parse_grid(raw).batches.values()
+    done = run_batch(text)
+    assert done["n_diameters"].values.tolist() == [2, -1]
+    assert "n_diameters: undecided: growth still changes by 0.5 of itself" in str(done["message"].values[1])
 
 
 def test_the_only_fault_of_a_figure_is_the_one_that_matters() -> None:

@@ -12,6 +12,7 @@ from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import prepared, simulate
 from disc_model.simulation.case import CaseSpec, Start
+from disc_model.studies.modes import chosen, from_text
 
 log = logging.getLogger(__name__)
 
@@ -21,8 +22,12 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
 
     ``checkpoint``: file from which an interrupted case goes on, see `disc_model.simulation.api`.
     """
-    p = spec.parameters
+    p, truncation = spec.parameters, spec.truncation
     try:
+        if spec.modes:
+            choice = chosen(p, from_text(spec.modes))
+            p, truncation = choice.parameters, choice.to_json()
+            log.info("modes chosen: %s", truncation)
         result = simulate(
             p,
             spec.t_end,
@@ -41,8 +46,8 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
         tree["events"].dataset = _kept_events(tree["events"].to_dataset(), spec.events)
     if spec.start != Start():
         tree.attrs["start"] = json_attribute(spec.start.model_dump())
-    if spec.truncation:
-        tree.attrs["truncation"] = spec.truncation
+    if truncation:
+        tree.attrs["truncation"] = truncation
     tree.attrs |= provenance() | {"specification": spec.canonical, "specification_key": spec.key}
     return tree
 

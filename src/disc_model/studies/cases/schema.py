@@ -24,7 +24,8 @@ from disc_model.studies.files import (
     mapping,
     validated,
 )
-from disc_model.truncation import AUTO, read_parameters
+from disc_model.studies.modes import to_text
+from disc_model.truncation import AUTO, FREQUENCIES, by_frequencies, read_asked
 
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
@@ -130,7 +131,7 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
     events = _resolve_events(case, place, faults)
     if read is None or windows is None:
         return case, None
-    parameters, truncation = read
+    parameters, truncation, modes = read
     spec = CaseSpec(
         parameters,
         case.t_end,
@@ -142,16 +143,23 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
         case.record.energy,
         case.start,
         truncation,
+        modes,
     )
     return case, spec
 
 
-def _parse_parameters(values: Any, place: Origin, faults: Faults) -> tuple[Parameters, str] | None:
-    """Parameters, and how their modes were chosen."""
+def _parse_parameters(values: Any, place: Origin, faults: Faults) -> tuple[Parameters, str, str] | None:
+    """Parameters, and how their modes were chosen, or by what they are to be chosen when the case is run."""
     if not isinstance(values, Mapping):
         return None  # already reported by the schema
     try:
-        return read_parameters(values)
+        p, asked = read_asked(values)
+        if asked is None:
+            return p, "", ""
+        if asked.quantity != FREQUENCIES:
+            return p, "", to_text(asked)
+        choice = by_frequencies(p, asked.tolerance)
+        return choice.parameters, choice.to_json(), ""
     except ParameterError as error:
         add_parameter_faults(error.faults, lambda name: place.of(("parameters", name)), faults)
     except DiscModelError as error:  # no number of modes meets the tolerance

@@ -20,7 +20,8 @@ from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Variable, attribut
 from disc_model.errors import DiscModelError, Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import START, Start
-from disc_model.truncation import AUTO, read_parameters
+from disc_model.studies.modes import chosen
+from disc_model.truncation import AUTO, read_asked
 
 # ----------------------------------------------------------------------------------------------------
 # Batches
@@ -120,7 +121,8 @@ def _started(options: Any, values: Mapping[str, Any], starts: Mapping[str, Any])
 def _made(values: Mapping[str, Any]) -> Parameters | DiscModelError:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
     try:
-        return read_parameters(values)[0]
+        p, asked = read_asked(values)
+        return p if asked is None else chosen(p, asked).parameters
     except DiscModelError as error:
         return error
 

@@ -54,7 +54,8 @@ from disc_model.studies.grids.dimensions import (
 from disc_model.studies.grids.distributions import Sampled, check_distributions
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
 from disc_model.studies.grids.summaries import summary_of
-from disc_model.truncation import AUTO, asked_modes
+from disc_model.studies.modes import chooser
+from disc_model.truncation import AUTO, FREQUENCIES, asked_modes
 
 # ----------------------------------------------------------------------------------------------------
 # Batches
@@ -99,7 +100,7 @@ def batch_texts(
         "options": options.model_dump(),
         "base": base,
         "names": [name for dim in dims for name in dim.names],
-        "sources": source_hash(module_of(quantity), runner),
+        "sources": source_hash(module_of(quantity), runner, *_chooser(base)),
     }
     if QUANTITIES[quantity].tiled and runner == RUNNER:
         texts = [canonical_json({**shared, **tile}) for tile in _tiles(dims, batch, sampled)]
@@ -109,6 +110,13 @@ def batch_texts(
         for points in _chunks(dims, batch)
     ]
     return {content_key(text): text for text in texts}
+
+
+def _chooser(base: Mapping[str, Any]) -> tuple[str, ...]:
+    """What chooses the modes of each point, if a motion has to be looked at for that."""
+    if base.get("n_diameters") != AUTO:
+        return ()
+    return chooser(asked_modes(base)[1])
 
 
 def motion_texts(
@@ -395,8 +403,12 @@ def _quantity(raw: Mapping[str, Any], faults: Faults) -> Quantity | None:
 
 def _base(values: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Any], dict[str, Any]]:
     """The base values that are right, N and Omega need not be among them; and what leaves the modes to each point."""
-    fixed, tolerance, more = asked_modes(values)
-    automatic = {} if tolerance is None else {"n_diameters": AUTO, "truncation_tolerance": tolerance}
+    fixed, asked, more = asked_modes(values)
+    automatic: dict[str, Any] = {}
+    if asked is not None:
+        automatic = {"n_diameters": AUTO, "truncation_tolerance": asked.tolerance}
+        if asked.quantity != FREQUENCIES:
+            automatic["truncation_quantity"] = asked.quantity
     add_parameter_faults(more, lambda name: ("base", name), faults)
     try:
         checked = SomeParameters(**fixed)

@@ -1,0 +1,206 @@
+"""How many modes a case needs for what is asked of it: `choose_modes`.
+
+By ``frequencies`` no motion is needed (`disc_model.truncation`).  By a quantity of the motion there is no model that
+is known to be right, so a model is taken where two larger ones agree with it: one of twice as many nodal diameters,
+and one that has a nodal circle more as well.  Steps of two, because between models that hardly differ anything seems to
+have settled; a circle more, because diameters alone settle to something else.  Where no model does, nothing is chosen:
+the error says how far apart the largest ones are.  Agreement is no proof, and the choice keeps what it was made from.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.parameters import Parameters
+from disc_model.schema import is_number, shown
+from disc_model.truncation import (
+    BAND,
+    FREQUENCIES,
+    QUANTITIES,
+    RICH,
+    Asked,
+    ModeChoice,
+    by_frequencies,
+    checked_quantity,
+    checked_tolerance,
+    read_asked,
+    real_modes,
+)
+
+CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
+"""Diameters and circles of what may be chosen by a quantity of the motion: the last is compared with 99 modes."""
+HORIZON = 600.0
+"""s in which the first separation is waited for."""
+LATE = (20.0, 10.0)
+"""s from the first separation to the stretch in which separations are counted, and its length."""
+
+Size = tuple[int, int]
+
+
+def choose_modes(
+    case: Parameters | Mapping[str, Any],
+    tolerance: float | None = None,
+    *,
+    quantity: str = FREQUENCIES,
+    band: float = BAND,
+    rich: tuple[int, int] = RICH,
+) -> ModeChoice:
+    """Find the model with the fewest real modes that has a quantity right to ``tolerance``.
+
+        >>> disc_model.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
+        3
+
+    Parameters
+    ----------
+    case : `Parameters`, or values to make them of; their n_diameters and n_circles are ignored.  With
+        ``contact_compliance="residual"`` each model has the flexibility of the modes that it leaves out
+    tolerance : relative, at least 1e-4; None is 1e-3 for frequencies, 1e-2 for the growth rate and the first
+        separation, 0.1 for the rate of separations
+    quantity : "frequencies", the coupled ones of disc and slider at rest in the band; "growth", the growth rate of the
+        stick-slip cycle; "first_separation", its time, or that there is none within 600 s; "separation_rate",
+        separations per second from 20 to 30 s after the first one.  All but the first simulate
+    band : the frequencies asked for reach up to ``band`` times the lowest one of the disc
+    rich : highest diameters and circles of the model taken as right, and the largest candidate, for frequencies
+
+    Raises
+    ------
+    ParameterError
+        If a value of the case breaks a rule, the quantity is unknown, the tolerance is below 1e-4, the band not above
+        0, or ``rich`` no pair of whole numbers.
+    DiscModelError
+        If no model meets the tolerance: by a quantity of the motion, if none agrees with two larger ones, or if there
+        is no such quantity, as a growth rate where there is no cycle.
+    """
+    quantity, faults = checked_quantity("quantity", quantity)
+    tolerance, more = checked_tolerance("tolerance", QUANTITIES.get(quantity, 1.0) if tolerance is None else tolerance)
+    faults += more
+    if not (is_number(band) and 0 < band < math.inf):
+        faults.append(Fault(("band",), shown(band), "must be finite and > 0"))
+    if not (isinstance(rich, tuple | list) and len(rich) == 2 and all(isinstance(n, int) and n >= 0 for n in rich)):
+        faults.append(Fault(("rich",), shown(rich), "must be two whole numbers >= 0, of diameters and circles"))
+    given: object = case
+    if not isinstance(given, Parameters | Mapping):
+        faults.append(Fault(("case",), shown(case), "must be Parameters, or a mapping of names to values"))
+    if faults:
+        raise ParameterError(*faults)
+    size = {"n_diameters": CANDIDATES[0][0], "n_circles": 0}
+    p = case if isinstance(case, Parameters) else Parameters.model_validate({**case, **size})
+    if quantity == FREQUENCIES:
+        return by_frequencies(p, tolerance, band, rich)
+    return by_motion(p, Asked(quantity, tolerance))
+
+
+def read_parameters(values: Mapping[str, Any]) -> tuple[Parameters, str]:
+    """Parameters as files and command lines give them, and how their modes were chosen, as JSON.
+
+    With ``n_diameters="auto"`` the modes are chosen by ``truncation_quantity`` and ``truncation_tolerance``. The text
+    is empty where the number of modes is given.
+
+    Raises
+    ------
+    ParameterError
+        Listing every fault.
+    DiscModelError
+        If no model meets the tolerance.
+    """
+    p, asked = read_asked(values)
+    if asked is None:
+        return p, ""
+    choice = chosen(p, asked)
+    return choice.parameters, choice.to_json()
+
+
+def chosen(p: Parameters, asked: Asked) -> ModeChoice:
+    """The choice that was asked for; raises `DiscModelError` where there is none."""
+    return by_frequencies(p, asked.tolerance) if asked.quantity == FREQUENCIES else by_motion(p, asked)
+
+
+def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
+    """The first candidate with which two larger models agree; raises `DiscModelError` where there is none."""
+    values: dict[Size, float] = {}
+    change = math.inf
+    for size in CANDIDATES:
+        group = (size, *larger(size))
+        for one in group:
+            if one not in values:
+                values[one] = MEASURES[asked.quantity](p.replace(n_diameters=one[0], n_circles=one[1]))
+        mine, *others = (values[one] for one in group)
+        if all(math.isnan(values[one]) for one in group):
+            raise DiscModelError(f"n_diameters: undecided: no {asked.quantity} to choose by with {_listed(group)}")
+        change = max(_change(mine, other) for other in others)
+        if change <= asked.tolerance:
+            parameters = p.replace(n_diameters=size[0], n_circles=size[1])
+            return ModeChoice(
+                parameters, asked.tolerance, change, real_modes(*size), group[-1], None, asked.quantity, values
+            )
+    told = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and not"
+    raise DiscModelError(
+        f"n_diameters: undecided: {asked.quantity} still changes {told} among {_listed(group)}, more than the "
+        f"tolerance {asked.tolerance:g}; give the number of modes, a larger tolerance"
+        + ("" if p.contact_compliance else ", or contact_compliance='residual'")
+    )
+
+
+def larger(size: Size) -> tuple[Size, Size]:
+    """The two models that a candidate is compared with."""
+    diameters, circles = size
+    return (2 * diameters, circles), (2 * diameters, circles + 1)
+
+
+def _change(mine: float, other: float) -> float:
+    """Relative to the larger model; infinite where only one of them has the quantity."""
+    if mine == other:  # also where there is none in either
+        return 0.0
+    if not (math.isfinite(mine) and math.isfinite(other)) or other == 0:
+        return math.inf
+    return abs(mine / other - 1.0)
+
+
+def _listed(sizes: tuple[Size, ...]) -> str:
+    return ", ".join(str(real_modes(*size)) for size in sizes) + " modes"
+
+
+# ----------------------------------------------------------------------------------------------------
+# Quantities of the motion.  What simulates is imported here: most who read parameters do not need it.
+
+
+def growth(p: Parameters) -> float:
+    """Growth rate of the stick-slip cycle, 1/s; nan without a cycle."""
+    from disc_model.stability.cycle import floquet
+
+    return float(floquet(p).growth_rate)
+
+
+def first_separation(p: Parameters) -> float:
+    """Time of the first loss of contact, s; inf if there is none within `HORIZON`."""
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.case import Record
+
+    run = simulate(p, HORIZON, stop_at="first_separation", record=Record(events=False)).raise_for_status()
+    return run.first_separation if math.isfinite(run.first_separation) else math.inf
+
+
+def separation_rate(p: Parameters) -> float:
+    """Separations per second after the first one, over `LATE`; nan if there is none within `HORIZON`."""
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.case import Record
+
+    quiet = Record(events=False)
+    first = simulate(p, HORIZON, stop_at="first_separation", record=quiet).raise_for_status()
+    if not math.isfinite(first.first_separation):
+        return math.nan
+    wait, length = LATE
+    start = first.first_separation + wait
+    late = simulate(p, start, initial_state=first.final_state, record=quiet).raise_for_status().final_state
+    run = simulate(p, start + length, initial_state=late, record=quiet).raise_for_status()
+    return float(run.statistics["separations"]) / length
+
+
+MEASURES: dict[str, Callable[[Parameters], float]] = {
+    "growth": growth,
+    "first_separation": first_separation,
+    "separation_rate": separation_rate,
+}

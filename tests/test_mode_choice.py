@@ -1,0 +1,170 @@
+"""The modes that quantities of the motion need."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from disc_model import ParameterError, Parameters, choose_modes, mode_choice
+from disc_model.errors import DiscModelError
+from disc_model.mode_choice import CANDIDATES, larger, read_parameters
+from disc_model.simulation.case import CaseSpec
+from disc_model.studies.cases.run import run_case
+from disc_model.studies.schema import parse_study
+from disc_model.truncation import real_modes
+
+P = Parameters(N=385.0, Omega=15.1)
+RESIDUAL = P.replace(contact_compliance="residual")
+Measured = Callable[[Callable[[int, int], float]], list[tuple[int, int]]]
+
+
+@pytest.fixture
+def measured(monkeypatch: pytest.MonkeyPatch) -> Measured:
+    """Puts a function of (diameters, circles) in place of the growth rate; gives the list of what was asked for."""
+
+    def put(value: Callable[[int, int], float]) -> list[tuple[int, int]]:
+        asked: list[tuple[int, int]] = []
+
+        def measure(p: Parameters) -> float:
+            asked.append((p.n_diameters, p.n_circles))
+            return value(p.n_diameters, p.n_circles)
+
+        monkeypatch.setitem(mode_choice.MEASURES, "growth", measure)
+        return asked
+
+    return put
+
+
+def test_candidates_come_by_size_and_are_compared_with_larger_ones() -> None:
+    sizes = [real_modes(*size) for size in CANDIDATES]
+    assert sizes == sorted(set(sizes))
+    for size in CANDIDATES:
+        for other in larger(size):
+            assert real_modes(*other) >= 1.6 * real_modes(*size)
+        assert larger(size)[1][1] > size[1]
+
+
+def test_the_first_model_is_taken_with_which_two_larger_ones_agree(measured: Measured) -> None:
+    asked = measured(lambda d, c: 1.0 + 0.1 / d**2)
+    choice = choose_modes(RESIDUAL, 1e-2, quantity="growth")
+    # 1 + 0.1/9 against 1 + 0.1/36: 0.8 % apart; two diameters are 1.9 % from four
+    assert (choice.parameters, choice.modes, choice.rich) == (RESIDUAL.replace(n_diameters=3, n_circles=0), 7, (6, 1))
+    assert choice.error == pytest.approx((0.1 / 9 - 0.1 / 36) / (1 + 0.1 / 36))
+    assert len(asked) == len(set(asked))  # nothing is simulated twice
+    assert choice == choose_modes(RESIDUAL.replace(n_diameters=12), quantity="growth")
+
+
+def test_diameters_that_agree_among_themselves_do_not_do(measured: Measured) -> None:
+    """With rigid contact diameters settle, and the next circle moves everything."""
+    measured(lambda d, c: 1.0 + c)
+    with pytest.raises(DiscModelError, match=r"^n_diameters: undecided: growth still changes by 0\.33 of itself"):
+        choose_modes(P, 0.1, quantity="growth")
+
+
+def test_undecided_says_what_can_be_done(measured: Measured) -> None:
+    measured(lambda d, c: float(d))
+    advice = "34, 66, 99 modes, more than the tolerance 0.01; give the number of modes, a larger tolerance"
+    with pytest.raises(DiscModelError, match=f"{advice}, or contact_compliance='residual'$"):
+        choose_modes(P, quantity="growth")
+    with pytest.raises(DiscModelError, match=f"{advice}$"):
+        choose_modes(RESIDUAL, quantity="growth")
+
+
+def test_where_there_is_no_such_quantity_nothing_is_chosen(measured: Measured) -> None:
+    asked = measured(lambda d, c: math.nan)
+    with pytest.raises(DiscModelError, match=r"n_diameters: undecided: no growth to choose by with 3, 5, 10 modes"):
+        choose_modes(P, quantity="growth")
+    assert len(asked) == 3
+
+
+def test_that_it_is_there_with_some_models_only_is_no_agreement(measured: Measured) -> None:
+    measured(lambda d, c: 1.0 if c else math.nan)
+    assert choose_modes(P, quantity="growth").parameters.n_circles == 1
+    measured(lambda d, c: math.nan if c else 1.0)
+    with pytest.raises(DiscModelError, match=r"undecided: no growth to choose by with 26, 50, 75 modes"):
+        choose_modes(P, quantity="growth")
+    measured(lambda d, c: math.inf if d == 1 else 1.0)
+    assert choose_modes(P, quantity="growth").parameters.n_diameters == 2
+
+
+def test_models_may_agree_that_there_is_none(measured: Measured) -> None:
+    """As with the first separation, of which inf says that there is none."""
+    measured(lambda d, c: math.inf)
+    choice = choose_modes(P, quantity="growth")
+    assert (choice.parameters.n_diameters, choice.error) == (1, 0.0)
+    assert json.loads(choice.to_json())["values"] == {"1,0": None, "2,0": None, "2,1": None}
+
+
+def test_the_record_holds_what_was_compared(measured: Measured) -> None:
+    measured(lambda d, c: 2.0)
+    choice = choose_modes(P, 1e-3, quantity="growth")
+    assert json.loads(choice.to_json()) == {
+        "compared_with": [2, 1],
+        "error": 0.0,
+        "modes": 3,
+        "n_circles": 0,
+        "n_diameters": 1,
+        "quantity": "growth",
+        "tolerance": 1e-3,
+        "values": {"1,0": 2.0, "2,0": 2.0, "2,1": 2.0},
+    }
+
+
+def test_files_and_command_lines_name_the_quantity(measured: Measured) -> None:
+    measured(lambda d, c: 1.0 + 0.1 / d**2)
+    values = {"N": 385, "Omega": 15.1, "n_diameters": "auto", "n_circles": 5}
+    p, record = read_parameters({**values, "truncation_quantity": "growth"})
+    assert (p, record) == (P.replace(n_diameters=3), choose_modes(P, 1e-2, quantity="growth").to_json())
+    p, _ = read_parameters({**values, "truncation_quantity": "growth", "truncation_tolerance": "0.05"})
+    assert p == P.replace(n_diameters=2)
+
+
+def test_bad_quantities_are_named() -> None:
+    with pytest.raises(ParameterError, match=r"quantity='rnage': must be one of frequencies, .*; tolerance='x': must"):
+        choose_modes(P, "x", quantity="rnage")  # type: ignore[arg-type]
+
+
+def one_case(**said: Any) -> CaseSpec:
+    parameters = {"N": 385, "n_diameters": "auto", **said}
+    cases = {"A": {"title": "A", "t_end": 0.01, "parameters": parameters}}
+    return parse_study({"study": "s", "base": {"Omega": 15.1}, "cases": cases}).specs["A"]
+
+
+def test_quantity_and_tolerance_are_part_of_a_case(measured: Measured) -> None:
+    asked = measured(lambda d, c: 1.0)
+    usual, growth = one_case(), one_case(truncation_quantity="growth")
+    keys = {usual.key, growth.key, one_case(truncation_quantity="growth", truncation_tolerance=0.02).key}
+    keys |= {one_case(truncation_quantity="first_separation").key}
+    assert len(keys) == 4
+    assert one_case(truncation_quantity="frequencies").key == usual.key
+    assert one_case(truncation_quantity="growth", truncation_tolerance="0.01").key == growth.key
+    assert CaseSpec.from_canonical(growth.canonical) == growth
+    assert not asked  # reading a study simulates nothing
+
+
+def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured) -> None:
+    measured(lambda d, c: 1.0 + 0.1 / d**2)
+    done = run_case(one_case(truncation_quantity="growth"))
+    assert json.loads(done.attrs["parameters"])["n_diameters"] == 3
+    assert json.loads(done.attrs["truncation"])["quantity"] == "growth"
+    measured(lambda d, c: float(d))
+    failed = run_case(one_case(truncation_quantity="growth"))
+    assert "n_diameters: undecided" in failed.attrs["message"]
+
+
+@pytest.mark.compiled
+@pytest.mark.slow  # kernels of more than one block of modes, for two laws of contact
+def test_residual_flexibility_needs_fewer_modes_for_growth_rate_and_first_separation() -> None:
+    grows = Parameters(N=300, Omega=20, contact_compliance="residual")
+    by_growth = choose_modes(grows, 1e-2, quantity="growth")
+    assert by_growth.modes <= 9
+    assert all(value == pytest.approx(0.0458, abs=5e-4) for size, value in by_growth.values.items() if size[0] >= 4)
+    first = choose_modes(RESIDUAL, 2e-3, quantity="first_separation")
+    assert first.modes <= 9
+    assert first.values[first.rich] == pytest.approx(51.12, abs=0.05)
+    with pytest.raises(DiscModelError, match="n_diameters: undecided: first_separation"):
+        choose_modes(P, 2e-3, quantity="first_separation")
