@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import os
 import pty
 import subprocess
@@ -88,6 +89,8 @@ def test_underscores_are_accepted_in_option_names(capsys: pytest.CaptureFixture[
             (*BASE, "--t-end", "1", "--window", "w:start=0,stop=3,rate=1"),
             ("window.w: must be within the run: stop=3 <= t_end=1",),
         ),
+        ((*BASE, "--t-end", "1", "--ramp", "Omega"), ("ramp='Omega': must be PARAMETER:KEY=VALUE,...",)),
+        ((*BASE, "--t-end", "1", "--ramp", "N:to=0,start=1,end=2"), ("ramp.0.to=0: must be > 0",)),
         ((*BASE, "--t-end", "1", "--window", "w:rat=1"), ("window.w.rat='1': unknown key, did you mean rate?",)),
         ((*BASE,), ("t_end: is required",)),
         ((), ("N: is required", "Omega: is required", "t_end: is required")),
@@ -358,6 +361,19 @@ def test_windows_are_saved_by_their_names(capsys: pytest.CaptureFixture[str], tm
     found = disc_model.load(path)
     assert np.allclose(found["late/time"], np.arange(0.03, 0.0505, 0.001))
     assert found["sample_1/P_min"].sizes["time"] == 5
+
+
+def test_a_ramp_is_that_of_the_function(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    ramps = ("--ramp", "Omega:to=20,start=0.01,end=0.03", "--ramp", "N:to=150,start=0.02,end=0.04")
+    code, _, _ = call(capsys, "run", *SMALL_BASE, "--t-end", "0.05", *ramps, "--save", str(tmp_path / "run.nc"))
+    assert code == 0
+    found = disc_model.load(tmp_path / "run.nc")
+    p = Parameters(**json.loads(found.attrs["parameters"]))
+    given = tuple(disc_model.Ramp(**ramp) for ramp in json.loads(found.attrs["ramps"]))
+    assert [(ramp.parameter, ramp.to) for ramp in given] == [("Omega", 20.0), ("N", 150.0)]
+    wanted = disc_model.simulate(p, 0.05, ramps=given).events
+    assert np.array_equal(found["events/time"], wanted["time"])
+    assert len(wanted) > 0
 
 
 def test_steps_can_be_limited(capsys: pytest.CaptureFixture[str]) -> None:

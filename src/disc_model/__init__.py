@@ -30,6 +30,7 @@ _HOMES = {
     "Record": "simulation.case",
     "Window": "simulation.case",
     "Poincare": "simulation.case",
+    "Ramp": "simulation.ramps",
     "Result": "simulation.result",
     "State": "simulation.result",
     "Status": "errors",
@@ -65,6 +66,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Poincare, Record, Window
     from disc_model.simulation.deflection import deflection, snapshots
+    from disc_model.simulation.ramps import Ramp
     from disc_model.simulation.result import Result, State
     from disc_model.stability.cycle import floquet
     from disc_model.stability.sliding import steady_sliding

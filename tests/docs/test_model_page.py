@@ -77,6 +77,27 @@ def test_powers_are_the_rates_of_the_energies(phase, direction):
     np.testing.assert_allclose(differences, equations.powers(P, d, s, force), rtol=1e-9, atol=1e-14 * 1e2 / step)
 
 
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_powers_on_ramps_are_the_rates_of_the_energies(phase, direction):
+    """Products of two linear functions as well."""
+    s, d, ramp = lively(phase, direction), equations.modal_damping(P), (-40.0, 3e3)
+    _, u_0 = equations.start(P, d)
+    force, rates = getattr(equations, phase)(P, d, s, u_0)
+    rates |= equations.modal_rates(d, s, force)
+    if phase != "separation":
+        _, _, A, B = equations.vertical_motion(d, s)
+        rates |= {"u": s.u_velocity, "u_velocity": A + rates["f"] * B - d.S * force}
+    step = 1e-4
+
+    def along(h):
+        there = s.replace(**{n: getattr(s, n) + h * r for n, r in rates.items()})
+        return np.array(equations.energies(equations.ramp(P, ramp, h), d, there, u_0))
+
+    gained = np.add(equations.powers(P, d, s, force), (equations.power_of_ramp(s, u_0, ramp), 0.0))
+    np.testing.assert_allclose((along(step) - along(-step)) / (2 * step), gained, rtol=1e-9, atol=1e-14 * 1e2 / step)
+    assert abs(equations.power_of_ramp(s, u_0, ramp)) > 1e-3
+
+
 def test_impact_is_the_papers():
     s, d = lively("separation"), equations.modal_damping(P)
     _, u_0 = equations.start(P, d)

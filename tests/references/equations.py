@@ -132,6 +132,16 @@ def powers(p: Parameters, d: Disc, s: State, P):
     return transverse, p.Omega * p.r_0**2 * F - rubbed - p.c_p * p.r_0**2 * (p.Omega - s.f) ** 2
 
 
+def ramp(p: Parameters, rates, time):
+    """Ramps: the case at a time after the begin of a stretch; rates are those of Omega and N."""
+    return p.replace(Omega=p.Omega + rates[0] * time, N=p.N + rates[1] * time)
+
+
+def power_of_ramp(s: State, u_0, rates):
+    """Ramps: what the transverse energy gains besides, W."""
+    return rates[1] * (s.u - u_0)
+
+
 def energy_of_impact(p: Parameters, d: Disc, s: State, impulse):
     """Energy: what an impact adds to the transverse one, J."""
     _, _, _, B = vertical_motion(d, s)

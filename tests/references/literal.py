@@ -6,6 +6,8 @@ numerically. Slow and readable on purpose; the one change to the print is the ">
 
 Integrated by scipy's DOP853. Switch functions are sampled densely inside every step; a bracketed root is
 refined by integrating afresh from the step's start, so that the order of the dense output does not enter.
+
+Omega and N may change at constant rates from the local time 0 on: Omega t in Eq. (4) is then the integral of Omega.
 """
 
 from __future__ import annotations
@@ -60,16 +62,16 @@ class Literal:
 
     `p` has m, k, c, k_p, c_p, mu_s, mu_k, r_0, D, D_star, N, Omega. `drive` is the drive point's angle at
     the local time 0; the preload's u_0 = w_0 is that of the static equilibrium. `bonded` ignores separation:
-    P may be negative.
+    P may be negative. `rates` are those of Omega (rad/s^2) and N (N/s).
     """
 
     SAMPLES = 16
 
-    def __init__(self, diameters, omega, Psi, p, drive=0.0, bonded=False, rtol=1e-13, max_step=1e-4):
+    def __init__(self, diameters, omega, Psi, p, drive=0.0, bonded=False, rates=(0.0, 0.0), rtol=1e-13, max_step=1e-4):
         self.l, rows = signed_diameters(diameters)
         self.omega, self.Psi, self.bonded = np.asarray(omega)[rows], np.asarray(Psi)[rows], bonded
         self.damping = p["D_star"] / p["D"] * self.omega**2  # 2 xi omega
-        self.p, self.drive, self.rtol, self.max_step = p, drive, rtol, max_step
+        self.p, self.drive, self.rates, self.rtol, self.max_step = p, drive, rates, rtol, max_step
         self.w_0 = -p["N"] * float((self.Psi**2 / self.omega**2).sum())
 
     # ---- pieces of the equations
@@ -79,7 +81,13 @@ class Literal:
         return z[:n], z[n:], y[4 * n], y[4 * n + 1], y[4 * n + 2], y[4 * n + 3]
 
     def psi(self, t, phi):
-        return self.drive + self.p["Omega"] * t - phi  # Eq. (4)
+        return self.drive + self.p["Omega"] * t + self.rates[0] * t**2 / 2 - phi  # Eq. (4)
+
+    def Omega(self, t):
+        return self.p["Omega"] + self.rates[0] * t
+
+    def N(self, t):
+        return self.p["N"] + self.rates[1] * t
 
     def disc(self, q, q_rate, phi, phi_rate):
         """w, w_theta and the velocity (Eq. 34) of the disc under the slider."""
@@ -91,11 +99,11 @@ class Literal:
         """q'' and phi'', u'' of `phase` ("stick", "slip+", "slip-", "separation") and the contact force P."""
         p, l = self.p, self.l
         q, v, phi, rate, u, u_rate = self.unpack(y)
-        psi, psi_rate = self.psi(t, phi), p["Omega"] - rate
+        psi, psi_rate = self.psi(t, phi), self.Omega(t) - rate
         free = -self.damping * v - self.omega**2 * q
         if phase == "separation":  # Eqs. (25)-(27)
             phi_acc = (p["c_p"] * psi_rate + p["k_p"] * psi) / p["m"]
-            u_acc = -(p["c"] * u_rate + p["k"] * (u - self.w_0) + p["N"]) / p["m"]
+            u_acc = -(p["c"] * u_rate + p["k"] * (u - self.w_0) + self.N(t)) / p["m"]
             return free, phi_acc, u_acc, 0.0
         e = self.Psi * np.exp(1j * l * phi)  # multiplies q_rs in the sums
         test = self.Psi * np.exp(-1j * l * phi)  # multiplies the projected load
@@ -105,7 +113,7 @@ class Literal:
         known = (
             e * (p["m"] * (2j * l * rate * v - l**2 * rate**2 * q) + p["c"] * (v + 1j * l * rate * q) + p["k"] * q)
         ).sum()
-        preload = p["N"] - p["k"] * self.w_0
+        preload = self.N(t) - p["k"] * self.w_0
         # Eq. (18) / (21): q'' + test * sum e m (q'' + i s phi'' q) = free - test * (preload + known)
         matrix[:n, :n] = np.eye(n) + p["m"] * np.outer(test, e)
         matrix[:n, n] = test * p["m"] * (e * 1j * l * q).sum()
@@ -116,7 +124,7 @@ class Literal:
             friction = p["mu_k"] * (1 if phase == "slip+" else -1)
             matrix[n, :n] = friction * p["m"] * e
             matrix[n, n] = p["r_0"] * p["m"] + friction * p["m"] * (e * 1j * l * q).sum()
-            right[n] = p["r_0"] * (p["c_p"] * (p["Omega"] - rate) + p["k_p"] * psi) - friction * (preload + known)
+            right[n] = p["r_0"] * (p["c_p"] * psi_rate + p["k_p"] * psi) - friction * (preload + known)
         solution = np.linalg.solve(matrix, right)
         q_acc, phi_acc = solution[:n], solution[n]
         P = preload + known + p["m"] * (e * (q_acc + 1j * l * phi_acc * q)).sum()
@@ -138,7 +146,7 @@ class Literal:
     # ---- conditions for staying in a phase: each positive inside it
     def pull(self, t, y):
         _, _, phi, rate, _, _ = self.unpack(y)
-        return self.p["c_p"] * (self.p["Omega"] - rate) + self.p["k_p"] * self.psi(t, phi)
+        return self.p["c_p"] * (self.Omega(t) - rate) + self.p["k_p"] * self.psi(t, phi)
 
     def contact(self, t, y, phase):
         return self.accelerations(t, y, phase)[3]

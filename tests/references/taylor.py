@@ -3,7 +3,8 @@
 Nothing here is shared with the engine.  The equations stand as in the model's text: rigid contact or a contact of
 compliance ``C`` (m/N), contact force ``vertical`` or ``normal``; quotients are quotients of series.  A switch is looked
 for by exclusion: on an interval of middle m and half width r a polynomial has no root if |p(m)| > sum |p_j(m)| r^j, and
-at most one if the same holds for its derivative; else the interval is halved.
+at most one if the same holds for its derivative; else the interval is halved.  Omega and N may change at constant
+rates from the time 0 on; u_0 stays that of the first N.
 
 Regenerate the stored data (about ten minutes)::
 
@@ -36,9 +37,13 @@ class Law:
 
 
 class Problem:
-    """A case's numbers in long double.  ``base`` has the names of `stored.BASE`; modes are l = 0, 1, ... in order."""
+    """A case's numbers in long double.  ``base`` has the names of `stored.BASE`; modes are l = 0, 1, ... in order.
 
-    def __init__(self, N, Omega, omega, psi, law, base=BASE):
+    ``rates`` are those of Omega (rad/s^2) and N (N/s).
+    """
+
+    def __init__(self, N, Omega, omega, psi, law, base=BASE, rates=(0.0, 0.0)):
+        self.Omega_rate, self.N_rate = LONG(rates[0]), LONG(rates[1])
         q = {name: LONG(value) for name, value in base.items()}
         self.N, self.Omega, self.C, self.normal = LONG(N), LONG(Omega), LONG(law.C), law.force == "normal"
         self.rigid = law.C == 0
@@ -81,6 +86,11 @@ class Step:
         for name in ("psi", "f", "u", "v", "V", "R", "T", "B", "F"):
             setattr(self, name, np.zeros(K + 1, LONG))
         self.fa, self.below = np.zeros((K + 1, n), LONG), np.zeros(K + 1, LONG)
+        # Omega and N of each order
+        self.drive, self.load = np.zeros(K + 1, LONG), np.zeros(K + 1, LONG)
+        time = LONG(state.time)
+        self.drive[:2] = q.Omega + q.Omega_rate * time, q.Omega_rate
+        self.load[:2] = q.N + q.N_rate * time, q.N_rate
         self.psi[0], self.f[0] = state.psi, state.f
         self.u[0], self.v[0] = state.u, state.u_velocity
         for k in range(K):
@@ -101,16 +111,16 @@ class Step:
         fa, fb, fp, fq = (product(f, x, k) for x in (self.a, self.b, self.alpha, self.beta))
         self.fa[k] = fa
         self._slider(k, fb)
-        self.F[k] = q.k_p * self.psi[k] - q.c_p * f[k] + (q.c_p * q.Omega if k == 0 else 0)
+        self.F[k] = q.k_p * self.psi[k] + q.c_p * (self.drive[k] - f[k])
         free = -q.d * self.alpha[k] - q.w2 * self.a[k]
-        height = q.k * self.u[k] + q.c * self.v[k] + (q.N - q.k * q.u_0 if k == 0 else 0)
+        height = q.k * self.u[k] + q.c * self.v[k] + self.load[k] - (q.k * q.u_0 if k == 0 else 0)
         self._forces(k, free, fq, height)
         j = k + 1
         self.a[j] = (self.alpha[k] + q.l * fb) / j
         self.b[j] = (self.beta[k] - q.l * fa) / j
         self.alpha[j] = (free + q.l * fq - q.s * self.V[k]) / j
         self.beta[j] = (-q.d * self.beta[k] - q.w2 * self.b[k] - q.l * fp) / j
-        self.psi[j] = ((q.Omega if k == 0 else 0) - f[k]) / j
+        self.psi[j] = (self.drive[k] - f[k]) / j
         if self.phase != "stick":
             dragged = self.T[k] + (product(self.R, self.B, k) / q.r_0 if q.normal else 0)
             f[j] = (self.F[k] - dragged / q.r_0) / q.m / j
@@ -197,7 +207,8 @@ class Step:
         """Largest coefficient of both energy balances over the step, relative to the energy at its start.
 
         Transverse: d/dt (disc + slider + C V^2/2) = V f B - dampings; in the plane: d/dt = Omega r_0^2 F - r_0 f (T + R
-        B / r_0) - c_p r_0^2 (Omega - f)^2.  Both hold as identities between series.
+        B / r_0) - c_p r_0^2 (Omega - f)^2.  The energy holds N (u - u_0), to which a change of N adds N' (u - u_0).
+        Both hold as identities between series.
         """
         q, K = self.q, ORDER
 
@@ -207,24 +218,20 @@ class Step:
         def square(x):
             return sum((times(x[:, i], x[:, i]) for i in range(x.shape[1])), np.zeros(K, LONG))
 
-        def shifted(x, by):
-            out = x.copy()
-            out[0] -= by
-            return out
-
         modal = [(self.alpha, self.beta), (self.a, self.b)]
         kinetic = sum((square(x) for x in modal[0]), np.zeros(K, LONG)) / 2
         elastic = sum((square(x * np.sqrt(q.w2)) for x in modal[1]), np.zeros(K, LONG)) / 2
-        height = shifted(self.u, q.u_0)
-        slider = (q.m * times(self.v, self.v) + q.k * times(height, height)) / 2 + q.N * height[:K]
+        height = self.u.copy()
+        height[0] -= q.u_0
+        slider = (q.m * times(self.v, self.v) + q.k * times(height, height)) / 2 + times(self.load, height)
         stored = q.C * times(self.V, self.V) / 2
         lost = sum((square(x * np.sqrt(q.d)) for x in modal[0]), np.zeros(K, LONG)) + q.c * times(self.v, self.v)
         fB = times(self.f, self.B)
-        power = times(np.append(self.V[:K], 0), np.append(fB, 0)) - lost
+        power = times(np.append(self.V[:K], 0), np.append(fB, 0)) - lost + q.N_rate * height[:K]
         transverse = kinetic + elastic + slider + stored
-        turning = shifted(-self.f, -q.Omega)
+        turning = self.drive - self.f
         plane = q.r_0**2 * (q.m * times(self.f, self.f) + q.k_p * times(self.psi, self.psi)) / 2
-        supplied = q.Omega * q.r_0**2 * self.F[:K] - q.c_p * q.r_0**2 * times(turning, turning)
+        supplied = q.r_0**2 * times(self.drive, self.F) - q.c_p * q.r_0**2 * times(turning, turning)
         if self.phase == "slip":
             dragged = np.append(self.T[:K], 0)
             if q.normal:

@@ -22,7 +22,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Record, Window
+from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, Window
 from disc_model.cli import main
 from disc_model.data.dataset import load
 from disc_model.engine import machine
@@ -49,6 +49,12 @@ ALL = Record(
     ),
     poincare=Poincare(start=54.6),
     energy=True,
+)
+
+
+RAMPS = (
+    Ramp(parameter="Omega", to=14.0, start=54.5, end=55.5),
+    Ramp(parameter="N", to=300.0, start=54.9, end=55.2),
 )
 
 
@@ -111,6 +117,7 @@ RUNS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "other tolerance": ({}, {"tol": 1e-6, "record": ALL}),
     "many modes": ({"n_diameters": 9, "n_circles": 1, "c": 3.0}, {"record": ALL}),
     "bonded": ({"contact": "bonded"}, {"record": ALL}),
+    "on ramps": ({}, {"record": ALL.replace(poincare=None), "ramps": RAMPS}),
 }
 
 

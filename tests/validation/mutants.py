@@ -24,7 +24,9 @@ import disc_model
 
 PACKAGE = Path(disc_model.__file__).parent
 FUNCTIONS = {
-    "engine/layout.py": ("build_model", "build_state"),
+    "engine/layout.py": ("build_model", "on_ramp", "drive_angle", "build_state"),
+    "engine/dense_output.py": ("state_at",),
+    "engine/stepping.py": ("set_course",),
     "engine/sampling.py": ("point_motion", "_write_row"),
     "engine/audit.py": ("transverse_energy", "inplane_energy", "_powers_in", "audit_impact"),
     "engine/series.py": (
@@ -51,6 +53,7 @@ FUNCTIONS = {
         *("_slider_forces", "_path_change", "_apply_force", "tangent_series"),
     ),
     "engine/variational.py": ("section_map",),
+    "simulation/ramps.py": ("Piece.at", "pieces", "_line", "_at"),
     "simulation/result.py": ("read_state",),
     "stability/return_map.py": ("ReturnMap._set_changes", "ReturnMap.state", "ReturnMap.contact_force"),
     "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),

@@ -22,8 +22,16 @@ from tests.validation import trial
 from tests.validation.mutants import EQUIVALENT, PACKAGE, Mutant, all_mutants
 
 LAWS = "tests/validation/test_contact_laws.py"
+RAMPS = (
+    "tests/simulation/test_ramps.py",
+    *(
+        f"tests/validation/test_ramps.py::test_{name}"
+        for name in ("series_against_the_reference", "a_block_on_a_belt", "the_drive_goes_on_turning")
+    ),
+    "tests/validation/test_ramps.py::test_energy_balance_of_every_step",
+)
 EQUATIONS = ("tests/validation/test_equations.py", LAWS)
-TWINS = ("tests/engine/test_series.py", *EQUATIONS)
+TWINS = ("tests/engine/test_series.py", *EQUATIONS, *RAMPS)
 CLOSED_FORM = (
     *EQUATIONS,
     "tests/engine/test_stick_modes.py",
@@ -37,7 +45,13 @@ METHODS = (*(f"{RIVALS}/test_{name}.py" for name in ("kernels", "rk4", "regulari
 #: What notices changes of a file, if it is not the tests of the equations.
 NOTICED_BY = {
     "engine/series.py": TWINS,
-    "engine/contact_series.py": (LAWS,),
+    "engine/audit.py": (*EQUATIONS, *RAMPS),
+    "engine/contact_series.py": (LAWS, *RAMPS),
+    "engine/dense_output.py": (*EQUATIONS, *RAMPS),
+    "engine/layout.py": (*EQUATIONS, *RAMPS),
+    "engine/sampling.py": (*EQUATIONS, *RAMPS),
+    "engine/stepping.py": RAMPS,
+    "simulation/ramps.py": RAMPS,
     "engine/coasting.py": CLOSED_FORM,
     "engine/stick_modes.py": CLOSED_FORM,
     "engine/saltation.py": DERIVATIVES,

@@ -18,6 +18,7 @@ from disc_model.schema import TOLERANCES, limits_rule, shown
 
 if TYPE_CHECKING:
     from disc_model.simulation.case import Record, Window
+    from disc_model.simulation.ramps import Ramp
     from disc_model.simulation.result import Result
 
 PLOT_POINTS = 4000
@@ -34,6 +35,12 @@ WINDOW_HELP = (
 )
 
 
+RAMP_HELP = (
+    "a slow change of Omega or N, such as Omega:to=5,start=100,end=400; keys to (rad/s or N), start, end (s); may be "
+    "repeated"
+)
+
+
 class Asked(NamedTuple):
     """What `run` is asked for, checked."""
 
@@ -43,6 +50,7 @@ class Asked(NamedTuple):
     tol: float
     max_steps: int | None
     windows: dict[str, Window]
+    ramps: tuple[Ramp, ...]
 
 
 @with_case_options()
@@ -66,6 +74,7 @@ def run(
     window: Annotated[
         list[str] | None, typer.Option("--window", metavar="NAME:KEY=VALUE,...", help=WINDOW_HELP)
     ] = None,
+    ramp: Annotated[list[str] | None, typer.Option("--ramp", metavar="PARAMETER:KEY=VALUE,...", help=RAMP_HELP)] = None,
     max_steps: Annotated[
         str | None, typer.Option("--max-steps", metavar="COUNT", help="give up after so many steps")
     ] = None,
@@ -78,7 +87,8 @@ def run(
     case: dict[str, str],
 ) -> None:
     """Simulate one case from static equilibrium and print what happened."""
-    asked = _checked(case, t_end, tol, stop_at, max_steps, window or [], {"plot": plot, "save": save}, checkpoint)
+    texts = {"window": window or [], "ramp": ramp or []}
+    asked = _checked(case, t_end, tol, stop_at, max_steps, texts, {"plot": plot, "save": save}, checkpoint)
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Record
 
@@ -89,7 +99,7 @@ def run(
         logging.basicConfig(format="%(message)s")
         logging.getLogger("disc_model").setLevel(logging.INFO)
     prepare(asked.parameters)
-    how: dict[str, Any] = {"tol": asked.tol, "max_steps": asked.max_steps}
+    how: dict[str, Any] = {"tol": asked.tol, "max_steps": asked.max_steps, "ramps": asked.ramps}
     with simulating(asked.end) as progress:
         result = simulate(
             asked.parameters, asked.end, record=record, stop_at=stop_at, progress=progress, checkpoint=checkpoint, **how
@@ -102,7 +112,8 @@ def run(
     if plot is not None:
         reached = float(result.final_state.time)
         if 0 < reached < asked.end and not asked.windows:  # the end to be shown is elsewhere than was thought
-            result = simulate(asked.parameters, reached, tol=asked.tol, record=_plot_record(reached))
+            p, record = asked.parameters, _plot_record(reached)
+            result = simulate(p, reached, tol=asked.tol, record=record, ramps=asked.ramps)
         _save_plot(result, plot)
     if not complete:
         raise typer.Exit(1)
@@ -114,7 +125,7 @@ def _checked(
     tol: str,
     stop_at: str | None,
     max_steps: str | None,
-    windows: Sequence[str],
+    texts: dict[str, list[str]],
     files: dict[str, Path | None],
     checkpoint: Path | None,
 ) -> Asked:
@@ -130,7 +141,8 @@ def _checked(
         rule = "must be a whole number >= 1"
         found = number("max_steps", max_steps, lambda x: x >= 1 and x.is_integer(), rule, faults)
         steps = int(found) if math.isfinite(found) else None
-    named = _windows(windows, end, faults)
+    named = _windows(texts["window"], end, faults)
+    ramps = _ramps(texts["ramp"], parameters, faults)
     if (plot := files["plot"]) is not None:
         faults += _plot_faults(plot)
     if (save := files["save"]) is not None:
@@ -139,7 +151,35 @@ def _checked(
         faults += _checkpoint_faults(checkpoint)
     if faults:
         raise ParameterError(*faults)
-    return Asked(parameters, choice, end, tolerance, steps, named)
+    return Asked(parameters, choice, end, tolerance, steps, named, ramps)
+
+
+def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp, ...]:
+    """Ramps of texts such as ``Omega:to=5,start=100,end=400``; adds to `faults` what is wrong with them."""
+    from disc_model.simulation.ramps import Ramp
+    from disc_model.simulation.ramps import faults as faults_of
+
+    found: list[Ramp] = []
+    for i, text in enumerate(texts):
+        name, named, said = text.partition(":")
+        pairs = [pair.partition("=") for pair in said.split(",")]
+        if not named or not all(sign for _, sign, _ in pairs):
+            faults.append(Fault(("ramp",), shown(text), "must be PARAMETER:KEY=VALUE,..."))
+            continue
+        try:
+            found.append(Ramp(parameter=name, **{key.strip(): value for key, _, value in pairs}))  # type: ignore[arg-type]
+        except ParameterError as error:
+            faults += _placed(error, ("ramp", str(i)))
+    if not faults:  # else it may not be these parameters that are meant
+        faults += faults_of(p, tuple(found), poincare=False)
+    return tuple(found)
+
+
+def _placed(error: ParameterError, place: tuple[str, ...]) -> Iterator[Fault]:
+    """Faults of a part, at its place in the command."""
+    for fault in error.faults:
+        path, value, rule = (fault.path, fault.value, fault.rule) if isinstance(fault, Fault) else ((), "", fault)
+        yield Fault((*place, *path), value, rule)
 
 
 def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, Window]:
@@ -161,11 +201,7 @@ def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, W
             if math.isfinite(end):
                 _check_within(found[name].resolved(0.0, end), end)
         except ParameterError as error:
-            for fault in error.faults:
-                path, value, rule = (
-                    (fault.path, fault.value, fault.rule) if isinstance(fault, Fault) else ((), "", fault)
-                )
-                faults.append(Fault(("window", name, *path), value, rule))
+            faults += _placed(error, ("window", name))
     return found
 
 

@@ -2,6 +2,8 @@
 
 d/dt (disc + vertical slider) = P f B - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
 d/dt (in-plane)               = Omega r_0^2 F - mu_k r_0 P |f| - c_p r_0^2 (Omega - f)^2
+
+On a ramp of N the first gains N' (u - u_0), because the energy holds N (u - u_0).
 """
 
 from __future__ import annotations
@@ -12,7 +14,21 @@ import numpy as np
 
 from .compile import kernel
 from .dense_output import force_at, move_to
-from .layout import PSI, SEPARATION, SLIP, SPEED, U_VELOCITY, U, give_of, is_compliant, is_normal
+from .layout import (
+    PSI,
+    SEPARATION,
+    SLIP,
+    SPEED,
+    U_VELOCITY,
+    U,
+    drive_now,
+    give_of,
+    is_compliant,
+    is_normal,
+    is_ramped,
+    load_now,
+    ramp_of,
+)
 from .switches import disc_point, spring_force
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
@@ -56,7 +72,8 @@ def transverse_energy(model, state, phase):
         energy += state.e[j] ** 2 + model.stiffness[j] * state.z[j] ** 2
     for j in range(len(model.force0)):
         energy += state.g[j] ** 2 + model.stiffness0[j] * state.y[j] ** 2
-    return 0.5 * energy + 0.5 * model.m * v * v + 0.5 * model.k * (u - model.u_0) ** 2 + model.N * (u - model.u_0)
+    raised = u - model.u_0
+    return 0.5 * energy + 0.5 * model.m * v * v + 0.5 * model.k * raised**2 + load_now(model, state) * raised
 
 
 @kernel
@@ -69,23 +86,25 @@ def inplane_energy(model, state):
 @kernel
 def _powers_in(model, state, phase, direction, P):
     """Power into the transverse and the in-plane motion, and the sums of the moduli of their parts, W."""
-    _, v, slope = disc_point(model, state)
+    u, v, slope = disc_point(model, state)
     if is_compliant(model) or phase == SEPARATION:
-        v = state.x[U_VELOCITY]
-    f, F = state.x[SPEED], spring_force(model, state)
+        u, v = state.x[U], state.x[U_VELOCITY]
+    f, F, Omega = state.x[SPEED], spring_force(model, state), drive_now(model, state)
     lost = model.c * v * v
     for j in range(len(model.shift)):
         lost += model.damping[j] * state.e[j] ** 2
     for j in range(len(model.force0)):
         lost += model.damping0[j] * state.g[j] ** 2
     driven = P * f * slope
-    supplied = model.Omega * model.r_0**2 * F
+    supplied = Omega * model.r_0**2 * F
     rubbed = model.mu_k * model.r_0 * P * direction * f if phase == SLIP else 0.0
     if is_normal(model):
         # P is R: V = R (1 - s mu_k B / r_0) is what acts vertically, and R B / r_0 acts in the plane
         rubbed += driven
         driven *= 1.0 - direction * model.mu_k * slope / model.r_0
-    damped = model.c_p * model.r_0**2 * (model.Omega - f) ** 2
+    damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
+    if is_ramped(model):
+        driven += ramp_of(model.ramp, 3) * (u - model.u_0)
     return driven - lost, supplied - rubbed - damped, abs(driven) + lost, abs(supplied) + abs(rubbed) + damped
 
 

@@ -12,7 +12,9 @@ from .compile import inlined
 from .lanes import WIDTH, add, fma, splat, total
 from .layout import (
     DOWN,
+    DRIVE_SERIES,
     FORCE_ROW,
+    LOAD_SERIES,
     PSI_SERIES,
     SLOPE,
     SLOPE_SERIES,
@@ -24,6 +26,7 @@ from .layout import (
     F,
     give_of,
     is_normal,
+    is_ramped,
 )
 from .layout import P as P_
 from .series import (
@@ -40,7 +43,9 @@ from .series import (
     _row,
     _stick_order,
     _z,
+    drive,
     lane_count,
+    load_at,
 )
 from .switches import slip_denominator
 
@@ -70,6 +75,8 @@ def _slope(model, s, k):
 def _spring(model, s, k):
     """F of order k, from psi_k and f_k."""
     F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k]
+    if is_ramped(model):
+        return F_k + model.c_p * s.slider[DRIVE_SERIES + k]
     return F_k + model.c_p * model.Omega if k == 0 else F_k
 
 
@@ -77,7 +84,9 @@ def _spring(model, s, k):
 def _weight(model, s, k):
     """N + k (u - u_0) + c u' of order k."""
     load_k = model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]
-    return load_k + (model.N - model.k * model.u_0) if k == 0 else load_k
+    if is_ramped(model) and k == 1:
+        return load_k + s.slider[LOAD_SERIES + 1]
+    return load_k + (load_at(model, s) - model.k * model.u_0) if k == 0 else load_k
 
 
 @inlined
@@ -96,8 +105,10 @@ def _leverage(s, k):
 def _move_slider(model, s, k, f_rate, acceleration):
     """psi, f, u, u' of order k + 1 from the rates of order k."""
     up = s.slider[UP + k]
-    drive = model.Omega if k == 0 else 0.0
-    s.slider[PSI_SERIES + k + 1] = (drive - s.slider[F + k]) * up
+    driven = drive(model, s) if k == 0 else 0.0
+    if is_ramped(model) and k == 1:
+        driven = s.slider[DRIVE_SERIES + 1]
+    s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up
     s.slider[F + k + 1] = f_rate * up
     s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
     s.slider[V_SERIES + k + 1] = acceleration * up
@@ -160,7 +171,9 @@ def compliant_stick_series(model, s, order):
     width, stiffness, lightness, impulse = lane_count(model), 1.0 / give_of(model.give), 1.0 / model.m, 0.0
     for k in range(order + 1):
         s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
-    s.slider[PSI_SERIES + 1] = model.Omega * model.unit
+    s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
+    if is_ramped(model):
+        s.slider[PSI_SERIES + 2] = s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
     for k in range(order):
         V, up = (_deflection(model, s, k) - s.slider[U_SERIES + k]) * stiffness, s.slider[UP + k]
         s.slider[P_ + k] = V
@@ -183,16 +196,23 @@ def release_series(model, s, order):
     Where nothing but the slope pulls at a slider that may leave the disc, over their common factor V: mu_s +/- beta.
     """
     s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
-    spring, growth = _spring(model, s, 0), model.k_p * s.slider[PSI_SERIES + 1]
+    spring, growth, bend = _spring(model, s, 0), model.k_p * s.slider[PSI_SERIES + 1], 0.0
+    if is_ramped(model):
+        growth += model.c_p * s.slider[DRIVE_SERIES + 1]
+        bend = model.k_p * s.slider[PSI_SERIES + 2]
     for k in range(order):
         press, pull = s.slider[P_ + k], 0.0
         if k < 2:
             pull = model.r_0 * (spring if k == 0 else growth)
+        if is_ramped(model) and k == 2:
+            pull = model.r_0 * bend
         if is_normal(model):
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             press += model.r_0 * spring * s.slider[SLOPE_SERIES + k]
             if k > 0:
                 press += model.r_0 * growth * s.slider[SLOPE_SERIES + k - 1]
+            if is_ramped(model) and k > 1:
+                press += model.r_0 * bend * s.slider[SLOPE_SERIES + k - 2]
             pull -= _leverage(s, k) + s.slider[SLOPE_SERIES] * s.slider[P_ + k]
         s.slider[SWITCH + k] = model.mu_s * press - pull
         s.slider[SWITCH2 + k] = model.mu_s * press + pull

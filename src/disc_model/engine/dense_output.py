@@ -5,7 +5,24 @@ from __future__ import annotations
 from .coasting import coast_to
 from .compile import inlined
 from .lanes import WIDTH, fma, item, load, splat, store
-from .layout import PHASE, PSI, SEPARATION, SPEED, STICK, U_VELOCITY, E, U, is_compliant, is_normal
+from .layout import (
+    DRIVE,
+    DRIVE_SERIES,
+    LOAD,
+    LOAD_SERIES,
+    PHASE,
+    PSI,
+    SEPARATION,
+    SPEED,
+    STICK,
+    U_VELOCITY,
+    E,
+    U,
+    is_compliant,
+    is_normal,
+    is_ramped,
+    ramp_of,
+)
 from .polynomial import value
 from .series import lane_count
 from .switches import force_in_stick, stick_force
@@ -48,6 +65,9 @@ def state_at(model, s, order, x, phase, state):
     if is_compliant(model) or phase == SEPARATION:
         state.x[U] = value(s.u, 0, order, x)
         state.x[U_VELOCITY] = value(s.v, 0, order, x)
+    if is_ramped(model):
+        state.x[DRIVE] = s.slider[DRIVE_SERIES] + x * s.slider[DRIVE_SERIES + 1]
+        state.x[LOAD] = s.slider[LOAD_SERIES] + x * s.slider[LOAD_SERIES + 1]
 
 
 @inlined
@@ -71,7 +91,7 @@ def force_at(model, s, order, x, phase, state):
 
 
 @inlined
-def load_state(s, state):
+def load_state(model, s, state):
     """The series' coefficients 0 from ``state``."""
     for b in range(0, len(state.z), WIDTH):
         store(s.z, b, load(state.z, b))
@@ -82,3 +102,6 @@ def load_state(s, state):
     s.f[0] = state.x[SPEED]
     s.u[0] = state.x[U]
     s.v[0] = state.x[U_VELOCITY]
+    if is_ramped(model):
+        s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[DRIVE], ramp_of(model.ramp, 2) * model.unit
+        s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = state.x[LOAD], ramp_of(model.ramp, 3) * model.unit

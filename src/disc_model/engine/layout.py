@@ -30,8 +30,8 @@ SHIFT, STIFFNESS, DAMPING, FORCE_ROW, SLOPE, BEND, MINUS_FORCE_DAMPING, MINUS_FO
 # slider's series begin in Series.slider.
 ROWS = 48
 E, SCRATCH = ROWS, 2 * ROWS
-SLIDER_ROWS = ("f", "psi", "P", "u", "v", "switch", "switch2", "powers", "up", "down", "slope")
-F, PSI_SERIES, P, U_SERIES, V_SERIES, SWITCH, SWITCH2, POWERS, UP, DOWN, SLOPE_SERIES = (
+SLIDER_ROWS = ("f", "psi", "P", "u", "v", "switch", "switch2", "powers", "up", "down", "slope", "drive", "load")
+F, PSI_SERIES, P, U_SERIES, V_SERIES, SWITCH, SWITCH2, POWERS, UP, DOWN, SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES = (
     ROWS * i for i in range(len(SLIDER_ROWS))
 )
 HALF = WIDTH // 2
@@ -47,8 +47,9 @@ class Model(NamedTuple):
     The lane arrays are views of the first of them.  ``more_blocks`` is (0, 0) if there is one block of lanes, and
     (number of further blocks,) otherwise: the length of a tuple is known when kernels are compiled, so the usual case
     has no loop over blocks.
-    Likewise ``give`` is () if contact is rigid, else (compliance,), and ``normal`` is () if the contact force is
-    vertical, else (True,): the paper's model has no more to hand from kernel to kernel than it needs.
+    Likewise ``give`` is () if contact is rigid, else (compliance,), ``normal`` is () if the contact force is vertical,
+    else (True,), and ``ramp`` is () while Omega and N are constant, else what `on_ramp` puts there: the paper's model
+    has no more to hand from kernel to kernel than it needs.
     """
 
     lanes: np.ndarray
@@ -82,6 +83,7 @@ class Model(NamedTuple):
     bonded: bool
     give: tuple[float, ...]  # compliance of the contact, m/N
     normal: tuple[bool, ...]
+    ramp: tuple[float, ...]  # begin (s), angle of the drive point there (rad), rates of Omega (rad/s^2) and N (N/s)
     modes: StickModes  # closed form of stick
 
 
@@ -108,11 +110,46 @@ def is_normal(model):
     return len(model.normal) == 1
 
 
+@inlined
+def is_ramped(model):
+    """Whether Omega or N may change with time: a constant for the compiler."""
+    return len(model.ramp) == 4
+
+
+@inlined
+def ramp_of(ramp, i):
+    """An entry of ``Model.ramp``; 0 if Omega and N are constant."""
+    if len(ramp) == 4:
+        return ramp[i]
+    return 0.0
+
+
+@inlined
+def drive_now(model, state):
+    """Omega, rad/s."""
+    return state.x[DRIVE] if is_ramped(model) else model.Omega
+
+
+@inlined
+def load_now(model, state):
+    """N, N."""
+    return state.x[LOAD] if is_ramped(model) else model.N
+
+
+@inlined
+def drive_angle(model, time):
+    """Angle of the drive point at ``time`` (s), rad."""
+    if is_ramped(model):
+        since = time - ramp_of(model.ramp, 0)
+        return ramp_of(model.ramp, 1) + (model.Omega + 0.5 * ramp_of(model.ramp, 2) * since) * since
+    return model.Omega * time
+
+
 class Series(NamedTuple):
     """Taylor coefficients of one step.
 
     z, e and scratch are views of ``modes``; f to down are views of ``slider``, ``ROWS`` doubles each;
-    behind them are those of B / r_0, under the normal force.
+    behind them are those of B / r_0, under the normal force, and of Omega and N, on a ramp.
     """
 
     modes: np.ndarray
@@ -149,8 +186,8 @@ class State(NamedTuple):
 
 # Indices into State.x.  KNOWN: multiplicity of the root that the switch function is known to have now; COASTED: 1 if
 # stick has already been followed in closed form as far as that goes; the time is TIME + TIME_LOW, added up with
-# compensation so that event times stay exact to rounding after hours.
-TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, COASTED, SCALARS = range(12)
+# compensation so that event times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
+TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, COASTED, DRIVE, LOAD, SCALARS = range(14)
 
 
 def lanes_for(n_pairs):
@@ -230,7 +267,27 @@ def build_model(
         bonded=bonded,
         give=(give,) if give else (),
         normal=(True,) if normal else (),
+        ramp=(),
         modes=modes,
+    )
+
+
+def on_ramp(model: Model, begin, angle, *, Omega, Omega_rate, N, N_rate) -> Model:
+    """``model`` while Omega and N change steadily from ``begin`` (s) on; the slider's spring is held where it was.
+
+    angle : rad, of the drive point at ``begin``
+    Omega, N : there, rad/s and N
+    Omega_rate, N_rate : rad/s^2 and N/s
+    """
+    share = N / model.N
+    return model._replace(
+        N=N,
+        Omega=Omega,
+        velocity_scale=share * model.velocity_scale,
+        slider_scale=share * model.slider_scale,
+        speed_scale=Omega,
+        ramp=(begin, angle, Omega_rate, N_rate),
+        modes=no_modes(),  # the closed form of stick knows no ramps
     )
 
 

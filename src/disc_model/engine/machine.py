@@ -30,7 +30,7 @@ from .layout import (
 )
 from .outcomes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
 from .sampling import sample_step
-from .stepping import advance_time, expand, first_switch, step_size
+from .stepping import advance_time, expand, first_switch, set_course, step_size
 from .switches import (
     AT_REST,
     CONTACT_LOST,
@@ -145,6 +145,7 @@ def _move(model, s, state, probe, order, x_end, audit_every, kept):
     move_to(model, s, order, x_end, phase, state)
     x[KNOWN], x[FORCE], x[COASTED] = 0.0, 0.0, 1.0 if x_end < LONGEST_COAST else 0.0
     advance_time(x, x_end * model.unit)
+    set_course(model, state)
     kept.phase_times[int(phase)] += x_end * model.unit
 
 
@@ -161,6 +162,7 @@ def run(model, s, state, probe, limits, kept):
     """Advance ``state`` until a reason to return: see ``outcomes``.  ``probe`` is a state to work with."""
     x, counters, order = state.x, kept.counters, limits.order
     pause = counters[STEPS] + limits.pause_after
+    set_course(model, state)
     while True:
         if counters[STEPS] >= limits.max_steps:
             return STEP_LIMIT

@@ -10,7 +10,21 @@ import math
 
 from .compile import kernel
 from .dense_output import force_at, move_to
-from .layout import HALF, PHASE, PSI, SEPARATION, SPEED, TIME, TIME_LOW, U_VELOCITY, WIDTH, U, is_compliant
+from .layout import (
+    HALF,
+    PHASE,
+    PSI,
+    SEPARATION,
+    SPEED,
+    TIME,
+    TIME_LOW,
+    U_VELOCITY,
+    WIDTH,
+    U,
+    drive_angle,
+    drive_now,
+    is_compliant,
+)
 from .switches import disc_point
 
 # Columns of a row of samples.
@@ -41,7 +55,7 @@ def point_motion(model, state, angle):
 def _write_row(model, s, order, x, time, phase, theta, probe, row):
     move_to(model, s, order, x, phase, probe)
     w, velocity, _ = disc_point(model, probe)
-    angle = theta - (model.Omega * time - probe.x[PSI])
+    angle = theta - (drive_angle(model, time) - probe.x[PSI])
     row[1] = time
     row[2] = force_at(model, s, order, x, phase, probe)
     apart = is_compliant(model) or phase == SEPARATION
@@ -50,7 +64,7 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
     row[5] = w
     row[6], row[7] = point_motion(model, probe, angle)
     row[8] = probe.x[PSI]
-    row[9] = model.Omega - probe.x[SPEED]
+    row[9] = drive_now(model, probe) - probe.x[SPEED]
     row[10] = phase
 
 

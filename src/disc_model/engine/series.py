@@ -26,7 +26,9 @@ from .layout import (
     BEND,
     DAMPING,
     DOWN,
+    DRIVE_SERIES,
     FORCE_ROW,
+    LOAD_SERIES,
     MINUS_FORCE_DAMPING,
     MINUS_FORCE_STIFFNESS,
     PSI_SERIES,
@@ -41,6 +43,7 @@ from .layout import (
     V_SERIES,
     E,
     F,
+    is_ramped,
 )
 from .layout import P as P_
 
@@ -52,6 +55,18 @@ _E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT = range(5)
 def lane_count(model):
     """Number of lanes; a constant for the compiler if there is one block."""
     return WIDTH if len(model.more_blocks) == 2 else WIDTH * (1 + model.more_blocks[0])
+
+
+@inlined
+def drive(model, s):
+    """Omega at the start of the step."""
+    return s.slider[DRIVE_SERIES] if is_ramped(model) else model.Omega
+
+
+@inlined
+def load_at(model, s):
+    """N at the start of the step."""
+    return s.slider[LOAD_SERIES] if is_ramped(model) else model.N
 
 
 @inlined
@@ -293,10 +308,10 @@ def slip_series(model, s, order, direction):
     by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
     # order 0: C has the Coriolis term once too often, because z_1 in by_f_rate holds it already
     acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
-    pull = model.k_p * psi + model.c_p * (model.Omega - f0)
-    P = (model.N + model.k * (u - model.u_0) + model.c * v + model.m * acceleration + slope * pull) * inverse
+    pull = model.k_p * psi + model.c_p * (drive(model, s) - f0)
+    P = (load_at(model, s) + model.k * (u - model.u_0) + model.c * v + model.m * acceleration + slope * pull) * inverse
     s.slider[P_], s.slider[SWITCH] = P, direction * f0
-    psi = (model.Omega - f0) * s.slider[UP]
+    psi = (drive(model, s) - f0) * s.slider[UP]
     e, carried, e_last, z_last = (
         _e(s, width, width),
         _kept(s, _CARRIED, width, 0),
@@ -338,8 +353,13 @@ def slip_series(model, s, order, direction):
         acceleration = modes + (single + f * by_speed + impulse * model.damped_compliance)
         pull = model.k_p * psi - model.c_p * f
         P = P * (up * (by_force + by_force_rate * down)) + (weight * modes + known)
-        s.slider[P_ + k] = P
         psi = -f * s.slider[UP + k]
+        if is_ramped(model) and k == 1:
+            psi += s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
+            more_pull = model.c_p * s.slider[DRIVE_SERIES + 1]
+            pull += more_pull
+            P += (s.slider[LOAD_SERIES + 1] + slope * more_pull) * inverse
+        s.slider[P_ + k] = P
     _last_force(model, s, order, P * s.slider[UP + order - 1])
     s.slider[P_ + order] = 0.0
     return denominator
@@ -374,7 +394,7 @@ def stick_series(model, s, order):
     inverse = 1.0 / (1.0 + model.m * model.compliance)
     weight = model.m * inverse
     by_force = inverse * (model.m * model.damped_compliance - model.c * model.compliance)
-    pending, impulse, vertical = zero, 0.0, model.N + model.k * (u - model.u_0) + model.c * v
+    pending, impulse, vertical = zero, 0.0, load_at(model, s) + model.k * (u - model.u_0) + model.c * v
     for b in range(0, width, WIDTH):
         pending = add(pending, _stick_pending(model, b, _e(s, width, b), _z(s, b)))
     e_first, z_first = _e(s, width, 0), _z(s, 0)
@@ -397,13 +417,21 @@ def stick_series(model, s, order):
         s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
         # without P_k, whose share is in by_force
         vertical = model.k * u + model.c * v_hat
+        if is_ramped(model) and k == 0:
+            vertical += s.slider[LOAD_SERIES + 1]
     _last_force(model, s, order, impulse)
     s.slider[F + order] = s.slider[P_ + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
-    s.slider[PSI_SERIES + 1] = model.Omega * model.unit
+    s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
     start, growth = (
-        model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * model.Omega),
+        model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s)),
         model.r_0 * model.k_p * s.slider[PSI_SERIES + 1],
     )
+    if is_ramped(model):
+        s.slider[PSI_SERIES + 2] = s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
+        growth += model.r_0 * model.c_p * s.slider[DRIVE_SERIES + 1]
+        bend = model.r_0 * model.k_p * s.slider[PSI_SERIES + 2]
+        s.slider[SWITCH + 2] -= bend
+        s.slider[SWITCH2 + 2] += bend
     s.slider[SWITCH] -= start
     s.slider[SWITCH2] += start
     s.slider[SWITCH + 1] -= growth
@@ -414,14 +442,17 @@ def stick_series(model, s, order):
 def separation_series(model, s, order):
     """No contact: P = 0, disc and slider each for themselves.  Fills the gap u - w."""
     width, n = lane_count(model), len(model.force0)
-    f0, drive, weight = s.slider[F], model.Omega, model.N - model.k * model.u_0
-    pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (model.Omega - f0)
+    f0, driven, weight = s.slider[F], drive(model, s), load_at(model, s) - model.k * model.u_0
+    pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (driven - f0)
     for k in range(order + 1):
         if k == 0:
             for b in range(0, width, WIDTH):
                 _order_zero(model, s, width, b, f0)
         else:
-            pull, drive, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0, 0.0
+            pull, driven, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0, 0.0
+            if is_ramped(model):
+                driven, weight = s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
+                pull += model.c_p * driven
             for b in range(0, width, WIDTH):
                 _order_from_memory(model, s, width, b, k, s.slider[F + k], f0, 0.0)
         _axisymmetric(model, s, k, 0.0)
@@ -433,7 +464,7 @@ def separation_series(model, s, order):
             gap -= model.force0[j] * s.y[k * n + j]
         s.slider[SWITCH + k], s.slider[P_ + k] = gap, 0.0
         up = s.slider[UP + k]
-        s.slider[PSI_SERIES + k + 1] = (drive - s.slider[F + k]) * up
+        s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up
         s.slider[F + k + 1] = pull / model.m * up
         s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
         s.slider[V_SERIES + k + 1] = (

@@ -8,9 +8,25 @@ from .compile import inlined
 from .contact_series import compliant_slip_series, compliant_stick_series, normal_slip_series, release_series
 from .dense_output import load_state
 from .lanes import WIDTH, absolute, largest, load, maximum, splat
-from .layout import DIRECTION, KNOWN, PHASE, SEPARATION, SLIP, STICK, TIME, TIME_LOW, E, is_compliant, is_normal
+from .layout import (
+    DIRECTION,
+    DRIVE,
+    KNOWN,
+    LOAD,
+    PHASE,
+    SEPARATION,
+    SLIP,
+    STICK,
+    TIME,
+    TIME_LOW,
+    E,
+    is_compliant,
+    is_normal,
+    is_ramped,
+    ramp_of,
+)
 from .polynomial import NO_ROOT, first_root, set_powers
-from .series import lane_count, separation_series, slip_series, stick_series
+from .series import drive, lane_count, load_at, separation_series, slip_series, stick_series
 from .switches import (
     AT_REST,
     CONTACT_LOST,
@@ -67,15 +83,18 @@ def step_size(model, s, order, tolerance, phase):
     ``TYPICAL_STEP``, which spares a root.
     """
     last = max(_size(model, s, order), _size(model, s, order - 1) / TYPICAL_STEP)
-    scale = _scale(model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
-    speed = _scale(model.speed_scale, abs(s.f[0]), abs(s.f[1]))
+    usual_speed, share = model.speed_scale, 1.0
+    if is_ramped(model):
+        usual_speed, share = drive(model, s), load_at(model, s) / model.N
+    scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
+    speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
     error = _relative(last, scale) + _relative(_last_two(s.f, order), speed)
     if is_compliant(model) or phase == SEPARATION:
-        error += _relative(_last_two(s.v, order), _scale(model.slider_scale, abs(s.v[0]), abs(s.v[1])))
+        error += _relative(_last_two(s.v, order), _scale(share * model.slider_scale, abs(s.v[0]), abs(s.v[1])))
     if phase != SEPARATION:
         # P is known to one order less
         last_force = max(abs(s.P[order - 1]) / TYPICAL_STEP, abs(s.P[order - 2]) / TYPICAL_STEP**2)
-        error += _relative(last_force, _scale(model.N, abs(s.P[0]), abs(s.P[1])))
+        error += _relative(last_force, _scale(load_at(model, s), abs(s.P[0]), abs(s.P[1])))
     if not error < math.inf or not scale + speed < math.inf:
         return math.nan
     if error * LONGEST_STEP**order <= tolerance:
@@ -110,7 +129,7 @@ def _expand_stick(give, normal, model, s, order):
 @inlined
 def expand(model, s, state, order):
     """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
-    load_state(s, state)
+    load_state(model, s, state)
     phase = state.x[PHASE]
     if phase == SLIP:
         return _expand_slip(model.give, model.normal, model, s, order, state.x[DIRECTION]) / usual_denominator(model)
@@ -144,8 +163,9 @@ def first_switch(model, s, state, order, x_end):
         if x != NO_ROOT:
             x_end, cause = x, RELEASE_FORWARD
             set_powers(s.powers, x_end)
-        # under the vertical force the pull only grows; the slope of a disc that bends can turn it
-        if is_normal(model) or s.switch2[0] < s.switch[0]:
+        # under the vertical force the pull only grows; the slope of a disc that bends can turn it, and so can a drive
+        # that slows down, by its damper
+        if is_normal(model) or is_ramped(model) or s.switch2[0] < s.switch[0]:
             x = first_root(s.switch2, known_release, order - 1, x_end, s.powers, s.roots)
             if x != NO_ROOT:
                 x_end, cause = x, RELEASE_BACKWARD
@@ -178,3 +198,13 @@ def advance_time(x, dt):
     kept = new - x[TIME]
     x[TIME_LOW] = (x[TIME] - (new - kept)) + (dt - kept)
     x[TIME] = new
+
+
+@inlined
+def set_course(model, state):
+    """Omega and N of the state's time, on a ramp."""
+    if is_ramped(model):
+        x = state.x
+        since = (x[TIME] - ramp_of(model.ramp, 0)) + x[TIME_LOW]
+        x[DRIVE] = model.Omega + ramp_of(model.ramp, 2) * since
+        x[LOAD] = model.N + ramp_of(model.ramp, 3) * since

@@ -16,9 +16,11 @@ from .layout import (
     STICK,
     U_VELOCITY,
     U,
+    drive_now,
     give_of,
     is_compliant,
     is_normal,
+    load_now,
 )
 from .outcomes import CONSISTENT, NO_SOLUTION
 
@@ -62,7 +64,7 @@ def slider_motion(model, state):
 @inlined
 def spring_force(model, state):
     """F = k_p psi + c_p (Omega - f), N/m... the in-plane force divided by r_0."""
-    return model.k_p * state.x[PSI] + model.c_p * (model.Omega - state.x[SPEED])
+    return model.k_p * state.x[PSI] + model.c_p * (drive_now(model, state) - state.x[SPEED])
 
 
 @inlined
@@ -96,8 +98,9 @@ def _free_force(model, state):
         acceleration += part
         size += abs(part)
     spring, damper = model.k * (u - model.u_0), model.c * v
-    value = model.N + spring + damper + model.m * acceleration
-    return value, model.N + abs(spring) + abs(damper) + model.m * size
+    N = load_now(model, state)
+    value = N + spring + damper + model.m * acceleration
+    return value, N + abs(spring) + abs(damper) + model.m * size
 
 
 @inlined

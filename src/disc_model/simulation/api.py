@@ -20,8 +20,10 @@ from disc_model.errors import Fault, ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.schema import TOLERANCES, is_number, limits_faults, shown
+from disc_model.simulation import ramps as courses
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
+from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import (
     Result,
     State,
@@ -68,6 +70,7 @@ def simulate(
     progress: Callable[[float], object] | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 5.0,
+    ramps: Ramp | tuple[Ramp, ...] = (),
 ) -> Result:
     """Simulate from the static equilibrium (or ``initial_state``) to the absolute time ``t_end``.
 
@@ -84,6 +87,7 @@ def simulate(
     checkpoint : file by which the same call, made again after an interruption, goes on where this one was; its result
         is the same to the last bit (but for ``wall_time``). Removed at the end. Not for two runs at the same time
     checkpoint_every : s of wall time between checkpoints
+    ramps : slow changes of Omega or N; what there is of them before the initial state's time has happened by then
 
     Returns
     -------
@@ -96,10 +100,11 @@ def simulate(
         Bad input; the message names the argument, its value and the rule.
     """
     record = _EVENTS_ALONE if record is None else record
-    _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every))
+    ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
+    _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every), ramps)
     if record.windows:
         record = _resolved(record, 0.0 if initial_state is None else initial_state.time, t_end)
-    run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps)
+    run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps)
     _warn_of_empty(record, 0.0 if initial_state is None else initial_state.time, t_end)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
     if kept is not None and (contents := kept.load()) is not None:
@@ -130,13 +135,14 @@ class _Run:
         record: Record,
         stop_at: str | None,
         max_steps: int | None,
+        ramps: tuple[Ramp, ...],
     ) -> None:
         self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
+        self.ramps, self.pieces, self.place = ramps, courses.pieces(p, ramps), np.zeros(1, np.int64)
         self.case = case = engine_case(p)
-        self.model = model = case.model
+        model = case.model
         self.order = series_order(tol)
         self.tolerance = series_tolerance(tol, compliant=p.contact_compliance != 0)
-        self.series = layout.build_series(model, self.order)
         self.state, self.probe = fresh_states(case)
         if initial_state is not None:
             write_state(case, initial_state, self.state)
@@ -146,8 +152,25 @@ class _Run:
         self.sums, self.wall_time = np.zeros(audit.N_SUMS), np.zeros(1)
         self.max_steps = _step_limit(model, t_end - start) if max_steps is None else max_steps
         self.pause_after = _pause_after(model, record.energy)
-        if not _compiled_for(model):
-            self._call(max_steps=0)  # compiles, so that the wall time is the simulation's own
+        # compiles, so that the wall time is the simulation's own
+        for place, piece in enumerate(self.pieces):
+            if start < piece.end and piece.begin < t_end and not _compiled_for(self._model_of(piece)):
+                self._enter(place)
+                self._call(max_steps=0)
+        self._enter(next(i for i, piece in enumerate(self.pieces) if start < piece.end))
+
+    def _model_of(self, piece: courses.Piece) -> layout.Model:
+        """The engine's constants over a piece of the ramps."""
+        if piece.constant:
+            return self.case.model
+        rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
+        return layout.on_ramp(self.case.model, piece.begin, piece.angle, **rates)
+
+    def _enter(self, place: int) -> None:
+        """Go on with another piece of the ramps."""
+        self.place[0] = place
+        self.model = self._model_of(self.pieces[place])
+        self.series = layout.build_series(self.model, self.order)
 
     @property
     def time(self) -> float:
@@ -157,12 +180,17 @@ class _Run:
     @property
     def identity(self) -> dict[str, str]:
         """What a checkpoint has to share to be this run's; asked for before the first step."""
-        return identity(self.p, self.t_end, self.tol, self.record, self.stop_at, self.max_steps, self.state)
+        others = identity(self.p, self.t_end, self.tol, self.record, self.stop_at, self.max_steps, self.state)
+        return others | {"ramps": repr(self.ramps)}
 
     def advance(self) -> int:
         """Compute until the engine pauses or ends, and take over what it gave.  Returns the reason it stopped."""
         began = clock.perf_counter()
+        place = int(self.place[0])
         code = self._call(self.max_steps)
+        if code == outcomes.TIME_OVER and self.pieces[place].end < self.t_end:
+            self._enter(place + 1)
+            code = outcomes.PAUSED
         self.collector.drain(self.counters)
         self.wall_time[0] += clock.perf_counter() - began
         return code
@@ -170,8 +198,8 @@ class _Run:
     def _call(self, max_steps: int) -> int:
         keep = self.collector
         limits = machine.Limits(
-            self.order, self.tolerance, self.t_end, self.stop_at is not None, max_steps, self.pause_after,
-            1 if self.record.energy else AUDIT_EVERY,
+            self.order, self.tolerance, min(self.t_end, self.pieces[self.place[0]].end), self.stop_at is not None,
+            max_steps, self.pause_after, 1 if self.record.energy else AUDIT_EVERY,
         )  # fmt: skip
         kept = machine.Kept(
             self.counters, self.phase_times, self.sums,
@@ -183,7 +211,7 @@ class _Run:
     def _changing(self) -> dict[str, np.ndarray]:
         """The arrays through which one call of the engine acts on the next."""
         state = {f"state_{name}": array for name, array in self.state._asdict().items()}
-        own = {name: getattr(self, name) for name in ("counters", "phase_times", "sums", "wall_time")}
+        own = {name: getattr(self, name) for name in ("place", "counters", "phase_times", "sums", "wall_time")}
         return state | own
 
     def contents(self) -> Contents:
@@ -194,6 +222,7 @@ class _Run:
         """Go on from where `contents` was called."""
         for name, array in self._changing().items():
             array[:] = contents.state[name]
+        self._enter(int(self.place[0]))
         self.collector.restore(*contents)
 
     def result(self, status: Status) -> Result:
@@ -215,12 +244,13 @@ class _Run:
             ),
             samples=samples,
             poincare=poincare,
+            ramps=self.ramps,
         )
 
 
 def _compiled_for(model: layout.Model, _seen: set[tuple[int, ...]] = set()) -> bool:  # noqa: B006 - the set is the memory
-    """Whether the engine was used before for a model of this type (blocks of lanes, law of contact)."""
-    kind = (len(model.more_blocks), len(model.give), len(model.normal))
+    """Whether the engine was used before for a model of this type (blocks of lanes, law of contact, ramp)."""
+    kind = (len(model.more_blocks), len(model.give), len(model.normal), len(model.ramp))
     known = kind in _seen
     _seen.add(kind)
     return known
@@ -241,6 +271,7 @@ def _check_arguments(
     stop_at: str | None,
     max_steps: int | None,
     checkpoint: tuple[object, object],
+    ramps: object,
 ) -> None:
     """Raise one ParameterError that lists every fault."""
     found: list[str] = []
@@ -263,6 +294,8 @@ def _check_arguments(
     if max_steps is not None and (not isinstance(max_steps, int) or max_steps < 1):
         found.append(Fault(("max_steps",), shown(max_steps), "must be a whole number >= 1"))
     found += faults(*checkpoint)
+    if isinstance(p, Parameters):
+        found += courses.faults(p, ramps, poincare=getattr(record, "poincare", None) is not None)
     if found:
         raise ParameterError(*found)
 

@@ -21,6 +21,7 @@ from pydantic import (
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.schema import Checked, Finite, Positive, Real, Strict, shown
+from disc_model.simulation.ramps import Ramp
 
 # ----------------------------------------------------------------------------------------------------
 # What is kept
@@ -197,6 +198,7 @@ class CaseSpec:
     """How the number of modes was chosen, as JSON; empty if it was given, or is to be chosen."""
     modes: str = ""
     """What the number of modes is to be chosen by when the case is run, as JSON; empty if it is known."""
+    ramps: tuple[Ramp, ...] = ()
 
     @property
     def record(self) -> Record:
@@ -230,6 +232,7 @@ class CaseSpec:
             | ({"start": self.start.model_dump()} if self.start != Start() else {})
             | ({"truncation": self.truncation} if self.truncation else {})
             | ({"modes": self.modes} if self.modes else {})
+            | ({"ramps": [ramp.model_dump() for ramp in self.ramps]} if self.ramps else {})
         )
 
     @property
@@ -252,6 +255,7 @@ class CaseSpec:
             start=Start.model_validate(data.get("start", {})),
             truncation=data.get("truncation", ""),
             modes=data.get("modes", ""),
+            ramps=tuple(Ramp(**ramp) for ramp in data.get("ramps", ())),
         )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from disc_model import errors
 from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
@@ -24,6 +25,7 @@ from disc_model.parameters import Parameters
 from disc_model.plate import modal_damping, mode_arrays
 from disc_model.schema import is_number, shown
 from disc_model.simulation.case import Record
+from disc_model.simulation.ramps import RAMPED, Ramp, values_at
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -150,6 +152,7 @@ class Result:
     u_0 : m, static height of the slider
     samples : one dict of arrays per window
     poincare : dict of arrays, None if not asked for
+    ramps : those that were asked for
     statistics : steps, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
         energy_transverse, energy_inplane, audited_steps, wall_time (s)
     """
@@ -167,6 +170,7 @@ class Result:
     statistics: Mapping[str, float]
     samples: tuple[dict[str, Array], ...] = ()
     poincare: dict[str, Array] | None = field(default=None)
+    ramps: tuple[Ramp, ...] = ()
 
     @cached_property
     def events(self) -> pd.DataFrame:
@@ -179,6 +183,18 @@ class Result:
         columns = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
         named = {"time": columns["time"], "kind": words("kind", EVENT_KINDS), "phase": words("phase", PHASES)}
         return pd.DataFrame(named | {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")})
+
+    def value_at(self, name: str, times: ArrayLike) -> Array:
+        """Omega (rad/s) or N (N) at given times (s), on ramps and off them.
+
+        Raises
+        ------
+        ParameterError
+            For another name.
+        """
+        if name not in RAMPED:
+            raise ParameterError(Fault(("name",), shown(name), f"must be one of {', '.join(RAMPED)}"))
+        return values_at(self.parameters, self.ramps, name, times)
 
     def to_tree(self, names: Sequence[str] | None = None) -> xr.DataTree:
         """All of it in the layout of files, with CF attributes; see `disc_model.data.dataset`.
@@ -218,6 +234,8 @@ class Result:
         from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset
 
         scalars = scalars_dataset(self.parameters, self._scalars(), self.status.value, self.message)
+        if self.ramps:
+            scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
         groups = {"": scalars, "events": events_dataset(self.events)}
         names = [f"sample_{i}" for i in range(len(self.samples))] if names is None else _checked_names(names, self)
         for name, window, data in zip(names, self.record.windows, self.samples, strict=True):
@@ -275,7 +293,8 @@ class Result:
         kept = f"{len(self.samples)} window{'' if len(self.samples) == 1 else 's'}"
         ended = f"{self.status.value} at {self.final_state.time:.9g} s"
         events = self.statistics["events"]
-        return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s: {ended}, {lost}, {events} events, {kept})"
+        ramped = "".join(f", {ramp.parameter} to {ramp.to:g}" for ramp in self.ramps)
+        return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {kept})"
 
     def raise_for_status(self) -> Result:
         """Return self, or raise the `SimulationError` of an incomplete run."""

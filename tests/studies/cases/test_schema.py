@@ -273,3 +273,20 @@ def test_a_key_given_twice_is_found_behind_a_valid_study(tmp_path: Path) -> None
     file.write_text("study: x\nstudy: x\n")
     found = "\n".join(faults_of(study_from_config, {"study": "x", "cases": {"A": CASE}}, [file]))
     assert "study: given twice" in found
+
+
+def test_ramps_of_a_case() -> None:
+    raw = raw_study()
+    raw["cases"]["A"]["ramps"] = [{"parameter": "Omega", "to": "5", "start": 2, "end": 8}]
+    spec = parse_study(raw).specs["A"]
+    assert [ramp.to for ramp in spec.ramps] == [5.0]
+    assert CaseSpec.from_canonical(spec.canonical) == spec
+    raw["cases"]["A"]["ramps"] *= 2
+    raw["cases"]["A"]["record"] = {"poincare": {}}
+    raw["cases"]["B"]["ramps"] = [{"parameter": "c", "to": -1, "start": 2, "end": 8}]
+    faults = "\n".join(faults_of(parse_study, raw))
+    assert "cases.A.ramps" in faults
+    assert "must be >= 8, where the ramp of Omega before it ends" in faults
+    assert "cases.A.record: must not be asked for on ramps of Omega" in faults
+    assert "cases.B.ramps.0.parameter = 'c'" in faults
+    assert "cases.B.ramps.0.to = -1: must be > 0" in faults

@@ -36,6 +36,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None) -> xr.DataTree:
             record=spec.record,
             stop_at=spec.stop_at,
             checkpoint=checkpoint,
+            ramps=spec.ramps,
         )
     except DiscModelError as error:
         log.error("no result: %s", error)

@@ -15,6 +15,8 @@ from disc_model.errors import DiscModelError, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.schema import Positive, Real, Strict, Tolerance
 from disc_model.simulation.case import CaseSpec, Poincare, Start, Window
+from disc_model.simulation.ramps import Ramp
+from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.studies.files import (
     Faults,
     Origin,
@@ -92,7 +94,11 @@ class Case(Strict):
     tol: Tolerance = 1e-10
     stop_at: Literal["first_separation"] | None = None
     start: Start = Start()
+    ramps: tuple[Ramp, ...] = ()
     record: RecordSpec = RecordSpec()
+
+
+_KEYS = frozenset(Case.model_fields)
 
 
 def parse_cases(raw: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Case], dict[str, CaseSpec]]:
@@ -132,6 +138,8 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
     if read is None or windows is None:
         return case, None
     parameters, truncation, modes = read
+    wrong = ramp_faults(parameters, case.ramps, poincare=case.record.poincare is not None)
+    add_parameter_faults(wrong, lambda name: place.of((name,) if name in _KEYS else ("parameters", name)), faults)
     spec = CaseSpec(
         parameters,
         case.t_end,
@@ -144,6 +152,7 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
         case.start,
         truncation,
         modes,
+        case.ramps,
     )
     return case, spec
 

@@ -1,0 +1,129 @@
+"""Slow ramps of the drive speed or of the preload: what is asked for, and what Omega and N are at any time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+from typing import Annotated, Literal, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import Field, model_validator
+
+from disc_model.errors import Fault, ParameterError
+from disc_model.parameters import Parameters
+from disc_model.schema import Checked, Positive, Real, shown
+
+Ramped = Literal["Omega", "N"]
+RAMPED: tuple[Ramped, ...] = ("Omega", "N")
+
+
+class Ramp(Checked):
+    """The drive speed or the preload goes steadily from its value at ``start`` to another at ``end``, and stays there.
+
+    The slider's spring k is held where it was: N is the load beside it.
+
+    Parameters
+    ----------
+    parameter : "Omega" or "N"
+    to : rad/s or N, the value at ``end``
+    start, end : s, absolute times
+    """
+
+    parameter: Ramped
+    to: Positive
+    start: Annotated[Real, Field(ge=0, allow_inf_nan=False)]
+    end: Positive
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.start < self.end:
+            raise ParameterError(Fault(("start",), shown(self.start), f"must be < end={shown(self.end)}"))
+        return self
+
+
+class Piece(NamedTuple):
+    """A stretch of time over which Omega and N change at constant rates, from their values at its begin.
+
+    begin, end : s
+    angle : rad, of the drive point at ``begin``
+    Omega, Omega_rate, N, N_rate : rad/s, rad/s^2, N, N/s
+    constant : whether both are the case's own, before any ramp
+    """
+
+    begin: float
+    end: float
+    angle: float
+    Omega: float
+    Omega_rate: float
+    N: float
+    N_rate: float
+    constant: bool
+
+    def at(self, name: str, time: float) -> float:
+        """Omega or N at a time of this piece."""
+        value, rate = (self.Omega, self.Omega_rate) if name == "Omega" else (self.N, self.N_rate)
+        return value + rate * (time - self.begin)
+
+
+def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
+    """What is wrong with ramps of a case; ``poincare``: whether samples at the drive's period are asked for."""
+    if not isinstance(ramps, tuple) or not all(isinstance(ramp, Ramp) for ramp in ramps):
+        yield Fault(("ramps",), shown(ramps), "must be a Ramp or a tuple of them")
+        return
+    for name in RAMPED if ramps else ():
+        if not getattr(p, name) > 0:
+            yield Fault((name,), shown(getattr(p, name)), "must be > 0 where there are ramps")
+    for name in RAMPED:
+        own = [(i, ramp) for i, ramp in enumerate(ramps) if ramp.parameter == name]
+        own.sort(key=lambda entry: entry[1].start)
+        for (_, before), (i, ramp) in pairwise(own):
+            if ramp.start < before.end:
+                rule = f"must be >= {shown(before.end)}, where the ramp of {name} before it ends"
+                yield Fault(("ramps", str(i), "start"), shown(ramp.start), rule)
+    if poincare and any(ramp.parameter == "Omega" for ramp in ramps):
+        yield Fault(
+            ("record", "poincare"), "", "must not be asked for on ramps of Omega: the drive has no period there"
+        )
+
+
+def pieces(p: Parameters, ramps: Iterable[Ramp]) -> tuple[Piece, ...]:
+    """The stretches of constant rates, in order, the last without end; ramps to the value that there is are none."""
+    lines = {name: _line(getattr(p, name), [ramp for ramp in ramps if ramp.parameter == name]) for name in RAMPED}
+    knots = sorted({time for line in lines.values() for time, _, _ in line[1:]})
+    found = [Piece(0.0, knots[0] if knots else math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)]
+    angle = p.Omega * found[0].end if knots else 0.0
+    for begin, end in pairwise([*knots, math.inf]):
+        (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
+        found.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate, constant=False))
+        angle += (Omega + 0.5 * Omega_rate * (end - begin)) * (end - begin) if end < math.inf else 0.0
+    return tuple(found)
+
+
+def values_at(p: Parameters, ramps: Sequence[Ramp], name: str, times: ArrayLike) -> NDArray[np.float64]:
+    """Omega or N at given times (s)."""
+    found = pieces(p, ramps)
+    starts = [piece.begin for piece in found]
+    wanted = np.asarray(times, dtype=float)
+    which = np.maximum(np.searchsorted(starts, wanted, side="right") - 1, 0)
+    flat = [found[i].at(name, time) for i, time in zip(which.ravel(), wanted.ravel(), strict=True)]
+    return np.array(flat).reshape(wanted.shape)
+
+
+def _line(value: float, ramps: list[Ramp]) -> list[tuple[float, float, float]]:
+    """Time, value and rate where either begins to be another, the first before all time."""
+    line = [(-math.inf, value, 0.0)]
+    for ramp in sorted(ramps, key=lambda ramp: ramp.start):
+        if ramp.to != value:
+            if line[-1][0] == ramp.start:  # one ramp goes on where another ends
+                line.pop()
+            line += [(ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)), (ramp.end, ramp.to, 0.0)]
+            value = ramp.to
+    return line
+
+
+def _at(line: list[tuple[float, float, float]], time: float) -> tuple[float, float]:
+    """Value and rate from ``time`` on."""
+    begin, value, rate = next(knot for knot in reversed(line) if knot[0] <= time)
+    return (value + rate * (time - begin) if rate else value), rate

@@ -1,0 +1,151 @@
+"""Ramps of Omega and N: what may be asked for, when they begin and end, and what is carried over.
+
+Event times are held against references in tests/validation/test_ramps.py.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, Window, simulate
+from disc_model.data.dataset import load
+from disc_model.simulation.case import CaseSpec
+from disc_model.simulation.ramps import pieces, values_at
+
+P = Parameters(N=200.0, Omega=50.0, n_diameters=1)
+BRAKE = Ramp(parameter="Omega", to=20.0, start=0.01, end=0.03)
+RELIEF = Ramp(parameter="N", to=150.0, start=0.02, end=0.04)
+
+
+def _same(one, other) -> None:
+    np.testing.assert_array_equal(one.event_rows, other.event_rows)
+    for name in ("a", "b", "alpha", "beta"):
+        np.testing.assert_array_equal(getattr(one.final_state, name), getattr(other.final_state, name))
+    assert one.final_state.psi == other.final_state.psi
+    for a, b in zip(one.samples, other.samples, strict=True):
+        for name, values in a.items():
+            np.testing.assert_array_equal(values, b[name], err_msg=name)
+
+
+# ------------------------------------------------------------------------ what is asked for
+@pytest.mark.parametrize("law", [{}, {"contact_force": "normal"}])
+def test_rate_zero_is_the_constant_parameter_to_the_last_bit(law):
+    p, record = P.replace(**law), Record(windows=(Window(rate=5e3),))
+    constant = simulate(p, 0.05, record=record)
+    none = (
+        Ramp(parameter="Omega", to=50.0, start=0.007, end=0.03),
+        Ramp(parameter="N", to=200.0, start=0.0, end=0.02),
+        Ramp(parameter="N", to=200.0, start=0.02, end=0.021),
+    )
+    _same(simulate(p, 0.05, record=record, ramps=none), constant)
+
+
+def test_a_ramp_after_the_end_changes_nothing():
+    _same(simulate(P, 0.05, ramps=Ramp(parameter="Omega", to=5.0, start=0.05, end=0.06)), simulate(P, 0.05))
+
+
+def test_until_a_ramp_begins_all_is_as_without():
+    ramped, constant = simulate(P, 0.05, ramps=BRAKE), simulate(P, 0.05)
+    before = int((constant.events["time"] < BRAKE.start).sum())
+    assert before > 0
+    np.testing.assert_array_equal(ramped.event_rows[:before], constant.event_rows[:before])
+    assert (ramped.event_rows[before] != constant.event_rows[before]).any()
+
+
+def test_all_faults_of_ramps_come_at_once():
+    with pytest.raises(ParameterError) as error:
+        Ramp(parameter="c", to=0.0, start=3.0, end=2.0)
+    names = [fault.partition("=")[0].partition(":")[0] for fault in error.value.faults]
+    assert names == ["parameter", "to"]
+    with pytest.raises(ParameterError, match=r"start=3: must be < end=2"):
+        Ramp(parameter="N", to=1.0, start=3.0, end=2.0)
+    crossing = (BRAKE, BRAKE.replace(start=0.02, end=0.05))
+    with pytest.raises(ParameterError, match=r"ramps.1.start=0.02: must be >= 0.03, where the ramp of Omega before it"):
+        simulate(P, 0.1, ramps=crossing)
+    with pytest.raises(ParameterError, match=r"Omega=0: must be > 0 where there are ramps"):
+        simulate(P.replace(Omega=0.0), 0.1, ramps=RELIEF)
+    with pytest.raises(ParameterError, match="ramps=3: must be a Ramp or a tuple of them"):
+        simulate(P, 0.1, ramps=3)
+    record = Record(poincare=Poincare())
+    with pytest.raises(ParameterError, match=r"record.poincare: must not be asked for on ramps of Omega"):
+        simulate(P, 0.1, ramps=BRAKE, record=record)
+    assert simulate(P, 0.01, ramps=RELIEF, record=record).poincare is not None
+
+
+# ------------------------------------------------------------------------ pieces
+def test_pieces_of_overlapping_ramps():
+    found = pieces(P, (RELIEF, BRAKE))
+    assert [piece.begin for piece in found] == [0.0, 0.01, 0.02, 0.03, 0.04]
+    assert [piece.end for piece in found] == [0.01, 0.02, 0.03, 0.04, math.inf]
+    assert [piece.Omega for piece in found] == pytest.approx([50, 50, 35, 20, 20])
+    assert [piece.N for piece in found] == pytest.approx([200, 200, 200, 175, 150])
+    assert [piece.Omega_rate for piece in found] == pytest.approx([0, -1500, -1500, 0, 0])
+    assert [piece.N_rate for piece in found] == pytest.approx([0, 0, -2500, -2500, 0])
+    assert found[3].Omega == found[4].Omega == 20.0  # not nearly
+    assert [piece.constant for piece in found] == [True, False, False, False, False]
+    assert found[4].angle == pytest.approx(0.5 + 0.7 + 0.2)
+
+
+def test_one_ramp_goes_on_where_another_ends():
+    back = Ramp(parameter="Omega", to=50.0, start=0.03, end=0.04)
+    found = pieces(P, (back, BRAKE))
+    assert [(piece.begin, piece.Omega) for piece in found[1:]] == [(0.01, 50.0), (0.03, 20.0), (0.04, 50.0)]
+    times = np.array([[0.0, 0.01, 0.02], [0.03, 0.035, 7.0]])
+    np.testing.assert_allclose(values_at(P, (BRAKE, back), "Omega", times), [[50, 50, 35], [20, 35, 50]])
+
+
+# ------------------------------------------------------------------------ what is carried over
+def test_a_run_in_pieces_is_the_whole_run():
+    """Each run goes on where the last one ended, in the midst of ramps; the same ramps are said to all."""
+    ramps = (BRAKE, RELIEF)
+    whole, state, times = simulate(P, 0.06, tol=1e-13, ramps=ramps), None, []
+    for end in (0.005, 0.015, 0.025, 0.035, 0.06):
+        part = simulate(P, end, tol=1e-13, initial_state=state, ramps=ramps)
+        times += list(part.events["time"])
+        state = part.final_state
+    assert len(times) > 5
+    # a run's end cuts a step in two, which costs its rounding
+    np.testing.assert_allclose(times, whole.events["time"], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(state.a, whole.final_state.a, rtol=1e-9)
+
+
+def test_samples_events_and_statistics_know_no_pieces():
+    record = Record(windows=(Window(rate=1e4), Window(rate=2e3, start=0.015, stop=0.045, envelope=3)))
+    result = simulate(P, 0.05, ramps=(BRAKE, RELIEF), record=record)
+    sample, statistics = result.samples[0], result.statistics
+    np.testing.assert_allclose(sample["time"], np.arange(501) * 1e-4, rtol=0, atol=1e-15)
+    assert len(result.samples[1]["time"]) == 61 // 3
+    spent = sum(statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
+    assert spent == pytest.approx(0.05, rel=1e-12)
+    assert statistics["events"] == len(result.events)
+    assert (np.diff(result.events["time"]) >= 0).all()
+    assert result.final_state.time == pytest.approx(0.05, rel=1e-14)
+
+
+def test_values_at():
+    result = simulate(P, 0.005, ramps=(BRAKE, RELIEF))
+    assert result.value_at("Omega", [0.0, 0.02, 1.0]) == pytest.approx([50, 35, 20])
+    assert result.value_at("N", 0.03) == pytest.approx(175)
+    with pytest.raises(ParameterError, match="name='c': must be one of Omega, N"):
+        result.value_at("c", 0.0)
+    assert "Omega to 20" in repr(result)
+
+
+def test_a_file_says_its_ramps(tmp_path: Path):
+    simulate(P, 0.005, ramps=BRAKE).save(tmp_path / "ramped.nc")
+    found = load(tmp_path / "ramped.nc")
+    assert json.loads(found.attrs["ramps"]) == [BRAKE.model_dump()]
+    assert "ramps" not in simulate(P, 0.005).to_tree().attrs
+
+
+def test_a_case_with_ramps_is_another_case():
+    plain = CaseSpec(P, 1.0, 1e-10, None, (), None, None, False)
+    ramped = CaseSpec(P, 1.0, 1e-10, None, (), None, None, False, ramps=(BRAKE,))
+    assert "ramps" not in plain.canonical
+    assert plain.key != ramped.key
+    assert CaseSpec.from_canonical(ramped.canonical) == ramped
