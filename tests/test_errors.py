@@ -1,16 +1,157 @@
-"""Statuses: words that carry their sentence."""
+"""How faults are said, whatever holds the value; and statuses: words that carry their sentence."""
 
 from __future__ import annotations
 
 import pickle
+from typing import Any
 
+import numpy as np
 import pytest
+from pydantic import Field
 
-from disc_model import Status
-from disc_model.errors import StatusBase
+from disc_model import ParameterError, Parameters, Poincare, Record, Status, Window, simulate
+from disc_model.errors import Fault, StatusBase
+from disc_model.parameters import Checked, CycleTolerance, Real, Strict, Tolerance
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.lyapunov import LyapunovStatus
 from disc_model.stability.sliding import SlidingStatus
+from disc_model.studies.files import Faults, validated
+from disc_model.studies.schema import Case, Span
+
+WINDOW = {"start": 0, "stop": 1, "rate": 100}
+
+
+class Inner(Strict):
+    size: Real = 1.0
+
+
+class Outer(Checked):
+    inner: Inner = Inner()
+    several: dict[str, Inner] = Field({})
+    choice: bool | Inner | list[Inner] = True
+    tol: Tolerance = 1e-10
+    cycle_tol: CycleTolerance = 1e-12
+
+
+def said(make: Any, **values: Any) -> list[str]:
+    """The faults of an attempt to make something."""
+    with pytest.raises(ParameterError) as caught:
+        make(**values)
+    return list(caught.value.faults)
+
+
+def said_of_case(**values: Any) -> list[str]:
+    """The faults of a study's case."""
+    faults = Faults()
+    assert validated(Case, {"title": "", "t_end": 1, **values}, ("here",), faults) is None
+    return list(faults)
+
+
+@pytest.mark.parametrize("value", [-1, -1.0, "-1", "-1e0", np.float32(-1)])
+def test_a_number_is_shown_alike_however_it_was_written(value: Any) -> None:
+    assert said(Window, **(WINDOW | {"rate": value})) == ["rate=-1: must be > 0"]
+    assert said(Parameters, N=value, Omega=1) == ["N=-1: must be >= 0"]
+    assert said_of_case(t_end=value) == ["here.t_end = -1: must be > 0"]
+
+
+@pytest.mark.parametrize(
+    ("make", "values", "faults"),
+    [
+        (Window, WINDOW | {"stop": 0}, ["start=0: must be < stop=0"]),
+        (Window, WINDOW | {"rate": "fast"}, ["rate='fast': must be a number"]),
+        (Window, WINDOW | {"envelope": 1.5}, ["envelope=1.5: must be a whole number"]),
+        (Window, WINDOW | {"envelope": 1}, ["envelope=1: must be >= 2"]),
+        (Window, WINDOW | {"envelope": False}, ["envelope=False: must be >= 2"]),
+        (
+            Window,
+            WINDOW | {"Rate": 2},
+            ["Rate=2: unknown key, did you mean rate? (known: start, stop, last, rate, theta, envelope)"],
+        ),
+        (Window, {}, ["rate: is required"]),
+        (Window, WINDOW | {"last": 1}, ["last=1: must not be given beside start or stop"]),
+        (Window, {"rate": 1, "last": 0}, ["last=0: must be > 0"]),
+        (Poincare, {"start": -1, "theta": "inf"}, ["start=-1: must be >= 0", "theta=inf: must be finite"]),
+        (Record, {"windows": [WINDOW, WINDOW | {"rate": 0}]}, ["windows.1.rate=0: must be > 0"]),
+        (Record, {"windows": 3}, ["windows=3: must be a list"]),
+        (Record, {"poincare": {"start": 2, "stop": 1}}, ["poincare.start=2: must be < stop=1"]),
+        (Record, {"energy": "maybe"}, ["energy='maybe': must be true or false"]),
+        (Outer, {"inner": {"sise": 1}}, ["inner.sise=1: unknown key, did you mean size? (known: size)"]),
+        (Outer, {"inner": 3}, ["inner=3: must be a mapping"]),
+        (Outer, {"tol": 0.1}, ["tol=0.1: must be within 1e-15 and 0.01"]),
+        (Outer, {"tol": "nan"}, ["tol='nan': must be within 1e-15 and 0.01"]),
+        (Outer, {"cycle_tol": 1e-15}, ["cycle_tol=1e-15: must be within 1e-14 and 1e-06"]),
+        (Outer, {"tol": "x" * 99}, [f"tol={repr('x' * 99)[:57]}...: must be a number"]),
+    ],
+)
+def test_faults_of_values_made_in_python(make: Any, values: dict[str, Any], faults: list[str]) -> None:
+    assert said(make, **values) == faults
+
+
+@pytest.mark.parametrize("name", ["Inner", "bool", "[key]", "list[Inner]", "Span"])
+def test_a_path_keeps_names_that_pydantic_gives_to_branches_of_a_union(name: str) -> None:
+    """Steps called "Span", "bool" or "[key]" were dropped from the path, wherever they stood."""
+    assert said(Outer, several={name: {"size": "big"}}) == [f"several.{name}.size='big': must be a number"]
+    assert f"choice.{name}=3: unknown key (known: size)" in said(Outer, choice={name: 3, "size": 1})
+    assert said(Outer, choice={name: 3, "size": "big"})[1] == "choice.size='big': must be a number"
+
+
+def test_a_window_may_be_called_like_the_class_of_a_span() -> None:
+    assert Span.__name__ == "Span"
+    record = {"windows": {"Span": {"rate": -1}}, "events": {"start": -1}}
+    faults = said_of_case(record=record)
+    assert "here.record.windows.Span.rate = -1: must be > 0" in faults
+    assert "here.record.events.start = -1: must be >= 0" in faults
+    assert said_of_case(record={"windows": {"1st": {"rate": 1}}}) == [
+        "here.record.windows.1st = '1st': must match ^[A-Za-z][A-Za-z0-9_]*$"
+    ]
+
+
+def test_a_fault_is_its_text_and_knows_its_parts() -> None:
+    fault = Fault(("N",), "-1", "must be >= 0")
+    copy = pickle.loads(pickle.dumps(fault))
+    assert fault == copy == "N=-1: must be >= 0"
+    assert (copy.path, copy.value, copy.rule) == (("N",), "-1", "must be >= 0")
+
+
+@pytest.mark.parametrize("make", [Parameters, Window, Poincare, Record])
+@pytest.mark.parametrize("text", ["{", "", "nul", b"\xff", '{"N": 1,}'])
+def test_what_is_no_json_is_said_to_be_none(make: Any, text: Any) -> None:
+    with pytest.raises(ParameterError, match=r"^json_data=.*: must be JSON"):
+        make.model_validate_json(text)
+
+
+@pytest.mark.parametrize("make", [Parameters, Window, Poincare, Record])
+@pytest.mark.parametrize("value", [3, None, [], "text"])
+def test_what_is_no_mapping_is_said_to_be_none(make: Any, value: Any) -> None:
+    with pytest.raises(ParameterError, match=f"^{make.__name__.lower()}=.*: must be a mapping"):
+        make.model_validate(value)
+
+
+def test_a_changed_copy_is_checked() -> None:
+    record = Record(windows=(Window(**WINDOW),))
+    assert record.replace(energy=True).windows == record.windows
+    assert said(record.replace, energy=3) == ["energy=3: must be true or false"]
+    assert said(record.windows[0].model_copy, update={"rate": 0}) == ["rate=0: must be > 0"]
+
+
+@pytest.mark.parametrize("start", [3, "A", {}, Parameters(N=1, Omega=1), np.zeros(4)])
+def test_a_start_that_is_no_state_is_refused(start: Any) -> None:
+    p = Parameters(N=385, Omega=15.1)
+    assert [fault.partition("=")[0] for fault in said(simulate, p=p, t_end=0, initial_state=start)] == [
+        "initial_state",
+        "t_end",
+    ]
+
+
+@pytest.mark.parametrize("name", ["time", "time_low", "psi", "f", "u", "u_velocity", "a", "beta"])
+@pytest.mark.parametrize("value", [None, "1", [1.0, 2.0], np.nan, object()])
+def test_a_state_of_something_else_is_refused(name: str, value: Any) -> None:
+    p = Parameters(N=385, Omega=15.1)
+    start = simulate(p, 1e-3).final_state.replace(**{name: value})
+    assert any(fault.startswith(f"initial_state.{name}") for fault in said(simulate, p=p, t_end=1, initial_state=start))
+
+
+# ---- statuses
 
 ALL = [status for kind in (Status, CycleStatus, LyapunovStatus, SlidingStatus) for status in kind]
 

@@ -12,8 +12,9 @@ import pytest
 from disc_model import ParameterError, Parameters, choose_modes, mode_choice
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import CANDIDATES, larger, read_parameters
+from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.cases.run import run_case
+from disc_model.studies.modes import choose
 from disc_model.studies.schema import parse_study
 from disc_model.truncation import real_modes
 
@@ -148,11 +149,11 @@ def test_quantity_and_tolerance_are_part_of_a_case(measured: Measured) -> None:
 
 def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured) -> None:
     measured(lambda d, c: 1.0 + 0.1 / d**2)
-    done = run_case(one_case(truncation_quantity="growth"))
+    done = run_case(one_case(truncation_quantity="growth"), choose=choose)
     assert json.loads(done.attrs["parameters"])["n_diameters"] == 3
     assert json.loads(done.attrs["truncation"])["quantity"] == "growth"
     measured(lambda d, c: float(d))
-    failed = run_case(one_case(truncation_quantity="growth"))
+    failed = run_case(one_case(truncation_quantity="growth"), choose=choose)
     assert "n_diameters: undecided" in failed.attrs["message"]
 
 

@@ -10,8 +10,8 @@ import pytest
 from disc_model import ParameterError, Parameters, choose_modes, truncation
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import read_parameters
+from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.cases.run import run_case
 from disc_model.studies.files import StudyError
 from disc_model.studies.schema import parse_study
 from disc_model.truncation import RICH, frequency_error

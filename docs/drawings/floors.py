@@ -27,10 +27,9 @@ WHAT = {
     "truncation": "how many modes frequencies need",
     "flexibility": "how far the disc gives way under the slider",
     "plate": "modes of the disc",
-    "parameters": "one case: a plain value",
-    "schema": "numbers that may be read, and how faults are said",
+    "parameters": "one case: a plain value; kinds of numbers, strict bases",
     "engine": "equations, series, roots, switches: numbers and arrays only",
-    "errors": "how a computation may end, and what is raised on purpose",
+    "errors": "how a computation may end, what is raised on purpose, how faults are said",
 }
 """A few words for each part of a floor."""
 COLOURS = ("#e8f1f8", "#d3e4f2")

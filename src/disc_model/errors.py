@@ -1,10 +1,14 @@
-"""How a computation ended, and the package's own exceptions, which say what was wrong, where, and what is right."""
+"""What was wrong, where, and what is right: exceptions, how faults are said, and how a computation ended."""
 
 from __future__ import annotations
 
+import difflib
 import enum
-from collections.abc import Callable
-from typing import Self
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from typing import Any, Self, get_args
+
+from pydantic import BaseModel, ValidationError
 
 # ----------------------------------------------------------------------------------------------------
 # Exceptions
@@ -86,6 +90,132 @@ class Stalled(SimulationError):
 
 class NonFinite(SimulationError):
     """The state overflowed or became nan."""
+
+
+# ----------------------------------------------------------------------------------------------------
+# How faults are said, those of pydantic's among them
+
+
+def faults_of(error: ValidationError, raw: Any, model: type[BaseModel], word: str = "key") -> Iterator[Fault]:
+    """Pydantic's faults as this package says them.
+
+    Parameters
+    ----------
+    raw : what was validated
+    model : as what; an unknown name is told with those that its fields have
+    word : what the names name
+    """
+    for item in error.errors(include_url=False):
+        path, kind, value = _path(item, raw), item["type"], item["input"]
+        reason = item.get("ctx", {}).get("error")
+        if isinstance(reason, ParameterError):  # of a `Checked` inside
+            for fault in reason.faults:
+                inner = fault if isinstance(fault, Fault) else Fault((), "", fault)
+                yield Fault((*path, *inner.path), inner.value, inner.rule)
+        elif kind == "missing":
+            yield Fault(path, "", "is required")
+        elif kind == "extra_forbidden":
+            known = _fields_at(model, item["loc"][:-1])
+            yield Fault(path, shown(value), f"unknown {word}{suggestion(path[-1], known, all_of_them=word == 'key')}")
+        else:
+            yield Fault(path, _shown_faulty(kind, value), _rule(item))
+
+
+_BOUNDS: dict[str, Callable[[dict[str, Any]], str]] = {
+    "greater_than_equal": lambda ctx: f"must be >= {ctx['ge']:g}",
+    "greater_than": lambda ctx: f"must be > {ctx['gt']:g}",
+    "less_than": lambda ctx: f"must be < {ctx['lt']:g}",
+    "less_than_equal": lambda ctx: f"must be <= {ctx['le']:g}",
+    "finite_number": lambda ctx: "must be finite",
+}
+_RULES: dict[str, Callable[[dict[str, Any]], str]] = _BOUNDS | {
+    "literal_error": lambda ctx: f"must be {ctx['expected']}",
+    "value_error": lambda ctx: str(ctx["error"]),
+    "string_pattern_mismatch": lambda ctx: f"must match {ctx['pattern']}",
+    "too_short": lambda ctx: f"must have {ctx['min_length']} or more",
+    **dict.fromkeys(("bool_type", "bool_parsing"), lambda ctx: "must be true or false"),
+    **dict.fromkeys(("dict_type", "mapping_type", "model_type"), lambda ctx: "must be a mapping"),
+    **dict.fromkeys(("list_type", "tuple_type"), lambda ctx: "must be a list"),
+    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), lambda ctx: "must be a whole number"),
+    "string_type": lambda ctx: "must be text",
+}
+
+
+def _rule(item: Any) -> str:
+    say = _RULES.get(item["type"])
+    return say(item.get("ctx", {})) if say else item["msg"].replace("Input should be", "must be")
+
+
+def _shown_faulty(kind: str, value: Any) -> str:
+    """A value that breaks a rule; a mapping says nothing that its path does not."""
+    if isinstance(value, Mapping | BaseModel):
+        return ""
+    if kind not in _BOUNDS or isinstance(value, bool):  # pydantic counts False, which is no number here
+        return shown(value)
+    try:
+        return shown(float(value) + 0.0)  # adding zero turns -0.0 into 0.0
+    except OverflowError:  # a whole number beyond the range of floats
+        return shown(math.inf if value > 0 else -math.inf)
+
+
+def shown(value: Any) -> str:
+    """A value as messages show it: short, and numbers as -1 whether they were written -1, -1.0 or "-1"."""
+    text = repr(value)
+    if isinstance(value, float):
+        return text.removesuffix(".0")
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def suggestion(name: str, known: Collection[str], all_of_them: bool) -> str:
+    """What may have been meant, and what there is; of many names only the one that comes close, if one does."""
+    folded = {field.lower(): field for field in known}
+    close = difflib.get_close_matches(name.lower(), folded, n=1, cutoff=0.6)
+    meant = f", did you mean {folded[close[0]]}?" if close else ""
+    return meant + (f" (known: {', '.join(known)})" if known and (all_of_them or not close) else "")
+
+
+def _fields_at(model: type[BaseModel], place: Sequence[Any]) -> list[str]:
+    """Names of the fields of the models that lie at a place inside a model; names of branches are passed over."""
+    here = [model]
+    for step in place:
+        inside = [
+            each for one in here if step in one.model_fields for each in _models(one.model_fields[step].annotation)
+        ]
+        here = inside or here
+    return list(dict.fromkeys(name for one in here for name in one.model_fields))
+
+
+def _models(annotation: Any) -> list[type[BaseModel]]:
+    """Models that a type mentions."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for part in get_args(annotation) for model in _models(part)]
+
+
+def _path(item: Any, raw: Any) -> tuple[str, ...]:
+    """Where a fault lies in the input: pydantic's place also has names of a union's branches, which are not there."""
+    place: tuple[Any, ...] = item["loc"]
+    value, absent = item["input"], ()
+    if item["type"] == "missing":
+        place, absent = place[:-1], place[-1:]
+    elif place[-1:] == ("[key]",) and place[-2:-1] == (value,):  # the key itself is at fault
+        return tuple(map(str, place[:-1]))
+    found = list(_readings(place, raw))
+    path = next((path for path, end in found if end is value), found[0][0] if found else place)
+    return tuple(map(str, (*path, *absent)))
+
+
+def _readings(place: Sequence[Any], here: Any) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    """Ways through the input along `place`, and where they end: a step leads on where there is such a key or index."""
+    if not place:
+        yield (), here
+        return
+    step, rest = place[0], place[1:]
+    if (step in here) if isinstance(here, Mapping) else isinstance(here, list | tuple) and isinstance(step, int):
+        for path, end in _readings(rest, here[step]):
+            yield (step, *path), end
+    if isinstance(step, str):
+        yield from _readings(rest, here)
 
 
 # ----------------------------------------------------------------------------------------------------

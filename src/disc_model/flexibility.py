@@ -17,10 +17,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import RESIDUAL, Parameters
 from disc_model.plate import mode_arrays
-from disc_model.schema import shown
 
 Array = NDArray[np.float64]
 

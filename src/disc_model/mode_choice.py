@@ -13,9 +13,8 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from disc_model.errors import DiscModelError, Fault, ParameterError
-from disc_model.parameters import Parameters
-from disc_model.schema import is_number, shown
+from disc_model.errors import DiscModelError, Fault, ParameterError, shown
+from disc_model.parameters import Parameters, is_number
 from disc_model.truncation import (
     BAND,
     FREQUENCIES,

@@ -1,18 +1,153 @@
-"""The model's parameters: immutable, validated, in SI units, with a stable content hash."""
+"""The model's parameters, in SI units, validated; and what all schemas stand on: kinds of numbers, strict bases."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import math
+import numbers
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import BaseModel, BeforeValidator, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from disc_model.errors import Fault
-from disc_model.schema import Checked, Count, Real, number, shown
+from disc_model.errors import Fault, ParameterError, faults_of, shown
 
+# ----------------------------------------------------------------------------------------------------
+# Numbers
+
+TOLERANCES = (1e-15, 1e-2)
+"""Least and greatest tolerance of a simulation: relative truncation error of a step."""
+CYCLE_TOLERANCES = (1e-14, 1e-6)
+"""Those of the search for a cycle: relative residual of the return map."""
+
+
+def number(value: Any) -> Any:
+    """Turn what stands for a number into a float; leave the rest for pydantic to refuse.
+
+    Strings are accepted because YAML reads ``1e-3`` as one. A bool is no number here, although Python says
+    so.
+    """
+    if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
+        raise ValueError("must be a number")
+    try:
+        return float(value) + 0.0  # adding zero turns -0.0 into 0.0
+    except OverflowError:  # a whole number beyond the range of floats
+        return math.inf if str(value)[0] != "-" else -math.inf
+    except ValueError:
+        raise ValueError("must be a number") from None
+
+
+def whole(value: Any) -> Any:
+    """Like `number`, for counts: 4, 4.0 and "4" are the same, 4.5 is refused."""
+    if isinstance(value, int) and not isinstance(value, bool):
+        return value
+    found = number(value)
+    if not found.is_integer():
+        raise ValueError("must be a whole number")
+    return int(found)
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is a number already, and not what `number` would make one of."""
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def limits_rule(limits: tuple[float, float]) -> str:
+    """What a number within limits, such as `TOLERANCES`, has to be."""
+    return f"must be within {limits[0]:g} and {limits[1]:g}"
+
+
+def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[str]:
+    """What is wrong with an argument that must be a number within limits."""
+    good = is_number(value) and limits[0] <= value <= limits[1]
+    return [] if good else [Fault((name,), shown(value), limits_rule(limits))]
+
+
+def _within(limits: tuple[float, float]) -> AfterValidator:
+    def checked(value: float) -> float:
+        if not limits[0] <= value <= limits[1]:
+            raise ValueError(limits_rule(limits))
+        return value
+
+    return AfterValidator(checked)
+
+
+Real = Annotated[float, BeforeValidator(number)]
+Finite = Annotated[Real, Field(allow_inf_nan=False)]
+Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})]
+Count = Annotated[int, BeforeValidator(whole)]
+Tolerance = Annotated[Real, _within(TOLERANCES)]
+CycleTolerance = Annotated[Real, _within(CYCLE_TOLERANCES)]
+
+
+# ----------------------------------------------------------------------------------------------------
+# Bases
+
+
+class Strict(BaseModel):
+    """What a file says: immutable, unknown keys refused."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Checked(Strict):
+    """What a caller says: as `Strict`, but its faults come as one `ParameterError`, whichever way it is made."""
+
+    _word: ClassVar[str] = "key"
+
+    def __init__(self, /, **data: Any) -> None:
+        faults: list[str] = []
+        try:
+            super().__init__(**data)
+        except ValidationError as error:
+            faults += faults_of(error, data, type(self), self._word)
+        faults += self._more_faults(data)
+        if faults:
+            raise ParameterError(*faults) from None
+
+    @classmethod
+    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
+        """Rules that pydantic does not check, for `data` as it was given."""
+        return []
+
+    @classmethod
+    def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
+        """From a mapping, with the same errors as the constructor."""
+        if isinstance(obj, Mapping):
+            if unnamed := [key for key in obj if not isinstance(key, str)]:
+                rule = f"a {cls._word}'s name must be text"
+                raise ParameterError(*(Fault((repr(key),), shown(obj[key]), rule) for key in unnamed))
+            return cls(**obj)
+        if isinstance(obj, cls):
+            return obj
+        raise ParameterError(Fault((cls.__name__.lower(),), shown(obj), "must be a mapping of names to values"))
+
+    @classmethod
+    def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
+        """From JSON text, with the same errors as the constructor."""
+        try:
+            values = json.loads(json_data)
+        except (ValueError, TypeError, RecursionError) as error:
+            raise ParameterError(Fault(("json_data",), shown(json_data), f"must be JSON ({error})")) from None
+        return cls.model_validate(values)
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """A copy; unlike pydantic's, what `update` changes is validated."""
+        return self.replace(**(update or {}))
+
+    def replace(self, **changes: Any) -> Self:
+        """A validated copy with some values changed."""
+        return type(self)(**{**{name: getattr(self, name) for name in type(self).model_fields}, **changes})
+
+
+# ----------------------------------------------------------------------------------------------------
+# Parameters of a case
+
+AUTO = "auto"
+"""What a file gives as ``n_diameters`` to have the modes chosen, by `disc_model.truncation`."""
+CHOOSING = ("truncation_quantity", "truncation_tolerance")
+"""What files and command lines may say of that choice."""
 RESIDUAL = "residual"
 """As ``contact_compliance``: the static give of the modes left out."""
 
@@ -22,7 +157,7 @@ _LATER = ("contact_compliance", "contact_force")
 
 def _diameters(value: Any) -> Any:
     """Refuse a word that only files and command lines understand, and say who does."""
-    if value == "auto":
+    if value == AUTO:
         raise ValueError("must be a whole number; disc_model.choose_modes finds one")
     return value
 
@@ -136,6 +271,11 @@ class Parameters(Checked):
         """SI unit of a parameter; "1" if it has no dimension, "" if it is a choice."""
         extra = cls.model_fields[name].json_schema_extra
         return str(extra["unit"]) if isinstance(extra, dict) else ""
+
+
+def leaves_modes(values: Mapping[str, Any]) -> bool:
+    """Whether what a file says of a case leaves its number of modes to `disc_model.truncation`."""
+    return values.get("n_diameters") == AUTO or any(name in values for name in CHOOSING)
 
 
 def _rigidity(E: float, h: float, nu: float) -> float:

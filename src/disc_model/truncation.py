@@ -18,20 +18,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError, shown
 from disc_model.flexibility import contact_give
-from disc_model.parameters import Parameters
+from disc_model.parameters import AUTO, CHOOSING, Parameters, number
 from disc_model.plate import coupled_frequencies, mode_arrays
-from disc_model.schema import number, shown
 
-AUTO = "auto"
-"""What a file gives as ``n_diameters`` to have the modes chosen."""
 FREQUENCIES = "frequencies"
 """The quantity by which modes are chosen where none is given."""
 QUANTITIES = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
 """By what modes may be chosen, and the tolerance, relative, that is taken where none is given."""
-CHOOSING = ("truncation_quantity", "truncation_tolerance")
-"""What files and command lines may say of the choice."""
 RICH = (20, 6)
 """Diameters and circles of the model that frequencies are compared with."""
 TRUSTED = 1e-4

@@ -13,7 +13,7 @@ from disc_model.benchmarks.answers.questions import SIDE, Found, Status, Verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
 from disc_model.figures import benchmark as figures
-from disc_model.schema import CYCLE_TOLERANCES, limits_faults
+from disc_model.parameters import CYCLE_TOLERANCES, limits_faults
 from tests.references.stored import load
 
 

@@ -17,13 +17,13 @@ from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim, Finding, Needed
 from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import events_dataset
-from disc_model.studies.cases.run import run_case
+from disc_model.simulation.api import run_case
 from disc_model.studies.schema import parse_study
 
 
 def tree_of(**cases: dict[str, Any]) -> xr.DataTree:
     """Merged cases of a study with these cases."""
-    from disc_model.data.inputs import merge_cases
+    from disc_model.studies.cases import merge_cases
 
     study = parse_study({"study": "x", "cases": {name: {"title": ""} | case for name, case in cases.items()}})
     return merge_cases({name: run_case(spec) for name, spec in study.specs.items()}, study.labels)
@@ -113,7 +113,7 @@ def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
 
 def test_status_of_a_failed_case_is_the_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     from disc_model import NonFinite
-    from disc_model.studies.cases import run as batch
+    from disc_model.simulation import api as batch
 
     def fail(*_: object, **__: object) -> None:
         raise NonFinite("overflow")

@@ -28,12 +28,22 @@ from disc_model import (
     flexibility,
     simulate,
 )
-from disc_model.data.dataset import DamagedFile, WriteError, check_whole, load, save, write_whole
-from disc_model.data.inputs import InputsError, load_inputs, merge_cases
+from disc_model.data.dataset import (
+    DamagedFile,
+    InputsError,
+    WriteError,
+    check_whole,
+    each_intact,
+    load,
+    load_inputs,
+    save,
+    write_whole,
+)
 from disc_model.data.variables import STATUSES, attributes, flag_names
+from disc_model.simulation import api as batch
+from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.cases import run as batch
-from disc_model.studies.cases.run import run_case
+from disc_model.studies.cases import merge_cases
 from tests.tally import tried
 
 P = Parameters(N=385, Omega=15.1)
@@ -332,3 +342,11 @@ def test_all_damaged_inputs_are_named_and_set_aside(path: Path) -> None:
     assert [line.split(":")[0] for line in lines[:3]] == [str(path), str(other), str(path.with_name("gone.nc"))]
     assert lines[3] == "Run snakemake again: it computes them anew."
     assert sorted(os.listdir(path.parent)) == ["case.nc.damaged", "intact.nc", "other.nc.damaged"]
+
+
+def test_inputs_are_read_in_their_order(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        (tmp_path / name).write_text(name)
+    assert each_intact(lambda path: path.read_text(), [tmp_path / "b", tmp_path / "a"]) == ["b", "a"]
+    with pytest.raises(InputsError, match="not there"):
+        each_intact(lambda path: path.read_text(), [tmp_path / "c"])

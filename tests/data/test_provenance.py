@@ -21,14 +21,14 @@ def names(*modules: str) -> set[str]:
 
 
 def test_a_simulation_depends_on_the_whole_engine_and_on_no_figure_or_claim() -> None:
-    found = names("disc_model.studies.cases.run")
+    found = names("disc_model.simulation.api")
     imported = {path.relative_to(PACKAGE).as_posix() for path in (PACKAGE / "engine").glob("*.py")}
     simulation = {f"simulation/{name}.py" for name in ("api", "case", "result", "kept")}
     assert {"parameters.py", "plate.py", "data/dataset.py", *simulation} <= found
     assert "engine/machine.py" in found
     unused = imported - found
     assert not {name for name in unused if "switch" in name or "series" in name}
-    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name == "studies/cases/schema.py"}
+    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name == "studies/schema.py"}
 
 
 @pytest.mark.parametrize("figure", CATALOGUE)

@@ -28,10 +28,9 @@ from disc_model.data.dataset import load
 from disc_model.engine import machine
 from disc_model.engine.machine import EVENT_ROW
 from disc_model.simulation import kept
-from disc_model.simulation.api import simulate
+from disc_model.simulation.api import run_case, simulate
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.result import Result, State
-from disc_model.studies.cases.run import run_case
 from tests.workflow.conftest import Project, copy_repository
 
 ROOT = Path(__file__).parents[2]

@@ -10,7 +10,7 @@ import pytest
 
 from disc_model import ParameterError, Parameters, Record, State, Window, load, simulate
 from disc_model.data.dataset import DamagedFile
-from disc_model.studies.cases.schema import WindowSpec
+from disc_model.studies.schema import WindowSpec
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 

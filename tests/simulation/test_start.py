@@ -11,10 +11,9 @@ from disc_model.data.variables import flag_names
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.simulation.api import carried_over, kicked, prepared, published_start, simulate
+from disc_model.simulation.api import carried_over, kicked, prepared, published_start, run_case, simulate
 from disc_model.simulation.case import CaseSpec, Preparation, Start
 from disc_model.simulation.result import State
-from disc_model.studies.cases.run import run_case
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.quantities.schema import BifurcationOptions
 from disc_model.studies.grids.schema import parse_grid

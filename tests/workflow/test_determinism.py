@@ -50,7 +50,7 @@ CASE = """
 import sys
 from disc_model import Parameters, Poincare, Window
 from disc_model.data.dataset import save
-from disc_model.studies.cases.run import run_case
+from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 
 windows = (("history", Window(start=0, stop=1, rate=1000)),)

@@ -111,10 +111,10 @@ def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
         ("src/disc_model/claims/section42.py", {"check_claims"}),
         # the provenance page and the ledger are laid out alike
         ("src/disc_model/claims/pages.py", {"check_claims", "describe_study"}),
-        ("src/disc_model/data/inputs.py", FIGURES | TABLES),
+        ("src/disc_model/studies/cases.py", {"merge_cases"}),
         ("workflow/scripts/simulate_case.py", SIMULATIONS | FIGURES | TABLES),
         ("src/disc_model/cli/run.py", set()),
-        ("src/disc_model/studies/cases/schema.py", set()),
+        ("src/disc_model/studies/schema.py", set()),
     ],
 )
 def test_other_sources_run_only_what_uses_them(project: Project, source: str, jobs: set[str]) -> None:

@@ -13,7 +13,7 @@ import logging
 import sys
 from pathlib import Path
 
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs
 from disc_model.errors import exit_on_error
 from disc_model.explorer.contents import study_contents
 from disc_model.explorer.page import Picture, page

@@ -16,8 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from disc_model.data.dataset import DamagedFile, check_whole
-from disc_model.data.inputs import set_aside
+from disc_model.data.dataset import DamagedFile, check_whole, set_aside
 
 
 def main() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from disc_model.claims.ledger import check_claims
 from disc_model.claims.pages import ledger, to_markdown
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs
 from disc_model.errors import exit_on_error
 
 

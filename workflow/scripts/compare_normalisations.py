@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from disc_model.claims.ledger import compare
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs
 from disc_model.errors import exit_on_error
 
 

@@ -11,7 +11,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.claims.pages import page, table_html
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs
 from disc_model.data.variables import STATUSES
 from disc_model.errors import exit_on_error
 from disc_model.figures.paper.catalogue import said_parameters

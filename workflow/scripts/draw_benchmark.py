@@ -7,7 +7,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs
 from disc_model.errors import exit_on_error
 from disc_model.figures import benchmark
 from disc_model.figures.parts import save

@@ -7,7 +7,7 @@ import importlib
 import json
 from pathlib import Path
 
-from disc_model.data.inputs import load_cases
+from disc_model.data.dataset import load_cases
 from disc_model.errors import exit_on_error
 from disc_model.figures.parts import save
 

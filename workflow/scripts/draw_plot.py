@@ -7,7 +7,7 @@ import importlib
 import json
 from pathlib import Path
 
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs
 from disc_model.errors import exit_on_error
 from disc_model.figures.grids.kinds import PLOTS
 from disc_model.figures.parts import save

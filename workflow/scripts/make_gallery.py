@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from disc_model.data.inputs import load_cases
+from disc_model.data.dataset import load_cases
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
 from disc_model.studies.schema import load_study
 

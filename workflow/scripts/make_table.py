@@ -11,8 +11,7 @@ import pandas as pd
 from disc_model.claims.model import CaseView
 from disc_model.claims.pages import table_page
 from disc_model.claims.paper_tables import table_1, table_2_or_why
-from disc_model.data.dataset import markdown_table
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs, markdown_table
 from disc_model.errors import exit_on_error
 
 TITLES = {"table1": "Table 1: base values", "table2": "Table 2: frequencies of the disc in the first 10 s"}

@@ -9,8 +9,7 @@ import xarray as xr
 
 from disc_model.benchmarks.answers.measure import merged
 from disc_model.benchmarks.answers.words import to_markdown
-from disc_model.data.dataset import save
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs, save
 from disc_model.errors import exit_on_error
 
 

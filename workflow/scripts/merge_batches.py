@@ -12,8 +12,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.data.dataset import save
-from disc_model.data.inputs import load_inputs
+from disc_model.data.dataset import load_inputs, save
 from disc_model.errors import exit_on_error
 from disc_model.studies.grids.merge import failures, merge_batches
 

@@ -6,9 +6,9 @@ import argparse
 import json
 from pathlib import Path
 
-from disc_model.data.dataset import save
-from disc_model.data.inputs import load_cases, merge_cases
+from disc_model.data.dataset import load_cases, save
 from disc_model.errors import exit_on_error
+from disc_model.studies.cases import merge_cases
 
 
 def main() -> None:

@@ -6,8 +6,7 @@ import argparse
 import shutil
 from pathlib import Path
 
-from disc_model.data.dataset import check_whole
-from disc_model.data.inputs import each_intact
+from disc_model.data.dataset import check_whole, each_intact
 from disc_model.errors import exit_on_error
 
 

@@ -11,9 +11,10 @@ import logging
 from pathlib import Path
 
 from disc_model.data.dataset import save
+from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.kept import SET_ASIDE
-from disc_model.studies.cases.run import run_case
+from disc_model.studies.modes import choose
 
 
 def main() -> None:
@@ -24,7 +25,7 @@ def main() -> None:
     logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
     args.output.parent.mkdir(parents=True, exist_ok=True)
     checkpoint = args.output.with_name(f".{args.output.stem}.checkpoint")
-    save(run_case(CaseSpec.from_canonical(args.case), checkpoint), args.output)
+    save(run_case(CaseSpec.from_canonical(args.case), checkpoint, choose), args.output)
     checkpoint.with_name(checkpoint.name + SET_ASIDE).unlink(missing_ok=True)  # of a former content of the case
     checkpoint.unlink(missing_ok=True)
 

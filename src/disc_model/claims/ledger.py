@@ -34,7 +34,7 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
 
     Parameters
     ----------
-    tree : merged cases, see `disc_model.studies.cases.run`
+    tree : merged cases, see `disc_model.simulation.api`
     scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that look at others are not computed
     """
     cases = _views(dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()})
@@ -76,7 +76,7 @@ def _views(nodes: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
 
 
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
-    """Compare merged cases (see `disc_model.data.inputs`) of the two normalisations."""
+    """Compare merged cases (see `disc_model.data.dataset`) of the two normalisations."""
     old, new = _views(published.children), _views(orthonormal.children)
     shared = [name for name in old if name in new]
     failed = [name for name in shared if "failed" in (old[name].status, new[name].status)]

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from disc_model.data import inputs
-from disc_model.data.inputs import Missing
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import STATUSES
 from disc_model.parameters import Parameters
 
@@ -96,11 +96,11 @@ class CaseView:
     @property
     def events(self) -> xr.Dataset:
         """Switches kept; raises `Missing` if the case keeps none."""
-        return self._held(inputs.events)
+        return self._held(dataset.events)
 
     def samples(self, window: str, at_least: int = 2) -> xr.Dataset:
         """Samples of a window, or of the section ``poincare``; raises `Missing`."""
-        return self._held(inputs.samples, window, at_least)
+        return self._held(dataset.samples, window, at_least)
 
     def range_of(self, name: str, start: float, stop: float) -> Range:
         """Range of a variable from the whole bins of the window `history` between two times; raises `Missing`."""
@@ -123,7 +123,7 @@ class CaseView:
 
     def ranges(self, window: str) -> xr.Dataset:
         """Least and greatest values within the bins of a window; raises `Missing`."""
-        return self._held(inputs.ranges, window)
+        return self._held(dataset.ranges, window)
 
     def _held(self, ask: Callable[..., xr.Dataset], *args: Any) -> xr.Dataset:
         try:

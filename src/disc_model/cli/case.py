@@ -15,9 +15,8 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 import typer
 
 from disc_model.cli.progress import compiling
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters
-from disc_model.schema import shown
 from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED
 
 

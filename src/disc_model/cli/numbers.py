@@ -12,8 +12,7 @@ from rich.table import Table
 from disc_model.cli.case import case_lines, number, parameters_of, tell, with_case_options
 from disc_model.cli.progress import compiling
 from disc_model.errors import ParameterError
-from disc_model.parameters import Parameters
-from disc_model.schema import CYCLE_TOLERANCES, limits_rule
+from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_rule
 
 TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
 

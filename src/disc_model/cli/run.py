@@ -12,9 +12,8 @@ import typer
 
 from disc_model.cli.case import case_lines, number, parameters_of, tell, with_case_options
 from disc_model.cli.progress import prepare, simulating
-from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import Parameters
-from disc_model.schema import TOLERANCES, limits_rule, shown
+from disc_model.errors import Fault, ParameterError, shown
+from disc_model.parameters import TOLERANCES, Parameters, limits_rule
 
 if TYPE_CHECKING:
     from disc_model.simulation.case import Record, Window

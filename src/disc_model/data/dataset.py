@@ -7,7 +7,7 @@ A case is a tree of groups, which is also how its file is laid out:
 - every recorded window is a group under its name, along `time`; so is ``poincare``. Their attribute ``theta`` is the
   angle in rad at which ``w_point`` was taken.
 
-`disc_model.data.inputs` reads files, and puts many cases into one. Nothing here holds a time stamp or a duration that
+`group`, `samples` and `ranges` look into such a tree. Nothing here holds a time stamp or a duration that
 differs from run to run, so that equal runs give equal bytes.
 
 Files are whole or not there, and end in a checksum, which readers of netCDF and HDF5 pass over: HDF5 notices a changed
@@ -16,14 +16,15 @@ byte in compressed arrays only, and reads a changed scalar or attribute as if no
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import math
 import os
 import secrets
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import pandas as pd
@@ -32,9 +33,10 @@ import xarray as xr
 from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
 from disc_model.errors import DiscModelError
 from disc_model.flexibility import contact_give
-from disc_model.parameters import Parameters
+from disc_model.parameters import RESIDUAL, Parameters
 
 CONVENTIONS = "CF-1.11"
+T = TypeVar("T")
 OVERHEAD = 1 << 18
 """About what attributes and the file format take, in bytes."""
 
@@ -92,6 +94,8 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
 
 def _compliance(p: Parameters) -> float:
     """Of the contact, m/N; nan where the modes leave nothing out to make it of: then the case has failed of that."""
+    if p.contact_compliance != RESIDUAL:
+        return float(p.contact_compliance)
     try:
         return contact_give(p)
     except DiscModelError:
@@ -242,6 +246,109 @@ def _refusal(temporary: Path, size: int) -> OSError | None:
     except OSError as error:
         return error
     return None
+
+
+# ----------------------------------------------------------------------------------------------------
+# Reading what other jobs have written
+
+SET_ASIDE = ".damaged"
+"""Ending that a damaged file gets."""
+
+
+class InputsError(DiscModelError):
+    """Files that are damaged or missing: a line for each, and what to do."""
+
+
+def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
+    """Read files written by `save`; `each_intact` says what becomes of damaged ones."""
+    return each_intact(load, paths)
+
+
+def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
+    """`load_inputs` by the names of the files, which are those of the cases."""
+    return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
+
+
+def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
+    """Apply a function to files.
+
+    Those it finds damaged are set aside under another name, so that the next run finds them missing and computes them
+    anew.
+
+    Raises
+    ------
+    InputsError
+        If any is damaged or missing.
+    """
+    found, faults = [], []
+    for path in paths:
+        try:
+            found.append(read(path))
+        except DamagedFile as error:
+            faults.append(f"{error}; now called {set_aside(path).name}")
+        except FileNotFoundError:
+            faults.append(f"{path}: not there; another job may just have set it aside")
+    if faults:
+        raise InputsError("\n".join([*faults, "Run snakemake again: it computes them anew."]))
+    return found
+
+
+def set_aside(path: Path) -> Path:
+    """Give a file another name, under which nothing looks for it."""
+    aside = path.with_name(path.name + SET_ASIDE)
+    with contextlib.suppress(FileNotFoundError):  # another job may just have done so
+        os.replace(path, aside)
+    return aside
+
+
+# ----------------------------------------------------------------------------------------------------
+# What the tree of one case holds, or why not: what claims and figures ask it for
+
+
+class Missing(Exception):
+    """Evidence that is not there. The text says why; it goes on after "the case"."""
+
+
+def group(case: xr.DataTree, name: str) -> xr.Dataset:
+    """A window, the Poincare section ``poincare`` or ``events``, as recorded."""
+    if name not in case.children:
+        status = STATUSES[int(case.dataset["status"])] if "status" in case.dataset else "ok"
+        raise Missing("failed" if status == "failed" else f"did not record {name}")
+    return case.children[name].to_dataset(inherit=False)
+
+
+def events(case: xr.DataTree) -> xr.Dataset:
+    """Switches within the span ``kept_from`` to ``kept_until``."""
+    found = group(case, "events")
+    if "kept_from" not in found.attrs:
+        raise Missing("keeps no events")
+    return found
+
+
+def samples(case: xr.DataTree, name: str, at_least: int = 2) -> xr.Dataset:
+    """A window of single samples, no ranges; at least so many of them."""
+    found = group(case, name)
+    if _are_ranges(found):
+        raise Missing(f"recorded {name} as ranges, not as samples: its window has an envelope")
+    return _of_length(found, at_least, f"samples in {name}")
+
+
+def ranges(case: xr.DataTree, name: str, at_least: int = 1) -> xr.Dataset:
+    """A window of ranges, each variable as ``_min`` and ``_max``; at least so many bins."""
+    found = group(case, name)
+    if not _are_ranges(found):
+        raise Missing(f"recorded {name} as samples, not as ranges: its window needs an envelope")
+    return _of_length(found, at_least, f"bins in {name}")
+
+
+def _are_ranges(window: xr.Dataset) -> bool:
+    return any(str(key).endswith("_min") for key in window)
+
+
+def _of_length(window: xr.Dataset, at_least: int, what: str) -> xr.Dataset:
+    if window.sizes["time"] < at_least:
+        raise Missing(f"has {window.sizes['time']} {what}, at least {at_least} are needed")
+    return window
 
 
 # ----------------------------------------------------------------------------------------------------

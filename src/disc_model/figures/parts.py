@@ -16,8 +16,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data import inputs
-from disc_model.data.inputs import Missing
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, said_values
 from disc_model.figures import STYLE
 
@@ -137,7 +137,7 @@ def or_say_why(*axes: Axes) -> Iterator[None]:
 
 def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
     """Ranges over the run, as far as the paper shows it (until a time in s); two bins say how long one is."""
-    found = inputs.ranges(case, "history", at_least=2)
+    found = dataset.ranges(case, "history", at_least=2)
     shown = found.sel(time=slice(None, until))
     return shown if shown.sizes["time"] > 1 else found
 

@@ -1,4 +1,4 @@
-"""`simulate`: the engine behind one function; and the states in which motions start."""
+"""`simulate`: the engine behind one function; the states in which motions start; a study's case as a dataset."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
 from disc_model.engine.sampling import ROW
-from disc_model.errors import Fault, ParameterError, Status
-from disc_model.parameters import Parameters
+from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
+from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
 from disc_model.plate import mode_arrays
-from disc_model.schema import TOLERANCES, is_number, limits_faults, shown
 from disc_model.simulation import ramps as courses
-from disc_model.simulation.case import Record, Window
+from disc_model.simulation.case import CaseSpec, Record, Start
 from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import (
@@ -36,10 +36,14 @@ from disc_model.simulation.result import (
 )
 
 if TYPE_CHECKING:
-    from disc_model.simulation.case import Start
+    from pathlib import Path
 
+    import xarray as xr
 
 log = logging.getLogger(__name__)
+
+Choose = Callable[[Parameters, str], tuple[Parameters, str]]
+"""From a case and what asks for its modes: the case with them, and how they were chosen."""
 
 AUDIT_EVERY = 64
 ROW_SIZE = 8 * len(ROW)
@@ -102,10 +106,11 @@ def simulate(
     record = _EVENTS_ALONE if record is None else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every), ramps)
-    if record.windows:
-        record = _resolved(record, 0.0 if initial_state is None else initial_state.time, t_end)
+    start = 0.0 if initial_state is None else initial_state.time
+    record = record.resolved(start, t_end, ROW_SIZE)
     run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps)
-    _warn_of_empty(record, 0.0 if initial_state is None else initial_state.time, t_end)
+    for window in record.outside(start, t_end):
+        warnings.warn(f"{window}: stays empty, the run is from {start:g} to {t_end:g} s", stacklevel=2)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
     if kept is not None and (contents := kept.load()) is not None:
         run.restore(contents)
@@ -138,7 +143,9 @@ class _Run:
         ramps: tuple[Ramp, ...],
     ) -> None:
         self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
-        self.ramps, self.pieces, self.place = ramps, courses.pieces(p, ramps), np.zeros(1, np.int64)
+        steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
+        self.ramps, self.pieces = ramps, courses.pieces(p, ramps) if ramps else (steady,)
+        self.place = np.zeros(1, np.int64)
         self.case = case = engine_case(p)
         model = case.model
         self.order = series_order(tol)
@@ -294,53 +301,10 @@ def _check_arguments(
     if max_steps is not None and (not isinstance(max_steps, int) or max_steps < 1):
         found.append(Fault(("max_steps",), shown(max_steps), "must be a whole number >= 1"))
     found += faults(*checkpoint)
-    if isinstance(p, Parameters):
+    if isinstance(p, Parameters) and ramps != ():
         found += courses.faults(p, ramps, poincare=getattr(record, "poincare", None) is not None)
     if found:
         raise ParameterError(*found)
-
-
-def _resolved(record: Record, start: float, t_end: float) -> Record:
-    """With absolute times in all windows; refuses those that no memory holds."""
-    found: list[str] = []
-    windows: list[Window] = []
-    for i, window in enumerate(record.windows):
-        try:
-            windows.append(window.resolved(start, t_end))
-        except ParameterError as error:
-            found += [
-                Fault(("record", "windows", str(i), *fault.path), fault.value, fault.rule)
-                for fault in error.faults
-                if isinstance(fault, Fault)
-            ]
-    room = _memory()
-    for i, window in enumerate(windows):
-        seconds = min(window.stop, t_end) - max(window.start, start)
-        needed = max(seconds, 0.0) * window.rate / (window.envelope or 1) * ROW_SIZE
-        if needed > room:
-            rule = f"must fit into memory: {needed / 1e9:.3g} GB of samples, and there are {room / 1e9:.3g} GB"
-            found.append(Fault(("record", "windows", str(i)), "", rule))
-    if found:
-        raise ParameterError(*found)
-    if all(one is other for one, other in zip(windows, record.windows, strict=True)):
-        return record
-    return record.replace(windows=tuple(windows))
-
-
-def _memory() -> float:
-    """Bytes of this machine's memory; infinite where that cannot be asked."""
-    try:
-        return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
-        return math.inf
-
-
-def _warn_of_empty(record: Record, start: float, t_end: float) -> None:
-    """Warn of windows that the run does not enter: no error, since runs made in pieces may share a record."""
-    for i, window in enumerate(record.windows):
-        if window.start > t_end or window.stop < start:
-            asked, given = f"[{window.start:g}, {window.stop:g}] s", f"from {start:g} to {t_end:g} s"
-            warnings.warn(f"windows[{i}] = {asked}: stays empty, the run is {given}", stacklevel=3)
 
 
 def _step_limit(model: layout.Model, duration: float) -> int:
@@ -463,3 +427,61 @@ def carried_over(p: Parameters, state: State) -> State:
     psi = mode_arrays(p).psi
     in_contact = state.phase != "separation" and p.contact_compliance == 0 and len(psi) == len(state.a)
     return state.replace(time=0.0, u=float(psi @ state.a) if in_contact else state.u)
+
+
+# ----------------------------------------------------------------------------------------------------
+# A case of a study
+
+
+def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | None = None) -> xr.DataTree:
+    """Simulate a named case of a study; the tree has the layout described in `disc_model.data.dataset`.
+
+    A failure becomes a status in the dataset instead of ending the study.
+
+    Parameters
+    ----------
+    checkpoint : file from which an interrupted case goes on, see `simulate`
+    choose : finds the modes of a case that leaves them to a quantity of the motion, see `disc_model.studies.modes`;
+        needed for such a case alone
+    """
+    from disc_model.data.dataset import failed_groups, json_attribute, to_tree
+
+    p, truncation = spec.parameters, spec.truncation
+    try:
+        if spec.modes:
+            if choose is None:
+                raise TypeError("choose is needed where the modes are to be chosen")
+            p, truncation = choose(p, spec.modes)
+            log.info("modes chosen: %s", truncation)
+        start = prepared(p, spec.start, spec.tol)
+        result = simulate(
+            p, spec.t_end, tol=spec.tol, initial_state=start, record=spec.record, stop_at=spec.stop_at,
+            checkpoint=checkpoint, ramps=spec.ramps,
+        )  # fmt: skip
+    except DiscModelError as error:
+        log.error("no result: %s", error)
+        tree = to_tree(failed_groups(p, spec.t_end, spec.tol, f"{type(error).__name__}: {error}"))
+    else:
+        log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
+        tree = result.to_tree([name for name, _ in spec.windows])
+        tree["events"].dataset = _kept_events(tree["events"].to_dataset(), spec.events)
+    if spec.start != Start():
+        tree.attrs["start"] = json_attribute(spec.start.model_dump())
+    if truncation:
+        tree.attrs["truncation"] = truncation
+    tree.attrs |= {
+        "source_hash": source_hash(__name__),
+        "git_commit": git_commit(),
+        "versions": json_attribute(versions()),
+        "specification": spec.canonical,
+        "specification_key": spec.key,
+    }
+    return tree
+
+
+def _kept_events(events: xr.Dataset, span: tuple[float, float] | None) -> xr.Dataset:
+    if span is None:
+        return events.isel(event=slice(0))
+    time = events["time"].values
+    kept = events.isel(event=slice(*time.searchsorted([span[0], span[1]], side="left")))
+    return kept.assign_attrs(kept_from=span[0], kept_until=span[1])

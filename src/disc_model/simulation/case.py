@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+import os
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, Self
 
@@ -18,9 +19,8 @@ from pydantic import (
     model_validator,
 )
 
-from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import Parameters
-from disc_model.schema import Checked, Finite, Positive, Real, Strict, shown
+from disc_model.errors import Fault, ParameterError, shown
+from disc_model.parameters import AUTO, Checked, Finite, Parameters, Positive, Real, Strict
 from disc_model.simulation.ramps import Ramp
 
 # ----------------------------------------------------------------------------------------------------
@@ -125,6 +125,56 @@ class Record(Checked):
     events: bool = True
     energy: bool = False
 
+    def resolved(self, start: float, t_end: float, row: int) -> Record:
+        """With absolute times in all windows, for a run from ``start`` to ``t_end``.
+
+        Parameters
+        ----------
+        row : bytes of a sample
+
+        Raises
+        ------
+        ParameterError
+            If a window begins at the end of the run or later, or no memory holds its samples.
+        """
+        found: list[str] = []
+        windows: list[Window] = []
+        for i, window in enumerate(self.windows):
+            try:
+                windows.append(window.resolved(start, t_end))
+            except ParameterError as error:
+                found += [
+                    Fault(("record", "windows", str(i), *fault.path), fault.value, fault.rule)
+                    for fault in error.faults
+                    if isinstance(fault, Fault)
+                ]
+        room = _memory()
+        for i, window in enumerate(windows):
+            seconds = min(window.stop, t_end) - max(window.start, start)
+            needed = max(seconds, 0.0) * window.rate / (window.envelope or 1) * row
+            if needed > room:
+                rule = f"must fit into memory: {needed / 1e9:.3g} GB of samples, and there are {room / 1e9:.3g} GB"
+                found.append(Fault(("record", "windows", str(i)), "", rule))
+        if found:
+            raise ParameterError(*found)
+        if all(one is other for one, other in zip(windows, self.windows, strict=True)):
+            return self
+        return self.replace(windows=tuple(windows))
+
+    def outside(self, start: float, t_end: float) -> Iterator[str]:
+        """Windows that a run does not enter, in words: no error, since runs made in pieces may share a record."""
+        for i, window in enumerate(self.windows):
+            if window.start > t_end or window.stop < start:
+                yield f"windows[{i}] = [{window.start:g}, {window.stop:g}] s"
+
+
+def _memory() -> float:
+    """Bytes of this machine's memory; infinite where that cannot be asked."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return math.inf
+
 
 # ----------------------------------------------------------------------------------------------------
 # Where a motion starts
@@ -154,7 +204,7 @@ class Preparation(Strict):
     @classmethod
     def _checked(cls, given: dict[str, Any]) -> dict[str, Any]:
         """As `Parameters` understands them: floats, whole numbers, words."""
-        if given.get("n_diameters") == "auto":
+        if given.get("n_diameters") == AUTO:
             raise ParameterError(Fault(("n_diameters",), "'auto'", "must be a whole number, that of the points"))
         checked = SomeParameters(**given)
         return {name: getattr(checked, name) for name in given}

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays, mode_shapes
-from disc_model.schema import shown
 from disc_model.simulation.api import published_start, simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State

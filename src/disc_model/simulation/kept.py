@@ -27,8 +27,7 @@ from numpy.typing import NDArray
 from disc_model.data.provenance import source_hash, versions
 from disc_model.engine import machine, sampling
 from disc_model.errors import ParameterError
-from disc_model.parameters import Parameters
-from disc_model.schema import is_number
+from disc_model.parameters import Parameters, is_number
 from disc_model.simulation.case import Poincare, Record, Window
 
 # ----------------------------------------------------------------------------------------------------

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import Parameters
-from disc_model.schema import Checked, Positive, Real, shown
+from disc_model.errors import Fault, ParameterError, shown
+from disc_model.parameters import Checked, Parameters, Positive, Real
 
 Ramped = Literal["Omega", "N"]
 RAMPED: tuple[Ramped, ...] = ("Omega", "N")

@@ -19,11 +19,10 @@ from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASE
 from disc_model.engine import layout
 from disc_model.engine.lanes import aligned_pieces
 from disc_model.engine.machine import EVENT_ROW
-from disc_model.errors import Fault, ParameterError, Status
+from disc_model.errors import Fault, ParameterError, Status, shown
 from disc_model.flexibility import contact_give
-from disc_model.parameters import Parameters
+from disc_model.parameters import RESIDUAL, Parameters, is_number
 from disc_model.plate import modal_damping, mode_arrays
-from disc_model.schema import is_number, shown
 from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import RAMPED, Ramp, values_at
 
@@ -362,7 +361,7 @@ def engine_case(p: Parameters) -> Case:
         mu_k=p.mu_k,
         r_0=p.r_0,
         bonded=p.contact == "bonded",
-        give=contact_give(p),
+        give=contact_give(p) if p.contact_compliance == RESIDUAL else float(p.contact_compliance),
         normal=p.contact_force == "normal",
     )
     pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)

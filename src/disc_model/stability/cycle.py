@@ -14,9 +14,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import DiscModelError, ParameterError, StatusBase
-from disc_model.parameters import Parameters
-from disc_model.schema import CYCLE_TOLERANCES, limits_faults, shown
+from disc_model.errors import DiscModelError, ParameterError, StatusBase, shown
+from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_faults
 from disc_model.simulation.result import State
 from disc_model.stability.return_map import (
     OUTCOMES,

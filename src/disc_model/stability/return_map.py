@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 
 from disc_model.engine import layout, outcomes, switches, variational
 from disc_model.engine import tangent as columns
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import RESIDUAL, Parameters
-from disc_model.schema import shown
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 
 Array = NDArray[np.float64]

@@ -23,12 +23,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import Status
-from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
-from disc_model.simulation.result import Result, State
+from disc_model.simulation.result import Result, State, engine_case
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.stability.return_map import modes_faults
 
@@ -298,7 +297,7 @@ def return_difference(result: Result, states: Array) -> float:
 def _scaled(p: Parameters, slider: Array) -> Array:
     """Angle, height from static equilibrium, velocity from psi (rad), u (m), u' (m/s), shape (n, 3) both."""
     modes = mode_arrays(p)
-    rest = -p.N * (float(np.sum(modes.psi**2 / modes.omega**2)) + contact_give(p))
+    rest = engine_case(p).model.u_0
     slowest = float(modes.omega.min(initial=math.inf))
     sizes = [_angle_at_release(p), abs(rest) or 1.0, abs(rest) * slowest if 0 < abs(rest) * slowest < math.inf else 1.0]
     return (slider - np.array([0.0, rest, 0.0])) / np.array(sizes)

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Annotated, Any, TypeVar
 
 import yaml
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, StringConstraints, ValidationError
 
-from disc_model.errors import DiscModelError, Fault
-from disc_model.schema import faults_of, shown
+from disc_model.errors import DiscModelError, Fault, faults_of, shown
 
 # ----------------------------------------------------------------------------------------------------
 # Faults, each with its path
 
 M = TypeVar("M", bound=BaseModel)
+Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
 
 class StudyError(DiscModelError, ValueError):

@@ -15,14 +15,12 @@ from pydantic import BaseModel
 from disc_model.figures.cases.kinds import CASE_PLOTS
 from disc_model.figures.grids.kinds import PLOTS
 from disc_model.figures.paper.catalogue import CATALOGUE
-from disc_model.parameters import Parameters
+from disc_model.parameters import AUTO, Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.cases.schema import Case, RecordSpec
 from disc_model.studies.grids.dimensions import VARIED, Range
 from disc_model.studies.grids.quantities.schema import QUANTITIES
 from disc_model.studies.grids.schema import BatchSpec
-from disc_model.studies.schema import Document
-from disc_model.truncation import AUTO
+from disc_model.studies.schema import Case, Document, RecordSpec
 from disc_model.truncation import QUANTITIES as CHOSEN_BY
 
 Schema = dict[str, Any]

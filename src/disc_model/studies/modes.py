@@ -39,3 +39,9 @@ def from_text(text: str) -> Asked:
     """What a case's text asks for."""
     data: dict[str, Any] = json.loads(text)
     return Asked(data["quantity"], data["tolerance"])
+
+
+def choose(p: Parameters, text: str) -> tuple[Parameters, str]:
+    """A case with the modes that its text asks for, and how they were chosen, as JSON; raises as `chosen`."""
+    choice = chosen(p, from_text(text))
+    return choice.parameters, choice.to_json()

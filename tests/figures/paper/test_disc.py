@@ -10,7 +10,7 @@ import xarray as xr
 from PIL import Image
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.data.inputs import Missing
+from disc_model.data.dataset import Missing
 from disc_model.figures.paper.disc import film, motion_of
 from tests.figures.paper.test_catalogue import made_up_case
 

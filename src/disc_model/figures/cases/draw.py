@@ -8,7 +8,7 @@ from typing import Any
 import xarray as xr
 from matplotlib.figure import Figure
 
-from disc_model.data import inputs
+from disc_model.data import dataset
 from disc_model.figures import parts
 from disc_model.figures.cases.kinds import CASE_PLOTS, History, Portrait, Section, Spectrogram
 from disc_model.figures.paper.sections import orbit, sections
@@ -47,10 +47,10 @@ def _history(case: xr.DataTree, plot: History) -> Figure:
     figure = new_figure(COLUMN, 0.9 + 1.3 * len(plot.variables))
     axes = figure.subplots(len(plot.variables), 1, sharex=True, squeeze=False)[:, 0]
     with parts.or_say_why(*axes):
-        window = inputs.group(case, plot.window)
+        window = dataset.group(case, plot.window)
         time = window["time"].values
         if time.size < 2:  # the run ended before it
-            raise inputs.Missing(f"has {time.size} samples in {plot.window}, at least 2 are needed")
+            raise dataset.Missing(f"has {time.size} samples in {plot.window}, at least 2 are needed")
         for ax, name in zip(axes, plot.variables, strict=True):
             label, factor = _axis(name, window)
             colour = COLOURS.get(name, SLIDER)
@@ -77,7 +77,7 @@ def _spectrogram(case: xr.DataTree, plot: Spectrogram) -> Figure:
         found = spectrum_in_time(case, plot.window, plot.variable)
         mesh = spectrogram(ax, found, float(found.power.max()), plot.highest)
         mark_time(ax, float(case["first_separation"]))
-        label = _axis(plot.variable, inputs.group(case, plot.window))[0].partition(" (")[0]
+        label = _axis(plot.variable, dataset.group(case, plot.window))[0].partition(" (")[0]
         ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)", title=label)
         colour_bar(figure, mesh, ax)
     return figure
@@ -87,7 +87,7 @@ def _portrait(case: xr.DataTree, plot: Portrait) -> Figure:
     figure = new_figure(COLUMN, 2.7)
     ax = figure.subplots()
     with parts.or_say_why(ax):
-        window = inputs.samples(case, plot.window)
+        window = dataset.samples(case, plot.window)
         (across, in_x), (up, in_y) = (_axis(name, window) for name in (plot.x, plot.y))
         orbit(ax, window, window[plot.x].values * in_x, window[plot.y].values * in_y)
         ax.set(xlabel=across, ylabel=up)

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from disc_model.figures.grids.kinds import Fault
 from disc_model.figures.paper.catalogue import HIGHEST, SHORTEST_SPECTRUM
-from disc_model.schema import Positive, Strict
+from disc_model.parameters import Positive, Strict
 from disc_model.simulation.case import Poincare, Window
 
 Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]

@@ -9,8 +9,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Protocol
 from pydantic import Field
 
 from disc_model.data.variables import KICKS, SAMPLE
-from disc_model.parameters import Parameters
-from disc_model.schema import Real, Strict
+from disc_model.parameters import Parameters, Real, Strict
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
 Values = Mapping[str, Sequence[tuple[Any, ...]]]

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from disc_model.data.variables import said_values
 from disc_model.figures import STYLE
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Poincare, Window
+from disc_model.simulation.case import CaseSpec, Poincare, Window
 
-__all__ = ["CATALOGUE", "STYLE", "Entry", "caption", "function_of", "module_of"]
+__all__ = ["CATALOGUE", "STYLE", "Entry", "caption", "function_of", "lacking", "module_of"]
 
 Windows = Mapping[str, Mapping[str, Window | Poincare | None]]
 
@@ -242,7 +242,26 @@ ZOOM = 0.2
 """Length of a closer look, s."""
 
 
-def faults_of(figure: str, name: str, window: Window) -> list[str]:
+def lacking(figure: str, specs: Mapping[str, CaseSpec]) -> Iterator[tuple[str, str]]:
+    """What keeps one of the paper's figures from being drawn: the case that it is about, and why."""
+    for case, windows in CATALOGUE[figure].needs.items():
+        if case not in specs:
+            yield case, f"needs a case {case}"
+            continue
+        recorded = dict(specs[case].windows)
+        for window in windows:
+            if window == "poincare":
+                if specs[case].poincare is None:
+                    yield case, f"needs cases.{case}.record.poincare"
+                continue
+            if window not in recorded:
+                yield case, f"needs a window {window} in cases.{case}.record.windows"
+                continue
+            for fault in _faults_of(figure, window, recorded[window]):
+                yield case, f"cases.{case}.record.windows.{window} {fault}"
+
+
+def _faults_of(figure: str, name: str, window: Window) -> list[str]:
     """What keeps a window from being drawn in a figure, each as the end of a sentence; nothing if it can be."""
     if name in RANGES:
         if window.envelope is None:

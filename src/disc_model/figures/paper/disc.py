@@ -23,8 +23,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
-from disc_model.data import inputs
-from disc_model.data.inputs import Missing
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.figures import STYLE, parts
 from disc_model.figures.parts import BLACK, DISC, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
@@ -79,7 +79,7 @@ class Motion:
 def motion_of(case: xr.DataTree) -> Motion:
     """The motion of disc and slider from the windows `around0`, ...; raises `Missing`."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
-    windows = [inputs.samples(case, f"around{j}", at_least=1) for j in range(len(_names(case)) or 1)]
+    windows = [dataset.samples(case, f"around{j}", at_least=1) for j in range(len(_names(case)) or 1)]
     harmonics = np.arange(p.n_diameters + 1)
     if p.n_circles:
         raise Missing("has modes with nodal circles, which a circle of points does not tell apart")

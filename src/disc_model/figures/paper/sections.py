@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.analysis.poincare import Stages, stages
-from disc_model.data import inputs
+from disc_model.data import dataset
 from disc_model.data.variables import PHASES
 from disc_model.figures import parts
 from disc_model.figures.parts import AFTER, BEFORE, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, new_figure, styled
@@ -45,7 +45,7 @@ def sections(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _sections(figure: Figure, slider: Axes, disc: Axes, case: xr.DataTree) -> None:
-    samples = inputs.samples(case, "poincare", at_least=1)
+    samples = dataset.samples(case, "poincare", at_least=1)
     found = stages(
         samples["time"].values,
         samples["phase"].values,
@@ -94,7 +94,7 @@ def portrait(cases: Mapping[str, xr.DataTree]) -> Figure:
     figure = new_figure(COLUMN, 2.7)
     ax = figure.subplots()
     with parts.or_say_why(ax):
-        window = inputs.samples(case, "orbit")
+        window = dataset.samples(case, "orbit")
         orbit(ax, window, window["psi"].values, window["psi_velocity"].values)
         ax.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
     return figure

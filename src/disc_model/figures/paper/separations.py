@@ -9,8 +9,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data import inputs
-from disc_model.data.inputs import Missing
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.figures import parts
 from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, PAGE, SEPARATED, SLIDER, new_figure, styled
@@ -75,7 +75,7 @@ def _show_zero(ax: Axes, case: xr.DataTree) -> None:
 
 
 def _zoom(ax: Axes, case: xr.DataTree) -> None:
-    window = inputs.samples(case, "zoom")
+    window = dataset.samples(case, "zoom")
     parts.letter(ax, "b")
     time = window["time"].values
     start = float(time[0])
@@ -111,7 +111,7 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _around_a_separation(both: Axes, gap: Axes, case: xr.DataTree) -> None:
-    window = inputs.samples(case, "zoom")
+    window = dataset.samples(case, "zoom")
     found = complete_separations(window)
     if not found:
         raise Missing("has no complete separation in zoom")
@@ -150,7 +150,7 @@ def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _around_losses(ax: Axes, case: xr.DataTree) -> None:
-    window = inputs.samples(case, "zoom")
+    window = dataset.samples(case, "zoom")
     start = float(window["time"][0])
     found = complete_separations(window)
     if found:

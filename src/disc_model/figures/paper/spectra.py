@@ -13,8 +13,8 @@ from matplotlib.figure import Figure, FigureBase, SubFigure
 from matplotlib.ticker import MaxNLocator
 
 from disc_model.analysis.spectra import TimeFrequency, time_frequency
-from disc_model.data import inputs
-from disc_model.data.inputs import Missing
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
 from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
 from disc_model.figures.parts import BLACK, DISC, PAGE, SKY, SLIDER, new_figure, styled
@@ -29,7 +29,7 @@ POWERS = cmc.lipari
 
 def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: float) -> TimeFrequency:
     """Short-time Fourier transform of a window's variable, see `disc_model.analysis.spectra`."""
-    samples = inputs.samples(case, window)
+    samples = dataset.samples(case, window)
     try:
         found = time_frequency(samples["time"].values, samples[variable].values, **options)
     except ValueError as error:
@@ -213,7 +213,7 @@ def response(
         _whole_run(panels["whole"], tree, variable, marked, until)
     for i, (name, start) in enumerate(zooms):
         with parts.or_say_why(panels[f"zoom{i}"]):
-            _closer(panels[f"zoom{i}"], inputs.samples(tree, name), variable, start, first=i == 0)
+            _closer(panels[f"zoom{i}"], dataset.samples(tree, name), variable, start, first=i == 0)
     return figure
 
 

@@ -11,12 +11,10 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from disc_model.data.variables import KICKS
-from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import RESIDUAL, Parameters, cross_faults
-from disc_model.schema import Count, Finite, Real, Strict, number, shown, suggestion
+from disc_model.errors import Fault, ParameterError, shown, suggestion
+from disc_model.parameters import AUTO, RESIDUAL, Count, Finite, Parameters, Real, Strict, cross_faults, number
 from disc_model.simulation.case import START, SomeParameters
 from disc_model.studies.files import Faults, add_parameter_faults, mapping, validated
-from disc_model.truncation import AUTO
 
 # ----------------------------------------------------------------------------------------------------
 # Values along one axis: lists, linear and logarithmic ranges, and blocks of them

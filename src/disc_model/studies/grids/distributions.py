@@ -11,9 +11,8 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, model_validator
 
-from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import Parameters, cross_faults
-from disc_model.schema import Count, Finite, Positive, Strict, is_number, shown
+from disc_model.errors import Fault, ParameterError, shown
+from disc_model.parameters import Count, Finite, Parameters, Positive, Strict, cross_faults, is_number
 from disc_model.simulation.case import SomeParameters
 from disc_model.studies.files import Faults, add_parameter_faults
 from disc_model.studies.grids.dimensions import RELATED, Dimension

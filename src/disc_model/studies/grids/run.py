@@ -18,10 +18,10 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Variable, attributes
 from disc_model.errors import DiscModelError, Status
-from disc_model.parameters import Parameters
+from disc_model.parameters import AUTO, Parameters, leaves_modes
 from disc_model.simulation.case import START, Start
 from disc_model.studies.modes import chosen
-from disc_model.truncation import AUTO, read_asked
+from disc_model.truncation import read_asked
 
 # ----------------------------------------------------------------------------------------------------
 # Batches
@@ -121,6 +121,8 @@ def _started(options: Any, values: Mapping[str, Any], starts: Mapping[str, Any])
 def _made(values: Mapping[str, Any]) -> Parameters | DiscModelError:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
     try:
+        if not leaves_modes(values):
+            return Parameters.model_validate(values)
         p, asked = read_asked(values)
         return p if asked is None else chosen(p, asked).parameters
     except DiscModelError as error:

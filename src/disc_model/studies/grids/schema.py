@@ -25,12 +25,11 @@ from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
-from disc_model.parameters import Parameters
-from disc_model.schema import Count, Strict, is_number
+from disc_model.parameters import AUTO, Count, Parameters, Strict, is_number, leaves_modes
 from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
-from disc_model.studies.cases.schema import Name
 from disc_model.studies.files import (
     Faults,
+    Name,
     StudyError,
     add_parameter_faults,
     inherit,
@@ -55,7 +54,7 @@ from disc_model.studies.grids.distributions import Sampled, check_distributions
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
 from disc_model.studies.grids.summaries import summary_of
 from disc_model.studies.modes import chooser
-from disc_model.truncation import AUTO, FREQUENCIES, asked_modes
+from disc_model.truncation import FREQUENCIES, asked_modes
 
 # ----------------------------------------------------------------------------------------------------
 # Batches
@@ -403,7 +402,7 @@ def _quantity(raw: Mapping[str, Any], faults: Faults) -> Quantity | None:
 
 def _base(values: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Any], dict[str, Any]]:
     """The base values that are right, N and Omega need not be among them; and what leaves the modes to each point."""
-    fixed, asked, more = asked_modes(values)
+    fixed, asked, more = asked_modes(values) if leaves_modes(values) else (dict(values), None, [])
     automatic: dict[str, Any] = {}
     if asked is not None:
         automatic = {"n_diameters": AUTO, "truncation_tolerance": asked.tolerance}

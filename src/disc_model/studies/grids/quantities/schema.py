@@ -12,7 +12,7 @@ from typing import Annotated, Literal, NamedTuple, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from disc_model.data.variables import SAMPLE
-from disc_model.schema import Count, CycleTolerance, Finite, Positive, Real, Strict, Tolerance
+from disc_model.parameters import Count, CycleTolerance, Finite, Positive, Real, Strict, Tolerance
 from disc_model.simulation.case import Start
 from disc_model.studies.grids.dimensions import MOST, Range
 from disc_model.studies.grids.distributions import Sampled

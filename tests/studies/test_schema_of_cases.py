@@ -15,7 +15,7 @@ from disc_model.studies.files import StudyError
 from disc_model.studies.schema import Study, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 
 
 CONFIGS = sorted((ROOT / "config").glob("*.yaml"))

@@ -1,24 +1,13 @@
-"""Files that a job reads, and cases put together."""
+"""Cases put together."""
 
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
-import pytest
-
-from disc_model.data.inputs import InputsError, each_intact, merge_cases
 from disc_model.parameters import Parameters
+from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.cases.run import run_case
-
-
-def test_inputs_are_read_in_their_order(tmp_path: Path) -> None:
-    for name in ("a", "b"):
-        (tmp_path / name).write_text(name)
-    assert each_intact(lambda path: path.read_text(), [tmp_path / "b", tmp_path / "a"]) == ["b", "a"]
-    with pytest.raises(InputsError, match="not there"):
-        each_intact(lambda path: path.read_text(), [tmp_path / "c"])
+from disc_model.studies.cases import merge_cases
 
 
 def test_attributes_of_cases_that_differ_become_a_list() -> None:

@@ -1,0 +1,58 @@
+"""The named cases of a study, each simulated by a job of its own, as one tree."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.dataset import CONVENTIONS, json_attribute
+
+
+def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[str, str]]) -> xr.DataTree:
+    """Put cases into one tree.
+
+    The root is a table with one row per case along the coordinate `case`: parameters, status, first separation and
+    statistics, each a variable with units. Below it every case has its own group, laid out as in its own file, since
+    cases differ in what they recorded and in how long that is:
+
+        table = xarray.open_dataset("cases.nc")                                  # first_separation by case
+        history = xarray.open_dataset("cases.nc", group="F13/history")           # one window of one case
+        tree = xarray.open_datatree("cases.nc")                                  # everything
+
+    Parameters
+    ----------
+    cases : by id, each as its file holds it; failed ones have scalars only
+    labels : by id, texts that become variables of the table, such as title and reference
+    """
+    rows = [tree.to_dataset() for tree in cases.values()]
+    table = xr.concat(rows, dim="case", join="exact", combine_attrs="override", data_vars="all", coords="minimal")
+    table = table.assign_coords(case=("case", list(cases), {"long_name": "name of the case"}))
+    texts = {"message": [row.attrs["message"] for row in rows]}
+    for name in sorted({name for label in labels.values() for name in label}):
+        texts[name] = [labels.get(case, {}).get(name, "") for case in cases]
+    for name, values in texts.items():
+        table[name] = ("case", np.array(values, dtype=str), {"long_name": _TEXTS.get(name, name)})
+    table.attrs = {"Conventions": CONVENTIONS, **_common(rows)}
+    tree = xr.DataTree(table)
+    for name, case in cases.items():
+        tree[name] = case
+    return tree
+
+
+_TEXTS = {
+    "message": "what ended the simulation early",
+    "reference": "place in the paper",
+    "title": "what the case is",
+}
+
+
+def _common(rows: list[xr.Dataset]) -> dict[str, str]:
+    """Provenance of the cases; a value that differs between them becomes the list of all."""
+    common = {}
+    for name in ("source_hash", "git_commit", "versions"):
+        values = sorted({str(row.attrs[name]) for row in rows if name in row.attrs})
+        if values:
+            common[name] = values[0] if len(values) == 1 else json_attribute(values)
+    return common

@@ -1,1 +1,0 @@
-"""Named cases: what a file says of them, running one, all in one file."""
