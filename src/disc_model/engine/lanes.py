@@ -11,10 +11,32 @@ the two members of each pair.
 
 from __future__ import annotations
 
+from typing import Any
+
+import llvmlite.binding as llvm
 import numba
 import numpy as np
 
 WIDTH = 8
+
+_SETTINGS: Any = numba.config
+
+
+def in_one_register():
+    """Whether eight doubles fit into a register of the processor that kernels are compiled for, as LLVM has it."""
+    add = (
+        "define <8 x double> @f(<8 x double> %a, <8 x double> %b) { %c = fadd <8 x double> %a, %b ret <8 x double> %c }"
+    )
+    cpu, features = _SETTINGS.CPU_NAME or llvm.get_host_cpu_name(), _SETTINGS.CPU_FEATURES
+    if features is None:
+        features = llvm.get_host_cpu_features().flatten()
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    machine = llvm.Target.from_default_triple().create_target_machine(cpu=cpu, features=features)
+    return "zmm" in machine.emit_assembly(llvm.parse_assembly(add))
+
+
+ONE_REGISTER = in_one_register()
 
 
 def aligned(n):
@@ -55,6 +77,10 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
     def item(array, i):
         """array[i], i >= 0."""
         return array[i]
+
+    def put(array, i, x):
+        """array[i] = x, i >= 0."""
+        array[i] = x
 
     def fma(a, b, c):
         """a * b + c, lane by lane."""
@@ -195,6 +221,17 @@ else:
             return builder.load(builder.gep(data, [args[1]]))
 
         return types.float64(array, types.intp), codegen
+
+    @intrinsic
+    def put(typingctx, array, i, x):
+        """array[i] = x, i >= 0: no check of the sign."""
+
+        def codegen(context, builder, sig, args):
+            data = context.make_array(sig.args[0])(context, builder, args[0]).data
+            builder.store(args[2], builder.gep(data, [args[1]]))
+            return context.get_dummy_value()
+
+        return types.void(array, types.intp, types.float64), codegen
 
     @intrinsic
     def fma(typingctx, a, b, c):

@@ -21,7 +21,7 @@ where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k
 from __future__ import annotations
 
 from .compile import inlined
-from .lanes import WIDTH, add, fma, load, mul, splat, store, sub, swap_halves, total
+from .lanes import ONE_REGISTER, WIDTH, add, fma, item, load, mul, put, splat, spread, store, sub, swap_halves, total
 from .layout import (
     BEND,
     DAMPING,
@@ -126,6 +126,44 @@ def _disc_point(model, s):
 
 
 @inlined
+def _products(s, width, b, k, f_high, e_low, z_low):
+    """Adds f_{k-i} e_i and f_{k-i} z_{i+1}, 2 <= i <= k - 2, to the two sums, for an odd order k; f_high is f_{k-1}.
+
+    Returns them and those of order k + 1.
+    """
+    e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
+    for i in range(2, k - 1):
+        f_low = spread(s.slider, F + k - i)
+        e, z = _e(s, width, at), _z(s, at + width)
+        e_low, z_low = fma(f_low, e, e_low), fma(f_low, z, z_low)
+        e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
+        f_high = f_low
+        at += width
+    return e_low, z_low, e_high, z_high
+
+
+@inlined
+def _products_apart(s, width, b, k, f_high, e_low, z_low):
+    """As ``_products``, with sums of their own for even and odd i: a sum's next term waits for its last one.
+
+    That needs more registers than there are where lanes do not fit into one.
+    """
+    e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
+    e_low2, z_low2, e_high2, z_high2 = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
+    for i in range(2, k - 1, 2):
+        f_mid, f_low = spread(s.slider, F + k - i), spread(s.slider, F + k - i - 1)
+        e, z = _e(s, width, at), _z(s, at + width)
+        e_low, z_low = fma(f_mid, e, e_low), fma(f_mid, z, z_low)
+        e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
+        e, z = _e(s, width, at + width), _z(s, at + 2 * width)
+        e_low2, z_low2 = fma(f_low, e, e_low2), fma(f_low, z, z_low2)
+        e_high2, z_high2 = fma(f_mid, e, e_high2), fma(f_mid, z, z_high2)
+        f_high = f_low
+        at += 2 * width
+    return add(e_low, e_low2), add(z_low, z_low2), add(e_high, e_high2), add(z_high, z_high2)
+
+
+@inlined
 def _inner_terms(s, width, b, k, e_last, z_last):
     """Inner terms of order k for e and z; ``e_last``, ``z_last`` are e_{k-1} and z_k.
 
@@ -148,16 +186,12 @@ def _inner_terms(s, width, b, k, e_last, z_last):
         return fma(f, e_last, e_low), fma(f, z_last, z_low)
     e_high, z_high = e_low, z_low
     if k > 1:
-        f_high = splat(s.slider[F + k - 1])
-        e_low, z_low = mul(f_high, _e(s, width, width + b)), mul(f_high, _z(s, 2 * width + b))
-        at = 2 * width + b
-        for i in range(2, k - 1):
-            f_low = splat(s.slider[F + k - i])
-            e, z = _e(s, width, at), _z(s, at + width)
-            e_low, z_low = fma(f_low, e, e_low), fma(f_low, z, z_low)
-            e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
-            f_high = f_low
-            at += width
+        f = splat(s.slider[F + k - 1])
+        e_low, z_low = mul(f, _e(s, width, width + b)), mul(f, _z(s, 2 * width + b))
+        if ONE_REGISTER:
+            e_low, z_low, e_high, z_high = _products_apart(s, width, b, k, f, e_low, z_low)
+        else:
+            e_low, z_low, e_high, z_high = _products(s, width, b, k, f, e_low, z_low)
         f_low, f_high = splat(s.slider[F + 1]), splat(s.slider[F + 2])
         e_low, z_low = fma(f_low, e_last, e_low), fma(f_low, z_last, z_low)
         e_high, z_high = fma(f_high, e_last, e_high), fma(f_high, z_last, z_high)
@@ -266,13 +300,13 @@ def _axisymmetric(model, s, k, impulse):
     """Modes without nodal diameter, order k: they only feel P.  Returns their part of u'' without P_{k-1}."""
     part, n, up = 0.0, len(model.force0), s.slider[UP + k]
     for j in range(n):
-        at, force, damping = k * n + j, model.force0[j], model.damping0[j]
-        g, pull = s.g[at], model.stiffness0[j] * s.y[at]
+        at, force, damping = k * n + j, item(model.force0, j), item(model.damping0, j)
+        g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
         part -= force * (damping * g + pull)
         g -= force * impulse
-        s.g[at] = g
-        s.y[at + n] = g * up
-        s.g[at + n] = -(damping * g + pull) * up
+        put(s.g, at, g)
+        put(s.y, at + n, g * up)
+        put(s.g, at + n, -(damping * g + pull) * up)
     return part
 
 
