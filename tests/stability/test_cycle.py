@@ -16,6 +16,7 @@ from disc_model.stability.cycle import (
     CycleError,
     CycleStatus,
     FloquetResult,
+    cycle_neared,
     find_cycle,
     find_cycle_near,
     growth_rate,
@@ -135,6 +136,24 @@ def test_the_cycle_closes_in_a_simulation_and_is_found_again_from_there():
     twice = find_cycle_near(P, later, releases=2)
     assert twice.period == pytest.approx(2 * result.period, rel=1e-9)
     assert twice.message.endswith("with 2 releases")
+
+
+def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
+    stable = P.replace(c=0.1)
+    result, map_ = floquet(stable), ReturnMap(stable)
+    assert result.stable
+    x = map_.point(result.state)
+    away = map_.state(x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0])
+    found = cycle_neared(stable, away, releases=6)
+    assert found.releases == 1  # not six times around
+    assert found.growth_rate == pytest.approx(result.growth_rate, rel=1e-6)
+    # so slow an approach shows nothing
+    slow = P.replace(N=100, Omega=15)
+    assert floquet(slow).stable
+    assert cycle_neared(slow, floquet(slow).state, releases=1) is None
+    assert not floquet(P).stable
+    assert cycle_neared(P, floquet(P).state, releases=1) is None
+    assert cycle_neared(P.replace(Omega=0), away, releases=1) is None
 
 
 def test_no_cycle_near_a_state_is_said():

@@ -38,6 +38,13 @@ RETURNS_TRIED = (1, 2, 3)
 """Cycles with up to so many releases a period are looked for."""
 TRANSIENT = 60
 """Returns simulated from the published start before Newton's method is tried again."""
+FALLS, NEARER = 8.0, 4.0
+"""A motion is followed until it should be so much nearer to its cycle by the leading multiplier; and so much nearer it
+has to be, since others act at first."""
+SLOWEST = 60.0
+"""Time that this may take, s: of a slower approach nothing is said."""
+SAME_POINT = 1e-8
+"""Points of the section nearer than this, relative, are one."""
 
 
 class CycleStatus(StatusBase):
@@ -200,6 +207,40 @@ def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-1
         waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
         return _none(p, tol, CycleStatus.NO_STICK_SLIP, waited)
     return _none(p, tol, CycleStatus.NO_CYCLE, f"the motion from the given state does not return: {OUTCOMES[outcome]}")
+
+
+def cycle_neared(p: Parameters, state: State, releases: int, tol: float = 1e-12) -> FloquetResult | None:
+    """The stable cycle to which a motion comes that nearly repeats after some releases; None if that is not shown.
+
+    That a motion nearly repeats proves nothing: one on a torus does as well. So Newton's method is begun at its next
+    release; the cycle has to be stable, and the motion to come nearer to it.
+    """
+    if min(p.Omega, p.N, p.mu_s, p.k_p) <= 0:
+        return None
+    map_ = ReturnMap(p, tol)
+    code, x = map_.next_release(state)
+    found = newton(map_, x, tol=tol, releases=releases, may_separate=True) if code == RETURNED else None
+    if found is None:
+        return None
+    cycle = cycle_of(map_, tol, found)
+    if not -cycle.growth_rate > math.log(FALLS) / SLOWEST:
+        return None
+    periods = math.ceil(math.log(FALLS) / -cycle.growth_rate / cycle.period)
+    flight, later, _, _ = map_.evaluate(x, releases=periods * releases, tangent=False, may_separate=True)
+    left, size = (float(np.linalg.norm(at - found.x)) for at in (later, np.zeros_like(x)))
+    nearer = left <= max(float(np.linalg.norm(x - found.x)) / NEARER, SAME_POINT * size)
+    return _shortest(map_, tol, found) if flight.outcome == RETURNED and nearer else None
+
+
+def _shortest(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
+    """A cycle that may have been run through several times, run through once."""
+    size = float(np.linalg.norm(found.x))
+    for releases in (n for n in range(1, found.flight.releases) if found.flight.releases % n == 0):
+        flight, end, jacobian, _ = map_.evaluate(found.x, releases=releases, may_separate=True)
+        residual = float(np.linalg.norm(end - found.x))
+        if flight.outcome == RETURNED and residual <= SAME_POINT * size:
+            return cycle_of(map_, tol, FixedPoint(found.x, flight, jacobian, residual))
+    return cycle_of(map_, tol, found)
 
 
 def _degenerate(p: Parameters, tol: float) -> FloquetResult:

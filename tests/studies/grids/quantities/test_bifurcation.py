@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from disc_model.parameters import Parameters
@@ -26,6 +27,75 @@ def test_stretches_of_one_motion_are_alike() -> None:
 def test_a_slow_drift_of_one_point_is_told_from_rest() -> None:
     assert bifurcation.alike(np.full(50, 2.0), np.full(50, 2.0 + 1e-6))
     assert not bifurcation.alike(np.full(50, 2.0), np.full(50, 2.1))
+
+
+GOLDEN = (5**0.5 - 1) / 2
+NUMBERS = np.arange(600)
+LOGISTIC = [0.3]
+for _ in NUMBERS[1:]:
+    LOGISTIC.append(3.9 * LOGISTIC[-1] * (1 - LOGISTIC[-1]))
+NO_PERIODS = {
+    "quasi-periodic": np.sin(2 * np.pi * GOLDEN * NUMBERS),
+    "slow beat": np.sin(2e-4 * NUMBERS),
+    "falling part of a slow beat": np.cos(1e-3 * NUMBERS + 1),
+    "slow beat over two points": (-1.0) ** NUMBERS + 0.05 * np.sin(0.01 * NUMBERS),
+    "chaotic": np.array(LOGISTIC),
+    "chaotic bands": (-1.0) ** NUMBERS + 0.05 * np.array(LOGISTIC),
+    "growing": 1e-1 * np.exp(0.005 * NUMBERS),
+}
+"""Intervals, in units of the differences between them; those below REPEATS are no differences."""
+
+
+def events_at(intervals: np.ndarray) -> pd.DataFrame:
+    """Releases that far apart."""
+    return pd.DataFrame({"time": np.concatenate([[0.0], np.cumsum(intervals)]), "kind": "stick_to_slip"})
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e-7, 1e-5, 1e-3])
+@pytest.mark.parametrize("name", NO_PERIODS)
+def test_what_does_not_repeat_is_not_called_periodic_however_small_its_differences(
+    name: str, size: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bifurcation, "cycle_neared", lambda *_: None)
+    intervals = 0.015 + size * NO_PERIODS[name]
+    assert bifurcation.repeats(intervals) == 0
+    period, apart = bifurcation._period(Parameters(N=385, Omega=15), events_at(intervals), "stick_to_slip", None)
+    assert (period, np.isnan(apart)) == (0, True)
+
+
+@pytest.mark.parametrize("period", [1, 2, 45, 238])
+def test_what_repeats_to_rounding_needs_no_cycle(period: int) -> None:
+    rng = np.random.default_rng(period)
+    intervals = np.resize(0.015 + 1e-5 * rng.uniform(size=period), 600) + 1e-13 * rng.uniform(-1, 1, size=600)
+    found, apart = bifurcation._period(Parameters(N=385, Omega=15), events_at(intervals), "stick_to_slip", None)
+    # times are added up to 9 s, where a rounding is 1e-15 s
+    assert (found, apart < 1e-12) == (period, True)
+
+
+def test_what_still_settles_may_be_periodic_and_is_looked_at() -> None:
+    settling = 0.015 + 5e-7 * np.resize([0.0, 1.0], 600) * (1 + 0.01 * np.exp(-0.001 * NUMBERS))
+    assert bifurcation.repeats(settling) == 0
+    assert bifurcation.nearly(settling)[0] == 1  # within SAME_INTERVAL, which is why a cycle decides
+    assert 2 in bifurcation.nearly(settling)
+    assert bifurcation.nearly(0.015 + 1e-4 * NO_PERIODS["quasi-periodic"]) == []
+
+
+@pytest.mark.compiled
+def test_a_motion_on_a_torus_has_no_period() -> None:
+    """At rest there since 220 s, see `tests.stability.test_fate`: the cycle within the torus is unstable."""
+    options = BifurcationOptions(transient=300, section="switch", longest=300, samples=50)
+    values, _ = bifurcation.at(Parameters(N=516.666666667, Omega=12.734375), options)
+    assert (values["separations"], values["period"], values["steady"]) == (0, 0, "yes")
+
+
+@pytest.mark.compiled
+def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
+    """Of 21 separations and 5 releases; simulated to 240 s its intervals repeat to 1e-13 s."""
+    options = BifurcationOptions(prepare=APART, transient=15, section="switch", samples=50)
+    values, _ = bifurcation.at(Parameters(N=385, Omega=20), options)
+    assert (values["period"], values["steady"]) == (21, "yes")
+    assert values["transient"] < 100
+    assert 1e-11 < values["closure"] < 1e-6
 
 
 @pytest.mark.compiled

@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.analysis.classify import shortest_period
+from disc_model.analysis.classify import closure, shortest_period
 from disc_model.data.variables import PHASES, SCALARS, SERIES, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import after, prepared, simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
+from disc_model.stability.cycle import cycle_neared
+from disc_model.stability.return_map import modes_faults
 from disc_model.studies.grids.run import STATUS, STATUSES, Column
 
 if TYPE_CHECKING:
@@ -28,8 +30,13 @@ FEW = 8
 VISIBLE = 1e-3
 """Least spread, relative to the mean, that counts as one: below it a slow approach goes on unseen."""
 SAME_INTERVAL = 1e-6
-"""How exactly intervals of a periodic motion repeat, s: far below their own differences, above what is left of the
-approach after the transient."""
+"""How nearly intervals repeat, s, for which a cycle is looked for; and at most by this share of their own differences,
+over the number of switches after which they do: among n returns a motion on a torus misses by about 1/n."""
+NEARLY = 0.05
+REPEATS = 1e-11
+"""Intervals that repeat this exactly, s, are periodic: roundings leave 1e-13 s of a cycle."""
+TRIED = 3
+"""Numbers of switches for which a cycle is looked for, at most."""
 _SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 STEADY = ("unknown", "no", "yes")
 COLUMNS = {
@@ -40,7 +47,12 @@ COLUMNS = {
     "separations": Column(Variable("1", "number of separations, transient included"), whole=True),
     "transient": Column(Variable("s", "time left out before the samples")),
     "steady": Column(Variable("1", "whether two stretches of samples, at switches, were alike", STEADY)),
-    "period": Column(Variable("1", "number of switches after which the samples repeat, 0 if they do not"), whole=True),
+    "period": Column(
+        Variable("1", "number of switches after which the motion repeats, 0 if that is not shown"), whole=True
+    ),
+    "closure": Column(
+        Variable("s", "largest difference between an interval and the one a period later: what is left of the approach")
+    ),
     "stick_fraction": Column(Variable("1", "share of the time spent sticking, transient included")),
 }
 
@@ -74,7 +86,7 @@ def at(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]
 
 
 def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
-    """Separations if there are any, else releases; the transient is doubled until two stretches are alike."""
+    """Separations if there are any, else releases; the transient is doubled until the motion is known to repeat."""
     state, begin, transient = prepared(p, options, options.tol), 0.0, options.transient
     first, separations, stick = math.nan, 0, 0.0
     while True:
@@ -96,8 +108,11 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
                 stretches.append(run.events)
         kind = "separation" if any((events["kind"] == "separation").any() for events in stretches) else "stick_to_slip"
         before, after_ = (events[events["kind"] == kind] for events in stretches)
-        steady = alike(before["psi"].to_numpy(), after_["psi"].to_numpy())
-        if steady or 2 * transient > options.longest:
+        assert state is not None
+        period, apart = _period(p, stretches[-1], kind, state)
+        steady = period > 0 or alike(before["psi"].to_numpy(), after_["psi"].to_numpy())
+        over = period > 0 or (steady and len(after_) < 2)
+        if over or 2 * transient > options.longest:
             break
         transient *= 2
     taken = after_.iloc[-options.samples :]
@@ -105,7 +120,6 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
     values = {name: _filled(column.to_numpy(dtype=float), options.samples) for name, column in columns.items()}
     phase = np.zeros(options.samples, np.int8)
     phase[: len(taken)] = 1 + PHASES.index("separation" if kind == "separation" else "stick")
-    intervals = np.diff(after_["time"].to_numpy())
     values |= {
         "status": "ok",
         "phase": phase,
@@ -114,9 +128,51 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
         "stick_fraction": stick / begin,
         "transient": transient,
         "steady": "yes" if steady else "no",
-        "period": shortest_period(intervals, SAME_INTERVAL) if intervals.size > 1 else 0,
+        "period": period,
+        "closure": apart,
     }
     return values, "" if steady else f"not steady after {transient:g} s"
+
+
+def _period(p: Parameters, events: Any, kind: str, state: State) -> tuple[int, float]:
+    """Number of switches after which the motion repeats, and how nearly it does so by now (s); 0 and nan if none.
+
+    Parameters
+    ----------
+    events : of the last stretch
+    kind : of the switches that count
+    state : where the stretch ends
+    """
+    at = (events["kind"] == kind).to_numpy()
+    intervals = np.diff(events["time"].to_numpy()[at])
+    if n := repeats(intervals):
+        return n, closure(intervals, n)
+    releases = int((events["kind"] == "stick_to_slip").sum())
+    for n in nearly(intervals) if releases and not modes_faults(p, "a cycle") else ():
+        cycle = cycle_neared(p, state, max(1, round(n * releases / at.sum())))
+        if cycle is not None:
+            found = cycle.separations if kind == "separation" else cycle.releases
+            return found, closure(intervals, found)
+    return 0, math.nan
+
+
+def repeats(intervals: np.ndarray) -> int:
+    """Least number of intervals after which they repeat to rounding; 0 if they do not within half the stretch."""
+    n = shortest_period(intervals, REPEATS) if intervals.size > 1 else 0
+    # small differences may add up to a slow drift
+    drifts = any(np.ptp(intervals[i::n]) > REPEATS for i in range(n))
+    return 0 if drifts else n
+
+
+def nearly(intervals: np.ndarray) -> list[int]:
+    """Numbers of intervals after which they nearly repeat, which proves nothing; the smallest ones."""
+    extent = float(np.ptp(intervals)) if intervals.size else 0.0
+    found = []
+    for n in range(1, intervals.size // 2 + 1):
+        bound = SAME_INTERVAL if n == 1 else min(SAME_INTERVAL, NEARLY * extent / n)
+        if abs(intervals[n] - intervals[0]) <= bound and closure(intervals, n) <= bound:
+            found.append(n)
+    return found[:TRIED]
 
 
 def alike(one: np.ndarray, two: np.ndarray) -> bool:

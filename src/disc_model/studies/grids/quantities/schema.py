@@ -131,7 +131,7 @@ class BifurcationOptions(Lead):
 
     section : once a turn of the drive; or at switches, each separation if there are any, else each release of stick: a
         periodic motion then shows as many points as its period has switches
-    transient : s, left out; at switches it is doubled until two stretches of samples are alike
+    transient : s, left out; at switches it is doubled until the motion is known to repeat
     longest : s, of the transient then, at most
     samples : number of turns, or of switches, sampled after it
     theta : rad, the disc's point whose displacement is sampled once a turn
