@@ -42,6 +42,11 @@ OTHERS = {
         "(a) Frequencies of steady sliding and of the stick-slip cycle at N = 385 N, and multiples of the stick-slip "
         "frequency; numbered crossings are those at which something happens. (b) Growth rates of the cycle's modes.",
     ),
+    "ramps/figures/ramps.png": (
+        "Separation on ramps of the speed.",
+        "Onset as the speed rises steadily, and end as it falls, at N = 385 N. Dashed: where the stick-slip cycle "
+        "ends.",
+    ),
     "bench/figures/overview.png": (
         "Speed against accuracy.",
         "Wall time of a simulated second against the error of event times, one core, medians of repeats.",

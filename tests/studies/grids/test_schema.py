@@ -384,7 +384,7 @@ def test_overrides_are_laid_over_the_file(tmp_path: Path) -> None:
 
 def test_the_studies_of_the_repository_are_right() -> None:
     every = load_grids(STUDIES)
-    others = ("bifurcation", "lyapunov", "sensitivity", "campbell")
+    others = ("bifurcation", "lyapunov", "sensitivity", "campbell", "ramps")
     grids = {name: grid for name, grid in every.items() if grid.quantity not in others}
     laws = {"normalization", "contact_force"}
     pairs = {frozenset(dim.name for dim in grid.dims) - laws for grid in grids.values() if grid.plots}
@@ -428,6 +428,8 @@ def span(start: float, stop: float, count: int, **more: Any) -> dict[str, Any]:
         ("critical_speed", {"horizons": [1], "scan": span(1, 9, 3, scale="log")}, "scan must be linear"),
         ("critical_speed", {"horizons": [1], "scan": span(1, 2, 4)}, "must be a multiple of precision"),
         ("hysteresis", {"scan": span(1, 2, 2), "dwell": 1, "late": 2}, "late must be <= dwell"),
+        ("ramps", {"low": 9, "high": 9, "rates": span(1, 2, 2)}, "low must be < high"),
+        ("ramps", {"low": 9, "high": 10, "rates": span(0, 2, 2)}, "rates must be > 0"),
         ("stability_curves", {"x_range": [2, 1], "y_lines": span(1, 2, 2)}, "x_range must ascend"),
     ],
 )

@@ -331,6 +331,24 @@ class BasinShares(Plot):
         return "disc_model.figures.grids.basins"
 
 
+class RampedSpeeds(Plot):
+    """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
+
+    kind: Literal["ramps"] = "ramps"
+
+    @property
+    def quantity(self) -> str:
+        return "ramps"
+
+    @property
+    def roles(self) -> dict[str, Role]:
+        return {"curves": CURVES}
+
+    @property
+    def module(self) -> str:
+        return "disc_model.figures.grids.ramps"
+
+
 MOST_PANELS, MOST_LINES = 4, 12
 """Values of a dimension that a general figure has room for."""
 
@@ -509,6 +527,7 @@ PLOTS: dict[str, type[Plot]] = {
     "thresholds": Thresholds,
     "growth_map": GrowthMap,
     "bifurcation": Bifurcation,
+    "ramps": RampedSpeeds,
     "basins": BasinShares,
     "sensitivity": Sensitivity,
     "campbell": Campbell,

@@ -126,6 +126,29 @@ class HysteresisOptions(Strict):
         return self
 
 
+class RampsOptions(Strict):
+    """The speed goes steadily up from the published start, stays, goes down and stays, once for each rate.
+
+    low, high : rad/s, between which it goes
+    rates : rad/s^2
+    stay : s, at the highest speed, and at the lowest one after the way down
+    """
+
+    tol: Tolerance = 1e-10
+    low: Positive
+    high: Positive
+    rates: Range
+    stay: Positive = 60.0
+
+    @model_validator(mode="after")
+    def _rising(self) -> Self:
+        if not self.low < self.high:
+            raise ValueError("low must be < high")
+        if not self.rates.start > 0:
+            raise ValueError("rates must be > 0")
+        return self
+
+
 class BifurcationOptions(Lead):
     """Samples of what the motion has settled to.
 
@@ -308,6 +331,7 @@ QUANTITIES = {
     "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
     "floquet": Quantity(FloquetOptions, motions=7, motion="The stick-slip cycle itself, stable or not."),
     "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),
+    "ramps": Quantity(RampsOptions, scans=("Omega",)),
     "basins": Quantity(BasinsOptions),
     "bifurcation": Quantity(BifurcationOptions, motions=8, motion="After the transient."),
     "lyapunov": Quantity(LyapunovOptions, motions=8, motion="After the transient."),

@@ -1,0 +1,81 @@
+"""Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from disc_model.figures import parts
+from disc_model.figures.grids.growth_map import DASHED, Curve, curves_of
+from disc_model.figures.grids.kinds import RampedSpeeds
+from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREY, SEPARATED, new_figure, styled
+
+Array = NDArray[np.float64]
+BEYOND = "none up to the highest speed"
+
+
+@styled
+def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
+    """One point.
+
+    Parameters
+    ----------
+    study : of the quantity `ramps`
+    others : ``curves`` of the quantity `stability_curves` over Omega and N, for the speeds at which the cycle ends
+    """
+    norm = parts.normalizations(study)[0]
+    study = parts.of(study, norm).squeeze()
+    options = json.loads(study.attrs["options"])
+    rates, onset, end = (study[name].values for name in ("rate", "onset", "persists_to"))
+    gone = study["rate_status"].values != 0
+    figure = new_figure(COLUMN, 3.4)
+    ax = figure.subplots()
+    ax.plot(rates, onset, "^-", color=SEPARATED, markersize=4, linewidth=0.8, label="onset of separation, speed rising")
+    ax.plot(rates, end, "v-", color=BLUE, markersize=4, linewidth=0.8, label="end of separation, speed falling")
+    late = rates[np.isnan(onset) & ~gone]
+    if late.size:
+        top = np.full(late.size, options["high"])
+        ax.plot(late, top, "^", color=SEPARATED, markersize=4, markerfacecolor="white", clip_on=False, label=BEYOND)
+    if "curves" in others:
+        _folds(ax, curves_of(parts.of(others["curves"], norm)), study, options)
+    parts.mark_failed(ax, rates[gone])
+    ax.set_xscale("log")
+    ax.margins(x=0.04)
+    ax.set(
+        xlabel="Rate of the speed (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"])
+    )
+    figure.legend(loc="outside lower center", ncols=1)
+    said = f"N = {_load(study):g} N, {parts.MODES[norm]}"
+    figure.suptitle(f"{plot.title}\n{said}" if plot.title else said, fontsize=8)
+    return figure
+
+
+def _load(study: xr.Dataset) -> float:
+    return float(json.loads(study.attrs["base"])["N"])
+
+
+def _folds(ax: Axes, curves: list[Curve], study: xr.Dataset, options: Mapping[str, float]) -> None:
+    """Speeds at which the stick-slip cycle ends at this load: where the onset goes as the rate goes to zero."""
+    folds = np.concatenate([[], *(crossings(curve, _load(study)) for curve in curves if curve.kind == "fold")])
+    for i, speed in enumerate(folds[(folds > options["low"]) & (folds < options["high"])]):
+        label = "the stick-slip cycle ends (folds)" if i == 0 else "_nolegend_"
+        ax.axhline(speed, color=BLACK, linestyle=DASHED, linewidth=0.8, label=label, zorder=0)
+        ax.annotate(
+            f"{speed:.2f}", (1, speed), xycoords=("axes fraction", "data"), xytext=(2, 0), textcoords="offset points",
+            va="center", fontsize=6, color=GREY,
+        )  # fmt: skip
+
+
+def crossings(curve: Curve, load: float) -> Array:
+    """Speeds at which a curve passes a load, rad/s."""
+    side = curve.N - load
+    at = np.flatnonzero(side[:-1] * side[1:] <= 0)
+    step = side[at] - side[at + 1]
+    share = np.where(step == 0, 0.0, side[at] / np.where(step == 0, 1.0, step))
+    return np.unique(curve.Omega[at] + share * (curve.Omega[at + 1] - curve.Omega[at]))

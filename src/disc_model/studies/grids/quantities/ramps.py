@@ -1,0 +1,105 @@
+"""Speed ramps up and down as on a test rig: where separation begins and where it ends, against the ramp's rate."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disc_model.data.variables import Variable
+from disc_model.engine.machine import EVENT_ROW, LOSS_OF_CONTACT
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Record
+from disc_model.simulation.ramps import Ramp
+from disc_model.simulation.result import Result, State
+from disc_model.studies.grids.dimensions import values_of
+from disc_model.studies.grids.run import STATUS, STATUSES, Column
+
+if TYPE_CHECKING:
+    from disc_model.studies.grids.quantities.schema import RampsOptions
+
+_DIMS = ("rate",)
+COLUMNS = {
+    "status": Column(STATUS),
+    "rate_status": Column(STATUS, _DIMS),
+    "onset": Column(Variable("rad s-1", "speed at the first separation on the way up, nan if there is none"), _DIMS),
+    "top_separation_rate": Column(Variable("s-1", "separations per second over the stay at the highest speed"), _DIMS),
+    "persists_to": Column(
+        Variable("rad s-1", "speed at the last separation on the way down, nan if there is none, or it goes on"), _DIMS
+    ),
+}
+STRETCH = 100.0
+"""s of the way down that are looked at at once: the events of all of it would fill hundreds of megabytes."""
+_TIME, _KIND = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
+
+
+def coordinates(options: RampsOptions) -> dict[str, tuple[Any, Variable]]:
+    """Rates of the ramps."""
+    return {"rate": (np.array(values_of(options.rates)), Variable("rad s-2", "rate of the speed's ramps"))}
+
+
+def at(p: Parameters, options: RampsOptions) -> tuple[dict[str, Any], str]:
+    """A run for each rate; the point's own Omega is not used."""
+    rates = values_of(options.rates)
+    values: dict[str, Any] = {name: column.empty((len(rates),)) for name, column in COLUMNS.items() if column.dims}
+    status, message = "ok", ""
+    for i, rate in enumerate(rates):
+        run = _Run(p, rate, options)
+        found, failed = run.found()
+        values["rate_status"][i] = STATUSES.index(failed.status.value if failed else "ok")
+        for name, value in found.items():
+            values[name][i] = value
+        if failed:
+            status, message = failed.status.value, f"rate={rate:g}: {failed.message}"
+    return values | {"status": status}, message
+
+
+class _Run:
+    """Up from the lowest speed, a stay at the highest one, down again, and a stay at the lowest one."""
+
+    def __init__(self, p: Parameters, rate: float, options: RampsOptions) -> None:
+        self.p, self.rate, self.options = p.replace(Omega=options.low), rate, options
+        self.top = (options.high - options.low) / rate
+        self.down = self.top + options.stay
+        self.bottom = self.down + self.top
+        self.ramps = (
+            Ramp(parameter="Omega", to=options.high, start=0.0, end=self.top),
+            Ramp(parameter="Omega", to=options.low, start=self.down, end=self.bottom),
+        )
+
+    def found(self) -> tuple[dict[str, float], Result | None]:
+        """Values of the columns, as far as they are known, and the run that could not go on."""
+        first = self._on(None, self.top, stop_at="first_separation")
+        values = {"onset": self.options.low + self.rate * first.first_separation}
+        there = self._on(first.final_state, self.top) if first.status.value == "stopped" else first
+        if not there.status.complete:
+            return values, there
+        stay = self._on(there.final_state, self.down)
+        if not stay.status.complete:
+            return values, stay
+        values["top_separation_rate"] = stay.statistics["separations"] / self.options.stay
+        last, failed = self._last_separation(stay.final_state)
+        if not failed and last < self.bottom:
+            values["persists_to"] = self.options.high - self.rate * (last - self.down)
+        return values, failed
+
+    def _last_separation(self, state: State) -> tuple[float, Result | None]:
+        """Time of the last loss of contact from the begin of the way down on, s, nan if there is none."""
+        last, end = math.nan, self.bottom + self.options.stay
+        while state.time < end:
+            run = self._on(state, min(state.time + STRETCH, end), events=True)
+            lost = run.event_rows[run.event_rows[:, _KIND] == LOSS_OF_CONTACT, _TIME]
+            last = float(lost[-1]) if lost.size else last
+            if not run.status.complete:
+                return last, run
+            state = run.final_state
+        return last, None
+
+    def _on(self, state: State | None, until: float, stop_at: str | None = None, events: bool = False) -> Result:
+        """The motion to another time."""
+        record = Record(events=events)
+        return simulate(
+            self.p, until, tol=self.options.tol, initial_state=state, record=record, stop_at=stop_at, ramps=self.ramps
+        )
