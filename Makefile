@@ -5,7 +5,16 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
 
-.PHONY: schema report explore orthonormal gallery docs linkcheck drawings env reproduce gc test test-portable test-long coverage test-study lint format bench bench-pages lock clean
+# The quick tests in parts that cores share, the longest first. Ramps and another law of contact have kernels of their
+# own: what needs them is in one part, so that they are compiled once.
+PARTS := test-validation test-stability test-engine test-studies test-others
+TESTED_validation := tests/validation tests/simulation
+TESTED_stability := tests/stability
+TESTED_engine := tests/engine tests/benchmarks tests/analysis
+TESTED_studies := tests/studies
+TESTED_others := tests/claims tests/data tests/docs tests/explorer tests/figures tests/packaging $(wildcard tests/test_*.py)
+
+.PHONY: schema report explore orthonormal gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -47,7 +56,7 @@ $(VENV)/.docs: requirements-docs.lock $(STAMP)
 	touch $@
 
 # The pages of docs/ and the reference as a site, in docs/_build/html; a warning, as of a link that leads nowhere, ends it.
-docs: $(VENV)/.docs
+docs: $(VENV)/.docs kernels
 	$(BIN)/sphinx-build -q -W --keep-going -b html docs docs/_build/html
 
 # Links to the outside, which need the network.
@@ -62,8 +71,19 @@ drawings: env
 schema: env
 	$(BIN)/python -m disc_model.studies.json_schema > workflow/schemas/study.schema.json
 
+# All quick tests; each part says what it found when it is done.
 test: env
-	$(BIN)/pytest -m "not slow and not workflow"
+	$(MAKE) --jobs=$(CORES) --output-sync=target test-parts
+
+test-parts: $(PARTS)
+
+$(PARTS): test-%: kernels
+	$(BIN)/pytest -m "not slow and not workflow" $(TESTED_$*)
+
+# Compiled once, before parts that run at the same time would each compile them.
+kernels: env
+	$(BIN)/python -m disc_model warm
+	$(BIN)/python workflow/scripts/warm_studies.py
 
 # The numbers once more, in the instructions that every processor has: no fused multiplication and addition, short vectors.
 test-portable: env
@@ -81,7 +101,7 @@ coverage: env
 	  --durations=5
 
 # The whole pipeline on a study of a few seconds.
-test-study: env
+test-study: kernels
 	$(BIN)/snakemake -j$(CORES) --configfile config/test.yaml
 
 lint: env

@@ -123,7 +123,11 @@ RUNS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 @pytest.mark.compiled
 class TestGoingOn:
     @pytest.mark.parametrize("pauses", [(0,), (1, 1, 0, 2)], ids=["once", "several times"])
-    @pytest.mark.parametrize("name", RUNS)
+    @pytest.mark.parametrize(
+        "name",
+        # kernels of more than one block of modes compile for a minute
+        [pytest.param(name, marks=pytest.mark.slow) if name == "many modes" else name for name in RUNS],
+    )
     def test_the_result_is_that_of_an_undisturbed_run(
         self, separating: State, tmp_path: Path, name: str, pauses: tuple[int, ...]
     ) -> None:

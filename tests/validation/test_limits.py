@@ -55,7 +55,13 @@ def test_rigid_disc_has_the_classical_stick_slip_cycle(Omega):
 
 
 # ---------------------------------------------------------------------------------- the disc alone
-@pytest.mark.parametrize("extra", [{}, {"n_circles": 1, "normalization": "orthonormal"}])
+@pytest.mark.parametrize(
+    "extra",
+    [
+        {},
+        pytest.param({"n_circles": 1, "normalization": "orthonormal"}, marks=pytest.mark.slow),
+    ],  # compiles for a minute
+)
 def test_free_disc_rings_at_its_own_frequencies_and_decays(extra):
     """The slider, far above the disc, swings on its springs; the disc, seen from there, rings as if alone."""
     p = Parameters(N=0.0, Omega=15.0, k=1.0, D_star=2e-4, **extra)

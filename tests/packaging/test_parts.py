@@ -1,0 +1,20 @@
+"""The parts in which `make test` runs hold each file of tests once."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_every_file_of_quick_tests_is_in_one_part() -> None:
+    """Those of the workflow are not quick."""
+    said = subprocess.run(["make", "-n", "test-parts"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    parts = [ROOT / path for line in re.findall(r"pytest .*", said) for path in re.findall(r"tests/\S*", line)]
+    files = {path for path in (ROOT / "tests").rglob("test_*.py") if "workflow" not in path.parts}
+    assert len(files) > 50
+    assert all(part.exists() for part in parts)
+    for file in files:
+        assert sum(file == part or part in file.parents for part in parts) == 1, file
