@@ -31,6 +31,9 @@ from disc_model.truncation import (
 
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 """Diameters and circles of what may be chosen by a quantity of the motion: the last is compared with 99 modes."""
+GIVEN_UP = (4, 0)
+"""Where neither this candidate nor a smaller one, nor what they are compared with, has the quantity, no larger model is
+tried: up to 34 modes."""
 HORIZON = 600.0
 """s in which the first separation is waited for."""
 LATE = (20.0, 10.0)
@@ -59,8 +62,8 @@ def choose_modes(
     tolerance : relative, at least 1e-4; None is 1e-3 for frequencies, 1e-2 for the growth rate and the first
         separation, 0.1 for the rate of separations
     quantity : "frequencies", the coupled ones of disc and slider at rest in the band; "growth", the growth rate of the
-        stick-slip cycle; "first_separation", its time, or that there is none within 600 s; "separation_rate",
-        separations per second from 20 to 30 s after the first one.  All but the first simulate
+        stick-slip cycle; "first_separation", its time, if there is one within 600 s; "separation_rate", separations
+        per second from 20 to 30 s after the first one.  All but the first simulate
     band : the frequencies asked for reach up to ``band`` times the lowest one of the disc
     rich : highest diameters and circles of the model taken as right, and the largest candidate, for frequencies
 
@@ -71,7 +74,7 @@ def choose_modes(
         0, or ``rich`` no pair of whole numbers.
     DiscModelError
         If no model meets the tolerance: by a quantity of the motion, if none agrees with two larger ones, or if there
-        is no such quantity, as a growth rate where there is no cycle.
+        is no such quantity, as a growth rate where there is no cycle, or a first separation of a motion that is quiet.
     """
     quantity, faults = checked_quantity("quantity", quantity)
     tolerance, more = checked_tolerance("tolerance", QUANTITIES.get(quantity, 1.0) if tolerance is None else tolerance)
@@ -127,7 +130,7 @@ def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
             if one not in values:
                 values[one] = MEASURES[asked.quantity](p.replace(n_diameters=one[0], n_circles=one[1]))
         mine, *others = (values[one] for one in group)
-        if all(math.isnan(values[one]) for one in group):
+        if size == GIVEN_UP and all(map(math.isnan, values.values())):
             raise DiscModelError(f"n_diameters: undecided: no {asked.quantity} to choose by with {_listed(group)}")
         change = max(_change(mine, other) for other in others)
         if change <= asked.tolerance:
@@ -135,7 +138,7 @@ def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
             return ModeChoice(
                 parameters, asked.tolerance, change, real_modes(*size), group[-1], None, asked.quantity, values
             )
-    told = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and not"
+    told = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
     raise DiscModelError(
         f"n_diameters: undecided: {asked.quantity} still changes {told} among {_listed(group)}, more than the "
         f"tolerance {asked.tolerance:g}; give the number of modes, a larger tolerance"
@@ -150,12 +153,10 @@ def larger(size: Size) -> tuple[Size, Size]:
 
 
 def _change(mine: float, other: float) -> float:
-    """Relative to the larger model; infinite where only one of them has the quantity."""
-    if mine == other:  # also where there is none in either
+    """Relative to the larger model; infinite where one of them lacks the quantity: that both do is no agreement."""
+    if mine == other:
         return 0.0
-    if not (math.isfinite(mine) and math.isfinite(other)) or other == 0:
-        return math.inf
-    return abs(mine / other - 1.0)
+    return abs(mine / other - 1.0) if math.isfinite(mine) and math.isfinite(other) and other else math.inf
 
 
 def _listed(sizes: tuple[Size, ...]) -> str:
@@ -174,12 +175,12 @@ def growth(p: Parameters) -> float:
 
 
 def first_separation(p: Parameters) -> float:
-    """Time of the first loss of contact, s; inf if there is none within `HORIZON`."""
+    """Time of the first loss of contact, s; nan if there is none within `HORIZON`."""
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Record
 
-    run = simulate(p, HORIZON, stop_at="first_separation", record=Record(events=False)).raise_for_status()
-    return run.first_separation if math.isfinite(run.first_separation) else math.inf
+    run = simulate(p, HORIZON, stop_at="first_separation", record=Record(events=False))
+    return run.raise_for_status().first_separation
 
 
 def separation_rate(p: Parameters) -> float:

@@ -84,6 +84,7 @@ def test_study_of_residual_flexibility_and_its_figure(tmp_path):
     assert (error.sel(contact="residual") < error.sel(contact="rigid")).all()
     assert (study["contact_compliance"].sel(contact="rigid") == 0).all()
     assert np.isfinite(study.to_dataarray()).all()
+    assert (study["tol_late"] == 1e-10).all()
     # once apart, a compliant contact is met again and again
     assert (study["separations"].sel(contact="residual") > 2 * study["separations"].sel(contact="rigid")).all()
     save(figures.contact_truncation(study.expand_dims("case")), tmp_path / "truncation.png")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -95,11 +96,18 @@ GROWING = {
 }
 
 
+WITH_RESIDUAL: dict[str, dict[str, Any]] = {
+    "default": {},
+    "residual": {"contact_compliance": "residual"},
+    "residual_normal": {"contact_compliance": "residual", "contact_force": "normal"},
+}
+
+
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", [*LAWS, *WITH_RESIDUAL])
 @pytest.mark.parametrize("case", GROWING)
 def test_growth_rate_against_differences_of_the_return_map(law: str, case: str) -> None:
-    p = Parameters(**GROWING[case], **LAWS[law])
+    p = Parameters(**GROWING[case], **(LAWS | WITH_RESIDUAL)[law])
     found = floquet(p, tol=1e-14).raise_for_status()
     map_ = ReturnMap(p, tol=1e-14)
     x = map_.point(found.state)

@@ -212,10 +212,28 @@ def _classical_events(p, count):
     return np.array([first + i // 2 * (slip + stick) + (slip if i % 2 else 0) for i in range(count)])
 
 
+ON_A_RIGID_DISC = {
+    "default": {},
+    "bonded": {"contact": "bonded"},
+    "residual": {"contact_compliance": "residual"},
+    "residual_normal": {"contact_compliance": "residual", "contact_force": "normal"},
+    "residual_orthonormal": {"contact_compliance": "residual", "normalization": "orthonormal"},
+    "compliant_bonded": {"contact_compliance": taylor.COMPLIANCE, "contact": "bonded"},
+    "compliant_normal_bonded": {**LAWS["compliant_normal"], "contact": "bonded"},
+}
+"""Switches beside those of `LAWS`; those that compile kernels of their own are tried in the long tests."""
+
+
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", [*EACH_LAW, "default"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *EACH_LAW,
+        *(pytest.param(name, marks=pytest.mark.slow if own else ()) for name, own in ON_A_RIGID_DISC.items()),
+    ],
+)
 def test_a_rigid_disc_gives_the_classical_cycle(name):
-    p = Parameters(N=385.0, Omega=15.1, n_diameters=-1, **LAWS.get(name, {}))
+    p = Parameters(N=385.0, Omega=15.1, n_diameters=-1, **(LAWS | ON_A_RIGID_DISC)[name])
     result = simulate(p, 1.0, tol=1e-13)
     events = result.events
     assert result.first_separation != result.first_separation

@@ -43,6 +43,7 @@ rule bench:
         f"{BENCH}/table.md",
         f"{BENCH}/table.csv",
         f"{BENCH}/answers.md",
+        f"{BENCH}/contact_truncation.md",
         collect(
             f"{BENCH}/figures/{{figure}}.{{suffix}}",
             figure=BENCH_FIGURES,
@@ -151,6 +152,21 @@ rule study_truncation:
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/study_truncation.py"
         " {wildcards.truncation} {output} > {log} 2>&1"
+
+
+rule tell_truncation:
+    input:
+        f"{BENCH}/contact_truncation.nc",
+    output:
+        f"{BENCH}/contact_truncation.md",
+    log:
+        f"{BENCH}/logs/tell_truncation.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        sources=sources_of("tell_truncation"),
+    shell:
+        "python workflow/scripts/tell_truncation.py {input} {output} > {log} 2>&1"
 
 
 rule draw_benchmark:

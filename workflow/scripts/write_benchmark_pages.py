@@ -1,19 +1,26 @@
-"""Write what README and docs say about speed, from the datasets of one run of the benchmark."""
+"""Write what README and docs say about speed and the number of modes, from the datasets of one run of the benchmark.
+
+What was not measured is left as it was.
+"""
 
 from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 from workflow.scripts.make_gallery import shrink
 
-from disc_model.benchmarks.pages import FIGURES, filled, page, summary
+from disc_model.benchmarks import pages, truncation_pages
 from disc_model.data.dataset import load
-from disc_model.errors import exit_on_error
+from disc_model.errors import DiscModelError, exit_on_error
 
 PAGES = ("README.md", "docs/method.md")
-"""Those that hold passages."""
+"""Those that hold passages on speed."""
+MODES_PAGE = "docs/contact.md"
+"""The one that holds those on the number of modes."""
 
 
 def main() -> None:
@@ -21,18 +28,35 @@ def main() -> None:
     parser.add_argument("--bench", type=Path, default=Path("results/bench"))
     parser.add_argument("--root", type=Path, default=Path())
     args = parser.parse_args()
-    datasets = [load(args.bench / f"{name}.nc").to_dataset() for name in ("work_precision", "answers")]
-    run = summary(*datasets)
+    measured = {name: args.bench / f"{name}.nc" for name in ("work_precision", "answers", "contact_truncation")}
+    there = {name: load(path).to_dataset() for name, path in measured.items() if path.is_file()}
+    if not there:
+        raise DiscModelError(f"{args.bench} holds no measurements: make bench")
     docs = args.root / "docs"
-    (docs / "benchmark.json").write_text(json.dumps(run, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    (docs / "benchmark.md").write_text(page(run), encoding="utf-8")
-    for name in PAGES:
-        path = args.root / name
-        path.write_text(filled(path.read_text(encoding="utf-8"), run), encoding="utf-8")
-    for name in FIGURES:
+    if "work_precision" in there and "answers" in there:
+        run = pages.summary(there["work_precision"], there["answers"])
+        keep(run, docs / "benchmark.json")
+        (docs / "benchmark.md").write_text(pages.page(run), encoding="utf-8")
+        for name in PAGES:
+            fill(args.root / name, run, pages.passages)
+    if "contact_truncation" in there:
+        run = truncation_pages.summary(there["contact_truncation"])
+        keep(run, docs / "contact_truncation.json")
+        fill(args.root / MODES_PAGE, run, truncation_pages.passages)
+    for name in pages.FIGURES:
         source = args.bench / "figures" / f"{name}.png"
         if source.is_file():  # else the picture stays as it was
             shrink(source, docs / "gallery" / f"{name}.png")
+
+
+def keep(run: Mapping[str, Any], path: Path) -> None:
+    """The numbers that pages are made of."""
+    path.write_text(json.dumps(run, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def fill(path: Path, run: Mapping[str, Any], passages: Callable[[Mapping[str, Any]], Mapping[str, str]]) -> None:
+    """Write a page's passages anew."""
+    path.write_text(pages.fill(path.read_text(encoding="utf-8"), passages(run)), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ from disc_model.errors import DiscModelError
 
 LETTERS = dict(zip(JUDGED, "ab", strict=True))
 """Of the scenes in the overview."""
-FIGURES = ("overview", "failure_maps", "answers", "prices", "answer_maps")
+FIGURES = ("overview", "failure_maps", "answers", "prices", "answer_maps", "contact_truncation")
 """Those that stand in docs/gallery."""
 Summary = Mapping[str, Any]
 
@@ -128,7 +128,11 @@ def _plain(number: float) -> str:
 
 def filled(text: str, run: Summary) -> str:
     """A page with its passages, ``<!-- bench NAME -->...<!-- end -->``, written anew."""
-    known = passages(run)
+    return fill(text, passages(run))
+
+
+def fill(text: str, known: Mapping[str, str]) -> str:
+    """A page with passages of other texts; raises `disc_model.errors.DiscModelError` for a name that is not known."""
 
     def passage(match: re.Match[str]) -> str:
         name = match["name"]

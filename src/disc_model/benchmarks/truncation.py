@@ -37,12 +37,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.benchmarks.machine import machine
 from disc_model.data.variables import Variable
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
+from disc_model.simulation.result import State
 from disc_model.stability.cycle import floquet
 from disc_model.truncation import BAND, RICH, frequency_error, real_modes
 
@@ -120,8 +122,8 @@ def truncation_study(
     )
 
 
-MODELS = ((4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2), (16, 4))
-"""Diameters and circles."""
+MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
+"""Diameters and circles: 1 to 75 modes; 165, with (16, 4), cost five times what 75 do."""
 SEPARATING: dict[str, dict[str, Any]] = {
     "as published, N=385, Omega=15.1": {"N": 385.0, "Omega": 15.1},
     "orthonormal, N=600, Omega=30": {"N": 600.0, "Omega": 30.0, "normalization": "orthonormal"},
@@ -129,8 +131,10 @@ SEPARATING: dict[str, dict[str, Any]] = {
     "orthonormal, N=200, Omega=50": {"N": 200.0, "Omega": 50.0, "normalization": "orthonormal"},
 }
 CONTACTS: dict[str, dict[str, Any]] = {"rigid": {}, "residual": {"contact_compliance": "residual"}}
-LATE = (5.0, 5.0)
+LATE = (20.0, 10.0)
 """s from the first separation to the late stretch that is looked at, and the stretch itself."""
+TOLERANCES = (1e-10, 1e-12, 1e-13)
+"""Of the motion after the first separation: the next one where it cannot be followed to its end with the one before."""
 MOST_GROWTH = 80
 """Growth rates take a column for each of four coordinates of every pair: with more real modes they are left out."""
 CONTACT_VARIABLES = {
@@ -145,7 +149,8 @@ CONTACT_VARIABLES = {
     "u_range": Variable("m", "range of the slider's height, late"),
     "force_max_separating": Variable("N", "greatest contact force, late"),
     "cost": Variable("1", "processor time per simulated second before the first separation"),
-    "cost_separating": Variable("1", "the same, late"),
+    "tol_late": Variable("1", "tolerance of the motion after the first separation"),
+    "cost_separating": Variable("1", "the same, from the first separation until the late stretch"),
 }
 
 
@@ -176,6 +181,9 @@ def contact_study(
             "compared_with": json.dumps(RICH),
             "band": BAND,
             "late": json.dumps(LATE),
+            "most_growth": MOST_GROWTH,
+            "horizon": horizon,
+            "machine": machine(),
         },
     )
 
@@ -198,20 +206,35 @@ def _through_separation(p: Parameters, horizon: float) -> dict[str, float]:
     row["cost"] = (time.process_time() - began) / first.final_state.time
     if not math.isfinite(first.first_separation):
         return row
-    start = simulate(p, first.first_separation + LATE[0], initial_state=first.final_state, record=quiet).final_state
+    row["first_separation"] = first.first_separation
+    for tol in TOLERANCES:
+        late = _late(p, first.final_state, tol)
+        if late:
+            return row | late
+    return row
+
+
+def _late(p: Parameters, first: State, tol: float) -> dict[str, float]:
+    """What comes `LATE` after the first separation; nothing if the motion cannot be followed so far."""
     began = time.process_time()
-    plain = simulate(p, start.time + LATE[1], initial_state=start, record=quiet)
-    row["cost_separating"] = (time.process_time() - began) / LATE[1]
+    run = simulate(p, first.time + LATE[0], tol=tol, initial_state=first, record=Record(events=False))
+    cost = (time.process_time() - began) / LATE[0]
+    if not run.status.complete:
+        return {}
+    start = run.final_state
     window = Window(start=start.time, stop=start.time + LATE[1], rate=20_000.0, envelope=100)
-    seen = simulate(
-        p, start.time + LATE[1], initial_state=start, record=Record(events=False, windows=(window,))
-    ).samples[0]
-    return row | {
-        "first_separation": first.first_separation,
-        "separations": plain.statistics["separations"] / LATE[1],
-        "separated_share": plain.statistics["time_separation"] / LATE[1],
+    record = Record(events=False, windows=(window,))
+    late = simulate(p, start.time + LATE[1], tol=tol, initial_state=start, record=record)
+    if not late.status.complete:
+        return {}
+    seen = late.samples[0]
+    return {
+        "separations": late.statistics["separations"] / LATE[1],
+        "separated_share": late.statistics["time_separation"] / LATE[1],
         "u_range": float(seen["u_max"].max() - seen["u_min"].min()),
         "force_max_separating": float(seen["P_max"].max()),
+        "cost_separating": cost,
+        "tol_late": tol,
     }
 
 

@@ -446,7 +446,7 @@ def _cut(ax: Axes, values: np.ndarray) -> None:
 _CONTACT_PANELS: Sequence[tuple[str, str, bool]] = (
     ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
     ("growth_rate", "Growth rate (1/s)", False),
-    ("first_separation", "First separation (s)", False),
+    ("late", "First separation, later\nthan converged (%)", False),
     ("cost", "Cost before it, s of\nprocessor per s", True),
     ("separations", "After it: separations\nper second", True),
     ("separated_share", "Share of the time apart", False),
@@ -459,17 +459,20 @@ _CONTACT_PANELS: Sequence[tuple[str, str, bool]] = (
 def contact_truncation(dataset: xr.Dataset) -> Figure:
     """What residual flexibility changes, against the number of real modes; a colour for each case.
 
-    Filled: residual flexibility; hollow and dashed: rigid contact.
+    Filled: residual flexibility; hollow and dashed: rigid contact.  First separations are compared with that of the
+    largest model with residual flexibility; what lies far off is cut.
     """
     figure = new_figure(PAGE, 3.9)
     axes = np.ravel(figure.subplots(2, 4, sharex=True))
-    part = dataset.assign(u_range=1e3 * dataset["u_range"])
+    first = dataset["first_separation"]
+    late = 100 * (first / first.sel(contact="residual").isel(model=-1) - 1)
+    part = dataset.assign(u_range=1e3 * dataset["u_range"], late=late)
     for ax, (name, label, log), letter in zip(axes, _CONTACT_PANELS, "abcdefgh", strict=True):
         for i in range(part.sizes["case"]):
             color, marker = _CIRCLE_LOOKS[i % len(_CIRCLE_LOOKS)]
             for contact, filled in (("residual", True), ("rigid", False)):
                 line = part.isel(case=i).sel(contact=contact)
-                good = np.isfinite(line[name].values)
+                good = np.isfinite(line[name].values) & ((line[name].values > 0) | (not log))
                 ax.plot(line["modes"].values[good], line[name].values[good], color=color, marker=marker, markersize=3,
                         markerfacecolor=color if filled else "white", linestyle="-" if filled else "--",
                         linewidth=0.8, markeredgewidth=0.7)  # fmt: skip
@@ -477,7 +480,10 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
         ax.set_yscale("log" if log else "linear")
         ax.margins(x=0.06)
         ax.set_title(f"({letter}) {label}", loc="left", fontsize=7)
-        ax.set_xticks([10, 30, 100], ["10", "30", "100"])
+        if name == "late":
+            ax.set_ylim(-25, 25)
+            ax.axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
+        ax.set_xticks([1, 3, 10, 30, 100], ["1", "3", "10", "30", "100"])
         ax.xaxis.set_minor_formatter(NullFormatter())
         ax.yaxis.set_minor_formatter(NullFormatter())
     for ax in axes[4:]:

@@ -1,0 +1,234 @@
+"""What of `contact_study` stands in the docs: tables, and what settles and what does not, in words made of the numbers.
+
+`summary` takes what is needed from the dataset of one run; it is kept as ``docs/contact_truncation.json``.  All else is
+written from that.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import xarray as xr
+
+from disc_model.data.dataset import markdown_table
+
+Summary = Mapping[str, Any]
+Line = tuple[list[int], list[float | None]]
+"""Numbers of modes, and a quantity for each."""
+
+
+class Asked(NamedTuple):
+    """A quantity of the tables.
+
+    title : in sentences; head : of the column
+    tolerance : relative, within which models agree
+    scale, digits : how it is shown
+    """
+
+    title: str
+    head: str
+    tolerance: float
+    scale: float
+    digits: int
+
+
+QUANTITIES = {
+    "lowest_coupled": Asked("the lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
+    "growth_rate": Asked("the growth rate", "growth, 1/s", 1e-2, 1.0, 3),
+    "first_separation": Asked("the first separation", "first separation, s", 1e-2, 1.0, 5),
+    "separations": Asked("the rate of separations", "separations per s", 1e-1, 1.0, 3),
+    "separated_share": Asked("the share of time apart", "share apart", 1e-1, 1.0, 2),
+    "u_range": Asked("the range of the slider's height", "range, mm", 1e-1, 1e3, 3),
+    "force_max_separating": Asked("the largest force", "largest force, N", 1e-1, 1.0, 3),
+}
+"""Tolerances: of the motion in contact 1 % or better, of what ten seconds of an irregular motion give 10 %."""
+COSTS = {"cost": "cost in contact, ms/s", "cost_separating": "cost after it, ms/s"}
+LATE = ("separations", "separated_share", "u_range", "force_max_separating")
+"""What comes after the first separation."""
+FEWEST = 3
+"""Models that must agree: one, and two larger ones."""
+
+
+def summary(study: xr.Dataset) -> dict[str, Any]:
+    """What the pages need of a run: by case and contact a list along the models for each quantity, None where none.
+
+    The list of growth rates ends with the largest model whose cycle was looked for.
+    """
+    counts = [int(count) for count in study["modes"].isel(case=0, contact=0).values]
+    looked = sum(count <= study.attrs["most_growth"] for count in counts)
+    ends = {name: looked if name == "growth_rate" else len(counts) for name in (*QUANTITIES, *COSTS)}
+    return {
+        "machine": study.attrs["machine"],
+        "late": json.loads(study.attrs["late"]),
+        "horizon": float(study.attrs["horizon"]),
+        "models": [str(model) for model in study["model"].values],
+        "modes": counts,
+        "values": {
+            str(case): {
+                str(contact): {
+                    name: [
+                        float(f"{value:.5g}") if math.isfinite(value) else None
+                        for value in study[name].sel(case=case, contact=contact).values[:end]
+                    ]
+                    for name, end in ends.items()
+                }
+                for contact in study["contact"].values
+            }
+            for case in study["case"].values
+        },
+    }
+
+
+def settled(values: Sequence[float | None], tolerance: float) -> int | None:
+    """The first model from which on all give the largest one's value to a relative tolerance, or none as it.
+
+    Parameters
+    ----------
+    values : by size of the model, None where a model has no such quantity
+
+    Returns
+    -------
+    int or None
+        Its place in the list; None where it would not have two larger ones.
+    """
+    first = len(values)
+    while first and _alike(values[first - 1], values[-1], tolerance):
+        first -= 1
+    return first if len(values) - first >= FEWEST else None
+
+
+def _alike(value: float | None, last: float | None, tolerance: float) -> bool:
+    if value is None or last is None:
+        return value is last
+    return abs(value - last) <= tolerance * abs(last)
+
+
+def passages(run: Summary) -> dict[str, str]:
+    """Texts by the name under which pages ask for them."""
+    tables = [
+        line
+        for case, contacts in run["values"].items()
+        for line in (f"**{_upper(case)}**", "", *_table(run, contacts), "")
+    ]
+    late = f"{run['late'][0]:g} to {run['late'][0] + run['late'][1]:g} s after the first separation"
+    head = (
+        "Each cell: rigid contact / residual flexibility; a dash where there is none: no cycle, no separation within "
+        f"{run['horizon']:g} s, or a motion that could not be followed. Separations, share, range and force from "
+        f"{late}; processor time per simulated second on {run['machine']}."
+    )
+    return {
+        "truncation_tables": "\n\n" + "\n".join([head, "", *tables]),
+        "truncation_settled": "\n\n" + "\n".join([*_settled_table(run), "", _counted(run)]) + "\n",
+        "truncation_open": "\n\n" + "\n".join(f"- {line}" for line in _unsettled(run)) + "\n",
+    }
+
+
+def _table(run: Summary, contacts: Mapping[str, Mapping[str, Sequence[float | None]]]) -> list[str]:
+    """The table of a case: a row for each model, rigid and residual in each cell."""
+    head = ["diameters, circles", "modes", *(asked.head for asked in QUANTITIES.values()), *COSTS.values()]
+    shown = [(name, asked.scale, asked.digits) for name, asked in QUANTITIES.items()]
+    shown += [(name, 1e3, 2) for name in COSTS]
+    rows = []
+    for i, (model, modes) in enumerate(zip(run["models"], run["modes"], strict=True)):
+        cells = [
+            " / ".join(_number(_at(contacts[contact][name], i), scale, digits) for contact in contacts)
+            for name, scale, digits in shown
+        ]
+        rows.append([model.replace(",", ", "), modes, *cells])
+    return markdown_table(head, rows)
+
+
+def _at(values: Sequence[float | None], i: int) -> float | None:
+    return values[i] if i < len(values) else None
+
+
+def _settled_table(run: Summary) -> list[str]:
+    """From how many modes on each quantity has settled, a row for each case and contact."""
+    columns = [f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %" for asked in QUANTITIES.values()]
+    rows = [
+        [
+            case,
+            contact,
+            *(_from_where(_known(run, values, name), asked.tolerance) for name, asked in QUANTITIES.items()),
+        ]
+        for case, contacts in run["values"].items()
+        for contact, values in contacts.items()
+    ]
+    return markdown_table(["case", "contact", *columns], rows)
+
+
+def _counted(run: Summary) -> str:
+    """How many quantities of how many have settled, by contact."""
+    parts = []
+    for contact in next(iter(run["values"].values())):
+        found = [
+            settled(_known(run, contacts[contact], name)[1], asked.tolerance) is not None
+            for contacts in run["values"].values()
+            for name, asked in QUANTITIES.items()
+        ]
+        parts.append(f"{sum(found)} of {len(found)} with {contact} contact")
+    return f"Settled within {run['modes'][-1]} modes: {', '.join(parts)}."
+
+
+def _known(run: Summary, values: Mapping[str, Sequence[float | None]], name: str) -> Line:
+    """Numbers of modes, and a quantity; without the models that lose contact and could then not be followed."""
+    pairs = [
+        (modes, value)
+        for modes, value, first in zip(run["modes"], values[name], values["first_separation"], strict=False)
+        if name not in LATE or value is not None or first is None
+    ]
+    return [modes for modes, _ in pairs], [value for _, value in pairs]
+
+
+def _from_where(line: Line, tolerance: float) -> str:
+    modes, values = line
+    place = settled(values, tolerance)
+    if place is None:
+        return "**not**"
+    none = "none" if values[place] is None else ""
+    return none if place == 0 and none else f"{none} from {modes[place]}".strip()
+
+
+def _unsettled(run: Summary) -> list[str]:
+    """A sentence for each case and contact: what has not settled, and between what it still moves."""
+    lines = []
+    for case, contacts in run["values"].items():
+        for contact, values in contacts.items():
+            lines_of = {name: _known(run, values, name) for name in QUANTITIES}
+            moving = [
+                f"{asked.title} ({_moves(lines_of[name], asked)})"
+                for name, asked in QUANTITIES.items()
+                if settled(lines_of[name][1], asked.tolerance) is None
+            ]
+            said = f"not settled: {', '.join(moving)}" if moving else "all of it has settled"
+            lines.append(f"{_upper(case)}, {contact}: {said}.")
+    return lines
+
+
+def _moves(line: Line, asked: Asked) -> str:
+    """The values of the three largest models."""
+    modes, values = line
+    listed = ", ".join(_number(value, asked.scale, asked.digits) for value in values[-FEWEST:])
+    return f"{listed} with {', '.join(map(str, modes[-FEWEST:]))} modes"
+
+
+def _number(value: float | None, scale: float, digits: int) -> str:
+    """As many digits as asked for, without a power of ten; a dash for none."""
+    return "-" if value is None else f"{float(f'{value * scale:.{digits}g}'):.10g}"
+
+
+def _upper(case: str) -> str:
+    return case[:1].upper() + case[1:]
+
+
+def text(study: xr.Dataset) -> str:
+    """All of it as one page: the table beside the figures of ``make bench``."""
+    known = passages(summary(study))
+    parts = ("Every model", "truncation_tables"), ("Settled from so many modes on", "truncation_settled")
+    lines = ["# What the number of modes changes"]
+    for title, name in (*parts, ("What has not settled", "truncation_open")):
+        lines += ["", f"## {title}", known[name].strip("\n")]
+    return "\n".join(lines) + "\n"
