@@ -10,6 +10,7 @@ import pytest
 from disc_model import Parameters, Record, Window, simulate
 from disc_model.engine import sampling
 from disc_model.simulation.result import EVENT_KINDS, PHASES
+from tests.contact_laws import COMPILES
 from tests.references import printed
 
 ULP = 2.0**-52
@@ -47,7 +48,11 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
 
 @pytest.mark.parametrize("tol", [1e-10, 1e-14])
 @pytest.mark.parametrize("Omega", [1.0, 5.0])
-@pytest.mark.parametrize("variant", [{}, {"c": 1.0, "D_star": 1e-3}, {"n_diameters": 7, "n_circles": 1}], ids=str)
+@pytest.mark.parametrize(
+    "variant",
+    [{}, {"c": 1.0, "D_star": 1e-3}, pytest.param({"n_diameters": 7, "n_circles": 1}, marks=COMPILES)],
+    ids=str,
+)
 def test_both_ways_through_stick_agree_on_the_release(
     variant: dict[str, float], Omega: float, tol: float, follow_stick_by_series: Callable[[], None]
 ) -> None:

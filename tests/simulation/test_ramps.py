@@ -16,6 +16,7 @@ from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, Windo
 from disc_model.data.dataset import load
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.ramps import pieces, values_at
+from tests.contact_laws import LAWS
 
 P = Parameters(N=200.0, Omega=50.0, n_diameters=1)
 BRAKE = Ramp(parameter="Omega", to=20.0, start=0.01, end=0.03)
@@ -33,7 +34,7 @@ def _same(one, other) -> None:
 
 
 # ------------------------------------------------------------------------ what is asked for
-@pytest.mark.parametrize("law", [{}, {"contact_force": "normal"}])
+@pytest.mark.parametrize("law", [{}, LAWS["compliant_normal"]])  # whose kernels others use as well
 def test_rate_zero_is_the_constant_parameter_to_the_last_bit(law):
     p, record = P.replace(**law), Record(windows=(Window(rate=5e3),))
     constant = simulate(p, 0.05, record=record)

@@ -14,7 +14,7 @@ from disc_model.engine import audit, layout, machine, switches
 from disc_model.flexibility import contact_give, residual_flexibility
 from disc_model.simulation.api import published_start
 from disc_model.simulation.result import build_model, engine_case, write_state
-from tests.contact_laws import EACH_LAW, LAWS
+from tests.contact_laws import COMPILES, EACH_LAW, LAWS
 from tests.references import stored, taylor
 from tests.references.printed import lively
 
@@ -76,6 +76,7 @@ def test_error_falls_with_tol(name):
 
 
 # ------------------------------------------------------------------------ where nothing but the disc's slope pulls
+RIGID_OR_NOT = [pytest.param(0.0, marks=COMPILES), 1e-7]
 SLOPING = {"n_diameters": 1, "contact_force": "normal", "mu_s": 0.02, "mu_k": 0.01}
 
 
@@ -85,7 +86,7 @@ def _swinging(p, psi=0.0, **modal):
     return start.replace(psi=psi, **{name: np.array([0.0, value]) for name, value in modal.items()})
 
 
-@pytest.mark.parametrize("give", [0.0, 1e-7])
+@pytest.mark.parametrize("give", RIGID_OR_NOT)
 @pytest.mark.parametrize(
     ("modal", "psi"), [({"beta": 3.0}, 0), ({"beta": -3.0}, 0), ({"b": 2e-3}, 0), ({"beta": 3.0}, 1e-5)]
 )
@@ -105,7 +106,7 @@ def test_a_slope_pulls_as_without_as_with_a_feeble_drive(weak, modal, psi, give)
     assert none.final_state.f == pytest.approx(feeble.final_state.f, rel=1e-6)
 
 
-@pytest.mark.parametrize("give", [0.0, 1e-7])
+@pytest.mark.parametrize("give", RIGID_OR_NOT)
 def test_contact_ends_where_its_force_does_although_friction_ends_there_too(give):
     p = Parameters(N=200, Omega=20, k_p=0, contact_compliance=give, **SLOPING)
     upward = np.array([0.0, 1.5])

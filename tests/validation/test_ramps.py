@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 
-import numba
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -14,7 +13,7 @@ from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
 from disc_model.engine import layout, machine
 from disc_model.flexibility import contact_give
 from disc_model.simulation.result import engine_case, write_state
-from tests.contact_laws import LAWS
+from tests.contact_laws import COMPILES, LAWS
 from tests.references import stored, taylor
 from tests.references.literal import from_slider_frame, literal_of
 from tests.references.printed import lively
@@ -24,8 +23,6 @@ EVENT_TIMES = 1e-12
 
 #: Rates of Omega (rad/s^2) and of N (N/s) large enough for any wrong term to show within the spans below.
 FALLING, RISING = {"Omega": -128.0, "N": -2048.0}, {"Omega": 128.0, "N": 512.0}
-#: Each law beside the paper's compiles for a minute: that is left to the long tests, and to those without compilation.
-COMPILES = () if numba.config.DISABLE_JIT else (pytest.mark.slow,)
 EVERY_LAW = ["default", *(pytest.param(name, marks=COMPILES) for name in LAWS)]
 
 
