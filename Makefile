@@ -4,6 +4,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORES ?= 2
+# What jobs print at the same time comes in one piece each, where make knows how to.
+SYNC := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
 
 # The quick tests in parts that cores share, the longest first. Ramps and another law of contact have kernels of their
 # own: what needs them is in one part, so that they are compiled once.
@@ -73,7 +75,7 @@ schema: env
 
 # All quick tests; each part says what it found when it is done.
 test: env
-	$(MAKE) --jobs=$(CORES) --output-sync=target test-parts
+	$(MAKE) --jobs=$(CORES) --keep-going $(SYNC) test-parts
 
 test-parts: $(PARTS)
 

@@ -245,11 +245,6 @@ class Parameters(Checked):
         return _rigidity(self.E, self.h, self.nu)
 
     @property
-    def follows_paper(self) -> bool:
-        """Whether contact is the paper's: rigid, its force vertical."""
-        return self.contact_compliance == 0 and self.contact_force == "vertical"
-
-    @property
     def canonical(self) -> dict[str, Any]:
         """The values by which a case is known: all, but those the paper's model has not only where they are set."""
         fields = type(self).model_fields
