@@ -10,8 +10,9 @@ they agree,
 - from an unstable one the motion departs as J^n d says, up to a distance at which the same test is passed again; only
   what follows is simulated, or nothing if the horizon comes before.
 
-Once a motion has departed, it is simulated until it separates or its growth has saturated: the range of the contact
-force has not risen for a time over which the cycle's leading multiplier would have enlarged it severalfold.
+Once a motion has departed, it is simulated until it separates or comes near a stable cycle, or else to the horizon.
+That its growth has saturated ends nothing: a motion rests for minutes on a torus that is itself unstable, and an
+irregular one may separate at any time.
 
 Where motion and multipliers do not agree, or there is no such cycle, the motion is simulated, and now and then looked
 at again: it may have come near another cycle, or to steady sliding.
@@ -33,7 +34,7 @@ from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record, Window
+from disc_model.simulation.case import Record
 from disc_model.simulation.result import Result, State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, cycle_of, find_cycle
 from disc_model.stability.return_map import OUTCOMES, RETURNED, ReturnMap, newton
@@ -52,7 +53,10 @@ AGREES = 0.1
 """Largest difference between the two motions, relative to the linear one."""
 RATE_AGREES = 0.5
 """Largest difference between their rates of growth, as a share of the linear one's."""
-AMPLITUDES = (0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+WAITS = (0.0, 1.5, 6.0, 15.0)
+"""Times after which the test is begun, s. Near a resonance the start lies further from the cycle than the linear map
+reaches, and comes within its reach as the modes die out that are damped best."""
+AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 """Distances from the cycle, over the static deflection, up to which a departure may be followed by multipliers."""
 DEPARTURE_TIMES = (1.5, 6.0)
 """Times at which a departing motion is looked at, s."""
@@ -65,17 +69,9 @@ NEARLY_PERIODIC = 0.05
 """Change over a period, relative to the static deflection, from which a cycle is looked for."""
 NEAR = 0.1
 """Distance from a cycle, relative to the static deflection, within which a motion may be near it."""
-LEG, SHORTEST_LEG, STILL = 0.5, 40.0, 6
-"""Length of a leg after a departure, over the time in which the leading multiplier enlarges it by e, and at least, s;
-and so many legs in which the contact force ranges no further end the simulation: growth has saturated."""
-RISES = 1.01
-"""Growth of that range that counts."""
-WATCH, FOLD = 100.0, 250
-"""Rate at which the contact force is sampled for its range, Hz, and samples of which the range is kept."""
 SLIDING_TIMES = (1.0, 4.0)
 """Times over which the approach to steady sliding is compared with its eigenvalues, s."""
 _NOTHING = Record(events=False)
-_WATCHED = Record(windows=(Window(rate=WATCH, envelope=FOLD),), events=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +82,7 @@ class Near:
     ----------
     own : whether it follows the linear map there, for good if the cycle is stable
     x, distance, jacobian : the cycle, the motion's distance from it, and the map's Jacobian, on the section of `map`
+    waited : s, until the motion has come to where it follows the linear map: the distance is that then
     """
 
     cycle: FloquetResult
@@ -94,6 +91,7 @@ class Near:
     x: Array
     distance: Array
     jacobian: Array
+    waited: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +106,6 @@ class Fate:
     simulated : s, 0 if multipliers decide
     cycle : the stable one to which the motion has come, or else the unstable one from which it departs; None if neither
     departed : the unstable cycle from which its multipliers have led the motion away, None if all was simulated
-    saturated : whether the simulation was ended since growth had saturated
     sliding : whether it has come to steady sliding
     first_separation : s, nan if there is none
     state : where the simulation ended; None if there was none
@@ -119,7 +116,6 @@ class Fate:
     simulated: float
     cycle: FloquetResult | None
     departed: FloquetResult | None = None
-    saturated: bool = False
     sliding: bool = False
     first_separation: float = math.nan
     state: State | None = None
@@ -148,7 +144,6 @@ def fate(
     tol: float = 1e-10,
     start: Near | FloquetResult | None = None,
     furthest: float = AMPLITUDES[0],
-    patient: bool = False,
 ) -> Fate:
     """What becomes of the published start within a horizon (s).
 
@@ -158,16 +153,15 @@ def fate(
     start : what `published_start_near` says, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may tell of a departure: the
         shorter, the better is the time of the first separation known
-    patient : simulate to the horizon even if growth has saturated: a motion can rest for hundreds of seconds on a torus
-        that is itself unstable
     """
     start = published_start_near(p) if start is None else start
-    return _Course(p, horizon, tol, furthest, patient).run(start if isinstance(start, Near) and start.own else None)
+    return _Course(p, horizon, tol, furthest).run(start if isinstance(start, Near) and start.own else None)
 
 
 def departs_after(near: Near, horizon: float) -> bool:
     """Whether the published start, near an unstable cycle, follows the linear map until the horizon (s)."""
-    room = max(0, math.ceil((horizon - first_release(near.cycle.parameters)) / near.cycle.period))
+    begun = first_release(near.cycle.parameters) + near.waited
+    room = max(0, math.ceil((horizon - begun) / near.cycle.period))
     size = float(np.linalg.norm(near.map.static))
     # the leading part alone: most do not, and this says so at once
     leading = _left_vector(near.jacobian)
@@ -183,19 +177,16 @@ class _Course:
     shown : the cycle that it follows linearly: the first, or the stable one to which it has come
     left : the unstable cycle that it has departed from
     changes : from one period to the next, relative, at the end of each leg
-    reached : range of the contact force when it has last risen, since the departure, N
-    still : legs since then
     """
 
-    def __init__(self, p: Parameters, horizon: float, tol: float, furthest: float, patient: bool) -> None:
-        self.p, self.horizon, self.tol, self.furthest, self.patient = p, horizon, tol, furthest, patient
+    def __init__(self, p: Parameters, horizon: float, tol: float, furthest: float) -> None:
+        self.p, self.horizon, self.tol, self.furthest = p, horizon, tol, furthest
         self.map = ReturnMap(p, CYCLE_TOL)
         self.state: State | None = None
         self.time, self.simulated = 0.0, 0.0
         self.shown: FloquetResult | None = None
         self.left: Near | None = None
         self.changes: list[float] = []
-        self.reached, self.still = 0.0, 0
 
     def run(self, near: Near | None) -> Fate:
         if near is not None:
@@ -211,9 +202,6 @@ class _Course:
                     return self._ended("unstable")
             elif self.time >= self.horizon:
                 return self._ended("unstable" if self.left or _growing(self.changes) else "undecided")
-            if self.left is not None:
-                longer = 1 + self.still if self.patient else 1
-                leg = longer * max(SHORTEST_LEG, LEG / self.left.cycle.growth_rate)
             result = self._simulated(leg)
             leg *= 2
             if result.status is Status.STOPPED:
@@ -221,38 +209,25 @@ class _Course:
             if not result.status.complete:
                 return self._ended("unknown", status=result.status.value, message=result.message)
             near = None
-            if self.left is not None and self.still == 0:
-                continue
             code, x = self.map.next_release(result.final_state)
             if code == RETURNED:
                 near = self._look(x)
             elif OUTCOMES[code] == "time_over" and _nears_sliding(self.p, result.final_state, self.tol):
                 self.shown = None
                 return self._ended("stable", sliding=True)
-            if near is None and self.still >= STILL and not self.patient:
-                return self._ended("unstable", saturated=True)
 
     def _simulated(self, leg: float) -> Result:
         """Go on for a time (s), or to the first separation."""
-        stop = min(self.time + leg, self.horizon)
-        watched = self.left is not None and stop - self.time > FOLD / WATCH
         result = simulate(
             self.p,
-            stop,
+            min(self.time + leg, self.horizon),
             tol=self.tol,
             initial_state=self.state,
-            record=_WATCHED if watched else _NOTHING,
+            record=_NOTHING,
             stop_at="first_separation",
         )
         self.simulated += result.final_state.time - self.time
         self.state, self.time = result.final_state, result.final_state.time
-        if watched:
-            P = result.samples[0]
-            reached = max((P["P_max"] - P["P_min"]), default=0.0)
-            if reached > RISES * self.reached:  # a slow rise adds up, since only a rise sets a new mark
-                self.reached, self.still = reached, 0
-            else:
-                self.still += 1
         return result
 
     def _quiet(self, x: Array) -> bool:
@@ -265,9 +240,10 @@ class _Course:
 
     def _depart(self, near: Near) -> float:
         """Follow the linear map away from an unstable cycle, as far as it may be; the time then, s."""
-        room = max(0, math.ceil((self.horizon - self.time) / near.cycle.period))
+        begun = self.time + near.waited
+        room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
         time, distance = _departure(near, room, self.furthest)
-        self.time += time
+        self.time = begun + time
         self.state = near.map.state(near.x + distance).replace(time=self.time)
         self.left = near
         return self.time
@@ -299,8 +275,17 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array) -> Near:
     assert cycle.state is not None
     x = map_.point(cycle.state)
     _, _, jacobian, _ = map_.evaluate(x, releases=cycle.releases)
-    own = any(_linear(map_, cycle, x, jacobian, at - x, times) for times in TESTS)
-    return Near(cycle, own, map_, x, at - x, jacobian)
+    waited, moved = 0.0, at
+    for wait in WAITS:
+        if wait > waited:
+            count = max(1, round((wait - waited) / cycle.period)) * cycle.releases
+            flight, moved, _, _ = map_.evaluate(moved, releases=count, tangent=False)
+            if flight.outcome != RETURNED:
+                break
+            waited += flight.period
+        if any(_linear(map_, cycle, x, jacobian, moved - x, times) for times in TESTS):
+            return Near(cycle, True, map_, x, moved - x, jacobian, waited)
+    return Near(cycle, False, map_, x, at - x, jacobian)
 
 
 def _linear(

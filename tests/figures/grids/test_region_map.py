@@ -64,7 +64,8 @@ def test_cells_borders_and_marks(x: str, values: list[float], scale: str, tmp_pa
     assert not any("undivided" in text for text in above)
     assert "no cycle found" in below
     said = "Within 900 s of the published start. 24 of 24 points simulated."
-    assert f"{said}\nb: the paper says “separation”, the published start: undecided." in below
+    alone = "Points unlike all beside them: 2, most on strips thinner than the grid."
+    assert f"{said}\n{alone}\nb: the paper says “separation”, the published start: undecided." in below
     save(figure, tmp_path / "map.png")
 
 
@@ -84,6 +85,25 @@ def test_what_lies_inside_an_undivided_cell_is_paler(tmp_path) -> None:
     figure = maps.draw(study, {}, RegionMap(x="Omega", y="N"))
     assert colours(figure.axes[0]) > worked_out
     assert "paler: inside an undivided cell" in [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_points_unlike_all_beside_them_are_counted() -> None:
+    """An outcome of its own in a corner, one in the middle; two that lie side by side are not alone."""
+    codes = np.full((1, 4, 5), regions.OUTCOMES.index("stable"))
+    codes[0, 0, 0] = codes[0, 2, 1] = codes[0, 1, 3] = codes[0, 2, 3] = regions.OUTCOMES.index("unstable")
+    flags = {"flag_values": np.arange(5), "flag_meanings": " ".join(regions.OUTCOMES)}
+    outcome = xr.DataArray(
+        codes,
+        {"normalization": ["as_published"], "N": np.arange(4.0), "Omega": np.arange(5.0)},
+        ("normalization", "N", "Omega"),
+        attrs=flags,
+    )
+    study = xr.Dataset({"outcome": outcome})
+    plot = RegionMap(x="Omega", y="N")
+    assert maps.standing_alone(study, plot) == [
+        "Points unlike all beside them: 2, most on strips thinner than the grid."
+    ]
+    assert maps.standing_alone(study.isel(N=[1, 2], Omega=[3, 4]), plot) == []
 
 
 def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> None:

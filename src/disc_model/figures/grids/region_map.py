@@ -231,8 +231,23 @@ def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap) -> None:
     horizon = json.loads(study.attrs["options"])["horizon"]
     simulated = (flag_names(study["origin"]) == "simulation").sum()
     said = f"Within {horizon:g} s of the published start. {simulated} of {study['outcome'].size} points simulated."
-    below.append(Line2D([], [], linestyle="", label="\n".join([said, *contradictions(study, plot)])))
+    below.append(
+        Line2D(
+            [], [], linestyle="", label="\n".join([said, *standing_alone(study, plot), *contradictions(study, plot)])
+        )
+    )
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)
+
+
+def standing_alone(study: xr.Dataset, plot: RegionMap) -> list[str]:
+    """A sentence on points whose outcome none of those beside them has, if there are any."""
+    count = 0
+    for norm in parts.normalizations(study):
+        words = np.pad(_words(parts.of(study, norm), "outcome", plot.x, plot.y), 1)
+        own = words[1:-1, 1:-1]
+        beside = (words[:-2, 1:-1], words[2:, 1:-1], words[1:-1, :-2], words[1:-1, 2:])
+        count += int(np.sum(np.all([own != other for other in beside], axis=0)))
+    return [f"Points unlike all beside them: {count}, most on strips thinner than the grid."] if count else []
 
 
 def contradictions(study: xr.Dataset, plot: RegionMap) -> list[str]:

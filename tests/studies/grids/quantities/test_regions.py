@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from itertools import product
 from types import SimpleNamespace
 
@@ -16,7 +17,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.stability.cycle import CycleStatus
-from disc_model.stability.fate import Fate
+from disc_model.stability.fate import Fate, Near
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.quantities import regions
 from disc_model.studies.grids.quantities.schema import RegionsOptions
@@ -152,6 +153,68 @@ def test_between_two_corners_that_are_alike_a_neighbour_may_still_find_another(m
     found = flag_names(study["outcome"].transpose("N", "Omega")) == "separation"
     assert (found != expected).mean() <= 2e-3
     assert (flag_names(study["outcome"]) != "unknown").all()
+
+
+OPTIONS = RegionsOptions(horizon=10, coarse=8)
+
+
+def tile_of(
+    size: int, start: Callable[[int, int], object], outcome: Callable[[int, int], str], monkeypatch: pytest.MonkeyPatch
+) -> regions._Tile:
+    """A square tile with made-up starts and outcomes; row i has N = 100 + i, column j Omega = 10 + j."""
+
+    def place(p: Parameters) -> tuple[int, int]:
+        return round(p.N - 100), round(p.Omega - 10)
+
+    monkeypatch.setattr(regions, "published_start_near", lambda p: start(*place(p)))
+    monkeypatch.setattr(regions, "fate", lambda p, *_, **__: Fate(outcome(*place(p)), 1.0, None))
+    monkeypatch.setattr(regions, "departs_after", lambda *_: False)
+    points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]
+    return regions._Tile(points, OPTIONS, [])
+
+
+def follows_one(stable: bool) -> Near:
+    """A start that follows a cycle."""
+    nothing = np.zeros(1)
+    return Near(SimpleNamespace(stable=stable), True, None, nothing, nothing, np.eye(1))  # type: ignore[arg-type]
+
+
+NONE = SimpleNamespace(status=CycleStatus.NO_CYCLE)
+
+
+def test_a_cycle_that_grows_is_not_filled_as_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
+    growing = {(3, 3), (4, 4), (5, 5)}
+    outcome = {(3, 3): "separation", (5, 5): "unstable"}
+    tile = tile_of(9, lambda *at: follows_one(at not in growing), lambda *at: outcome.get(at, "stable"), monkeypatch)
+    assert {place: tile.outcome(place) for place in outcome} == outcome
+    assert set(tile.fates) == growing
+
+
+def test_where_the_start_follows_no_cycle_thin_strips_are_worked_out_and_wide_ones_filled(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    strip, block = {(1, 1), (3, 2), (5, 3), (7, 4)}, {(i, j) for i in range(3, 6) for j in range(6, 9)}
+    tile = tile_of(9, lambda *at: NONE if at in strip | block else follows_one(True), lambda *_: "stable", monkeypatch)
+    assert strip <= set(tile.fates)
+    assert len(block & set(tile.fates)) <= 1
+
+
+def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stripe one interval wide, which no corner of the coarse cells meets."""
+
+    def outcome(i: int, j: int) -> str:
+        return "separation" if j - i // 4 in (11, 12) else "unstable"
+
+    tile = tile_of(33, lambda *_: NONE, outcome, monkeypatch)
+    there = [(i, j) for i in range(33) for j in range(33) if outcome(i, j) == "separation"]
+    assert not any(i % 8 == 0 and j % 8 == 0 for i, j in there if i < 16)
+    said = tile.presumed | tile.filled | {place: tile.outcome(place) for place in tile.fates}
+    found = {place for place, word in said.items() if word == "separation"}
+    assert len(found & set(there)) > 0.9 * len(there)
+    assert len(found - set(there)) < 0.1 * len(there)
+    assert len(tile.fates) < 0.4 * 33 * 33
+    quiet = tile_of(33, lambda *_: NONE, lambda *_: "stable", monkeypatch)
+    assert len(quiet.fates) == 5 * 5
 
 
 MOST_WRONG = 0.08

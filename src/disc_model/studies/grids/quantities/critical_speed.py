@@ -128,7 +128,7 @@ def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
     """The motion from the published start, up to the longest horizon."""
     horizon, simulated = options.horizons[-1], 0.0
     if not modes_faults(case, "fate") and min(case.N, case.Omega, case.k_p, case.mu_s) > 0:
-        found = fate(case, horizon, tol=options.tol, furthest=FURTHEST, patient=True)
+        found = fate(case, horizon, tol=options.tol, furthest=FURTHEST)
         if not _doubtful(found, options.horizons):
             return Motion(found.first_separation, found.simulated, found.status, found.message)
         simulated = found.simulated

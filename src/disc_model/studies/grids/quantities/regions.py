@@ -4,8 +4,11 @@ A batch is a tile of the plane. The cycle is found at each of its points, which 
 start (`disc_model.stability.fate`) follows from the cycle's multipliers where it is quiet, or grows so slowly that
 nothing else happens within the horizon. Elsewhere it is simulated at the corners of coarse cells, or at one point
 inside if multipliers tell of all corners. A cell is divided where these differ, or where slow growth lies beside
-separation. Neutral curves and folds are thus followed from point to point, and borders of separation down to the grid's
-own intervals; in a cell that is not divided all that multipliers leave open have the outcome of those simulated.
+separation, and once where all grow without separation, since stripes of separation run through such growth. Neutral
+curves and folds are thus followed from point to point, and borders of separation down to the grid's own intervals; in a
+cell that is not divided all that multipliers leave open have the outcome of those simulated. But for two kinds of
+points, which are worked out one by one: where the start follows a cycle that grows and all around stays quiet, and
+where it follows none on a strip thinner than the grid.
 """
 
 from __future__ import annotations
@@ -48,9 +51,6 @@ COLUMNS = {
     "origin": Column(Variable("1", "how the outcome is known; undivided_cell: like that cell's corners", ORIGINS)),
     "first_separation": Column(SCALARS["first_separation"]),
     "simulated": Column(Variable("s", "simulated time")),
-    "saturated": Column(
-        Variable("1", "whether the simulation was ended before the horizon, since growth had saturated", JOINED)
-    ),
     "cycle": Column(
         Variable("1", "whether the published start follows the cycle found; without one, what it does", CYCLES)
     ),
@@ -77,6 +77,8 @@ ANOTHER = 0.02
 """Cycles of neighbours further apart than this, over the static deflection, may be different ones."""
 SAME = 1e-4
 """Cycles of one point nearer than this are one."""
+SCATTERED = 1
+"""Points without a cycle that have so many such neighbours at most lie on strips thinner than the grid."""
 SEPARATING = 5.0
 """How long a motion is followed for its history, beyond where its fate was known, s."""
 MOST_CYCLES = 4
@@ -144,6 +146,7 @@ class _Tile:
             self.presumed.clear()
             for across, along in product(pairwise(rows), pairwise(columns)):
                 self._refine(across, along)
+        self._check_what_is_filled()
 
     def _start(self, place: Place) -> Near | FloquetResult | Exception:
         point = self.points[place[0]][place[1]]
@@ -153,6 +156,29 @@ class _Tile:
             return published_start_near(point)
         except NUMERICAL as error:
             return error
+
+    def _own(self, place: Place) -> Near | None:
+        """The cycle that the published start follows from its beginning."""
+        start = self.starts[place]
+        return start if isinstance(start, Near) and start.own else None
+
+    def _beside(self, place: Place) -> list[Place]:
+        i, j = place
+        return [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
+
+    def _check_what_is_filled(self) -> None:
+        """Work out what corners say little of.
+
+        That is where the start follows a cycle that grows, and yet would stay quiet; and where it follows none,
+        although it does at most points beside.
+        """
+        for place, outcome in (self.presumed | self.filled).items():
+            if self._own(place) is None:
+                doubtful = sum(self._own(there) is None for there in self._beside(place)) <= SCATTERED
+            else:
+                doubtful = outcome == "stable"
+            if doubtful:
+                self.outcome(place)
 
     def outcome(self, place: Place) -> str:
         """Of the published start at a point, worked out once."""
@@ -173,8 +199,8 @@ class _Tile:
 
     def _trend(self, place: Place) -> str:
         """What multipliers say of a point: "quiet", "slow" (it grows until the horizon, and no more), or "open"."""
-        start = self.starts[place]
-        if not (isinstance(start, Near) and start.own):
+        start = self._own(place)
+        if start is None:
             return "open"
         if start.cycle.stable:
             return "quiet"
@@ -190,15 +216,17 @@ class _Tile:
         for place in corners or ([] if any(place in self.fates for place in undecided) else [_middle(undecided)]):
             if place not in self.presumed:
                 self.outcome(place)
-        # on the way from slow growth to separation there may be growth that is faster, and still no separation
+        # on the way from slow growth to separation there may be growth that is faster, and still no separation; and
+        # where that is all that corners say, stripes of separation may lie between: these cells are divided once more
         outcomes = {self.outcome(place) for place in undecided if place in self.fates}
         outcomes |= {self.presumed[corner] for corner in corners if corner not in self.fates}
         outcomes |= {"unstable" for place in inside if self.trends[place] == "slow"}
         halves = [_halves(*edges) for edges in (rows, columns)]
-        if len(outcomes) == 1:
+        side = max(rows[1] - rows[0], columns[1] - columns[0])
+        if len(outcomes) == 1 and (outcomes != {"unstable"} or side <= max(1, self.options.coarse // 2)):
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
-            if max(rows[1] - rows[0], columns[1] - columns[0]) <= FINE:
+            if side <= FINE:
                 self._presume(rows, columns)
             for i, j in product(*halves):
                 self._refine(i, j)
@@ -229,14 +257,14 @@ class _Tile:
         Its own as long as it departs from that: where it has grown to is known at simulated points alone, and would
         stand out among their neighbours.
         """
-        start, found = self.starts[place], self.fates.get(place)
-        own = isinstance(start, Near) and start.own
-        if isinstance(found, Fate) and not (own and (found.outcome != "stable" or found.cycle is start.cycle)):  # type: ignore[union-attr]
+        own, found = self._own(place), self.fates.get(place)
+        leaves = own is None or (isinstance(found, Fate) and found.outcome == "stable" and found.cycle is not own.cycle)
+        if isinstance(found, Fate) and leaves:
             if found.cycle is None or found.cycle.state is None:
                 return None
             map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
             return _Followed(found.cycle, map_, map_.point(found.cycle.state))
-        return _Followed(start.cycle, start.map, start.x) if isinstance(start, Near) and own else None
+        return None if own is None else _Followed(own.cycle, own.map, own.x)
 
     def _joined(self, here: Place, ahead: Place) -> str:
         """Whether a point's cycle goes on into that of the next one."""
@@ -265,7 +293,6 @@ class _Tile:
                 "origin": "simulation" if found.simulated else "multipliers",
                 "first_separation": found.first_separation,
                 "simulated": found.simulated,
-                "saturated": "yes" if found.saturated else "no",
             }
             message = found.message
         elif self.trends[place] == "open":
