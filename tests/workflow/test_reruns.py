@@ -141,7 +141,7 @@ def test_an_interrupted_run_goes_on(project: Project, tmp_path: Path) -> None:
     """A job that dies in the middle of writing leaves nothing that is taken for a result."""
     project.edit(TINY, "t_end: 2}\nfigures", "t_end: 3}\nfigures")
     project.edit(
-        "src/disc_model/data/files.py",
+        "src/disc_model/data/dataset.py",
         "        os.replace(temporary, path)\n",
         "        os.kill(os.getpid(), 9)\n",
     )
@@ -149,7 +149,7 @@ def test_an_interrupted_run_goes_on(project: Project, tmp_path: Path) -> None:
     assert done.returncode != 0
     assert not (project.folder / "results" / "tiny" / "cases" / "X.nc").exists()
     project.edit(
-        "src/disc_model/data/files.py",
+        "src/disc_model/data/dataset.py",
         "        os.kill(os.getpid(), 9)\n",
         "        os.replace(temporary, path)\n",
     )
