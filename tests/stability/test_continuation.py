@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters
+from disc_model.simulation.result import State
+from disc_model.stability import branch as branch_module
 from disc_model.stability import continuation
+from disc_model.stability import cycle as cycle_module
 from disc_model.stability.branch import CycleProblem, Lost
 from disc_model.stability.continuation import (
     _correct_on_curve,
@@ -17,7 +22,7 @@ from disc_model.stability.continuation import (
     continue_neutral,
 )
 from disc_model.stability.curves import stability_curves
-from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
+from tests.stability.toy_map import PERIOD, RETURNED, ToyMap, cycle_at, fold_at, growth_at, outside, toy
 
 __all__ = ["toy"]
 pytestmark = pytest.mark.usefixtures("toy")
@@ -189,3 +194,32 @@ def test_what_cannot_be_followed_is_noted(monkeypatch):
     assert notes[0].endswith("p: must be elsewhere")
     monkeypatch.setattr(curves, "continue_cycle", refuse)
     assert stability_curves(P, ("Omega", "N"), BOX, [300.0], points=9)[0] == []
+
+
+def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatch):
+    """The toy's cycle separates once more beyond 15.5 rad/s; it goes on smoothly, as no true one would."""
+
+    class Separating(ToyMap):
+        def evaluate(self, x, **how):
+            flight, *rest = super().evaluate(x, **how)
+            return replace(flight, separations=1 + (self.parameters.Omega > 15.5)), *rest
+
+        def next_release(self, near):
+            return RETURNED, near.a
+
+    def grazing(p, state, period):
+        assert p.Omega == pytest.approx(15.5, abs=1e-4)
+        assert period == PERIOD
+        return "a further separation is missed by 1e-9"
+
+    for module in (branch_module, cycle_module):
+        monkeypatch.setattr(module, "ReturnMap", Separating)
+    monkeypatch.setattr(continuation, "grazing", grazing)
+    none = np.zeros(0)
+    near = State(0.0, "stick", 0, 0.0, 0.0, 0.0, 0.0, np.array([1.4, 0.0, 0.0]), none, none, none)
+    branch = continue_cycle(P, "Omega", (12.0, 17.0), near=near)
+    assert branch.ended == ("the order of switches changes: separations 1 to 2; a further separation is missed by 1e-9")
+    assert branch.values[-1, 0] == pytest.approx(15.5, abs=1e-4)
+    assert not branch.folds.size
+    with pytest.raises(ParameterError, match="near: must lie near a cycle, but no cycle of 1 releases near"):
+        continue_cycle(P.replace(Omega=18), "Omega", (12.0, 19.0), near=near)

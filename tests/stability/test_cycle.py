@@ -163,7 +163,7 @@ def test_no_cycle_near_a_state_is_said():
     slipping = simulate(slippery, 0.01, tol=1e-8).final_state
     found = find_cycle_near(slippery, slipping, 1)
     assert found.status is CycleStatus.NO_STICK_SLIP
-    assert re.fullmatch(r"no_stick_slip: the slider does not stick within 0\.0\d+ s of the given state", found.message)
+    assert re.fullmatch(r"no_stick_slip: the slider does not stick within \d\.\d+ s of the given state", found.message)
 
 
 @pytest.mark.compiled

@@ -8,6 +8,7 @@ import pytest
 
 from disc_model import ParameterError, Parameters, floquet, steady_sliding
 from disc_model.stability.bifurcation import bifurcation_samples
+from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.lyapunov import lyapunov_exponents
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
@@ -23,6 +24,12 @@ def test_every_fault_is_named():
     assert faults_of(floquet, "x", tol=1, releases=0) == ["p", "tol", "releases"]
     assert faults_of(floquet, P, releases=2) == ["releases"]
     assert faults_of(floquet, P, near="x", releases=1.5) == ["near", "releases"]
+    assert faults_of(continue_cycle, P, "Omega", (1, 2), near="x", releases=0, start=[1]) == [
+        "near",
+        "start",
+        "releases",
+    ]
+    assert faults_of(continue_cycle, "x", "nu", (1, 2), releases=2) == ["p", "names", "releases"]
     assert faults_of(steady_sliding, "x") == ["p"]
     assert faults_of(lyapunov_exponents, "x", -1, transient=math.nan, count=9, interval=0) == [
         "p", "duration", "transient", "count", "interval",

@@ -59,7 +59,9 @@ class ToyMap:
     diameters = np.array([0, 1, 1])
     static = np.array([2.0, 0.0, 0.0])
 
-    def __init__(self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
+    ) -> None:
         self.parameters, self._names = p, parameters
 
     def evaluate(self, x, *, releases=1, tangent=True, may_separate=False, coarse=False):

@@ -16,13 +16,14 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError
+from disc_model.errors import ParameterError, shown
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
-from disc_model.stability.cycle import find_cycle
+from disc_model.stability.cycle import FloquetResult, find_cycle, find_cycle_near
 from disc_model.stability.return_map import (
     OUTCOMES,
     PARAMETERS,
+    PATIENT,
     RETURNED,
     Flight,
     ReturnMap,
@@ -35,6 +36,9 @@ from disc_model.stability.return_map import (
 # The equation
 
 Array = NDArray[np.float64]
+
+REORDERED = "the order of switches changes"
+"""How the reason for which a branch of cycles that separate ends may begin."""
 
 CORRECTIONS = 8
 """Newton steps allowed to a corrector before the arclength is halved."""
@@ -53,11 +57,40 @@ class CyclePoint:
     jacobian: Array
 
 
-class CycleProblem:
-    """F(x, q) in scaled unknowns z = (x / size, q / scales)."""
+class Order(NamedTuple):
+    """How often each switch occurs in a period of a cycle that may separate."""
 
-    def __init__(self, p: Parameters, names: tuple[str, ...], scales: Mapping[str, float] | None, tol: float) -> None:
-        self.base, self.names, self.tol = p, names, tol
+    releases: int
+    backward_releases: int
+    reversals: int
+    separations: int
+    sticks: int
+
+    @classmethod
+    def of(cls, flight: Flight | FloquetResult) -> Order:
+        return cls(*(getattr(flight, name) for name in cls._fields))
+
+    def changes_to(self, other: Order) -> str:
+        """The counts that differ, in words."""
+        counts = zip(self._fields, self, other, strict=True)
+        return ", ".join(f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)
+
+
+class CycleProblem:
+    """F(x, q) in scaled unknowns z = (x / size, q / scales).
+
+    With an `order` cycles may lose contact, and are those with that order of switches: beyond it the map has a corner.
+    """
+
+    def __init__(
+        self,
+        p: Parameters,
+        names: tuple[str, ...],
+        scales: Mapping[str, float] | None,
+        tol: float,
+        order: Order | None = None,
+    ) -> None:
+        self.base, self.names, self.tol, self.order = p, names, tol, order
         self._reference = reference = ReturnMap(p, tol)
         self.n = reference.size
         self.scale = reference.scale
@@ -72,6 +105,11 @@ class CycleProblem:
         except ParameterError as error:
             raise Lost(str(error)) from None
 
+    def state(self, z: Array) -> State:
+        """The motion's state, at the end of stick, of which z are the unknowns."""
+        map_ = ReturnMap(self.case(z), self.tol)
+        return map_.state(z[: self.n] * self.size / self.scale * map_.scale)
+
     def unknowns(self, state: State) -> Array:
         """z of a state on the section in the case at hand."""
         q = np.array([getattr(self.base, name) for name in self.names]) / self.scales
@@ -81,11 +119,14 @@ class CycleProblem:
         p = self.case(z)
         if min(p.Omega, p.N, p.k_p) <= 0:
             raise Lost("the drive, the preload or the in-plane spring vanishes")
-        map_ = ReturnMap(p, self.tol, self.names)
+        map_ = ReturnMap(p, self.tol, self.names, patience=PATIENT if self.order else 1.0)
         x = z[: self.n] * self.size / self.scale * map_.scale
-        flight, end, jacobian, by = map_.evaluate(x)
+        releases = self.order.releases if self.order else 1
+        flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=self.order is not None)
         if flight.outcome != RETURNED:
             raise Lost(f"the motion does not return: {OUTCOMES[flight.outcome]}")
+        if self.order and (found := Order.of(flight)) != self.order:
+            raise Lost(f"{REORDERED}: {self.order.changes_to(found)}")
         # into the reference's coordinates: they differ where E is free
         turn = self.scale / map_.scale
         jacobian = jacobian * turn[:, None] / turn[None, :]
@@ -191,14 +232,27 @@ class Branch:
         return [kind_of(complex(m[0])) for m in self.multipliers]
 
 
-def check(p: object, names: tuple[str, ...], count: int) -> None:
+def check(p: object, names: tuple[str, ...], count: int, more: Sequence[str] = ()) -> None:
+    """Raise `ParameterError` on these faults and on those of a case and of names of parameters."""
     faults = []
     if not isinstance(p, Parameters):
         faults.append(f"p={p!r}: must be Parameters")
     if len(names) != count or len(set(names)) != len(names) or not set(names) <= set(PARAMETERS):
         faults.append(f"names={names!r}: must be {count} of {', '.join(PARAMETERS)}")
-    if faults:
-        raise ParameterError(*faults)
+    if faults or more:
+        raise ParameterError(*faults, *more)
+
+
+def faults_near(near: object, releases: object, start: object) -> list[str]:
+    """What is wrong with where a cycle is to be looked for."""
+    faults = []
+    if near is not None and not isinstance(near, State):
+        faults.append(f"near={shown(near)}: must be a State")
+    if near is not None and start is not None:
+        faults.append("start: must not be given beside near, which says where the first cycle is looked for")
+    if not isinstance(releases, int) or releases < 1 or (near is None and releases != 1):
+        faults.append(f"releases={releases!r}: must be a whole number >= 1, and 1 without a state to look near")
+    return faults
 
 
 def starting_point(problem: CycleProblem, start: Array | None) -> CyclePoint:
@@ -213,6 +267,26 @@ def starting_point(problem: CycleProblem, start: Array | None) -> CyclePoint:
         return problem.evaluate(problem.unknowns(cycle.state))
     except Lost as lost:
         raise ParameterError(f"p: must have a cycle to start from, but {lost}") from None
+
+
+def starting_point_near(
+    p: Parameters, name: str, scale: float | None, tol: float, near: State, releases: int
+) -> tuple[CycleProblem, CyclePoint]:
+    """The problem of following a cycle that may separate, in one parameter, and the cycle near a state.
+
+    Raises
+    ------
+    ParameterError
+        If there is none.
+    """
+    cycle = find_cycle_near(p, near, releases, tol)
+    if cycle.state is None:
+        raise ParameterError(f"near: must lie near a cycle, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
+    problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol, Order.of(cycle))
+    try:
+        return problem, problem.evaluate(problem.unknowns(cycle.state))
+    except Lost as lost:
+        raise ParameterError(f"near: must lie near a cycle that can be followed, but {lost}") from None
 
 
 def branch_of(problem: CycleProblem, points: Sequence[CyclePoint], folds: Array, ended: str) -> Branch:

@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
+from disc_model.simulation.result import State
 from disc_model.stability.branch import (
+    REORDERED,
     Branch,
     CyclePoint,
     CycleProblem,
@@ -26,10 +28,13 @@ from disc_model.stability.branch import (
     Stride,
     branch_of,
     check,
+    faults_near,
     newton_step,
     starting_point,
+    starting_point_near,
     walk,
 )
+from disc_model.stability.grazing import grazing
 from disc_model.stability.return_map import multipliers
 
 # ----------------------------------------------------------------------------------------------------
@@ -54,8 +59,13 @@ def continue_cycle(
     scale: float | None = None,
     start: Array | None = None,
     tol: float = 1e-12,
+    near: State | None = None,
+    releases: int = 1,
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
+
+    From a state `near` a cycle that loses contact is followed as well, with its impacts, as long as its switches keep
+    their order. Where a further one would appear or one vanish, the map has a corner: the branch ends and says which.
 
     Parameters
     ----------
@@ -68,15 +78,19 @@ def continue_cycle(
     scale : value of the parameter that counts as one in the arclength; its own by default
     start : point of the section to start Newton's method from; the static equilibrium by default
     tol : as in `floquet`
+    near, releases : the cycle of so many releases near the next release after this state, as in `floquet`
 
     Raises
     ------
     ParameterError
         Bad input, or no cycle to start from.
     """
-    check(p, (name,), 1)
-    problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol)
-    point = starting_point(problem, start)
+    check(p, (name,), 1, faults_near(near, releases, start))
+    if near is None:
+        problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol)
+        point = starting_point(problem, start)
+    else:
+        problem, point = starting_point_near(p, name, scale, tol, near, releases)
     tangent = problem.tangents(point)[0]
     tangent *= direction * (1.0 if tangent[-1] >= 0 else -1.0)
     low, high = (bound / problem.scales[0] for bound in bounds)
@@ -95,6 +109,9 @@ def continue_cycle(
 
     stride = Stride(step, longest, shortest, growth=1.5, easy=0.99)
     places, ended = walk(Place(point, tangent), partial(_next, problem), stride, max_points, meet=meet, leaves=leaves)
+    if ended.startswith(REORDERED):
+        last = places[-1].point
+        ended += f"; {grazing(problem.case(last.z), problem.state(last.z), last.flight.period)}"
     return branch_of(problem, [place.point for place in places], np.array(folds).reshape(-1, 1), ended)
 
 

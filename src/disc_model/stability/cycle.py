@@ -19,6 +19,7 @@ from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_faults
 from disc_model.simulation.result import State
 from disc_model.stability.return_map import (
     OUTCOMES,
+    PATIENT,
     RETURNED,
     FixedPoint,
     Flight,
@@ -196,7 +197,7 @@ def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-1
     """A cycle near the next release after a state; it may lose contact."""
     if p.Omega == 0 or p.N == 0 or p.mu_s == 0 or p.k_p == 0:
         return _degenerate(p, tol)
-    map_ = ReturnMap(p, tol)
+    map_ = ReturnMap(p, tol, patience=PATIENT)
     outcome, x = map_.next_release(near)
     if outcome == RETURNED:
         found = newton(map_, x, tol=tol, releases=releases, may_separate=True)

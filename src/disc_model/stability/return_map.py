@@ -29,6 +29,9 @@ PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 ROUGHEST = 1e-10
 """Tolerance of flights, whatever residual is asked for: a rougher map is too rough itself for a residual of 1e-8."""
 
+PATIENT = 20.0
+"""Patience with motions that may separate: the slider then passes many places at which the quiet one would stick."""
+
 COARSE, COARSE_ORDER, COLUMNS_COARSE = 1e-9, 20, 1e-5
 """Tolerance and order of the series and tolerance of the columns where a Jacobian only has to point the right way."""
 
@@ -83,11 +86,14 @@ class ReturnMap:
     scale : shape (n,), coordinates over modal displacements and velocities: omega, or 1; over u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, those of the slider, which come last, left out
     static : shape (n,), static equilibrium under the preload: the published start, and Newton's
+    patience : by how much longer than usual a return may take; see `PATIENT`
     """
 
-    def __init__(self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
+    ) -> None:
         check_modes(p, "the return map")
-        self.parameters = p
+        self.parameters, self.patience = p, patience
         self._case = engine_case(p)
         self.model = model = self._case.model
         flights = min(tol, ROUGHEST)
@@ -167,7 +173,7 @@ class ReturnMap:
         """Time allowed for a return, s: several times that of the rigid disc, whatever the speed."""
         p = self.parameters
         stuck = 2 * (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p * p.Omega)
-        return 4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01
+        return self.patience * (4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01)
 
     def evaluate(
         self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False

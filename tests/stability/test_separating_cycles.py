@@ -1,0 +1,177 @@
+"""Cycles that lose contact, with impacts: found, judged and followed, against simulations of the same motions."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, floquet, simulate
+from disc_model.simulation.result import State
+from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.cycle import CycleStatus, FloquetResult
+from disc_model.stability.return_map import PATIENT, ReturnMap, multipliers
+from tests.engine.test_variational import differences
+
+# Derivatives take a minute to compile, and motions minutes of their own time to settle.
+pytestmark = [pytest.mark.slow, pytest.mark.compiled]
+
+LOCKED = {"2 releases": (385, 15.1, 300.0, 2, 2), "8 releases": (200, 15.0, 1300.0, 8, 59)}
+"""N, Omega, s after which the motion has settled, releases and separations of its period; as published."""
+
+
+def settled(p: Parameters, until: float, start: State | None = None) -> State:
+    return simulate(p, until, initial_state=start).final_state
+
+
+def releases_of(p: Parameters, start: State, duration: float) -> np.ndarray:
+    """Times of the releases of stick, s."""
+    events = simulate(p, start.time + duration, initial_state=start, tol=1e-12).events
+    return events["time"].to_numpy()[events["kind"].to_numpy() == "stick_to_slip"]
+
+
+@pytest.fixture(scope="module", params=LOCKED)
+def cycle(request: pytest.FixtureRequest) -> tuple[Parameters, State, FloquetResult, int]:
+    """The case, a settled state of its motion, the cycle found from there, and how often that separates."""
+    N, Omega, time, releases, separations = LOCKED[request.param]
+    p = Parameters(N=N, Omega=Omega)
+    late = settled(p, time)
+    return p, late, floquet(p, near=late, releases=releases), separations
+
+
+def test_the_cycle_closes(cycle) -> None:
+    p, _, found, separations = cycle
+    assert found.status is CycleStatus.OK
+    assert found.separations == separations
+    assert found.residual < 1e-10
+    # followed by the engine alone, no map: modes end where they began
+    end = simulate(p, found.period, initial_state=found.state.replace(time=0.0), tol=1e-12).final_state
+    for name in ("a", "b", "alpha", "beta"):
+        one, other = getattr(found.state, name), getattr(end, name)
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-9 * np.max(np.abs(one)))
+
+
+def test_its_period_is_the_simulated_motions(cycle) -> None:
+    p, late, found, _ = cycle
+    times = releases_of(p, late, 2.5 * found.period)
+    # what the approach has left after a settling time of 30 and more times its own
+    assert times[found.releases] - times[0] == pytest.approx(found.period, rel=0, abs=1e-8)
+
+
+def test_its_multipliers_are_those_of_differences_of_the_map(cycle) -> None:
+    p, _, found, _ = cycle
+    map_ = ReturnMap(p, 1e-14, patience=PATIENT)
+    x = map_.point(found.state)
+    how = {"releases": found.releases, "may_separate": True, "tangent": False}
+    # a hundred times what keeps the order of switches, and far above the rounding of the flight
+    size = 1e-6 * float(np.linalg.norm(map_.static))
+    columns = [differences(lambda s, e=e: map_.evaluate(x + s * e, **how)[1], size) for e in np.eye(map_.size)]
+    expected = multipliers(np.array(columns).T)
+    apart = np.abs(found.multipliers[:, None] - expected[None, :]).min(axis=1)
+    assert apart.max() < 1e-5
+    assert found.growth_rate == pytest.approx(math.log(abs(expected[0])) / found.period, abs=1e-4)
+    assert found.stable
+
+
+def test_a_disturbance_dies_out_as_the_multipliers_say() -> None:
+    N, Omega, time, releases, _ = LOCKED["2 releases"]
+    p = Parameters(N=N, Omega=Omega)
+    found = floquet(p, near=settled(p, time), releases=releases)
+    map_ = ReturnMap(p, 1e-12, patience=PATIENT)
+    x = map_.point(found.state)
+    jacobian = map_.evaluate(x, releases=releases, may_separate=True)[2]
+    expected = 1e-6 * np.linalg.norm(x) * np.random.default_rng(3).normal(size=map_.size)
+    kicked = x + expected
+    for _ in range(300):
+        kicked = map_.evaluate(kicked, releases=releases, may_separate=True, tangent=False)[1]
+        expected = jacobian @ expected
+    # what is left is of second order, and the fixed point's own rounding
+    assert np.linalg.norm(kicked - x - expected) < 1e-3 * np.linalg.norm(expected)
+
+
+def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
+    """N = 385 N, two releases: up to 15.9717 rad/s, where a stop is grazed and left out."""
+    p = Parameters(N=385, Omega=15.1)
+    late = settled(p, 300.0)
+    branch = continue_cycle(p, "Omega", (14.0, 18.0), near=late, releases=2, step=1e-2)
+    end = float(branch.values[-1, 0])
+    assert end == pytest.approx(15.97174, abs=1e-4)
+    assert branch.ended.startswith("the order of switches changes: separations 2 to ")
+    assert "the omission of a stop is missed by" in branch.ended
+    assert np.all(branch.growth_rate < 0)
+    # started a little beside the branch, motions come to it; a jump of the speed can lead elsewhere
+    middle = int(np.argmin(np.abs(branch.values[:, 0] - 15.6)))
+    for point, shift, found in ((middle, 0.0, True), (-1, -0.01, True), (-1, 0.01, False)):
+        there = p.replace(Omega=float(branch.values[point, 0]) + shift)
+        x = branch.points[point]
+        beside = x + 1e-3 * np.linalg.norm(x) * np.random.default_rng(0).normal(size=x.size) / np.sqrt(x.size)
+        end_of_it = settled(there, 300.0, ReturnMap(there).state(beside))
+        times = releases_of(there, end_of_it, 0.1)
+        repeats = np.ptp(times[2:] - times[:-2]) < 1e-9
+        assert repeats == found
+        if shift == 0:
+            assert times[2] - times[0] == pytest.approx(branch.period[point], rel=0, abs=1e-9)
+
+
+def test_a_branch_turns_at_the_period_doubling_that_it_came_from() -> None:
+    """N = 385 N: below 14.2877 rad/s the motion repeats after each release, and the two releases become one."""
+    p = Parameters(N=385, Omega=15.1)
+    late = settled(p, 300.0)
+    branch = continue_cycle(p, "Omega", (14.0, 15.2), near=late, releases=2, step=1e-2, direction=-1)
+    assert branch.folds == pytest.approx(np.array([[14.2877]]), abs=1e-3)
+    below = p.replace(Omega=14.2)
+    one = floquet(below, near=settled(below, 600.0, late), releases=1)
+    assert one.stable
+    assert one.separations == 1
+    upward = continue_cycle(below, "Omega", (14.0, 14.4), near=one.state, releases=1, step=1e-2)
+    crossing = np.flatnonzero(upward.growth_rate > 0)[0]
+    assert upward.kinds()[crossing] == "period_doubling"
+    assert upward.values[crossing - 1, 0] < branch.folds[0, 0] + 1e-6
+    assert upward.values[crossing, 0] > branch.folds[0, 0] - 1e-6
+
+
+def test_the_locking_of_45_releases() -> None:
+    """N = 300 N: 2.33387 s within 2.6e-3 rad/s around 20 rad/s; simulated motions lock there, and nowhere beside."""
+    p = Parameters(N=300, Omega=20.0)
+    late = settled(p, 700.0)
+    found = floquet(p, near=late, releases=45)
+    assert found.residual < 1e-10
+    assert found.separations == 316
+    assert found.period == pytest.approx(2.33387098713, abs=1e-9)
+    assert found.stable
+    ends = []
+    for direction in (-1, 1):
+        branch = continue_cycle(p, "Omega", (19.9, 20.1), near=late, releases=45, step=1e-4, direction=direction)
+        assert "a further stop" in branch.ended or "the omission of a stop" in branch.ended
+        assert np.all(branch.growth_rate < -0.1)
+        ends.append(float(branch.values[-1, 0]))
+    assert ends == pytest.approx([19.99857, 20.00116], abs=2e-5)
+    for Omega in (ends[0] - 2e-4, ends[0] + 2e-4, ends[1] - 2e-4, ends[1] + 2e-4):
+        beside = p.replace(Omega=Omega)
+        times = releases_of(beside, settled(beside, 1300.0, late), 6.0)
+        apart = np.ptp(times[45:] - times[:-45])
+        assert (apart < 1e-8) == (ends[0] < Omega < ends[1])
+
+
+def test_patience_is_needed_where_the_slider_rarely_sticks() -> None:
+    """N = 200 N, 15 rad/s: 0.126 s pass between two releases; waiting 0.075 s said that it does not stick."""
+    p = Parameters(N=200, Omega=15)
+    late = settled(p, 1300.0)
+    usual = ReturnMap(p)
+    gaps = np.diff(releases_of(p, late, 1.0))
+    assert gaps.max() > usual.longest
+    assert gaps.max() < ReturnMap(p, patience=PATIENT).longest
+    assert floquet(p, near=late, releases=8).status is CycleStatus.OK
+
+
+def test_under_the_normal_force() -> None:
+    """Another law: a slope in the contact, an impact that changes the slider's speed."""
+    p = Parameters(N=385, Omega=15.3, contact_force="normal")
+    late = settled(p, 300.0)
+    found = floquet(p, near=late, releases=1)
+    assert found.residual < 1e-10
+    assert found.separations == 2
+    assert found.stable
+    times = releases_of(p, late, 3 * found.period)
+    assert times[1] - times[0] == pytest.approx(found.period, rel=0, abs=1e-8)
