@@ -16,7 +16,7 @@ TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
 TESTED_others := tests/claims tests/data tests/docs tests/explorer tests/figures tests/packaging $(wildcard tests/test_*.py)
 
-.PHONY: schema report explore orthonormal gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
+.PHONY: schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -37,7 +37,7 @@ gc: env
 
 # One HTML file with every figure, the ledger and the provenance, from results that are there.
 report: env
-	$(BIN)/snakemake --report results/paper/report.html all $(wildcard results/paper/normalisation.html)
+	$(BIN)/snakemake --report results/paper/report.html all $(wildcard results/paper/normalisation.html results/paper/survival.html)
 
 # One HTML page to look at every grid point, at motions and at the figures: results/paper/explorer.html.
 explore: env
@@ -48,6 +48,12 @@ orthonormal: reproduce
 	$(BIN)/snakemake -j$(CORES) --configfile config/paper.yaml config/paper_orthonormal.yaml
 	$(BIN)/snakemake -j$(CORES) results/paper/normalisation.html
 	cp results/paper/normalisation.md docs/normalisation.md
+
+# What survives of the paper's conclusions under other models of disc and contact: some minutes, mostly to compile.
+survival: env
+	$(BIN)/snakemake -j$(CORES) --configfile config/survival.yaml
+	$(BIN)/snakemake -j$(CORES) results/paper/survival.html
+	cp results/paper/survival.md docs/survival.md
 
 # The small pictures of docs/ and of the README, from finished figures.
 gallery: env

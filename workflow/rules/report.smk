@@ -1,5 +1,8 @@
-# What `snakemake --report` shows besides figures and claims: an overview, where everything comes from, and what the
-# normalisation of the modes changes.
+# What `snakemake --report` shows besides figures and claims: an overview, where everything comes from, what the
+# normalisation of the modes changes, and what survives under other models.
+
+
+from disc_model.claims import SURVIVAL_GRIDS
 
 
 report: "../report/overview.rst"
@@ -49,3 +52,34 @@ rule compare_normalisations:
         sources=sources_of("compare_normalisations"),
     shell:
         "python workflow/scripts/compare_normalisations.py {input.published} {input.orthonormal} --md {output.md} --html {output.html} > {log} 2>&1"
+
+
+rule judge_survival:
+    # Needs the motions and grids of config/survival.yaml: `make survival` computes them and asks for this.
+    input:
+        cases="results/survival/cases.nc",
+        grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],
+        png="results/survival_growth/figures/survival_growth.png",
+    output:
+        md="results/paper/survival.md",
+        html=report(
+            "results/paper/survival.html",
+            caption="../report/survival.rst",
+            category="What survives",
+            labels={"page": "The paper's conclusions under four models"},
+        ),
+        png=report(
+            "results/paper/survival_growth.png",
+            caption="../report/survival.rst",
+            category="What survives",
+            labels={"page": "Growth rate over speed and preload under each"},
+        ),
+    log:
+        "results/paper/logs/judge_survival.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        sources=sources_of("judge_survival"),
+    shell:
+        "(python workflow/scripts/judge_survival.py {input.cases} {input.grids} --md {output.md} --html {output.html}"
+        " && cp {input.png} {output.png}) > {log} 2>&1"

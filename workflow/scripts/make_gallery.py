@@ -32,6 +32,11 @@ OTHERS = {
         "Where the cycle becomes unstable, and where separation follows.",
         "Neutral curves and folds by continuation, named after their resonances n f_s = f ± l Ω / 2π.",
     ),
+    "survival_growth/figures/survival_growth.png": (
+        "Growth rate under four models.",
+        "As published, and orthonormal modes with rigid contact, with residual flexibility, and with that and the "
+        "normal force.",
+    ),
     "sensitivity/figures/sensitivity.png": (
         "How sure is it that a case is stable.",
         "(a) Probabilities at the three points (b) to (d), with intervals of 95 %; (b) to (d) Sobol indices of "

@@ -144,6 +144,8 @@ def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
 
 MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes"}
 """What a panel is titled by normalization."""
+FORCES = {"vertical": "vertical contact force", "normal": "normal contact force"}
+"""And by the contact force's direction."""
 
 
 def axis_of(name: str) -> tuple[str, float]:
@@ -179,11 +181,23 @@ def head(figure: Figure, study: xr.Dataset, title: str) -> None:
         figure.suptitle("\n".join(fill(text, width) for text in texts if text), fontsize=8)
 
 
+def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]]:
+    """What each value along a dimension stands for, and what there is of it; all of it where there is no dimension.
+
+    A zip, which has no values of its own, stands for those of its parameters.
+    """
+    if by is None:
+        return [("", found)]
+    along = [str(name) for name, values in found.coords.items() if values.dims == (by,)]
+    each = [found.isel({by: i}) for i in range(found.sizes[by])]
+    return [(", ".join(value_said(one, name) for name in along), one) for one in each]
+
+
 def value_said(one: xr.DataArray, by: str) -> str:
     """What a panel or a line stands for."""
     value = one[by].item()
     if isinstance(value, str):
-        return MODES.get(value, value)
+        return {**MODES, **FORCES}.get(value, value)
     label, factor = label_of(one[by])
     name, _, unit = label.rpartition(" (")
     return f"{name} = {value * factor:g} {unit.rstrip(')')}" if name else f"{label} = {value * factor:g}"

@@ -92,6 +92,31 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     save(figure, tmp_path / "curve.png")
 
 
+def zipped(study: xr.Dataset) -> xr.Dataset:
+    """Two models along one dimension, which has no values of its own."""
+    two = xr.concat([study.sel(normalization=name, drop=True) for name in ("as_published", "orthonormal")], "both")
+    return two.assign_coords(
+        normalization=("both", ["as_published", "orthonormal"]), contact_force=("both", ["vertical", "normal"])
+    )
+
+
+def test_a_zip_has_a_panel_for_each_of_its_points(study: xr.Dataset) -> None:
+    """Its dimension has no values to be picked by: such a figure was accepted, and could not be drawn."""
+    plot = HeatMap(variable="growth_rate", x="c_p", y="mu_k", by="both")
+    figure = heat_map.draw(zipped(study), {}, plot)
+    said = [" ".join(ax.get_title(loc="left").split()) for ax in figure.axes[:2]]
+    assert said == ["modes as published, vertical contact force", "orthonormal modes, normal contact force"]
+    expected = study["growth_rate"].sel(normalization="orthonormal").transpose("mu_k", "c_p").values
+    np.testing.assert_array_equal(np.ma.filled(figure.axes[1].collections[0].get_array(), np.nan), expected)
+
+
+def test_a_zip_has_a_line_for_each_of_its_points(study: xr.Dataset) -> None:
+    plot = CurvePlot(variable="growth_rate", x="c_p", by="both", at={"mu_k": 0.3})
+    lines = curve.draw(zipped(study), {}, plot).axes[0].lines
+    said = [line.get_label() for line in lines]
+    assert said[:2] == ["modes as published, vertical contact force", "orthonormal modes, normal contact force"]
+
+
 def test_a_curve_of_words_names_them(study: xr.Dataset) -> None:
     plot = CurvePlot(variable="status", x="c_p", at={"normalization": "as_published", "mu_k": 0.3})
     ax = curve.draw(study, {}, plot).axes[0]

@@ -19,16 +19,23 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -
     """A line, or one for each value of a second dimension; crosses at the axis where there is no value."""
     found = parts.picked(study, plot.variable, plot.at)
     by = next((str(name) for name in found.dims if name != plot.x), None)
-    lines = [found] if by is None else [found.sel({by: value}) for value in found[by].values]
+    lines = parts.slices(found, by)
     figure = new_figure(COLUMN, 2.6)
     ax = figure.subplots()
     label, factor = parts.label_of(found[plot.x])
     along = found[plot.x].values * factor
     words = found.attrs.get("flag_meanings", "").split()
-    for i, line in enumerate(lines):
+    for i, (said, line) in enumerate(lines):
         colour = BLACK if len(lines) == 1 else cm.batlow(i / len(lines))
-        said = parts.value_said(line, by) if by is not None else None
-        ax.plot(along, line.values, ".-" if not words else ".", color=colour, markersize=3, linewidth=0.8, label=said)
+        ax.plot(
+            along,
+            line.values,
+            ".-" if not words else ".",
+            color=colour,
+            markersize=3,
+            linewidth=0.8,
+            label=said or None,
+        )
     if plot.log:
         ax.set_yscale("log")
     if parts.spaced_by_factor(along):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -31,14 +32,16 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> 
     """
     found = parts.picked(study, plot.variable, plot.at)
     by = next((str(name) for name in found.dims if name not in (plot.x, plot.y)), None)
-    panels = [found] if by is None else [found.sel({by: value}) for value in found[by].values]
+    panels = parts.slices(found, by)
     figure = new_figure(PAGE if len(panels) > 1 else COLUMN * 1.2, 2.9)
     axes = list(figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0])
     colours = _colours(found, plot)
-    for ax, panel in zip(axes, panels, strict=True):
+    width = round(figure.get_figwidth() / len(panels) / 0.08)
+    for ax, (said, panel) in zip(axes, panels, strict=True):
         mesh = _panel(ax, panel, plot, colours)
         if by is not None:
-            ax.set_title(parts.value_said(panel, by), loc="left")
+            # a value stays with its name
+            ax.set_title(fill(said.replace(" = ", "\u00a0=\u00a0"), width), loc="left")
     axes[0].set_ylabel(parts.label_of(found[plot.y])[0])
     _bar(figure, mesh, axes, found, plot)
     if "flag_meanings" not in found.attrs and bool(found.isnull().any()):

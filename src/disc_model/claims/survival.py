@@ -1,0 +1,492 @@
+"""What survives: the paper's main conclusions, each judged under four models of disc and contact.
+
+The models change one thing after the other, so that the last has all changes.  Whatever is judged is read from the
+merged cases and grid studies of config/survival.yaml; what they cannot tell is undecided, and what they lack is not
+computed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from numpy.typing import NDArray
+
+from disc_model.analysis.classify import FEWEST, Kind, motion_of, stick_disappears
+from disc_model.claims import measures
+from disc_model.claims.ledger import Comparison
+from disc_model.claims.model import (
+    FAILS,
+    NOT_COMPUTED,
+    STRETCH,
+    STRETCHES,
+    CaseView,
+    Finding,
+    Missing,
+    finding,
+    undecided,
+)
+from disc_model.data.variables import flag_names
+
+Array = NDArray[np.float64]
+
+# ----------------------------------------------------------------------------------------------------
+# The models, and what there is of each
+
+
+class Model(NamedTuple):
+    """Values by which cases and points of a model are known; compliant: whether the contact has a flexibility."""
+
+    name: str
+    normalization: str
+    compliant: bool
+    contact_force: str
+
+
+MODELS = (
+    Model("as published", "as_published", False, "vertical"),
+    Model("orthonormal", "orthonormal", False, "vertical"),
+    Model("+ residual flexibility", "orthonormal", True, "vertical"),
+    Model("+ normal contact force", "orthonormal", True, "normal"),
+)
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What was computed under one model: cases, and grid studies by name, along which the model no longer varies."""
+
+    cases: tuple[CaseView, ...]
+    grids: Mapping[str, xr.Dataset]
+
+    def grid(self, name: str) -> xr.Dataset:
+        """A grid study; raises `Missing` if it is not there."""
+        if name not in self.grids:
+            raise Missing(f"study {name} has nothing of this model")
+        return self.grids[name]
+
+    def pairs(self) -> Iterator[tuple[CaseView, CaseView]]:
+        """Cases that separate, each with the one in which separation is ignored."""
+        ignored = {case.parameters: case for case in self.cases if case.parameters.contact == "bonded"}
+        for case in self.separating():
+            bonded = case.parameters.replace(contact="bonded")
+            if bonded in ignored:
+                yield case, ignored[bonded]
+
+    def separating(self) -> list[CaseView]:
+        """Cases that lose contact; raises `Missing` if one did not get to its end."""
+        for case in self.cases:
+            if case.status != "ok":
+                raise Missing(f"{case.status} (case {case.name})")
+        return [case for case in self.cases if case.parameters.contact != "bonded" and case.separates]
+
+
+def evidence(model: Model, cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> Evidence:
+    """What merged cases and grid studies hold of a model."""
+    views = [CaseView(name, node) for name, node in cases.children.items()]
+    found = {name: one for name, grid in grids.items() if (one := _of_model(grid, model)) is not None}
+    return Evidence(tuple(view for view in views if _is_of(view, model)), found)
+
+
+def _is_of(case: CaseView, model: Model) -> bool:
+    p = case.parameters
+    return (p.normalization, p.contact_compliance != 0, p.contact_force) == model[1:]
+
+
+def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
+    """The one place along the dimension of models."""
+    (dim,) = grid["normalization"].dims
+    there = (
+        (grid["normalization"].values == model.normalization)
+        & ((grid["contact_compliance"].values != 0) == model.compliant)
+        & (grid["contact_force"].values == model.contact_force)
+    )
+    if there.sum() != 1:
+        return None
+    return grid.isel({dim: int(np.flatnonzero(there)[0])})
+
+
+# ----------------------------------------------------------------------------------------------------
+# Conclusions
+
+Check = Callable[[Evidence, "Conclusion"], Finding]
+SLOW = 1e-3
+"""1/s, a growth rate below which a cycle counts as neither stable nor unstable."""
+
+
+@dataclass(frozen=True)
+class Conclusion:
+    """A conclusion of the paper in our own words, what decides it, and why that much; bound: as a number."""
+
+    title: str
+    text: str
+    rule: str
+    reason: str
+    bound: float
+    check: Check
+
+    def judge(self, found: Evidence) -> Finding:
+        """Check it; without what it needs, the verdict says what is missing."""
+        try:
+            return self.check(found, self)
+        except Missing as missing:
+            return Finding("", f"{NOT_COMPUTED}: {missing}")
+
+
+def conclusion(title: str, text: str, *, rule: str, reason: str, bound: float) -> Callable[[Check], Conclusion]:
+    """Make a check the conclusion that it decides."""
+    return lambda check: Conclusion(title, text, rule, reason, bound, check)
+
+
+@conclusion(
+    "Onset",
+    "Friction makes the stick-slip cycle unstable, and separation follows from that only.",
+    rule="nowhere on a grid of speeds and preloads does the published start separate where the cycle is stable",
+    reason="simulations that are never left early, beside multipliers; growth below 1e-3 per second shows too late",
+    bound=SLOW,
+)
+def onset(found: Evidence, said: Conclusion) -> Finding:
+    outcome, growth = _beside(found.grid("survival_outcome"), found.grid("survival_growth"))
+    if (outcome == "unknown").any():
+        raise Missing("study survival_outcome has points that failed")
+    apart = outcome == "separation"
+    stable, unstable, none = growth < -said.bound, growth > said.bound, np.isnan(growth)
+    counts = [int((apart & where).sum()) for where in (unstable, none, stable)]
+    ours = (
+        f"{int(apart.sum())} of {apart.size} points separate: {counts[0]} from an unstable cycle, {counts[1]} where "
+        f"none is found, {counts[2]} from a stable one; {int((stable & ~apart).sum())} with a stable cycle do not"
+    )
+    if counts[2]:
+        return finding(ours, False)
+    if not counts[0] or not stable.any():
+        return undecided(ours, "separation and a stable cycle are not both there to compare")
+    return finding(ours, True)
+
+
+def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], Array]:
+    """Outcomes, and growth rates at the same points, 1/s: both (N, Omega)."""
+    try:
+        there = growth.sel(N=outcome["N"], Omega=outcome["Omega"])
+    except KeyError as error:
+        raise Missing(f"study survival_growth lacks points of survival_outcome: {error}") from None
+    words = outcome["outcome"].transpose("N", "Omega")
+    return flag_names(words), there["growth_rate"].transpose("N", "Omega").values
+
+
+NEAR_FOLD = 385.0
+"""N, the preload at which the paper finds its critical speed between 15 and 15.1 rad/s."""
+
+
+@conclusion(
+    "Fold at N = 385 N",
+    "At N = 385 N separation begins where the quiet cycle ends, at a fold.",
+    rule="a fold lies within 0.05 rad/s of the interval in which separation begins as the speed rises; it does not "
+    "hold where the cycle goes on unstable at the speeds of the growth map on both sides",
+    reason="a fold is read off between points of its curve, to a hundredth; the interval is what bisection left; where "
+    "some curve could not be followed, a fold may have been missed",
+    bound=0.05,
+)
+def fold(found: Evidence, said: Conclusion) -> Finding:
+    folds = np.array(sorted(_folds_at(found.grid("survival_curves"), NEAR_FOLD)))
+    highs, width = _beginnings(found.grid("survival_speed"), NEAR_FOLD)
+    ours = f"folds beside a stable cycle: {_listed(folds, 3)}; separation begins: {_listed(highs, 1)} (rad/s)"
+    if not highs.size:
+        return undecided(ours, "no speed at which separation begins was found")
+    off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
+    if min(off) <= said.bound:
+        return finding(ours, True)
+    beside = [_growth_beside(found.grid("survival_growth"), high - width, high) for high in highs]
+    ours += "; growth there " + ", ".join(f"{low:+.4f} to {high:+.4f}/s" for low, high in beside)
+    if all(rate > SLOW for rates in beside for rate in rates):
+        return finding(ours, False)
+    missed = int(found.grid("survival_curves")["n_unfollowed"])
+    return undecided(ours, f"{missed} curves could not be followed") if missed else finding(ours, False)
+
+
+def _growth_beside(growth: xr.Dataset, low: float, high: float) -> tuple[float, float]:
+    """Growth rates at the nearest speeds of the map below and above an interval, 1/s; nan where there is no cycle."""
+    speed, rate = growth["Omega"].values, growth["growth_rate"].sel(N=NEAR_FOLD).values
+    below, above = np.searchsorted(speed, low, side="right") - 1, np.searchsorted(speed, high)
+    if below < 0 or above >= speed.size:
+        raise Missing("study survival_growth does not reach as far as survival_speed")
+    return float(rate[below]), float(rate[above])
+
+
+def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
+    """Speeds at which folds with a stable cycle beside them cross a preload, rad/s."""
+    _require_ok(curves, "survival_curves")
+    for i in np.flatnonzero(flag_names(curves["kind"]) == "fold"):
+        one = curves.isel(curve=int(i))
+        x, y = one["x"].values, one["y"].values
+        border = flag_names(one["border"]) == "yes"
+        for j in np.flatnonzero((y[:-1] - load) * (y[1:] - load) <= 0):
+            if y[j] != y[j + 1] and border[j] and border[j + 1]:
+                yield float(x[j] + (load - y[j]) / (y[j + 1] - y[j]) * (x[j + 1] - x[j]))
+
+
+def _beginnings(speed: xr.Dataset, load: float) -> tuple[Array, float]:
+    """Upper ends of the intervals in which separation begins as the speed rises, and how wide they are, rad/s."""
+    one = speed.sel(N=load).isel(horizon=0)
+    _require_ok(one, "survival_speed")
+    begins = flag_names(one["crossing_kind"]) == "begins"
+    return one["crossing"].values[begins], _precision(speed)
+
+
+def _precision(speed: xr.Dataset) -> float:
+    import json
+
+    return float(json.loads(speed.attrs["options"])["precision"])
+
+
+def _require_ok(grid: xr.Dataset, name: str) -> None:
+    if not np.all(flag_names(grid["status"]) == "ok"):
+        raise Missing(f"study {name} has points that failed")
+
+
+@conclusion(
+    "Critical speed",
+    "The lowest speed with separation falls with the preload at first, then rises.",
+    rule="between preloads at both of which it is higher, by 0.3 rad/s or more, or there is no separation at all",
+    reason="speeds are found to 0.1 rad/s; how long one waits, 1000 s here, moves them all",
+    bound=0.3,
+)
+def falls_then_rises(found: Evidence, said: Conclusion) -> Finding:
+    study = found.grid("survival_speed").isel(horizon=0)
+    _require_ok(study, "survival_speed")
+    speed, load = study["critical_speed"].values, study["N"].values
+    ours = "; ".join(f"{N:g} N: {'none' if math.isnan(v) else f'{v:.1f}'}" for N, v in zip(load, speed, strict=True))
+    height = np.where(np.isnan(speed), np.inf, speed)
+    if np.isfinite(height).sum() < 3:
+        return undecided(f"{ours} (rad/s)", "fewer than three preloads separate")
+    dips = [
+        bool(height[:i].max() >= height[i] + said.bound and height[i + 1 :].max() >= height[i] + said.bound)
+        for i in range(1, len(height) - 1)
+    ]
+    return finding(f"{ours} (rad/s)", any(dips))
+
+
+@conclusion(
+    "Smaller vibration",
+    "Separation keeps the disc's vibration smaller than it is where separation is ignored.",
+    rule="over the last half of the time after the first separation it is narrower than any 20 s without separation",
+    reason="motions that wander have no single range; one whose last quarter is a fifth wider than the one before "
+    "decides nothing",
+    bound=0.2,
+)
+def smaller_vibration(found: Evidence, said: Conclusion) -> Finding:
+    smaller, larger, open_, words = 0, 0, 0, []
+    for free, bonded in found.pairs():
+        third, fourth = _late_quarters(free)
+        other = _late_widths(bonded)
+        settled = fourth <= (1 + said.bound) * third
+        smaller += settled and max(third, fourth) < min(other)
+        larger += min(third, fourth) >= max(other)
+        open_ += not settled or min(other) <= max(third, fourth)
+        words.append(f"{_place(free)}: {1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm")
+    return _of_cases("; ".join(words), smaller, larger, open_)
+
+
+def _late_quarters(case: CaseView) -> tuple[float, float]:
+    """Ranges of the disc's point over the last two quarters of the time after the first separation, m."""
+    first, end = case["first_separation"], case["time_reached"]
+    quarter = (end - first) / 4
+    spans = ((end - 2 * quarter, end - quarter), (end - quarter, end))
+    third, fourth = (case.range_of("w_point", *span).width for span in spans)
+    return third, fourth
+
+
+def _late_widths(case: CaseView) -> list[float]:
+    """Ranges of the disc's point over the last stretches, m."""
+    end = case["time_reached"]
+    spans = [(end - (i + 1) * STRETCH, end - i * STRETCH) for i in range(STRETCHES)]
+    return [case.range_of("w_point", *span).width for span in spans]
+
+
+@conclusion(
+    "Stick vanishes",
+    "After a separation the stick phase disappears, under certain parameter values.",
+    rule="0.1 % of the last 60 s in at least one case that stuck before; where it does not, that is a remark",
+    reason="a stray stick would not refute the statement",
+    bound=1e-3,
+)
+def stick_vanishes(found: Evidence, said: Conclusion) -> Finding:
+    gone, stays, words = 0, [], []
+    for case in found.separating():
+        before, late = case["time_stick"] / case["time_reached"], measures.phase_share(case, "stick")
+        vanished = stick_disappears(before, late, said.bound)
+        gone += vanished
+        stays += [] if vanished else [_place(case)]
+        words.append(f"{_place(case)}: {100 * late:.2g} %")
+    ours = "; ".join(words)
+    if not words:
+        return undecided(ours, "no case separates")
+    return finding(ours, gone > 0, f"not at {', '.join(stays)}" if stays else "")
+
+
+@conclusion(
+    "Damper normal to the disc",
+    "Damping normal to the disc stabilises.",
+    rule="c = 0.5 N s/m lowers the growth rate of every cycle that grows without it by 1e-3 per second or more",
+    reason="growth rates are right to 1e-7; a cycle that is lost or found with the damper has no two rates to compare",
+    bound=1e-3,
+)
+def normal_damping(found: Evidence, said: Conclusion) -> Finding:
+    without, with_damper, _ = _damped(found, "c")
+    compared = (without > said.bound) & np.isfinite(with_damper)
+    lower = compared & (with_damper < without)
+    stable = compared & (with_damper < 0)
+    ours = f"lower at {int(lower.sum())} of {int(compared.sum())} points with a growing cycle"
+    ours += f", stable at {int(stable.sum())}"
+    if not compared.any():
+        return undecided(ours, "no cycle grows without the damper")
+    return finding(ours, bool(lower.sum() == compared.sum()))
+
+
+LARGE = 300.0
+"""N, the least preload that counts as large; the paper shows 385 N."""
+
+
+@conclusion(
+    "Damper in the disc's plane",
+    "In-plane damping destabilises at some large preloads.",
+    rule="at 300 N or more, somewhere on a grid, c_p = 0.5 N s/m raises a growth rate that is positive with it by 1e-3 "
+    "per second or more, or a stable cycle ends",
+    reason="one place decides; ten cycles or more have to be there for none to mean anything",
+    bound=1e-3,
+)
+def inplane_damping(found: Evidence, said: Conclusion) -> Finding:
+    without, damped, status = _damped(found, "c_p")
+    large = (found.grid("survival_damping")["N"].values >= LARGE)[:, None]
+    both = np.isfinite(without) & np.isfinite(damped)
+    higher = both & (damped > 0) & (damped > without + said.bound)
+    ended = (without < -said.bound) & np.isin(status, ("no_cycle", "separates"))
+    grows = [int((higher & place).sum()) for place in (large, ~large)]
+    ends = _counted(int((ended & large).sum()), "stable cycle")
+    ours = (
+        f"at {LARGE:g} N or more higher at {grows[0]} of {int((both & large).sum())} points, and {ends} ended; below, "
+        f"higher at {grows[1]} of {int((both & ~large).sum())}"
+    )
+    if grows[0] or (ended & large).any():
+        return finding(ours, True)
+    return finding(ours, False) if (both & large).sum() >= 10 else undecided(ours, "too few cycles to mean anything")
+
+
+def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]:
+    """Growth rates without and with one damper, 1/s, and what was found with it: each (N, Omega)."""
+    study = found.grid("survival_damping")
+    (dim,) = study["c"].dims
+    other = {"c": "c_p", "c_p": "c"}[name]
+    off = study[other].values == 0
+    places = [off & (study[name].values == 0), off & (study[name].values > 0)]
+    if any(place.sum() != 1 for place in places):
+        raise Missing(f"study survival_damping lacks a pair of points without and with {name}")
+    one, two = (study.isel({dim: int(np.flatnonzero(place)[0])}).transpose("N", "Omega", ...) for place in places)
+    return one["growth_rate"].values, two["growth_rate"].values, flag_names(two["status"])
+
+
+@conclusion(
+    "Not periodic afterwards",
+    "After a separation the motion does not settle to a periodic one.",
+    rule="no period within half of the last 60 s, by releases of stick, or by separations where it hardly sticks: "
+    "in every case; 1e-8 s",
+    reason="far above rounding, far below what an irregular motion leaves; the paper judges sections by their looks",
+    bound=1e-8,
+)
+def not_periodic(found: Evidence, said: Conclusion) -> Finding:
+    periodic, others, open_, words = 0, 0, 0, []
+    for case in found.separating():
+        kind, told = _repeats(case, said.bound)
+        periodic += kind is Kind.PERIODIC
+        others += kind in (Kind.QUASI_PERIODIC, Kind.IRREGULAR)
+        open_ += kind is Kind.UNDECIDED
+        words.append(f"{_place(case)}: {told}")
+    return _of_cases("; ".join(words), others, periodic, open_)
+
+
+def _repeats(case: CaseView, tolerance: float) -> tuple[Kind, str]:
+    """What a motion is by the intervals between its releases, or separations; and that in words."""
+    for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
+        intervals = np.diff(measures.times_of(case.events, kind))
+        if intervals.size >= 2 * FEWEST:
+            motion = motion_of(intervals, tolerance)
+            if motion.period:
+                length = float(intervals[: motion.period].sum())
+                return motion.kind, f"repeats after {_counted(motion.period, name)} = {length:.4g} s"
+            return motion.kind, f"{motion.kind} by its {name}s"
+    return Kind.UNDECIDED, "too few switches"
+
+
+def _counted(count: int, name: str) -> str:
+    return f"{count} {name}{'s' if count != 1 else ''}"
+
+
+def _place(case: CaseView) -> str:
+    return f"{case['N']:g} N, {case['Omega']:g} rad/s"
+
+
+def _listed(values: Array, digits: int) -> str:
+    return measures.many(values, digits) or "none"
+
+
+def _of_cases(ours: str, good: int, bad: int, open_: int) -> Finding:
+    """The verdict on a statement about every case: one against it is enough, one that is open leaves it open."""
+    if bad:
+        return finding(ours, False)
+    if open_ or not good:
+        return undecided(ours, "not every case decides" if good + open_ else "no case separates")
+    return finding(ours, True)
+
+
+CONCLUSIONS = tuple(one for one in list(vars().values()) if isinstance(one, Conclusion))
+"""In the order in which they stand here."""
+
+# ----------------------------------------------------------------------------------------------------
+# The page
+
+
+def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
+    """Every conclusion under every model: a row each, columns conclusion, model, verdict, ours, remark."""
+    rows = []
+    for model in MODELS:
+        found = evidence(model, cases, grids)
+        rows += [(one.title, model.name, *_said(one.judge(found))) for one in CONCLUSIONS]
+    return pd.DataFrame(rows, columns=["conclusion", "model", "verdict", "ours", "remark"])
+
+
+def _said(found: Finding) -> tuple[str, str, str]:
+    return found.verdict, found.ours, found.remark
+
+
+INTRODUCTION = (
+    "Four models: the paper's (as published); the same with orthonormal modes, Eq. (17); with residual flexibility in "
+    "the contact besides; with the contact force normal to the deformed disc besides, so that the last has all three "
+    "changes. Nine modes, base values, the published start; the same checks for each. Undecided means that the motions "
+    "computed do not tell."
+)
+
+
+def page_of(table: pd.DataFrame) -> Comparison:
+    """What `judge` found, as a page: all verdicts at a glance, then what each rests on."""
+    glance = table.pivot(index="conclusion", columns="model", values="verdict")
+    glance = glance.loc[[one.title for one in CONCLUSIONS], [model.name for model in MODELS]]
+    first = (
+        pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})
+        .join(glance.reset_index(drop=True))
+        .rename(columns=lambda name: name[0].upper() + name[1:])
+    )
+    sections = [("At a glance", INTRODUCTION, first)]
+    for one in CONCLUSIONS:
+        rows = table[table["conclusion"] == one.title]
+        columns = {"Model": rows["model"], "Verdict": rows["verdict"], "Found": rows["ours"], "Remark": rows["remark"]}
+        shown = pd.DataFrame(columns)
+        if not rows["remark"].any():
+            shown = shown.drop(columns="Remark")
+        sections.append((one.title, f"{one.text} Rule: {one.rule}. Why: {one.reason}.", shown))
+    return Comparison("What survives of the paper's conclusions", tuple(sections))
+
+
+__all__ = ["CONCLUSIONS", "FAILS", "MODELS", "judge", "page_of"]

@@ -1,0 +1,417 @@
+"""What survives: every verdict on data made up so that it holds, that it does not, and that they do not tell."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+import yaml
+
+from disc_model import Parameters, residual_flexibility
+from disc_model.claims import SURVIVAL_GRIDS
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Finding
+from disc_model.claims.survival import CONCLUSIONS, MODELS, Conclusion, Evidence, judge, page_of
+from disc_model.data.dataset import events_dataset
+from disc_model.data.variables import STATUSES
+from disc_model.studies.schema import load_study
+from tests.claims.made_up import logistic
+
+BY_TITLE = {one.title: one for one in CONCLUSIONS}
+CONFIG = Path(__file__).parents[2] / "config"
+DIM = "normalization_contact_compliance_contact_force"
+
+
+def flag(words: np.ndarray, meanings: Sequence[str], dims: Sequence[str]) -> xr.Variable:
+    """Words as a grid study holds them."""
+    numbers = np.vectorize(list(meanings).index, otypes=[np.int64])(words)
+    attrs = {"flag_values": np.arange(len(meanings)), "flag_meanings": " ".join(meanings)}
+    return xr.Variable(dims, numbers, attrs)
+
+
+def judged(title: str, *cases: CaseView, **grids: xr.Dataset) -> Finding:
+    return BY_TITLE[title].judge(Evidence(cases, {f"survival_{name}": grid for name, grid in grids.items()}))
+
+
+# ----------------------------------------------------------------------------------------------------
+# Grids
+
+POINTS = {"N": [50.0, 385.0], "Omega": [10.0, 20.0, 30.0]}
+
+
+def growth(*rates: float) -> xr.Dataset:
+    return xr.Dataset({"growth_rate": (("N", "Omega"), np.reshape(rates, (2, 3)))}, POINTS)
+
+
+def outcome(letters: str) -> xr.Dataset:
+    """A letter for each point: s separates, q is quiet, g grows without, x failed."""
+    words = {"s": "separation", "q": "stable", "g": "unstable", "x": "unknown"}
+    found = np.array([words[letter] for letter in letters]).reshape(2, 3)
+    return xr.Dataset({"outcome": flag(found, ("unknown", "stable", "unstable", "separation"), ("N", "Omega"))}, POINTS)
+
+
+NAN = float("nan")
+
+
+@pytest.mark.parametrize(
+    ("letters", "rates", "verdict"),
+    [
+        ("qqsqgs", (-0.1, -0.2, 0.1, -0.1, 0.05, NAN), HOLDS),
+        ("qssqgs", (-0.1, -0.2, 0.1, -0.1, 0.05, NAN), FAILS),  # one from a stable cycle
+        ("qssqgs", (-0.1, -5e-4, 0.1, -0.1, 0.05, NAN), HOLDS),  # too slow a growth to tell
+        ("qqqqgg", (-0.1, -0.2, 0.1, -0.1, 0.05, 0.1), UNDECIDED),  # nothing separates
+        ("ssssss", (0.1, 0.2, 0.1, 0.1, 0.05, 0.1), UNDECIDED),  # nothing is stable
+        ("qqqqqs", (-0.1, -0.2, -0.1, -0.1, -0.05, NAN), UNDECIDED),  # only where there is no cycle
+    ],
+)
+def test_onset(letters: str, rates: Sequence[float], verdict: str) -> None:
+    assert judged("Onset", outcome=outcome(letters), growth=growth(*rates)).verdict == verdict
+
+
+def test_onset_needs_every_point() -> None:
+    rates = growth(-0.1, -0.2, 0.1, -0.1, 0.05, NAN)
+    found = judged("Onset", outcome=outcome("qqsqgx"), growth=rates)
+    assert found.verdict == f"{NOT_COMPUTED}: study survival_outcome has points that failed"
+    found = judged("Onset", outcome=outcome("qqsqgs"), growth=rates.isel(Omega=[0, 1]))
+    assert found.verdict.startswith(f"{NOT_COMPUTED}: study survival_growth lacks points of survival_outcome")
+    assert judged("Onset", outcome=outcome("qqsqgs")).verdict.startswith(f"{NOT_COMPUTED}: study survival_growth")
+
+
+def curves(
+    kind: str, speeds: tuple[float, float], border: str = "yes", status: str = "ok", missed: int = 0
+) -> xr.Dataset:
+    """One curve from 380 to 390 N, and room for another."""
+    dims = ("curve", "curve_point")
+    x, y = np.full((2, 3), NAN), np.full((2, 3), NAN)
+    x[0, :2], y[0, :2] = speeds, (380.0, 390.0)
+    return xr.Dataset(
+        {
+            "kind": flag(np.array([kind, "none"]), ("none", "neutral", "fold"), ["curve"]),
+            "x": (dims, x),
+            "y": (dims, y),
+            "border": flag(np.full((2, 3), border), ("no", "yes"), dims),
+            "status": flag(np.array(status), ("ok", "failed"), ()),
+            "n_unfollowed": missed,
+        }
+    )
+
+
+QUIET, UNSTABLE = growth(*[-0.1] * 5, 0.1), growth(*[0.1] * 6)
+
+
+def speeds(*begins: float, status: str = "ok") -> xr.Dataset:
+    """At 385 N alone; the second crossing is an end of separation at 15.1 rad/s, which counts for nothing."""
+    kinds = ["begins"] * len(begins) + ["ends"]
+    dims = ("N", "horizon", "crossing_number")
+    grid = xr.Dataset(
+        {
+            "crossing": (dims, np.array([[[*begins, 15.1]]])),
+            "crossing_kind": flag(np.array([[kinds]]), ("none", "begins", "ends"), dims),
+            "status": flag(np.array([status]), ("ok", "failed"), ["N"]),
+        },
+        {"N": [385.0]},
+    )
+    return grid.assign_attrs(options=json.dumps({"precision": 0.1}))
+
+
+@pytest.mark.parametrize(
+    ("found", "begins", "rates", "verdict"),
+    [
+        (curves("fold", (14.9, 15.2)), (15.1,), QUIET, HOLDS),  # at 15.05, within 15.0 .. 15.1
+        (curves("fold", (15.0, 15.28)), (15.1,), QUIET, HOLDS),  # at 15.14
+        (curves("fold", (15.0, 15.34)), (15.1,), QUIET, FAILS),  # at 15.17
+        (curves("fold", (14.9, 15.2), border="no"), (15.1,), QUIET, FAILS),
+        (curves("neutral", (14.9, 15.2)), (15.1,), QUIET, FAILS),
+        (curves("neutral", (14.9, 15.2), missed=2), (15.1,), QUIET, UNDECIDED),  # one of them may be the fold
+        (curves("neutral", (14.9, 15.2), missed=2), (15.1,), UNSTABLE, FAILS),  # the cycle goes on, unstable
+        (curves("neutral", (14.9, 15.2), missed=2), (15.1,), growth(*[0.1] * 4, NAN, 0.1), UNDECIDED),
+        (curves("fold", (14.9, 15.2)), (), QUIET, UNDECIDED),
+    ],
+)
+def test_fold(found: xr.Dataset, begins: tuple[float, ...], rates: xr.Dataset, verdict: str) -> None:
+    assert judged("Fold at N = 385 N", curves=found, speed=speeds(*begins), growth=rates).verdict == verdict
+
+
+def test_a_map_that_ends_too_soon_does_not_judge_a_fold() -> None:
+    found = judged("Fold at N = 385 N", curves=curves("neutral", (14, 16)), speed=speeds(35.0), growth=QUIET)
+    assert found.verdict == f"{NOT_COMPUTED}: study survival_growth does not reach as far as survival_speed"
+
+
+def test_a_fold_is_not_judged_by_what_failed() -> None:
+    good = curves("fold", (14.9, 15.2))
+    for name, grids in (
+        ("curves", {"curves": curves("fold", (14.9, 15.2), status="failed"), "speed": speeds(15.1)}),
+        ("speed", {"curves": good, "speed": speeds(15.1, status="failed")}),
+    ):
+        found = judged("Fold at N = 385 N", **grids)
+        assert found.verdict == f"{NOT_COMPUTED}: study survival_{name} has points that failed"
+
+
+@pytest.mark.parametrize(
+    ("critical", "verdict"),
+    [
+        ((NAN, 20.0, 12.0, 15.0), HOLDS),
+        ((30.0, 20.0, 12.0, NAN), HOLDS),
+        ((30.0, 20.0, 12.0, 12.2), FAILS),  # no more than speeds are known to
+        ((NAN, 20.0, 12.0, 11.0), FAILS),
+        ((10.0, 11.0, 12.0, 13.0), FAILS),
+        ((NAN, 20.0, NAN, 15.0), UNDECIDED),
+    ],
+)
+def test_critical_speed(critical: tuple[float, ...], verdict: str) -> None:
+    study = xr.Dataset(
+        {
+            "critical_speed": (("N", "horizon"), np.array(critical)[:, None]),
+            "status": flag(np.full(4, "ok"), ("ok", "failed"), ["N"]),
+        },
+        {"N": [50.0, 100.0, 200.0, 385.0]},
+    )
+    assert judged("Critical speed", speed=study).verdict == verdict
+
+
+def damping(name: str, without: np.ndarray, damped: np.ndarray, status: str = "ok") -> xr.Dataset:
+    """Growth rates over preload and speed without and with one damper."""
+    rates = np.stack([without, damped])
+    values = {"c": [0.0, 0.0], "c_p": [0.0, 0.0]}
+    values[name][1] = 0.5
+    words = np.where(np.isnan(rates), status, "ok")
+    dims = ("c_c_p", "N", "Omega")
+    coords = {key: ("c_c_p", value) for key, value in values.items()}
+    meanings = ("ok", "no_cycle", "no_stick_slip")
+    return xr.Dataset(
+        {"growth_rate": (dims, rates), "status": flag(words, meanings, dims)},
+        coords | {"N": [50.0, 385.0], "Omega": np.linspace(10, 50, rates.shape[2])},
+    )
+
+
+GROWING = np.array([[-0.1, 0.1, 0.2], [0.05, 0.1, NAN]])
+
+
+@pytest.mark.parametrize(
+    ("without", "damped", "verdict"),
+    [
+        (GROWING, GROWING - 0.15, HOLDS),
+        (GROWING, GROWING + np.array([[0.1, -0.1, -0.1], [-0.1, -0.1, 0.0]]), HOLDS),  # a stable one may do as it likes
+        (GROWING, GROWING + np.array([[0.0, -0.1, 0.01], [-0.1, -0.1, 0.0]]), FAILS),
+        (-np.abs(GROWING), GROWING, UNDECIDED),
+        (GROWING, np.full((2, 3), NAN), UNDECIDED),
+    ],
+)
+def test_damper_normal_to_the_disc(without: np.ndarray, damped: np.ndarray, verdict: str) -> None:
+    assert judged("Damper normal to the disc", damping=damping("c", without, damped)).verdict == verdict
+
+
+MANY = np.tile(np.linspace(-0.1, 0.1, 12), (2, 1))
+
+
+def raised(row: int, column: int, to: float) -> np.ndarray:
+    found = MANY - 0.05
+    found[row, column] = to
+    return found
+
+
+@pytest.mark.parametrize(
+    ("damped", "status", "verdict"),
+    [
+        (MANY - 0.05, "ok", FAILS),
+        (raised(1, 0, 0.05), "ok", HOLDS),  # a stable cycle grows
+        (raised(1, 11, 0.15), "ok", HOLDS),  # a growing one grows faster
+        (raised(0, 0, 0.05), "ok", FAILS),  # at a small preload only
+        (raised(1, 0, -0.05), "ok", FAILS),  # dies out more slowly, but does
+        (raised(1, 0, NAN), "no_cycle", HOLDS),
+        (raised(1, 0, NAN), "no_stick_slip", FAILS),  # it slides, which is no instability
+        (raised(1, 11, NAN), "no_cycle", FAILS),  # it was not stable without, either
+    ],
+)
+def test_damper_in_the_discs_plane(damped: np.ndarray, status: str, verdict: str) -> None:
+    assert judged("Damper in the disc's plane", damping=damping("c_p", MANY, damped, status)).verdict == verdict
+
+
+def test_few_cycles_say_nothing_of_the_damper_in_the_plane() -> None:
+    few = damping("c_p", MANY[:, :3], MANY[:, :3] - 0.05)
+    assert judged("Damper in the disc's plane", damping=few).verdict == UNDECIDED
+    other = damping("c", MANY, MANY)
+    assert judged("Damper in the disc's plane", damping=other).verdict == (
+        f"{NOT_COMPUTED}: study survival_damping lacks a pair of points without and with c_p"
+    )
+
+
+# ----------------------------------------------------------------------------------------------------
+# Cases
+
+
+def case(
+    *,
+    N: float = 200,
+    bonded: bool = False,
+    first: float = 100.0,
+    widths: Sequence[float] = (1.0, 1.0, 1.0, 1.0),
+    intervals: np.ndarray | None = None,
+    stick: float = 0.0,
+    before: float = 0.1,
+    status: str = "ok",
+) -> CaseView:
+    """A run of 300 s; widths of the disc's motion in quarters of the time after 100 s, each of 50 s.
+
+    intervals : s, between separations of the last 60 s; stick : share of those 60 s
+    """
+    p = Parameters(N=N, Omega=20, contact="bonded" if bonded else "separable")
+    t = np.arange(0.25, 300, 0.5)
+    width = np.array([0.01, 0.01, *widths])[(t // 50).astype(int)]
+    history = xr.Dataset({"w_point_min": ("time", -width / 2), "w_point_max": ("time", width / 2)}, {"time": t})
+    times = 240 + np.cumsum(np.full(4000, 0.01) if intervals is None else intervals)
+    released = 240 + 60 * stick
+    times = times[(times > released) & (times < 299)]
+    rows = [(240.0, "slip_to_stick", "stick"), (released, "stick_to_slip", "slip")]
+    rows += [row for at in times for row in ((at, "separation", "separation"), (at + 1e-4, "reattachment", "slip"))]
+    frame = pd.DataFrame(sorted(rows), columns=["time", "kind", "phase"])
+    for name in ("psi", "f", "u", "u_velocity", "P"):
+        frame[name] = 0.0
+    events = events_dataset(frame).assign_attrs(kept_from=240.0, kept_until=300.0)
+    scalars = {
+        "N": N,
+        "Omega": 20.0,
+        "status": STATUSES.index(status),
+        "first_separation": NAN if bonded else first,
+        "n_separations": 0 if bonded or np.isnan(first) else 5,
+        "time_reached": 300.0,
+        "time_stick": 300 * before,
+    }
+    root = xr.Dataset(scalars, attrs={"parameters": p.canonical_json})
+    return CaseView(f"case{N:g}{bonded}", xr.DataTree.from_dict({"/": root, "/history": history, "/events": events}))
+
+
+def free(*widths: float) -> CaseView:
+    return case(widths=widths)
+
+
+BONDED = case(bonded=True, widths=(3.0, 3.0, 3.0, 3.0))
+
+
+@pytest.mark.parametrize(
+    ("cases", "verdict"),
+    [
+        ((free(1, 1, 1, 1.1), BONDED), HOLDS),
+        ((free(9, 1, 1, 1.1), BONDED), HOLDS),  # what is early does not count
+        ((free(1, 1, 1, 1.3), BONDED), UNDECIDED),  # it still grows
+        ((free(1, 1, 4, 4), BONDED), FAILS),
+        ((free(1, 1, 4, 2), BONDED), UNDECIDED),  # it wanders across
+        ((free(1, 1, 1, 1), BONDED, case(N=300, widths=(4, 4, 4, 4)), case(N=300, bonded=True)), FAILS),
+        ((case(first=NAN), BONDED), UNDECIDED),  # nothing separates
+        ((free(1, 1, 1, 1),), UNDECIDED),  # nothing to compare with
+    ],
+)
+def test_smaller_vibration(cases: Sequence[CaseView], verdict: str) -> None:
+    assert judged("Smaller vibration", *cases).verdict == verdict
+
+
+def test_a_case_that_failed_is_said() -> None:
+    found = judged("Smaller vibration", case(status="failed"), BONDED)
+    assert found.verdict == f"{NOT_COMPUTED}: failed (case case200False)"
+
+
+@pytest.mark.parametrize(
+    ("cases", "verdict"),
+    [
+        ((case(stick=5e-4),), HOLDS),
+        ((case(stick=5e-4), case(N=300, stick=0.01)), REMARK),
+        ((case(stick=0.01),), FAILS),
+        ((case(stick=5e-4, before=5e-4),), FAILS),  # it never stuck
+        ((case(first=NAN),), UNDECIDED),
+    ],
+)
+def test_stick_vanishes(cases: Sequence[CaseView], verdict: str) -> None:
+    assert judged("Stick vanishes", *cases).verdict == verdict
+
+
+REPEATING = np.tile([0.01, 0.012, 0.011], 2000)
+DRIFTING = 0.01 * (1 + 0.1 * np.sin(2.399963 * np.arange(6000)))
+CHAOTIC = 0.01 * (1 + 0.3 * logistic(6000))
+
+
+@pytest.mark.parametrize(
+    ("cases", "verdict"),
+    [
+        ((case(intervals=DRIFTING),), HOLDS),
+        ((case(intervals=CHAOTIC), case(N=300, intervals=DRIFTING)), HOLDS),
+        ((case(intervals=CHAOTIC), case(N=300, intervals=REPEATING)), FAILS),
+        ((case(intervals=CHAOTIC), case(N=300, intervals=np.full(20, 2.0))), UNDECIDED),  # too few of them
+        ((case(first=NAN),), UNDECIDED),
+    ],
+)
+def test_not_periodic(cases: Sequence[CaseView], verdict: str) -> None:
+    assert judged("Not periodic afterwards", *cases).verdict == verdict
+
+
+def test_a_period_is_said() -> None:
+    found = judged("Not periodic afterwards", case(intervals=REPEATING))
+    assert found.ours == "200 N, 20 rad/s: repeats after 3 separations = 0.033 s"
+
+
+# ----------------------------------------------------------------------------------------------------
+# All of it
+
+
+def test_each_model_is_judged_by_its_own_data() -> None:
+    """One map of growth for all four: separations from a stable cycle in one of them only."""
+    models = {
+        "normalization": (DIM, [model.normalization for model in MODELS]),
+        "contact_compliance": (DIM, [3e-7 * model.compliant for model in MODELS]),
+        "contact_force": (DIM, [model.contact_force for model in MODELS]),
+    }
+    rates = growth(-0.1, -0.2, 0.1, -0.1, 0.05, NAN)
+    apart = [outcome("qqsqgs"), outcome("qqsqgs"), outcome("qssqgs"), outcome("qqqqgg")]
+    grids = {
+        "survival_growth": xr.concat([rates] * 4, DIM).assign_coords(models),
+        "survival_outcome": xr.concat(apart, DIM, combine_attrs="override").assign_coords(models),
+    }
+    first = Parameters(N=200, Omega=20)
+    cases = {}
+    for i, model in enumerate(MODELS):
+        p = first.replace(
+            normalization=model.normalization,
+            contact_compliance="residual" if model.compliant else 0.0,
+            contact_force=model.contact_force,
+        )
+        node = case(stick=5e-4 if i != 1 else 0.01).node
+        cases[f"/case{i}"] = node.to_dataset().assign_attrs(parameters=p.canonical_json)
+        cases[f"/case{i}/events"] = node["events"].to_dataset()
+    table = judge(xr.DataTree.from_dict(cases), grids)
+    verdicts = table.pivot(index="conclusion", columns="model", values="verdict")[[model.name for model in MODELS]]
+    assert [*verdicts.loc["Onset"]] == [HOLDS, HOLDS, FAILS, UNDECIDED]
+    assert [*verdicts.loc["Stick vanishes"]] == [HOLDS, FAILS, HOLDS, HOLDS]
+    assert verdicts.loc["Critical speed"].str.startswith(NOT_COMPUTED).all()
+    page = page_of(table)
+    assert [heading for heading, _, _ in page.sections] == ["At a glance", *BY_TITLE]
+    assert page.sections[0][2].shape == (len(CONCLUSIONS), 1 + len(MODELS))
+    assert "from a stable one" in page.markdown()
+    assert "<h2>Onset</h2>" in page.html()
+
+
+def test_conclusions_say_how_they_are_judged() -> None:
+    assert len(BY_TITLE) == len(CONCLUSIONS) == 8
+    for one in CONCLUSIONS:
+        assert isinstance(one, Conclusion)
+        assert one.rule
+        assert one.reason
+        assert one.bound > 0
+
+
+def test_the_files_ask_for_the_four_models() -> None:
+    study = load_study(CONFIG / "survival.yaml")
+    views = {(spec.parameters.N, spec.parameters.Omega, spec.parameters.contact) for spec in study.specs.values()}
+    assert len(study.specs) == len(MODELS) * len(views)
+    flexible = Parameters(N=200, Omega=20, normalization="orthonormal")
+    found = residual_flexibility(flexible)
+    for name in SURVIVAL_GRIDS:
+        raw = yaml.safe_load((CONFIG / "survival" / f"{name}.yaml").read_text())
+        zips = raw["zip"] if isinstance(raw["zip"], list) else [raw["zip"]]
+        (models,) = [one for one in zips if "normalization" in one]
+        rows = list(zip(*models.values(), strict=True))
+        for model, (normalization, compliance, force) in zip(MODELS, rows, strict=True):
+            assert (normalization, compliance != 0, force) == model[1:]
+            assert compliance == pytest.approx((found.total - found.kept) * model.compliant, rel=1e-12)
