@@ -74,6 +74,7 @@ FUNCTIONS = {
 EQUIVALENT: dict[str, str] = {
     "engine/stick_modes.py:_compliant_eigenmodes: + k -> -": "the scale of u is free",
     "engine/stick_modes.py:_compliant_eigenmodes: 1.0 -> 2.0": "the scale of u is free",
+    "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
     "engine/stick_modes.py:_decomposed: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
 }
 

@@ -121,9 +121,13 @@ def test_series_against_the_reference(name, phase, direction, n_diameters):
     if p.contact_compliance or phase == "separation":
         compare(s.u, step.u)
         compare(s.v, step.v)
-    if phase == "stick" and p.contact_force == "vertical":
-        compare(s.switch, p.mu_s * step.R - step.T)
-        compare(s.switch2, p.mu_s * step.R + step.T)
+    if phase == "stick":
+        press, pull = step.V[:order], p.r_0 * step.F[:order]
+        if p.contact_force == "normal":  # over the denominator that both have
+            press = press + np.convolve(step.F, step.B)[:order]
+            pull = pull - np.convolve(step.V, step.B)[:order] / p.r_0
+        compare(s.switch, p.mu_s * press - pull)
+        compare(s.switch2, p.mu_s * press + pull)
 
 
 @pytest.mark.parametrize("name", EVERY_LAW)
