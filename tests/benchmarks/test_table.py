@@ -26,9 +26,9 @@ def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
     assert "4.0 (4)" in text
     assert "tol^1.00" in text
     assert "| - |" in text
-    # at its default the series takes 1.1 ms a second; RK4 is as accurate with steps of 2e-5 s, at 0.5 s
-    assert table.headline(dataset) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(0.5 / 1.1e-3)}}
-    assert "event-time error within\n1e-10 s: RK4, fixed step 455." in text
+    # at its default the series takes 1 ms a further second; RK4 is as accurate with steps of 2e-5 s, at 0.5 s
+    assert table.headline(dataset) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(0.5 / 1e-3)}}
+    assert "event-time error within\n1e-10 s: RK4, fixed step 500." in text
     counted = dataset.assign(flops=("scene", [2.2e6, np.nan]))
     assert "2.2 MFlop in vectors per simulated second at tol=1e-10,\n2.0 GFlop/s." in table.to_markdown(counted)
     without = table.table(dataset.sel(solver=["RK4"]))
@@ -36,17 +36,21 @@ def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
 
 
 def test_headline_compares_the_default_with_the_cheapest_right_setting(dataset):
-    """RK4 with 1e-5 s is the coarsest of the three that is right to 1e-10 s; the wrong ones do not count."""
+    """RK4 with 1e-5 s is the coarsest of the three that is right to 1e-10 s; the wrong ones do not count.
+
+    Of it only the whole run was measured; of the series also a further second, which is what counts.
+    """
     cost = {"series": (2e-3, 5e-4), "RK4": (1e-3, 4e-3, 4e-2)}
+    further = {"series": (1.9e-3, 4e-4), "RK4": ()}
     error = {"series": (1e-7, 2e-12), "RK4": (1e-5, 1e-11, 1e-13)}
     value = {"series": (1e-6, 1e-10), "RK4": (1e-4, 1e-5, 1e-6)}
-    grids = {name: np.full((1, 2, 3), np.nan) for name in ("cost", "event_error", "value")}
+    grids = {name: np.full((1, 2, 3), np.nan) for name in ("cost", "marginal_cost", "event_error", "value")}
     for i, method in enumerate(("series", "RK4")):
-        for name, given in (("cost", cost), ("event_error", error), ("value", value)):
+        for name, given in (("cost", cost), ("marginal_cost", further), ("event_error", error), ("value", value)):
             grids[name][0, i, : len(given[method])] = given[method]
     verdict = np.where(np.isfinite(grids["cost"]), int(Verdict.CONVERGED), int(Verdict.NOT_RUN))
     made = xr.Dataset(
         {name: (("scene", "solver", "point"), grid) for name, grid in (grids | {"verdict": verdict}).items()},
         coords={"scene": ["stick_slip"], "solver": ["series", "RK4"]},
     )
-    assert headline(made) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(8.0)}}
+    assert headline(made) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(10.0)}}

@@ -14,7 +14,7 @@ from disc_model.benchmarks import work_precision
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.data.dataset import load, save
 from disc_model.data.variables import flag_names
-from tests.benchmarks.conftest import SETTINGS, Known
+from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
 
 
 def available() -> set[int]:
@@ -36,6 +36,9 @@ def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict
     assert flag_names(series["verdict"])[3] == "not_run"
     assert (series["repeats"][:3] == 2).all()
     assert series["cost"][0] == pytest.approx(1e-3 + 6e-5)
+    assert series["marginal_cost"][0] == pytest.approx(1e-3 + 6e-5 - SET_UP)
+    # too long to be followed further
+    assert np.isnan(rk4["marginal_cost"][3])
     assert flag_names(dataset.sel(scene="stick_slip", solver="Radau")["verdict"])[0] == "wrong_events"
     assert json.loads(dataset.attrs["versions"])["heyoka"]
     # what gives up at a coarse setting is not tried at a finer one

@@ -17,8 +17,9 @@ import xarray as xr
 from disc_model.benchmarks.answers import words
 from disc_model.benchmarks.answers.questions import QUESTIONS, Verdict
 from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.scenes import JUDGED
 from disc_model.benchmarks.scenes import Verdict as EventVerdict
-from disc_model.benchmarks.table import DEFAULT, JUDGED, headline
+from disc_model.benchmarks.table import DEFAULT, costs, headline, right
 from disc_model.data.dataset import markdown_table
 from disc_model.errors import DiscModelError
 
@@ -47,13 +48,14 @@ def summary(work_precision: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
         line = work_precision.sel(scene=scene, solver="series")
         at = np.flatnonzero(line["value"].values == DEFAULT)
         if at.size:
-            own[scene] = {"cost": float(line["cost"][at[0]]), "error": float(line["event_error"][at[0]])}
+            own[scene] = {"cost": float(costs(line)[at[0]]), "error": float(line["event_error"][at[0]])}
     asked = [name for name in QUESTIONS if name in answers["answer"].values]
     return {
         "machine": machines.pop(),
         "versions": json.loads(work_precision.attrs["versions"]),
         "own": own,
         "times_slower": headline(work_precision),
+        "whole_call": _whole_call(work_precision),
         "stiff": _stiff(work_precision),
         "sentences": {name: words.sentences(answers, name) for name in asked},
         "prices": {name: _prices(words.points(answers, name)) for name in asked},
@@ -69,6 +71,22 @@ def _prices(found: list[words.Point]) -> dict[str, dict[str, Any]]:
         best = right.get(line)
         table[label] = {"seconds": best.seconds if best else None, "at": best.at if best else None, "wrong": wrong}
     return table
+
+
+def _whole_call(dataset: xr.Dataset) -> dict[str, float]:
+    """Of the first scene's second: seconds of a whole call of `simulate`, and how many times that heyoka integrates.
+
+    heyoka's is the least time of its integration alone, with events as right as in `headline`.
+    """
+    if JUDGED[0] not in dataset["scene"].values:
+        return {}
+    part = dataset.sel(scene=JUDGED[0])
+    seconds = float(part["whole_call"])
+    found = {"seconds": seconds}
+    if "heyoka" in part["solver"].values and right(part.sel(solver="heyoka")).any():
+        rival = part.sel(solver="heyoka")
+        found["heyoka"] = float(rival["seconds"].values[right(rival)].min()) / seconds
+    return found
 
 
 def _stiff(dataset: xr.Dataset) -> dict[str, float]:
@@ -106,7 +124,8 @@ def passages(run: Summary) -> dict[str, str]:
         "speed": (
             f"On {run['machine']}: at its default tolerance the series engine takes {ours} per simulated second, with "
             f"event times right to {errors} s. With errors up to 1e-10 s allowed the others take, times that, for (a) "
-            f"and (b): {others}. On the disc of (d), all but rigid, a simulated second with the right events takes: "
+            f"and (b): {others}. These are costs of a further second. {_call(run)}On the disc of (d), all but rigid, a "
+            f"simulated second with the right events takes: "
             f"{stiff}."
         ),
         "prices": (
@@ -115,6 +134,17 @@ def passages(run: Summary) -> dict[str, str]:
             "a warning. More on [the page of the benchmark](docs/benchmark.md).*"
         ),
     }
+
+
+def _call(run: Summary) -> str:
+    """What a whole call takes, in words."""
+    call = run["whole_call"]
+    if "heyoka" not in call:
+        return ""
+    return (
+        f"A whole call of `simulate(p, 1.0)` for (a) takes {1e3 * call['seconds']:.2g} ms, all it sets up included; "
+        f"heyoka's integration alone takes {call['heyoka']:.2g} times that. "
+    )
 
 
 def _ratios(slower: Mapping[str, Mapping[str, float]], name: str) -> str:

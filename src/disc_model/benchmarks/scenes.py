@@ -40,6 +40,8 @@ TITLES = {
     "many_modes": "many modes",
     "rigid": "rigid disc",
 }
+JUDGED = ("stick_slip", "separating")
+"""Those by which methods are compared in a few words: a second each."""
 CONVERGED = 1e-6
 """s; an answer with every event and no event time further off counts as converged."""
 LOST = 2.0

@@ -7,7 +7,9 @@ is the median over the rounds.  Points that take long are measured less often (`
 from __future__ import annotations
 
 import math
+import time as clock
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,10 +19,11 @@ from disc_model.benchmarks import scenes
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.register import SCENES
-from disc_model.benchmarks.scenes import VERDICT_WORDS, Verdict
+from disc_model.benchmarks.scenes import JUDGED, VERDICT_WORDS, Verdict
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import VERSIONS_OF, versions
 from disc_model.data.variables import Variable
+from disc_model.simulation.api import simulate
 
 BUDGET = 12.0
 """s that a method may take for a point before it is stopped."""
@@ -29,6 +32,8 @@ BUDGETS = {"rigid": 4.0}
 ROUNDS = 11
 LONG = 0.5
 """s; a point that takes longer is measured only in the first round, one that takes a tenth of it in all of them."""
+FURTHER = 4.0
+"""How far beyond a scene's end the quick points go on, in spans of the scene, for the cost of a second more."""
 FLOOR = 1e-13
 """Errors below this (s, or relative) are rounding and take no part in the fit of the order."""
 
@@ -50,6 +55,7 @@ VARIABLES: Mapping[str, Variable] = {
     "seconds": Variable("s", "processor time of the integration, median of the repeats"),
     "seconds_spread": Variable("s", "largest less smallest time of the repeats"),
     "cost": Variable("1", "seconds per simulated second"),
+    "marginal_cost": Variable("1", "the same of the time beyond the scene's end; nan where it was not measured"),
     "event_error": Variable("s", "largest error of an event time, nan if events are missing or invented"),
     "state_error": Variable("1", "energy norm of the error of the state at the end over that of the state"),
     "work": Variable("1", "right-hand sides evaluated; steps for methods that work with series"),
@@ -107,6 +113,8 @@ def work_precision(
     settings = all_settings() if settings is None else settings
     todo = points(settings)
     walls: dict[Point, list[float]] = {}
+    more: dict[Point, list[float]] = {}
+    calls: dict[str, list[float]] = {}
     rows: dict[Point, dict[str, float]] = {}
     hopeless: set[tuple[str, str]] = set()
     for turn in range(rounds):
@@ -123,6 +131,8 @@ def work_precision(
             if result.outcome is Outcome.TOO_SLOW:
                 hopeless.add(lane)
             walls.setdefault(point, []).append(result.seconds)
+            if point.scene in JUDGED and result.outcome is Outcome.FINISHED and _quick(walls[point]):
+                more.setdefault(point, []).append(_further(point, limit) - result.seconds)
             if not turn:
                 found = scenes.errors(problem, scenes.answer(point.scene), result)
                 rows[point] = {
@@ -135,19 +145,48 @@ def work_precision(
                 }
             if progress is not None:
                 progress(point, result.seconds)
-    return _dataset(settings, walls, rows)
+        for scene in set(JUDGED) & set(settings):
+            calls.setdefault(scene, []).append(_whole_call(scene))
+    return _dataset(settings, walls, rows, more, calls)
+
+
+def _further(point: Point, limit: float) -> float:
+    """Processor time (s) of a run that goes on beyond the scene's end."""
+    problem = scenes.problem(point.scene)
+    longer = replace(problem, t_end=problem.t_end + FURTHER * problem.span)
+    result = METHODS[point.method].solve(longer, point.value, limit)
+    return result.seconds if result.outcome is Outcome.FINISHED else math.nan
+
+
+def _whole_call(scene: str) -> float:
+    """Processor time (s) of one call of `simulate` at its default, everything included.
+
+    Of several in a row the last: the first finds caches filled by other methods.
+    """
+    problem = scenes.problem(scene)
+    for _ in range(3):
+        began = clock.thread_time()
+        simulate(problem.parameters, problem.t_end, initial_state=problem.start)
+        seconds = clock.thread_time() - began
+    return seconds
+
+
+def _quick(walls: Sequence[float]) -> bool:
+    return float(np.median(walls)) < 0.1 * LONG
 
 
 def _again(walls: Sequence[float], turn: int) -> bool:
     """Whether to measure a point in a later round: always if it is quick, twice more at most if it is not."""
     typical = float(np.median(walls))
-    return typical < 0.1 * LONG or (typical < LONG and turn < 3)
+    return _quick(walls) or (typical < LONG and turn < 3)
 
 
 def _dataset(
     settings: Settings,
     walls: Mapping[Point, Sequence[float]],
     rows: Mapping[Point, Mapping[str, float]],
+    more: Mapping[Point, Sequence[float]],
+    calls: Mapping[str, Sequence[float]],
 ) -> xr.Dataset:
     names = list(settings)
     methods = [name for name in METHODS if any(name in by_method for by_method in settings.values())]
@@ -157,12 +196,13 @@ def _dataset(
     verdict = np.full(shape, int(Verdict.NOT_RUN), dtype=np.int8)
     for point, row in rows.items():
         place = (names.index(point.scene), methods.index(point.method), point.place)
-        seconds = float(np.median(walls[point]))
+        seconds, span = float(np.median(walls[point])), scenes.problem(point.scene).span
         values = dict(row) | {
             "value": point.value,
             "seconds": seconds,
             "seconds_spread": max(walls[point]) - min(walls[point]),
-            "cost": seconds / scenes.problem(point.scene).span,
+            "cost": seconds / span,
+            "marginal_cost": float(np.median(more.get(point, (math.nan,)))) / (FURTHER * span),
             "repeats": len(walls[point]),
         }
         verdict[place] = int(row["verdict"])
@@ -178,6 +218,9 @@ def _dataset(
     )
     dataset["verdict"] = (dims, verdict, VERDICT.attributes)
     dataset["label"] = ("solver", [METHODS[name].label for name in methods], {"long_name": "name in words"})
+    whole = [float(np.median(calls.get(name, (math.nan,)))) for name in names]
+    about = "processor time of one whole call of simulate at its default, median of the rounds"
+    dataset["whole_call"] = ("scene", whole, {"units": "s", "long_name": about})
     for i, (name, text) in enumerate(LOOK.items()):
         dataset[name] = ("solver", [METHODS[method].look[i] for method in methods], {"long_name": text})
     theory = [METHODS[name].order for name in methods]
