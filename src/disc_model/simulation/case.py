@@ -137,6 +137,8 @@ class Record(Checked):
         ParameterError
             If a window begins at the end of the run or later, or no memory holds its samples.
         """
+        if not self.windows:
+            return self
         found: list[str] = []
         windows: list[Window] = []
         for i, window in enumerate(self.windows):
