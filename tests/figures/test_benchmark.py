@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks import scenes
@@ -34,3 +35,11 @@ def test_every_method_looks_otherwise_and_every_scene_has_a_title():
     assert len({method.look for method in METHODS.values()}) == len(METHODS)
     assert set(figures.TITLES) == set(SCENES) == set(scenes.TITLES)
     assert figures.VERDICTS == scenes.VERDICT_WORDS
+
+
+def test_many_settings_are_said_in_few_letters() -> None:
+    """Five of them were longer than the cell that they stand in."""
+    setting = np.array([1e-7, 1e-3, 1e-5, 1e-9])
+    listed = [figures._listed(setting, np.array(chosen, bool)) for chosen in ([0, 1, 0, 0], [1, 0, 1, 0], [1, 1, 1, 0])]
+    assert listed == ["1e-3", "1e-5, 1e-7", "1e-3 to 1e-7"]
+    assert figures._listed(setting, np.array([True, True, False, True])) == "3 settings"

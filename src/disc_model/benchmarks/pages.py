@@ -219,4 +219,4 @@ def _price(cell: Mapping[str, Any] | None) -> str:
         return "-"
     if cell["seconds"] is None:
         return "wrong" if cell["wrong"] else "no answer"
-    return f"{cell['seconds']:.2g} s ({cell['at']})"
+    return f"{_plain(cell['seconds'])} s ({cell['at']})"

@@ -288,13 +288,24 @@ def _price(ax: Axes, part: xr.Dataset, column: int, row: int, colors: Colormap, 
         ink = "white" if seconds[best] > 3.0 else BLACK
         texts = [(_seconds(seconds[best]), 6.5, ink), (f"at {_power(setting[best])}", 5.0, ink)]
     if wrong.any():
-        listed = ", ".join(map(_power, setting[wrong]))
+        listed = _listed(setting, wrong)
         texts.append((f"wrong: {listed}" if right.any() else listed, 4.6, _RED))
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
     for place, (text, size, ink) in enumerate(texts):
         at = row + 0.3 * (place - 0.5 * (len(texts) - 1))
         halo = _HALO if ink == _RED else None
         ax.text(column, at, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
+
+
+def _listed(setting: np.ndarray, chosen: np.ndarray) -> str:
+    """Some of the settings in as few letters as a cell has room for: two, or from where to where, or how many."""
+    coarse_first = np.argsort(-setting)
+    found, places = setting[coarse_first][chosen[coarse_first]], np.flatnonzero(chosen[coarse_first])
+    if len(found) <= 2:
+        return ", ".join(map(_power, found))
+    if np.ptp(places) == len(places) - 1:
+        return f"{_power(found[0])} to {_power(found[-1])}"
+    return f"{len(found)} settings"
 
 
 def _power(value: float) -> str:
