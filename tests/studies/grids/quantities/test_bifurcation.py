@@ -89,6 +89,20 @@ def test_a_motion_on_a_torus_has_no_period() -> None:
 
 
 @pytest.mark.compiled
+def test_a_slow_drift_with_equal_intervals_is_not_steady() -> None:
+    """At 120 s intervals repeat to 1e-12 s, and the angle still drifts, by 1e-5 rad/s: it takes minutes more."""
+    early, late = (
+        bifurcation.at(
+            Parameters(N=385, Omega=7.5),
+            BifurcationOptions(prepare=APART, transient=transient, section="switch", longest=transient, samples=50),
+        )[0]
+        for transient in (120, 480)
+    )
+    assert (early["steady"], early["period"]) == ("no", 0)
+    assert (late["steady"], late["period"]) == ("yes", 1)
+
+
+@pytest.mark.compiled
 def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
     """Of 21 separations and 5 releases; simulated to 240 s its intervals repeat to 1e-13 s."""
     options = BifurcationOptions(prepare=APART, transient=15, section="switch", samples=50)
