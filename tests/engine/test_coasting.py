@@ -35,14 +35,14 @@ def _coast(model, s, state, x):
 
 @kernel
 def _follow(model, s, state, x):
-    dense_output.load_state(s, state)
+    dense_output.load_state(model, s, state)
     series.stick_series(model, s, ORDER)
     dense_output.state_at(model, s, ORDER, x, 0.0, state)
 
 
 @kernel
 def _follow_compliant(model, s, state, x):
-    dense_output.load_state(s, state)
+    dense_output.load_state(model, s, state)
     contact_series.compliant_stick_series(model, s, ORDER)
     dense_output.state_at(model, s, ORDER, x, 0.0, state)
 
@@ -175,7 +175,7 @@ def test_samples_and_audit_within_a_coast(follow_stick_by_series: Callable[[], N
 def test_samples_of_a_coast_fit_their_buffer() -> None:
     """The engine writes a whole coast before it pauses; numba would not say if it wrote beyond the end."""
     window = Window(start=0.0, stop=0.5, rate=200_000.0)
-    run = _Run(Parameters(N=385, Omega=0.2), 0.5, 1e-10, None, Record(windows=(window,)), None, None)
+    run = _Run(Parameters(N=385, Omega=0.2), 0.5, 1e-10, None, Record(windows=(window,)), None, None, ())
     room, width = run.collector.rows.shape
     run.collector.rows = np.full((4 * room, width), np.nan)
     pauses = 0
