@@ -75,10 +75,17 @@ def never_pulled(model, state):
 
 @inlined
 def _compliant_force(model, state):
-    """V = (w - u) / give, the vertical force of a compliant contact; size of its terms."""
+    """V = (w - u) / give, the vertical force of a compliant contact; size of its terms.
+
+    Those are the modes' shares of w, not w, which may be a difference of far larger ones.
+    """
     w, _, _ = disc_point(model, state)
-    give = give_of(model.give)
-    return (w - state.x[U]) / give, (abs(w) + abs(state.x[U])) / give
+    give, size = give_of(model.give), abs(state.x[U])
+    for j in range(len(model.force)):
+        size += abs(model.force[j] * state.z[j])
+    for j in range(len(model.force0)):
+        size += abs(model.force0[j] * state.y[j])
+    return (w - state.x[U]) / give, size / give
 
 
 @inlined
