@@ -57,9 +57,8 @@ def test_rates_and_forces_are_the_papers(phase, direction):
     close(equations.displacement(d, s, THETA + s.psi), printed.described(0.0, printed.y)["w_point"])
 
 
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_powers_are_the_rates_of_the_energies(phase, direction):
-    """The energies are quadratic: a central difference along the rates is exact but for rounding."""
+def moving(phase, direction):
+    """A motion: its state, the disc, u at the static start, the contact force, and the rates of all of the state."""
     s, d = lively(phase, direction), equations.modal_damping(P)
     _, u_0 = equations.start(P, d)
     force, rates = getattr(equations, phase)(P, d, s, u_0)
@@ -67,6 +66,13 @@ def test_powers_are_the_rates_of_the_energies(phase, direction):
     if phase != "separation":
         _, _, A, B = equations.vertical_motion(d, s)
         rates |= {"u": s.u_velocity, "u_velocity": A + rates["f"] * B - d.S * force}
+    return s, d, u_0, force, rates
+
+
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_powers_are_the_rates_of_the_energies(phase, direction):
+    """The energies are quadratic: a central difference along the rates is exact but for rounding."""
+    s, d, u_0, force, rates = moving(phase, direction)
     step = 1e-4
 
     def along(h):
@@ -80,14 +86,8 @@ def test_powers_are_the_rates_of_the_energies(phase, direction):
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_powers_on_ramps_are_the_rates_of_the_energies(phase, direction):
     """Products of two linear functions as well."""
-    s, d, ramp = lively(phase, direction), equations.modal_damping(P), (-40.0, 3e3)
-    _, u_0 = equations.start(P, d)
-    force, rates = getattr(equations, phase)(P, d, s, u_0)
-    rates |= equations.modal_rates(d, s, force)
-    if phase != "separation":
-        _, _, A, B = equations.vertical_motion(d, s)
-        rates |= {"u": s.u_velocity, "u_velocity": A + rates["f"] * B - d.S * force}
-    step = 1e-4
+    s, d, u_0, force, rates = moving(phase, direction)
+    step, ramp = 1e-4, (-40.0, 3e3)
 
     def along(h):
         there = s.replace(**{n: getattr(s, n) + h * r for n, r in rates.items()})

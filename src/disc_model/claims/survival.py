@@ -281,7 +281,7 @@ def smaller_vibration(found: Evidence, said: Conclusion) -> Finding:
     smaller, larger, open_, words = 0, 0, 0, []
     for free, bonded in found.pairs():
         third, fourth = _late_quarters(free)
-        other = _late_widths(bonded)
+        other = _late_widths(bonded, STRETCH, STRETCHES)
         settled = fourth <= (1 + said.bound) * third
         smaller += settled and max(third, fourth) < min(other)
         larger += min(third, fourth) >= max(other)
@@ -292,17 +292,15 @@ def smaller_vibration(found: Evidence, said: Conclusion) -> Finding:
 
 def _late_quarters(case: CaseView) -> tuple[float, float]:
     """Ranges of the disc's point over the last two quarters of the time after the first separation, m."""
-    first, end = case["first_separation"], case["time_reached"]
-    quarter = (end - first) / 4
-    spans = ((end - 2 * quarter, end - quarter), (end - quarter, end))
-    third, fourth = (case.range_of("w_point", *span).width for span in spans)
+    quarter = (case["time_reached"] - case["first_separation"]) / 4
+    fourth, third = _late_widths(case, quarter, 2)
     return third, fourth
 
 
-def _late_widths(case: CaseView) -> list[float]:
-    """Ranges of the disc's point over the last stretches, m."""
+def _late_widths(case: CaseView, length: float, count: int) -> list[float]:
+    """Ranges of the disc's point over so many stretches of a length (s) up to the end, the last first, m."""
     end = case["time_reached"]
-    spans = [(end - (i + 1) * STRETCH, end - i * STRETCH) for i in range(STRETCHES)]
+    spans = [(end - (i + 1) * length, end - i * length) for i in range(count)]
     return [case.range_of("w_point", *span).width for span in spans]
 
 

@@ -30,51 +30,43 @@ def _case_options(placeholders: dict[str, str] | None = None) -> list[inspect.Pa
     options = []
     for name, field in Parameters.model_fields.items():
         given = (placeholders or {}).get(name)
-        spellings = dict.fromkeys([option_name(name), f"--{name}"])
         unit = Parameters.unit(name)
         default = "required" if field.is_required() and given is None else f"default: {_text(given or field.default)}"
         choices = _choices(field.annotation)
-        option = typer.Option(
-            *spellings,
-            metavar="|".join(choices if get_origin(field.annotation) is Literal else ("VALUE", *choices)),
-            autocompletion=_completing(choices),
-            help=f"{field.description}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]".replace("[", r"\["),
-            show_default=False,
-            rich_help_panel="Parameters of the case",
-        )
-        options.append(
-            inspect.Parameter(
-                name, inspect.Parameter.KEYWORD_ONLY, default=given, annotation=Annotated[str | None, option]
-            )
-        )
+        metavar = "|".join(choices if get_origin(field.annotation) is Literal else ("VALUE", *choices))
+        told = f"{field.description}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]"
+        options.append(_case_option(name, given, metavar, choices, told))
     return options
 
 
 def _choice_options() -> list[inspect.Parameter]:
     """Options that say by what modes are chosen where ``--n-diameters auto`` leaves that open."""
     tolerances = ", ".join(f"{default:g} for {name}" for name, default in QUANTITIES.items())
-    said = {
-        "truncation_quantity": ("|".join(QUANTITIES), f"what {AUTO} is to get right [default: {FREQUENCIES}]"),
-        "truncation_tolerance": ("VALUE", f"and how right, relative, at least {TRUSTED:g} [default: {tolerances}]"),
-    }
-    options = []
-    for name in CHOOSING:
-        metavar, told = said[name]
-        option = typer.Option(
-            option_name(name),
-            f"--{name}",
-            metavar=metavar,
-            autocompletion=_completing(tuple(QUANTITIES) if name == CHOOSING[0] else ()),
-            help=told.replace("[", r"\["),
-            show_default=False,
-            rich_help_panel="Parameters of the case",
-        )
-        options.append(
-            inspect.Parameter(
-                name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[str | None, option]
-            )
-        )
-    return options
+    quantity, tolerance = CHOOSING
+    words = tuple(QUANTITIES)
+    return [
+        _case_option(quantity, None, "|".join(words), words, f"what {AUTO} is to get right [default: {FREQUENCIES}]"),
+        _case_option(
+            tolerance, None, "VALUE", (), f"and how right, relative, at least {TRUSTED:g} [default: {tolerances}]"
+        ),
+    ]
+
+
+def _case_option(
+    name: str, default: str | None, metavar: str, choices: tuple[str, ...], told: str
+) -> inspect.Parameter:
+    """A keyword option of the case, spelt with and without underscores; `choices` are what a shell completes."""
+    option = typer.Option(
+        *dict.fromkeys([option_name(name), f"--{name}"]),
+        metavar=metavar,
+        autocompletion=_completing(choices),
+        help=told.replace("[", r"\["),
+        show_default=False,
+        rich_help_panel="Parameters of the case",
+    )
+    return inspect.Parameter(
+        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[str | None, option]
+    )
 
 
 def _choices(annotation: Any) -> tuple[str, ...]:

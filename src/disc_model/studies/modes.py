@@ -21,7 +21,7 @@ def chosen(p: Parameters, asked: Asked) -> ModeChoice:
     """The choice that was asked for; raises `disc_model.DiscModelError` where there is none."""
     if asked.quantity == FREQUENCIES:
         return by_frequencies(p, asked.tolerance)
-    choice: ModeChoice = importlib.import_module(CHOOSER).chosen(p, asked)
+    choice: ModeChoice = importlib.import_module(CHOOSER).by_motion(p, asked)
     return choice
 
 
