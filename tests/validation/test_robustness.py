@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from scipy import linalg
 
@@ -94,8 +94,9 @@ def check_paradox(result: Result) -> None:
     psi, diameters = modes.psi.to_numpy(), modes.diameters.to_numpy()
     free = 1 + p.m * float(psi @ psi)
     slope = float(psi * diameters @ state.b)
-    # the direction that could not be entered is not in the state where stick or separation was to end in slip
-    directions = [state.direction] if state.direction else [-1, 1]
+    # the direction that could not be entered is not in the state where stick or separation was to end in slip, nor
+    # where slip was to turn round: f = 0 and the direction is the one before
+    directions = [state.direction] if state.direction and state.f != 0 else [-1, 1]
     # rounding in sums of as many terms as there are modes, and the engine's own margin of 1e-6
     assert min(free + s * p.mu_k * slope / p.r_0 for s in directions) <= 2e-6 * free
 
@@ -113,9 +114,24 @@ def check_ending(result: Result) -> None:
 ROBUST = settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
+# slip turns round where the other direction has no solution
+NO_WAY_BACK = Parameters(
+    N=1000, Omega=1, D_star=0, c=10, c_p=0, k=0, k_p=1e7, E=1e8, m=1e-5, mu_s=0.25, mu_k=0.25, contact="bonded"
+)
+
+
+@pytest.mark.compiled
+def test_a_reversal_into_a_direction_without_solution_is_a_paradox() -> None:
+    result = run(NO_WAY_BACK, 10, 1e-10)
+    assert result.status is Status.PARADOX
+    assert result.final_state.f == 0
+    check_paradox(result)
+
+
 @pytest.mark.compiled
 @ROBUST
 @given(parameters(), st.floats(10, 3000), magnitude(1e-14, 1e-4))
+@example(NO_WAY_BACK, 10.0, 1e-4)
 def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: float, tol: float) -> None:
     result = run(p, radians, tol)
     assert isinstance(result.status, Status)
