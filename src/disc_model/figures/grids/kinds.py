@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Any, Literal, NamedTuple, Protocol
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
 
 from pydantic import Field
 
@@ -28,13 +28,17 @@ class Fault(NamedTuple):
 
 class Role(NamedTuple):
     """What a further study must be to be shown: its quantity, or another instead that has as much; its dimensions but
-    for `NORM`; and some options."""
+    for `NORM`, if they are not those of the figure itself; and some options."""
 
     quantity: str
-    dims: tuple[str, ...]
+    dims: tuple[str, ...] | None = None
     options: Mapping[str, Any] = {}
     required: bool = False
     instead: str = ""
+
+
+Roles = Mapping[str, Role]
+"""What further studies a figure can show, by the role that they play in it."""
 
 
 class Grid(Protocol):
@@ -54,39 +58,40 @@ class Grid(Protocol):
 
 
 class Plot(Strict):
-    """A figure of a grid study.
+    """A figure of a grid study, drawn by the module beside this one that its kind names.
+
+    That module's ``draw(study, others, plot)`` takes datasets and this.
 
     others : further studies it shows, by the role they play in it
+    quantities : those that it can show, the usual one first
+    needs : dimensions that it needs, beside those that the file chooses as x and y
+    several : whether it has a panel for each normalization, and not room for one only
+    roles : what others it can show
     """
+
+    quantities: ClassVar[tuple[str, ...]] = ()
+    needs: ClassVar[tuple[str, ...]] = ()
+    several: ClassVar[bool] = False
+    roles: ClassVar[Roles] = {}
 
     kind: str
     title: str = ""
     others: dict[str, str] = Field({})
 
     @property
-    def quantity(self) -> str:
-        """The quantity it shows."""
-        raise NotImplementedError
+    def module(self) -> str:
+        """Module that draws it."""
+        return f"{__package__}.{self.kind}"
 
     @property
-    def quantities(self) -> tuple[str, ...]:
-        """All that it can show."""
-        return (self.quantity,)
+    def axes(self) -> dict[str, str]:
+        """Dimensions that the file chooses, by the axis that they lie along."""
+        return {axis: name for axis in ("x", "y") if (name := getattr(self, axis, None)) is not None}
 
     @property
     def dims(self) -> tuple[str, ...]:
-        """Dimensions that it needs."""
-        return ()
-
-    @property
-    def several(self) -> bool:
-        """Whether it has a panel for each normalization, and not room for one only."""
-        return False
-
-    @property
-    def roles(self) -> dict[str, Role]:
-        """What others it can show."""
-        return {}
+        """All dimensions that it needs."""
+        return (*self.needs, *self.axes.values())
 
     def faults(self, values: Values) -> Iterator[Fault]:
         """What keeps it from showing a study with these dimensions; one without values is only meant to be there."""
@@ -100,14 +105,13 @@ class Plot(Strict):
 
     def _wrong_axes(self, values: Values) -> Iterator[Fault]:
         """Of those that the file chooses."""
-        chosen = {axis: name for axis in ("x", "y") if (name := getattr(self, axis, None)) is not None}
-        for axis, name in chosen.items():
+        for axis, name in self.axes.items():
             if name not in values:
                 yield Fault((axis,), name, f"is no dimension of this study (known: {', '.join(values)})")
             elif name not in KICKS and (name not in Parameters.model_fields or not Parameters.unit(name)):
                 yield Fault((axis,), name, "must be one parameter, and a number")
-        if len(set(chosen.values())) < len(chosen):
-            yield Fault(("y",), chosen["y"], "must differ from x")
+        if len({*self.axes.values()}) < len(self.axes):
+            yield Fault(("y",), self.axes["y"], "must differ from x")
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
         """Dimensions that it needs and the study has not, and the other way round."""
@@ -130,16 +134,12 @@ class Plot(Strict):
         for name, value in wanted.options.items():
             if (found := getattr(other.options, name)) != value:
                 yield f"must have options.{name} = {value!r}, and not {found!r}"
-        if (dims := other.values.keys() - {NORM}) != set(wanted.dims):
-            needed, found = (", ".join(sorted(names)) or "nothing" for names in (wanted.dims, dims))
+        needs = self.dims if wanted.dims is None else wanted.dims
+        if (dims := other.values.keys() - {NORM}) != set(needs):
+            needed, found = (", ".join(sorted(names)) or "nothing" for names in (needs, dims))
             yield f"must vary {needed} beside {NORM}, and not {found}"
         elif lacking := _normalizations(study) - _normalizations(other):
             yield f"must be computed for the same {NORM}: {', '.join(sorted(lacking))}"
-
-    @property
-    def module(self) -> str:
-        """Module that draws it: ``draw(study, others, plot)`` with datasets and this."""
-        raise NotImplementedError
 
 
 def _normalizations(study: Grid) -> set[str]:
@@ -161,26 +161,14 @@ CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 class StabilityMap(Plot):
     """What becomes of the published start over two parameters, one panel for each normalization."""
 
+    quantities = ("outcome",)
+    several = True
+    roles: ClassVar[Roles] = {"growth": Role("floquet")}
+
     kind: Literal["stability_map"] = "stability_map"
     x: str
     y: str
     marks: dict[str, Mark] = Field({})
-
-    @property
-    def quantity(self) -> str:
-        return "outcome"
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        return (self.x, self.y)
-
-    @property
-    def several(self) -> bool:
-        return True
-
-    @property
-    def roles(self) -> dict[str, Role]:
-        return {"growth": Role("floquet", self.dims)}
 
     def faults(self, values: Values) -> Iterator[Fault]:
         """As of any figure; and what is marked must be computed, and not only lie between points that are."""
@@ -191,64 +179,37 @@ class StabilityMap(Plot):
                 if along and not any(math.isclose(value, one, rel_tol=1e-12) for one in along):
                     yield Fault(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
 
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.stability_map"
-
 
 class RegionMap(StabilityMap):
     """Regions of outcomes over two parameters, and the growth rate of the cycle below."""
 
+    quantities = ("regions",)
+    roles: ClassVar[Roles] = {}
+
     kind: Literal["region_map"] = "region_map"  # type: ignore[assignment]
-
-    @property
-    def quantity(self) -> str:
-        return "regions"
-
-    @property
-    def roles(self) -> dict[str, Role]:
-        return {}
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.region_map"
 
 
 class CriticalSpeed(Plot):
     """Speeds at which separation begins or ends against the preload, for several horizons."""
 
+    quantities = ("critical_speed",)
+    needs = ("N",)
+    roles: ClassVar[Roles] = {
+        "hysteresis": Role("hysteresis", ("N",)),
+        "cycle": CYCLE,
+        "basins": Role("basins", ("Omega",)),
+    }
+
     kind: Literal["critical_speed"] = "critical_speed"
     claim: dict[str, tuple[Number, Number]] = Field({})
-
-    @property
-    def quantity(self) -> str:
-        return "critical_speed"
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        return ("N",)
-
-    @property
-    def roles(self) -> dict[str, Role]:
-        return {"hysteresis": Role("hysteresis", ("N",)), "cycle": CYCLE, "basins": Role("basins", ("Omega",))}
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.critical_speed"
 
 
 class Thresholds(CriticalSpeed):
     """Where the cycle becomes unstable and where separation follows, on one chart."""
 
+    roles: ClassVar[Roles] = {"curves": CURVES._replace(required=True), "cycle": CYCLE}
+
     kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]
-
-    @property
-    def roles(self) -> dict[str, Role]:
-        return {"curves": CURVES._replace(required=True), "cycle": CYCLE}
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.thresholds"
 
 
 class GrowthMap(Plot):
@@ -257,31 +218,12 @@ class GrowthMap(Plot):
     Of the quantity `regions` it is that of the cycle that the published start follows.
     """
 
+    quantities = ("floquet", "regions")
+    needs = ("N", "Omega")
+    several = True
+    roles: ClassVar[Roles] = {"curves": CURVES}
+
     kind: Literal["growth_map"] = "growth_map"
-
-    @property
-    def quantity(self) -> str:
-        return "floquet"
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        return ("floquet", "regions")
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        return ("N", "Omega")
-
-    @property
-    def several(self) -> bool:
-        return True
-
-    @property
-    def roles(self) -> dict[str, Role]:
-        return {"curves": CURVES}
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.growth_map"
 
 
 class Bifurcation(Plot):
@@ -290,63 +232,31 @@ class Bifurcation(Plot):
     scale : of the variable, 1e3 for mrad or mm
     """
 
+    quantities = ("bifurcation",)
+    roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
+
     kind: Literal["bifurcation"] = "bifurcation"
     x: str
     variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
     scale: Number = 1.0e3
 
-    @property
-    def quantity(self) -> str:
-        return "bifurcation"
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        return (self.x,)
-
-    @property
-    def roles(self) -> dict[str, Role]:
-        return {"lyapunov": Role("lyapunov", self.dims)}
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.bifurcation"
-
 
 class BasinShares(Plot):
     """Shares of what many starts come to, the attractors, and the least kick that separates, against a parameter."""
 
+    quantities = ("basins",)
+
     kind: Literal["basins"] = "basins"
     x: str
-
-    @property
-    def quantity(self) -> str:
-        return "basins"
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        return (self.x,)
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.basins"
 
 
 class RampedSpeeds(Plot):
     """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
 
+    quantities = ("ramps",)
+    roles: ClassVar[Roles] = {"curves": CURVES}
+
     kind: Literal["ramps"] = "ramps"
-
-    @property
-    def quantity(self) -> str:
-        return "ramps"
-
-    @property
-    def roles(self) -> dict[str, Role]:
-        return {"curves": CURVES}
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.ramps"
 
 
 MOST_PANELS, MOST_LINES = 4, 12
@@ -356,20 +266,14 @@ MOST_PANELS, MOST_LINES = 4, 12
 class Sensitivity(Plot):
     """Probabilities with their intervals, and Sobol indices of each distributed parameter; for up to four points."""
 
-    kind: Literal["sensitivity"] = "sensitivity"
+    quantities = ("sensitivity",)
 
-    @property
-    def quantity(self) -> str:
-        return "sensitivity"
+    kind: Literal["sensitivity"] = "sensitivity"
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
         points = math.prod(len(along) for name, along in values.items() if name != SAMPLE)
         if points > MOST_PANELS:
             yield Fault(("kind",), self.kind, f"has room for {MOST_PANELS} points beside their samples, not {points}")
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.sensitivity"
 
 
 class Campbell(Plot):
@@ -378,30 +282,18 @@ class Campbell(Plot):
     normalization : the one that is shown, where the study has several
     """
 
+    quantities = ("campbell",)
+    needs = ("Omega",)
+
     kind: Literal["campbell"] = "campbell"
     normalization: Literal["as_published", "orthonormal"] | None = None
 
-    @property
-    def quantity(self) -> str:
-        return "campbell"
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        return ("Omega",)
-
-    @property
-    def several(self) -> bool:
-        return self.normalization is not None
-
-    def faults(self, values: Values) -> Iterator[Fault]:
-        yield from super().faults(values)
+    def _wrong_dims(self, values: Values) -> Iterator[Fault]:
+        """There may be several normalizations if the file says which is shown."""
+        yield from super()._wrong_dims(values if self.normalization is None else {**values, NORM: ()})
         known = [str(one) for (one,) in values.get(NORM, ())]
         if self.normalization is not None and known and self.normalization not in known:
             yield Fault((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.campbell"
 
 
 class General(Plot):
@@ -412,21 +304,14 @@ class General(Plot):
     log : whether the scale of the variable is logarithmic
     """
 
+    room: ClassVar[int] = MOST_PANELS
+    """How many values `by` may have."""
+
     variable: str
     x: str
     at: dict[str, Number | str] = Field({})
     by: str | None = None
     log: bool = False
-
-    @property
-    def axes(self) -> dict[str, str]:
-        """Dimensions by the axis that they lie along."""
-        return {"x": self.x}
-
-    @property
-    def room(self) -> int:
-        """How many values `by` may have."""
-        return MOST_PANELS
 
     def faults_among(
         self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Sequence[str]]
@@ -495,27 +380,13 @@ class HeatMap(General):
     kind: Literal["heat_map"] = "heat_map"
     y: str
 
-    @property
-    def axes(self) -> dict[str, str]:
-        return {"x": self.x, "y": self.y}
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.heat_map"
-
 
 class CurvePlot(General):
     """A variable against one dimension; a line for each value of a second, if wanted."""
 
+    room = MOST_LINES
+
     kind: Literal["curve"] = "curve"
-
-    @property
-    def room(self) -> int:
-        return MOST_LINES
-
-    @property
-    def module(self) -> str:
-        return "disc_model.figures.grids.curve"
 
 
 PLOTS: dict[str, type[Plot]] = {

@@ -523,7 +523,7 @@ def _plots(
         elif quantity in plot.quantities:
             found = plot.faults(values)
         else:
-            found = (PlotFault(("kind",), kind, f"needs the quantity {plot.quantity}"),)
+            found = (PlotFault(("kind",), kind, f"needs the quantity {plot.quantities[0]}"),)
         for place, value, rule in found:
             faults.add((*path, *place), value, rule)
         plots[str(name)] = plot
