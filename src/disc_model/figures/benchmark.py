@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -23,17 +24,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 from disc_model.figures import parts
-from disc_model.figures.parts import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PAGE,
-    PURPLE,
-    new_figure,
-    styled,
-)
+from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, new_figure, styled
 
 TITLES = {
     "stick_slip": "Stick-slip, first second",
@@ -429,8 +420,11 @@ def _log_edges(values: np.ndarray) -> np.ndarray:
 # ----------------------------------------------------------------------------------------------------
 # How many modes
 
-_CIRCLE_LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
-_PANELS: Sequence[tuple[str, str, bool]] = (
+_LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
+"""Colour and marker of each line."""
+Panels = Sequence[tuple[str, str, bool]]
+"""Of eight panels: the variable, its name, and whether its scale is logarithmic."""
+_PANELS: Panels = (
     ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
     ("growth_rate", "Growth rate (1/s)", False),
     ("first_separation", "First separation (s)", False),
@@ -440,21 +434,7 @@ _PANELS: Sequence[tuple[str, str, bool]] = (
     ("separations", "Separations per second", True),
     ("cost", "Wall time per\nsimulated second", True),
 )
-
-
-def _cut(ax: Axes, values: np.ndarray) -> None:
-    """Show what lies near the median, and say what lies above."""
-    values = values[np.isfinite(values)]
-    top = 1.12 * float(np.median(values))
-    if values.max() > top:
-        ax.set_ylim(top=top)
-        text = "beyond: " + ", ".join(f"{value:.0f} s" for value in values[values > top])
-        ax.text(
-            1.0, 0.97, text, transform=ax.transAxes, ha="right", va="top", fontsize=6, color=GREY, path_effects=_HALO
-        )
-
-
-_CONTACT_PANELS: Sequence[tuple[str, str, bool]] = (
+_CONTACT_PANELS: Panels = (
     ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
     ("growth_rate", "Growth rate (1/s)", False),
     ("late", "First separation, later\nthan converged (%)", False),
@@ -473,42 +453,18 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     Filled: residual flexibility; hollow and dashed: rigid contact.  First separations are compared with that of the
     largest model with residual flexibility; what lies far off is cut.
     """
-    figure = new_figure(PAGE, 3.9)
-    axes = np.ravel(figure.subplots(2, 4, sharex=True))
     first = dataset["first_separation"]
     late = 100 * (first / first.sel(contact="residual").isel(model=-1) - 1)
     part = dataset.assign(u_range=1e3 * dataset["u_range"], late=late)
-    for ax, (name, label, log), letter in zip(axes, _CONTACT_PANELS, "abcdefgh", strict=True):
-        for i in range(part.sizes["case"]):
-            color, marker = _CIRCLE_LOOKS[i % len(_CIRCLE_LOOKS)]
-            for contact, filled in (("residual", True), ("rigid", False)):
-                line = part.isel(case=i).sel(contact=contact)
-                good = np.isfinite(line[name].values) & ((line[name].values > 0) | (not log))
-                ax.plot(line["modes"].values[good], line[name].values[good], color=color, marker=marker, markersize=3,
-                        markerfacecolor=color if filled else "white", linestyle="-" if filled else "--",
-                        linewidth=0.8, markeredgewidth=0.7)  # fmt: skip
-        ax.set_xscale("log")
-        ax.set_yscale("log" if log else "linear")
-        ax.margins(x=0.06)
-        ax.set_title(f"({letter}) {label}", loc="left", fontsize=7)
-        if name == "late":
-            ax.set_ylim(-25, 25)
-            ax.axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
-        ax.set_xticks([1, 3, 10, 30, 100], ["1", "3", "10", "30", "100"])
-        ax.xaxis.set_minor_formatter(NullFormatter())
-        ax.yaxis.set_minor_formatter(NullFormatter())
-    for ax in axes[4:]:
-        ax.set_xlabel("Real modes")
-    handles = [
-        Line2D(
-            [], [], color=_CIRCLE_LOOKS[i][0], marker=_CIRCLE_LOOKS[i][1], markersize=4, linestyle="-", label=str(case)
-        )
-        for i, case in enumerate(dataset["case"].values)
+    lines = [
+        (part.isel(case=i).sel(contact=contact), look, contact == "residual")
+        for i, look in zip(range(part.sizes["case"]), cycle(_LOOKS))
+        for contact in ("residual", "rigid")
     ]
-    handles += [
-        Line2D([], [], color=BLACK, linestyle="-", marker="o", markersize=4, label="residual"),
-        Line2D([], [], color=BLACK, linestyle="--", marker="o", markerfacecolor="white", markersize=4, label="rigid"),
-    ]
+    figure, axes = _against_modes(lines, _CONTACT_PANELS, (1, 3, 10, 30, 100))
+    axes["late"].set_ylim(-25, 25)
+    axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
+    handles = _look_handles(map(str, dataset["case"].values), filled="residual", hollow="rigid")
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
@@ -519,43 +475,71 @@ def truncation(dataset: xr.Dataset) -> Figure:
 
     Filled: as published; hollow and dashed: orthonormal.  Upper row: what converges, lower row: what need not.
     """
+    part = dataset.assign(force_swing=dataset["force_max"] - dataset["force_min"])
+    lines = [
+        (part.isel(normalization=i, circles=j), look, i == 0)
+        for i in range(part.sizes["normalization"])
+        for j, look in zip(range(part.sizes["circles"]), cycle(_LOOKS))
+    ]
+    figure, axes = _against_modes(lines, _PANELS, (3, 10, 30))
+    _cut(axes["first_separation"], part["first_separation"].values)
+    for name, ticks in (("impact_share", (0.05, 0.1, 0.2, 0.5)), ("separations", (20, 50, 100, 200))):
+        axes[name].set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    for ax in axes.values():
+        ax.axvline(9, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
+    circles = [f"{int(count)} nodal circle{'' if count == 1 else 's'}" for count in dataset["circles"].values]
+    handles = _look_handles(circles, filled="as published", hollow="orthonormal")
+    handles.append(Line2D([], [], color=GREY, linestyle=":", label="nine modes"))
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+    return figure
+
+
+def _against_modes(
+    lines: Sequence[tuple[xr.Dataset, tuple[str, str], bool]], panels: Panels, ticks: Sequence[int]
+) -> tuple[Figure, dict[str, Axes]]:
+    """Eight panels over the number of real modes, by variable.
+
+    lines : what is drawn in each, its colour and marker, and whether it is filled; others are hollow and dashed
+    ticks : numbers of modes that are named
+    """
     figure = new_figure(PAGE, 3.9)
     axes = np.ravel(figure.subplots(2, 4, sharex=True))
-    part = dataset.assign(force_swing=dataset["force_max"] - dataset["force_min"])
-    for ax, (name, label, log), letter in zip(axes, _PANELS, "abcdefgh", strict=True):
-        for i, normalization in enumerate(map(str, part["normalization"].values)):
-            for j in range(part.sizes["circles"]):
-                line = part.sel(normalization=normalization).isel(circles=j)
-                color, marker = _CIRCLE_LOOKS[j % len(_CIRCLE_LOOKS)]
-                good = np.isfinite(line[name].values)
-                ax.plot(line["modes"].values[good], line[name].values[good], color=color, marker=marker, markersize=3,
-                        markerfacecolor=color if i == 0 else "white", linestyle="-" if i == 0 else "--",
-                        linewidth=0.8, markeredgewidth=0.7)  # fmt: skip
+    for ax, (name, label, log), letter in zip(axes, panels, "abcdefgh", strict=True):
+        for line, (color, marker), filled in lines:
+            good = np.isfinite(line[name].values) & ((line[name].values > 0) | (not log))
+            ax.plot(line["modes"].values[good], line[name].values[good], color=color, marker=marker, markersize=3,
+                    markerfacecolor=color if filled else "white", linestyle="-" if filled else "--",
+                    linewidth=0.8, markeredgewidth=0.7)  # fmt: skip
         ax.set_xscale("log")
         ax.set_yscale("log" if log else "linear")
         ax.margins(x=0.06)
-        if name == "first_separation":
-            _cut(ax, part[name].values)
         ax.set_title(f"({letter}) {label}", loc="left", fontsize=7)
-        ax.axvline(9, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
-        ax.set_xticks([3, 10, 30], ["3", "10", "30"])
+        ax.set_xticks(ticks, [str(tick) for tick in ticks])
         ax.xaxis.set_minor_formatter(NullFormatter())
         ax.yaxis.set_minor_formatter(NullFormatter())
-        if name in ("impact_share", "separations"):
-            ticks = (0.05, 0.1, 0.2, 0.5) if name == "impact_share" else (20, 50, 100, 200)
-            ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     for ax in axes[4:]:
         ax.set_xlabel("Real modes")
-    handles = [
-        Line2D([], [], color=_CIRCLE_LOOKS[j][0], marker=_CIRCLE_LOOKS[j][1], markersize=4, linestyle="-",
-               label=f"{int(circles)} nodal circle{'' if circles == 1 else 's'}")
-        for j, circles in enumerate(dataset["circles"].values)
+    return figure, {name: ax for (name, _, _), ax in zip(panels, axes, strict=True)}
+
+
+def _look_handles(labels: Iterable[str], *, filled: str, hollow: str) -> list[Line2D]:
+    """For legends: what colours stand for, and what is filled or hollow."""
+    style: dict[str, Any] = {"color": BLACK, "marker": "o", "markersize": 4}
+    return [
+        *(Line2D([], [], color=color, marker=marker, markersize=4, linestyle="-", label=label)
+          for label, (color, marker) in zip(labels, cycle(_LOOKS))),
+        Line2D([], [], linestyle="-", label=filled, **style),
+        Line2D([], [], linestyle="--", markerfacecolor="white", label=hollow, **style),
     ]  # fmt: skip
-    handles += [
-        Line2D([], [], color=BLACK, linestyle="-", marker="o", markersize=4, label="as published"),
-        Line2D([], [], color=BLACK, linestyle="--", marker="o", markerfacecolor="white", markersize=4,
-               label="orthonormal"),
-        Line2D([], [], color=GREY, linestyle=":", label="nine modes"),
-    ]  # fmt: skip
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
-    return figure
+
+
+def _cut(ax: Axes, values: np.ndarray) -> None:
+    """Show what lies near the median, and say what lies above."""
+    values = values[np.isfinite(values)]
+    top = 1.12 * float(np.median(values))
+    if values.max() > top:
+        ax.set_ylim(top=top)
+        text = "beyond: " + ", ".join(f"{value:.0f} s" for value in values[values > top])
+        ax.text(
+            1.0, 0.97, text, transform=ax.transAxes, ha="right", va="top", fontsize=6, color=GREY, path_effects=_HALO
+        )
