@@ -28,7 +28,7 @@ def test_every_number_on_speed_is_of_the_one_stored_run() -> None:
     named = set()
     for name in ("README.md", "docs/method.md"):
         text = (ROOT / name).read_text(encoding="utf-8")
-        assert pages.filled(text, run) == text, f"{name}: run `make bench-pages`"
+        assert pages.fill(text, pages.passages(run)) == text, f"{name}: run `make bench-pages`"
         named |= set(re.findall(r"<!-- bench (\w+) -->", text))
     assert named == {"speed", "first_separation", "prices", "cycle"}
 
@@ -47,12 +47,11 @@ def test_one_run_is_on_one_machine(dataset: xr.Dataset, answers: xr.Dataset) -> 
         pages.summary(dataset, answers.assign_attrs(machine="another machine"))
 
 
-def test_a_page_is_filled_by_name(dataset: xr.Dataset, answers: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pages, "passages", lambda run: {"machine": run["machine"], "speed": "fast"})
-    run = pages.summary(dataset, answers)
+def test_a_page_is_filled_by_name() -> None:
+    known = {"machine": "this one", "speed": "fast"}
     text = "On <!-- bench machine -->an old one<!-- end -->: <!-- bench speed -->\nslow<!-- end -->."
-    filled = pages.filled(text, run)
-    assert filled == f"On <!-- bench machine -->{run['machine']}<!-- end -->: <!-- bench speed -->fast<!-- end -->."
-    assert pages.filled(filled, run) == filled
+    filled = pages.fill(text, known)
+    assert filled == "On <!-- bench machine -->this one<!-- end -->: <!-- bench speed -->fast<!-- end -->."
+    assert pages.fill(filled, known) == filled
     with pytest.raises(DiscModelError, match=r"no passage of the benchmark is called 'price'"):
-        pages.filled("<!-- bench price --><!-- end -->", run)
+        pages.fill("<!-- bench price --><!-- end -->", known)

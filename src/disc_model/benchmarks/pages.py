@@ -156,13 +156,14 @@ def _plain(number: float) -> str:
     return f"{float(f'{number:.2g}'):,.10g}"
 
 
-def filled(text: str, run: Summary) -> str:
-    """A page with its passages, ``<!-- bench NAME -->...<!-- end -->``, written anew."""
-    return fill(text, passages(run))
-
-
 def fill(text: str, known: Mapping[str, str]) -> str:
-    """A page with passages of other texts; raises `disc_model.errors.DiscModelError` for a name that is not known."""
+    """A page with its passages, ``<!-- bench NAME -->...<!-- end -->``, written anew.
+
+    Raises
+    ------
+    disc_model.errors.DiscModelError
+        For a name that is not known.
+    """
 
     def passage(match: re.Match[str]) -> str:
         name = match["name"]

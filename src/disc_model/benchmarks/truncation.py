@@ -4,26 +4,7 @@
 first separation, the range of the contact force and what a plastic impact does, with the cost beside them.
 `contact_study` measures what of that residual flexibility changes, and what comes after the separation.
 
-What `truncation_study` found:
-
-- With modes as published, nine modes have the coupled frequencies right to 7e-4 and the growth rate at N = 300 N,
-  Omega = 20 rad/s right to 1 % (0.0464 against 0.0460 1/s).  With orthonormal ones it is 5e-3 and 12 % (0.0024 against
-  0.0027 1/s).  Both converge like the static compliance of a point, slowly: the error falls about as one over the
-  number of modes, and frequencies right to 1e-4 take 44 and 148 modes.
-- The first separation at N = 385 N, Omega = 15.1 rad/s moves from 54.42 s to 53.35 s with 12 diameters and to 51.65 s
-  with 12 diameters and 2 circles.  The paper's "nine modes are good enough" holds for frequencies and stability to
-  about a percent, not for this time nor for what follows it.
-- S2 = sum psi^2, the compliance against an impulse, grows with every mode.  The eigenfunctions of a plate are complete,
-  so with orthonormal modes the sum over all of them is the delta function at its own place: it grows without bound,
-  about linearly in the number of modes.  The impulse of a plastic impact, (w' - u')/(S2 + 1/m), its energy loss and the
-  change of the slider's velocity therefore go to zero: the point of the disc that is hit becomes massless.  The impact
-  law has no limit of many modes other than "no impact at all".  The number of separations in the second after the
-  first one follows suit: orthonormal 28, 62, 113, 209 (4 and 12 diameters; then 1, 2 circles), as published 134, 136,
-  136, 339.  The truncation is part of the impact law and has to be stated with every result that separates.  With
-  circles = 0 alone S2 stays bounded, because modes of many diameters live at the rim and pass r_0 by: only there do the
-  numbers settle.
-- As published, amplitudes are scaled by the coefficient of J_l, which means nothing physical: with 2 circles the modes
-  of 1 and of 4 diameters add more to S2 than all the others, and the results jump.
+What they found: docs/method.md and docs/contact.md.
 """
 
 from __future__ import annotations
@@ -31,7 +12,7 @@ from __future__ import annotations
 import json
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -70,14 +51,16 @@ AFTER = 1.0
 """s after the first separation over which impacts are counted."""
 WINDOW = (5.0, 7.0)
 """s over which the range of the contact force in contact is taken."""
-VARIABLES = {
+SHARED = {
     "modes": Variable("1", "number of real modes"),
-    "omega_max": Variable("rad s-1", "highest natural frequency of the disc"),
-    "compliance": Variable("kg-1", "S2, sum of psi^2: compliance against an impulse"),
     "lowest_coupled": Variable("rad s-1", "lowest frequency of disc and slider at rest"),
     "frequency_error": Variable("1", "largest relative error of the coupled frequencies in the band"),
     "growth_rate": Variable("s-1", "growth rate of the stick-slip cycle"),
     "first_separation": Variable("s", "first separation"),
+}
+VARIABLES = SHARED | {
+    "omega_max": Variable("rad s-1", "highest natural frequency of the disc"),
+    "compliance": Variable("kg-1", "S2, sum of psi^2: compliance against an impulse"),
     "force_min": Variable("N", "least contact force in contact"),
     "force_max": Variable("N", "greatest contact force in contact"),
     "separations": Variable("s-1", "separations per second in the second after the first one"),
@@ -100,25 +83,26 @@ def truncation_study(
     growth: bool = True,
 ) -> xr.Dataset:
     """Measure everything of `VARIABLES` along (normalization, circles, diameters); nan where there is none."""
-    shape = (len(normalizations), len(circles), len(diameters))
-    data = {name: np.full(shape, math.nan) for name in VARIABLES}
-    for i, normalization in enumerate(normalizations):
-        for j, n_circles in enumerate(circles):
-            for k, n_diameters in enumerate(diameters):
-                row = _measure(normalization, n_diameters, n_circles, horizon, growth)
-                for name, value in row.items():
-                    data[name][i, j, k] = value
-    dims = ("normalization", "circles", "diameters")
+    coords = {"normalization": normalizations, "circles": circles, "diameters": diameters}
+    study = _measured(coords, VARIABLES, lambda norm, c, d: _measure(norm, d, c, horizon, growth))
+    cases = json.dumps({name: CASES[name] for name in normalizations}, sort_keys=True)
+    return study.assign_attrs(title="What a study needs of the modes", cases=cases)
+
+
+def _measured(
+    coords: Mapping[str, Sequence[Any]], variables: Mapping[str, Variable], measure: Callable[..., Mapping[str, float]]
+) -> xr.Dataset:
+    """What is measured at each point of a grid, given its values; nan where there is none."""
+    shape = tuple(len(values) for values in coords.values())
+    data = {name: np.full(shape, math.nan) for name in variables}
+    for place in np.ndindex(shape):
+        point = (values[i] for values, i in zip(coords.values(), place, strict=True))
+        for name, value in measure(*point).items():
+            data[name][place] = value
     return xr.Dataset(
-        {name: (dims, data[name], own.attributes) for name, own in VARIABLES.items()},
-        coords={"normalization": list(normalizations), "circles": list(circles), "diameters": list(diameters)},
-        attrs={
-            "Conventions": "CF-1.11",
-            "title": "What a study needs of the modes",
-            "cases": json.dumps({name: CASES[name] for name in normalizations}, sort_keys=True),
-            "compared_with": json.dumps(RICH),
-            "band": BAND,
-        },
+        {name: ([*coords], data[name], own.attributes) for name, own in variables.items()},
+        coords={name: list(values) for name, values in coords.items()},
+        attrs={"Conventions": "CF-1.11", "compared_with": json.dumps(RICH), "band": BAND},
     )
 
 
@@ -137,13 +121,8 @@ TOLERANCES = (1e-10, 1e-12, 1e-13)
 """Of the motion after the first separation: the next one where it cannot be followed to its end with the one before."""
 MOST_GROWTH = 80
 """Growth rates take a column for each of four coordinates of every pair: with more real modes they are left out."""
-CONTACT_VARIABLES = {
-    "modes": Variable("1", "number of real modes"),
+CONTACT_VARIABLES = SHARED | {
     "contact_compliance": Variable("m N-1", "compliance of the contact"),
-    "lowest_coupled": Variable("rad s-1", "lowest frequency of disc and slider at rest"),
-    "frequency_error": Variable("1", "largest relative error of the coupled frequencies in the band"),
-    "growth_rate": Variable("s-1", "growth rate of the stick-slip cycle"),
-    "first_separation": Variable("s", "first separation"),
     "separations": Variable("s-1", "separations per second, late"),
     "separated_share": Variable("1", "share of the time spent separated, late"),
     "u_range": Variable("m", "range of the slider's height, late"),
@@ -162,29 +141,21 @@ def contact_study(
 ) -> xr.Dataset:
     """Measure everything of `CONTACT_VARIABLES` along (case, contact, model); nan where there is none."""
     named = SEPARATING if cases is None else cases
-    shape = (len(named), len(CONTACTS), len(models))
-    data = {name: np.full(shape, math.nan) for name in CONTACT_VARIABLES}
-    for i, case in enumerate(named.values()):
-        for j, contact in enumerate(CONTACTS.values()):
-            for k, (diameters, circles) in enumerate(models):
-                p = Parameters(**case, **contact, n_diameters=diameters, n_circles=circles)
-                for name, value in _through_separation(p, horizon).items():
-                    data[name][i, j, k] = value
-    dims = ("case", "contact", "model")
-    return xr.Dataset(
-        {name: (dims, data[name], own.attributes) for name, own in CONTACT_VARIABLES.items()},
-        coords={"case": list(named), "contact": list(CONTACTS), "model": [f"{d},{c}" for d, c in models]},
-        attrs={
-            "Conventions": "CF-1.11",
-            "title": "What residual flexibility changes",
-            "cases": json.dumps(dict(named), sort_keys=True),
-            "compared_with": json.dumps(RICH),
-            "band": BAND,
-            "late": json.dumps(LATE),
-            "most_growth": MOST_GROWTH,
-            "horizon": horizon,
-            "machine": machine(),
-        },
+
+    def measure(case: str, contact: str, model: str) -> dict[str, float]:
+        diameters, circles = sizes[model]
+        p = Parameters(**named[case], **CONTACTS[contact], n_diameters=diameters, n_circles=circles)
+        return _through_separation(p, horizon)
+
+    sizes = {f"{diameters},{circles}": (diameters, circles) for diameters, circles in models}
+    coords = {"case": [*named], "contact": [*CONTACTS], "model": [*sizes]}
+    return _measured(coords, CONTACT_VARIABLES, measure).assign_attrs(
+        title="What residual flexibility changes",
+        cases=json.dumps(dict(named), sort_keys=True),
+        late=json.dumps(LATE),
+        most_growth=MOST_GROWTH,
+        horizon=horizon,
+        machine=machine(),
     )
 
 

@@ -173,11 +173,20 @@ def stretch(case: CaseView, window: str, start: float = -np.inf, stop: float = n
     return found
 
 
-def found_lines(found: list[spectra.Line], case: CaseView, window: str) -> list[spectra.Line]:
-    """Lines of a spectrum, unless there are none."""
+def lines(
+    case: CaseView, window: str, start: float, stop: float, name: str = "w_point", **options: float
+) -> list[spectra.Line]:
+    """Lines of a variable between two times, see `disc_model.analysis.spectra.lines`; raises `Missing` without any."""
+    part = stretch(case, window, start, stop)
+    found = spectra.lines(part["time"].values, part[name].values, **options)
     if not found:
         raise Missing(f"case {case.name} has no line in the spectrum of {window}")
     return found
+
+
+def loudest(found: Iterable[spectra.Line], count: int) -> list[spectra.Line]:
+    """So many lines at most, the strongest first."""
+    return sorted(found, key=lambda line: -line.amplitude)[:count]
 
 
 def strongest(case: CaseView, samples: xr.Dataset, name: str, near: float, within: float) -> spectra.Line:

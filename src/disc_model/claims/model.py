@@ -52,11 +52,6 @@ class Needed:
     separates: bool = False
     steady: bool = False
 
-    @property
-    def settled(self) -> Needed:
-        """The same case, asked for its steady state."""
-        return replace(self, steady=True)
-
 
 class Range(NamedTuple):
     """Least and greatest value."""

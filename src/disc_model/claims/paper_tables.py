@@ -104,6 +104,5 @@ def table_2_lines(case: CaseView) -> list[spectra.Line]:
 
 def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
     """Rate of stick and slip, Hz: the strongest line of psi, which is seen in the slider's own frame."""
-    part = measures.stretch(case, window, start, stop)
-    found = measures.found_lines(spectra.lines(part["time"].values, part["psi"].values, above=20.0), case, window)
-    return max(found, key=lambda line: line.amplitude).frequency
+    (line,) = measures.loudest(measures.lines(case, window, start, stop, "psi", above=20.0), 1)
+    return line.frequency

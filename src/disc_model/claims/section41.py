@@ -9,31 +9,17 @@ import numpy as np
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import stick_disappears
 from disc_model.claims import measures
+from disc_model.claims.cases import asked
 from disc_model.claims.measures import first_separation
-from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding
+from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, claim, finding
 
-F02 = Needed({"N": 200, "Omega": 20}, 600, separates=True)
-F04 = Needed({"N": 200, "Omega": 20, "contact": "bonded"}, 790)
-F06 = Needed({"N": 300, "Omega": 20, "contact": "bonded"}, 200)
-F07 = Needed({"N": 300, "Omega": 20}, 190, separates=True)
-F08 = Needed({"N": 200, "Omega": 50, "contact": "bonded"}, 500)
-F09 = Needed({"N": 200, "Omega": 50}, 190, separates=True)
 SHOWN = (("F02", "F04"), ("F07", "F06"), ("F09", "F08"))
 """Pairs of cases with separation and without it that the paper shows."""
 FURTHER = (("F13", "F13bonded"), ("F17", "F17bonded"))
 """Two more of its cases, with counterparts of ours."""
-_PAIRED = {
-    "F02": F02,
-    "F04": F04,
-    "F06": F06,
-    "F07": F07,
-    "F08": F08,
-    "F09": F09,
-    "F13": Needed({"N": 385, "Omega": 15.1}, 110, separates=True),
-    "F13bonded": Needed({"N": 385, "Omega": 15.1, "contact": "bonded"}, 110),
-    "F17": Needed({"N": 200, "Omega": 15}, 850, separates=True),
-    "F17bonded": Needed({"N": 200, "Omega": 15, "contact": "bonded"}, 850),
-}
+PAIRED = asked(
+    separates=True, steady=True, F02=600, F04=790, F06=200, F07=190, F08=500, F09=190, F13=110, F13bonded=110
+) | asked(separates=True, steady=True, F17=850, F17bonded=850)
 FEW = 0.01
 """Share of the time below which stick is worth a remark."""
 PERIODIC = "a periodic motion repeats to rounding; 1e-6 leaves room for a slow approach to it"
@@ -47,7 +33,7 @@ RETURNS = "a period has to be seen twice and to close a thousand times better th
     paper="shown",
     tolerance="range at least doubles",
     reason="the paper gives no time for it",
-    needs={"F02": F02},
+    needs=asked(separates=True, F02=600),
 )
 def force_grows_to_zero(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
@@ -66,7 +52,7 @@ def force_grows_to_zero(cases: Cases, claim: Claim) -> Finding:
     paper="several",
     tolerance="at least 2; P exactly 0",
     reason="when the window begins within a cycle depends on the method's rounding",
-    needs={"F02": Needed(F02.parameters, 602.15, separates=True).settled},
+    needs=asked(separates=True, steady=True, F02=602.15),
 )
 def separations_repeat(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
@@ -88,7 +74,7 @@ def separations_repeat(cases: Cases, claim: Claim) -> Finding:
     tolerance="99 % of separations",
     reason="a general statement; single exceptions would not refute it",
     bound=0.99,
-    needs={"F02": F02.settled},
+    needs=asked(separates=True, steady=True, F02=600),
 )
 def contact_is_lost_upward(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
@@ -111,7 +97,7 @@ def contact_is_lost_upward(cases: Cases, claim: Claim) -> Finding:
     tolerance="each shorter than a quarter of the time between two, and none still open by then",
     reason="what 'short' may mean beside the vibration's period",
     bound=0.25,
-    needs={"F02": F02.settled},
+    needs=asked(separates=True, steady=True, F02=600),
 )
 def separations_are_short(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
@@ -135,7 +121,7 @@ def separations_are_short(cases: Cases, claim: Claim) -> Finding:
     tolerance="spread of the release intervals 1e-6",
     reason=PERIODIC,
     bound=1e-6,
-    needs={"F04": F04.settled},
+    needs=asked(steady=True, F04=790),
 )
 def bonded_is_periodic(cases: Cases, claim: Claim) -> Finding:
     return _bonded(cases, claim, "F04")
@@ -148,7 +134,7 @@ def bonded_is_periodic(cases: Cases, claim: Claim) -> Finding:
     paper="quasi-periodic",
     tolerance="no period within half the record; 0-1 test below 0.3",
     reason=RETURNS,
-    needs={"F02": F02.settled},
+    needs=asked(separates=True, steady=True, F02=600),
 )
 def quasi_periodic(cases: Cases, claim: Claim) -> Finding:
     return measures.is_quasi_periodic(cases["F02"])
@@ -162,7 +148,7 @@ def quasi_periodic(cases: Cases, claim: Claim) -> Finding:
     tolerance="spread of the release intervals 1e-6",
     reason=PERIODIC,
     bound=1e-6,
-    needs={"F06": F06.settled},
+    needs=asked(steady=True, F06=200),
 )
 def bonded_is_periodic_with_larger_preload(cases: Cases, claim: Claim) -> Finding:
     return _bonded(cases, claim, "F06")
@@ -175,7 +161,7 @@ def bonded_is_periodic_with_larger_preload(cases: Cases, claim: Claim) -> Findin
     paper="quasi-periodic",
     tolerance="no period within half the record; 0-1 test below 0.3",
     reason=RETURNS,
-    needs={"F07": F07.settled},
+    needs=asked(separates=True, steady=True, F07=190),
 )
 def quasi_periodic_with_larger_preload(cases: Cases, claim: Claim) -> Finding:
     return measures.is_quasi_periodic(cases["F07"])
@@ -189,7 +175,7 @@ def quasi_periodic_with_larger_preload(cases: Cases, claim: Claim) -> Finding:
     tolerance="steady by the test; 1 % of the time sticking",
     reason="the text says steady here, periodic only of Figs. 4 and 6",
     bound=0.01,
-    needs={"F08": F08.settled},
+    needs=asked(steady=True, F08=500),
 )
 def bonded_is_steady(cases: Cases, claim: Claim) -> Finding:
     case = cases["F08"]
@@ -212,7 +198,7 @@ def bonded_is_steady(cases: Cases, claim: Claim) -> Finding:
     tolerance="0.1 % of the time",
     reason="a stray stick would not refute the statement",
     bound=1e-3,
-    needs={"F09": F09.settled},
+    needs=asked(separates=True, steady=True, F09=190),
 )
 def stick_is_gone(cases: Cases, claim: Claim) -> Finding:
     case = cases["F09"]
@@ -231,7 +217,7 @@ def stick_is_gone(cases: Cases, claim: Claim) -> Finding:
     tolerance="less than half",
     reason="what 'much smaller' may mean; read off a figure without numbers in the text",
     bound=0.5,
-    needs={name: needed.settled for name, needed in _PAIRED.items()},
+    needs=PAIRED,
 )
 def much_smaller_range(cases: Cases, claim: Claim) -> Finding:
     ratios, said = _ranges(cases, SHOWN)
@@ -247,7 +233,7 @@ def much_smaller_range(cases: Cases, claim: Claim) -> Finding:
     paper="smaller",
     tolerance="smaller in each of five pairs",
     reason="only the order is claimed",
-    needs={name: needed.settled for name, needed in _PAIRED.items()},
+    needs=PAIRED,
 )
 def smaller_range(cases: Cases, claim: Claim) -> Finding:
     ratios, said = _ranges(cases, (*SHOWN, *FURTHER))
@@ -262,7 +248,7 @@ def smaller_range(cases: Cases, claim: Claim) -> Finding:
     tolerance="lines above a thousandth of the strongest, below 2000 Hz",
     reason="the paper counts points by eye; lines do not depend on how long one looks",
     bound=1e-3,
-    needs={"F02": F02.settled, "F04": F04.settled, "F06": F06.settled, "F07": F07.settled},
+    needs=asked(separates=True, steady=True, F02=600, F04=790, F06=200, F07=190),
 )
 def more_frequencies(cases: Cases, claim: Claim) -> Finding:
     said, more = [], []
@@ -286,7 +272,7 @@ def _late_lines(case: CaseView, floor: float) -> list[spectra.Line]:
     tolerance="a tenth more, of the last 150, apart by more than a hundredth of the section",
     reason="fewer could be an accident of the moment at which one stops",
     bound=1.1,
-    needs={"F02": F02.settled, "F04": F04.settled, "F06": F06.settled, "F07": F07.settled},
+    needs=asked(separates=True, steady=True, F02=600, F04=790, F06=200, F07=190),
 )
 def more_points(cases: Cases, claim: Claim) -> Finding:
     said, more = [], []
@@ -305,7 +291,7 @@ def more_points(cases: Cases, claim: Claim) -> Finding:
     tolerance="its width, or its share of stick, changes by three tenths at least",
     reason="what 'different' may mean; sections are compared by eye in the paper",
     bound=0.3,
-    needs={"F02": F02.settled, "F07": F07.settled, "F09": F09.settled},
+    needs=asked(separates=True, steady=True, F02=600, F07=190, F09=190),
 )
 def trajectory_changes(cases: Cases, claim: Claim) -> Finding:
     found = [measures.trajectory_change(cases[name], claim.bound) for name in claim.needs]
@@ -320,7 +306,7 @@ def trajectory_changes(cases: Cases, claim: Claim) -> Finding:
     tolerance="1e-6 of its width",
     reason=PERIODIC,
     bound=1e-6,
-    needs={"F04": F04.settled},
+    needs=asked(steady=True, F04=790),
 )
 def bonded_orbit_closes(cases: Cases, claim: Claim) -> Finding:
     return _closes(cases, claim, "F04")
@@ -333,7 +319,7 @@ def bonded_orbit_closes(cases: Cases, claim: Claim) -> Finding:
     paper="intricate",
     tolerance="no period within half the record",
     reason=RETURNS,
-    needs={"F02": F02.settled},
+    needs=asked(separates=True, steady=True, F02=600),
 )
 def orbit_does_not_close(cases: Cases, claim: Claim) -> Finding:
     case = cases["F02"]
@@ -350,7 +336,7 @@ def orbit_does_not_close(cases: Cases, claim: Claim) -> Finding:
     paper="<",
     tolerance="none",
     reason="any slip that ends in stick although the relation is true refutes it",
-    needs={"F02": Needed(F02.parameters), "F04": Needed(F04.parameters)},
+    needs=asked(F02=0, F04=0),
 )
 def slip_condition(cases: Cases, claim: Claim) -> Finding:
     """The relation where the slider stops on the disc: ψ' = Ω there, and c_p = 0 in both cases."""
@@ -404,7 +390,7 @@ def bonded_always_sticks(cases: Cases, claim: Claim) -> Finding:
     tolerance="1e-12 rad/s",
     reason="sticking fixes the relative velocity exactly",
     bound=1e-12,
-    needs={"F02": Needed(F02.parameters), "F04": F04},
+    needs=asked(F02=0, F04=790),
 )
 def stick_on_a_line(cases: Cases, claim: Claim) -> Finding:
     worst, count = 0.0, 0

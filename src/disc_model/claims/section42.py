@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from disc_model.claims import measures
+from disc_model.claims.cases import asked
 from disc_model.claims.measures import first_separation, said_growth, separates_at
-from disc_model.claims.model import Cases, Claim, Finding, Needed, claim, finding
+from disc_model.claims.model import Cases, Claim, Finding, claim, finding
 from disc_model.plate import plate_modes
 
-F11 = Needed({"N": 385, "Omega": 15}, 190)
-F13 = Needed({"N": 385, "Omega": 15.1}, 59)
 ELSEWHERE = "from the published start; a separating state exists at 385 N and 15 rad/s as well, see Fig. 15b"
 
 
@@ -22,7 +21,7 @@ ELSEWHERE = "from the published start; a separating state exists at 385 N and 15
     tolerance="range below 5 % of N, not growing by more than 0.05 N",
     reason="'small' read off Fig. 11; sampling finds the extremes to about 0.02 N",
     bound=0.05,
-    needs={"F11": F11.settled},
+    needs=asked(steady=True, F11=190),
 )
 def quiet(cases: Cases, claim: Claim) -> Finding:
     case = cases["F11"]
@@ -44,7 +43,7 @@ def quiet(cases: Cases, claim: Claim) -> Finding:
     tolerance="spread of the release intervals 1e-6",
     reason="what is left of the approach to the cycle after 200 s is below it",
     bound=1e-6,
-    needs={"F11": F11.settled},
+    needs=asked(steady=True, F11=190),
 )
 def periodic(cases: Cases, claim: Claim) -> Finding:
     intervals = measures.release_intervals(cases["F11"])
@@ -60,7 +59,7 @@ def periodic(cases: Cases, claim: Claim) -> Finding:
     tolerance="0.1 s",
     reason="the last digit printed; the method behind it may be off by as much",
     bound=0.1,
-    needs={"F13": F13},
+    needs=asked(F13=59),
 )
 def when_it_separates(cases: Cases, claim: Claim) -> Finding:
     return separates_at(cases["F13"], 54.5, claim.bound)
@@ -73,7 +72,7 @@ def when_it_separates(cases: Cases, claim: Claim) -> Finding:
     paper="15 < Omega_c < 15.1 rad/s",
     tolerance="none",
     reason="two runs from the published start decide it",
-    needs={"F11": F11, "F13": F13},
+    needs=asked(F11=190, F13=59),
 )
 def onset(cases: Cases, claim: Claim) -> Finding:
     below, above = cases["F11"], cases["F13"]
@@ -89,7 +88,7 @@ def onset(cases: Cases, claim: Claim) -> Finding:
     tolerance="2 % between the first 20 s and the last",
     reason="the drive's period hits the extremes at other points each time",
     bound=0.02,
-    needs={"F11": F11.settled},
+    needs=asked(steady=True, F11=190),
 )
 def disc_does_not_grow(cases: Cases, claim: Claim) -> Finding:
     early, late = (of(cases["F11"], "w_point").width for of in (measures.early_range, measures.late_range))
@@ -105,7 +104,7 @@ def disc_does_not_grow(cases: Cases, claim: Claim) -> Finding:
     tolerance="half as much again",
     reason="'larger' to the eye",
     bound=1.5,
-    needs={"F11": F11.settled, "F13": Needed(F13.parameters, 110).settled},
+    needs=asked(steady=True, F11=190, F13=110),
 )
 def larger_range(cases: Cases, claim: Claim) -> Finding:
     below, above = (measures.late_range(cases[name], "w_point").width for name in ("F11", "F13"))
@@ -121,7 +120,7 @@ def larger_range(cases: Cases, claim: Claim) -> Finding:
     tolerance="release intervals repeat to 1e-8 s",
     reason="far above rounding, far below what an irregular motion would leave",
     bound=1e-8,
-    needs={"F13": Needed(F13.parameters, 110, separates=True).settled},
+    needs=asked(separates=True, steady=True, F13=110),
 )
 def later_periodic(cases: Cases, claim: Claim) -> Finding:
     motion = measures.late_motion(cases["F13"], claim.bound)
@@ -135,12 +134,7 @@ def later_periodic(cases: Cases, claim: Claim) -> Finding:
     paper="falls, then rises",
     tolerance="none",
     reason="runs from the published start decide on which side of the critical speed they are",
-    needs={
-        "F16": Needed({"N": 50, "Omega": 15}, 290),
-        "F17": Needed({"N": 200, "Omega": 15}, 850),
-        "F11": F11,
-        "S43N550": Needed({"N": 550, "Omega": 15}),
-    },
+    needs=asked(F16=290, F17=850, F11=190, S43N550=0),
 )
 def falls_then_rises(cases: Cases, claim: Claim) -> Finding:
     """Critical speeds of four preloads against 15 rad/s: above it, below it, above it again."""
@@ -161,7 +155,7 @@ def falls_then_rises(cases: Cases, claim: Claim) -> Finding:
     tolerance="less than 10 % of it",
     reason="what 'much lower' may mean; one case that separates there decides it",
     bound=0.1,
-    needs={"F02": Needed({"N": 200, "Omega": 20}, 500), "F09": Needed({"N": 200, "Omega": 50}, 200)},
+    needs=asked(F02=500, F09=200),
 )
 def far_below(cases: Cases, claim: Claim) -> Finding:
     modes = plate_modes(cases["F02"].parameters).query("diameters > 0")

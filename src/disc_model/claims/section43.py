@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
-from disc_model.analysis import spectra
 from disc_model.analysis.classify import Kind, separation_location
 from disc_model.claims import measures
+from disc_model.claims.cases import PARAMETERS, asked
 from disc_model.claims.measures import BETWEEN, first_separation, said_growth
 from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding, undecided
 from disc_model.claims.section41 import RETURNS
@@ -17,21 +16,14 @@ from disc_model.claims.section42 import ELSEWHERE
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
-F11 = Needed({"N": 385, "Omega": 15}, 190)
-F16 = Needed({"N": 50, "Omega": 15}, 290)
-F17 = Needed({"N": 200, "Omega": 15}, 850)
-F18 = Needed({"N": 200, "Omega": 10, "D_star": 0}, 300)
-F19 = Needed({"N": 385, "Omega": 15, "c_p": 0.5}, 100)
-KP2E3 = Needed({"N": 300, "Omega": 50, "k_p": 2e3}, 350)
-KP2E4 = Needed({"N": 300, "Omega": 50}, 100)
-KP2E5 = Needed({"N": 300, "Omega": 50, "k_p": 2e5}, 200)
 STIFFNESSES = (50, 60, 70, 80, 90, 100, 110, 130, 148, 200)
 """Of the spring normal to the disc, kN/m: between those that the paper tries."""
 ORDER = "only the order is claimed"
 SEEN = "the paper shows or says that it happens, without a time"
 WAITED = 2000.0
 """How long a separation is waited for at low speeds, s: longer than any of the paper's runs."""
-_SPEEDS = {"10": 10, "11": 11, "12": 12, "122": 12.2, "124": 12.4, "126": 12.6, "14": 14, "145": 14.5}
+SCAN = {name: Needed(own, WAITED) for name, own in PARAMETERS.items() if name.startswith("S43c")}
+"""N = 200 N, speeds from 10 to 14.5 rad/s."""
 
 
 @claim(
@@ -42,7 +34,7 @@ _SPEEDS = {"10": 10, "11": 11, "12": 12, "122": 12.2, "124": 12.4, "126": 12.6, 
     tolerance="1 rad/s in the speed of onset",
     reason="the step at which speeds are tried",
     bound=1.0,
-    needs={"S43N0": Needed({"N": 1e-6, "Omega": 15}, 90)},
+    needs=asked(S43N0=90),
 )
 def no_preload(cases: Cases, claim: Claim) -> Finding:
     from disc_model.stability.sliding import steady_sliding
@@ -71,7 +63,7 @@ def no_preload(cases: Cases, claim: Claim) -> Finding:
     tolerance="1 % in the time of release",
     reason="the contact force differs from N by little until then",
     bound=0.01,
-    needs={"S43Ninf": Needed({"N": 8e4, "Omega": 15}, 0.9), "S43N3e3": Needed({"N": 3000, "Omega": 15}, 50)},
+    needs=asked(S43Ninf=0.9, S43N3e3=50),
 )
 def huge_preload(cases: Cases, claim: Claim) -> Finding:
     stuck, large = cases["S43Ninf"], cases["S43N3e3"]
@@ -98,7 +90,7 @@ def huge_preload(cases: Cases, claim: Claim) -> Finding:
     paper="longer",
     tolerance="none",
     reason="the periodic cycle, before its instability shows",
-    needs={"F16": F16, "F17": F17},
+    needs=asked(F16=290, F17=850),
 )
 def stick_longer(cases: Cases, claim: Claim) -> Finding:
     small, large = (measures.cycle_of(cases[name].parameters) for name in ("F16", "F17"))
@@ -116,8 +108,7 @@ def stick_longer(cases: Cases, claim: Claim) -> Finding:
     tolerance="0.05 rad/s",
     reason="half a unit of the last digit printed",
     bound=0.05,
-    needs={"F17": Needed(F17.parameters, 850, separates=True)}
-    | {f"S43c{name}": Needed({"N": 200, "Omega": speed}, WAITED) for name, speed in _SPEEDS.items()},
+    needs=asked(separates=True, F17=850) | SCAN,
 )
 def critical_speed(cases: Cases, claim: Claim) -> Finding:
     scan = {cases[name]["Omega"]: cases[name]["first_separation"] for name in claim.needs if name != "F17"}
@@ -139,7 +130,7 @@ def critical_speed(cases: Cases, claim: Claim) -> Finding:
     paper="stabilises",
     tolerance="none",
     reason=ORDER,
-    needs={"F18": F18},
+    needs=asked(F18=300),
 )
 def more_disc_damping(cases: Cases, claim: Claim) -> Finding:
     p = cases["F18"].parameters
@@ -158,7 +149,7 @@ def more_disc_damping(cases: Cases, claim: Claim) -> Finding:
     tolerance="range not growing; spread of the release intervals 1e-4",
     reason="the cycle attracts slowly: a tenth of the first deviation is left after 300 s",
     bound=1e-4,
-    needs={"F16": F16.settled},
+    needs=asked(steady=True, F16=290),
 )
 def small_periodic(cases: Cases, claim: Claim) -> Finding:
     case = cases["F16"]
@@ -176,7 +167,7 @@ def small_periodic(cases: Cases, claim: Claim) -> Finding:
     paper="separation",
     tolerance="any time within the run",
     reason=SEEN,
-    needs={"F17": F17},
+    needs=asked(F17=850),
 )
 def separates(cases: Cases, claim: Claim) -> Finding:
     return _separates(cases, claim, "F17")
@@ -190,7 +181,7 @@ def separates(cases: Cases, claim: Claim) -> Finding:
     tolerance="no period of fewer than 4 releases",
     reason="what 'very complicated' may mean beside one release a period before separation",
     bound=4.0,
-    needs={"F17": Needed({"N": 200, "Omega": 15}, 850, separates=True).settled},
+    needs=asked(separates=True, steady=True, F17=850),
 )
 def complicated(cases: Cases, claim: Claim) -> Finding:
     motion = measures.late_motion(cases["F17"])
@@ -207,7 +198,7 @@ def complicated(cases: Cases, claim: Claim) -> Finding:
     paper="stable, separation, stable",
     tolerance="none",
     reason="three runs from the published start decide it",
-    needs={"F16": F16, "F17": F17, "F11": F11},
+    needs=asked(F16=290, F17=850, F11=190),
 )
 def preload(cases: Cases, claim: Claim) -> Finding:
     found = {name: cases[name].separates for name in ("F16", "F17", "F11")}
@@ -222,7 +213,7 @@ def preload(cases: Cases, claim: Claim) -> Finding:
     paper="separation",
     tolerance="any time within the run",
     reason=SEEN,
-    needs={"F18": F18},
+    needs=asked(F18=300),
 )
 def separates_undamped(cases: Cases, claim: Claim) -> Finding:
     return _separates(cases, claim, "F18")
@@ -236,7 +227,7 @@ def separates_undamped(cases: Cases, claim: Claim) -> Finding:
     tolerance="its width, or its share of stick, changes by three tenths at least",
     reason="what 'changes' may mean; sections are compared by eye in the paper",
     bound=0.3,
-    needs={"F18": replace(F18, separates=True).settled},
+    needs=asked(separates=True, steady=True, F18=300),
 )
 def undamped_trajectory(cases: Cases, claim: Claim) -> Finding:
     said, changes = measures.trajectory_change(cases["F18"], claim.bound)
@@ -251,11 +242,7 @@ def undamped_trajectory(cases: Cases, claim: Claim) -> Finding:
     tolerance=f"within {WAITED:g} s",
     reason="longer than any of the paper's runs; how long one waits decides, see S43c",
     bound=WAITED,
-    needs={
-        "F18": F18,
-        "S43z4": Needed({"N": 200, "Omega": 4, "D_star": 0}),
-        **{f"S43c{name}": Needed({"N": 200, "Omega": speed}, WAITED) for name, speed in _SPEEDS.items() if speed <= 12},
-    },
+    needs=asked(F18=300, S43z4=0, S43c10=WAITED, S43c11=WAITED, S43c12=WAITED),
 )
 def undamped_separates_lower(cases: Cases, claim: Claim) -> Finding:
     found = sorted((cases[name]["D_star"], cases[name]["Omega"], cases[name]) for name in claim.needs)
@@ -277,10 +264,7 @@ def undamped_separates_lower(cases: Cases, claim: Claim) -> Finding:
     paper="stable",
     tolerance="contact force's range not growing by more than 2 %",
     reason="a growth rate of 2e-5/s would show over the run",
-    needs={
-        "S43a126": Needed({"N": 200, "Omega": 12.6, "D_star": 2e-5}, 1000),
-        "S43a10": Needed({"N": 200, "Omega": 10, "D_star": 2e-5}, 1000),
-    },
+    needs=asked(S43a126=1000, S43a10=1000),
 )
 def disc_damping(cases: Cases, claim: Claim) -> Finding:
     names = ("S43a126", "S43a10")
@@ -304,7 +288,7 @@ def disc_damping(cases: Cases, claim: Claim) -> Finding:
     tolerance="release intervals repeat to 1e-8 s",
     reason=SEEN,
     bound=1e-8,
-    needs={"F11": F11, "F19": F19.settled},
+    needs=asked(F11=190) | asked(steady=True, F19=100),
 )
 def inplane_damping(cases: Cases, claim: Claim) -> Finding:
     case = cases["F19"]
@@ -323,7 +307,7 @@ def inplane_damping(cases: Cases, claim: Claim) -> Finding:
     tolerance="height and velocity at the releases repeat to 1e-8 of the static height, or of it times Omega",
     reason="far above rounding, far below what an irregular motion would leave",
     bound=1e-8,
-    needs={"F19": replace(F19, separates=True).settled},
+    needs=asked(separates=True, steady=True, F19=100),
 )
 def disc_repeats(cases: Cases, claim: Claim) -> Finding:
     case = cases["F19"]
@@ -352,7 +336,7 @@ def disc_repeats(cases: Cases, claim: Claim) -> Finding:
     tolerance="range not growing; spread of the release intervals 1e-6",
     reason="the cycle attracts fast enough to be reached to rounding",
     bound=1e-6,
-    needs={"F20": Needed({"N": 200, "Omega": 20, "c": 0.5}, 300).settled, "F02": Needed({"N": 200, "Omega": 20}, 500)},
+    needs=asked(steady=True, F20=300) | asked(F02=500),
 )
 def normal_damping(cases: Cases, claim: Claim) -> Finding:
     case = cases["F20"]
@@ -370,7 +354,7 @@ def normal_damping(cases: Cases, claim: Claim) -> Finding:
     paper="no separation",
     tolerance="range at least doubles, then stays within a factor of 1.5; no period, 0-1 test above 0.7",
     reason="what 'unstable', 'bounded' and 'irregular' may mean; the amplitude wanders",
-    needs={"F21": Needed({"N": 200, "Omega": 11, "E": 1e11}, 1000)},
+    needs=asked(F21=1000),
 )
 def soft_disc(cases: Cases, claim: Claim) -> Finding:
     case = cases["F21"]
@@ -397,12 +381,7 @@ def soft_disc(cases: Cases, claim: Claim) -> Finding:
     paper="sooner; stable",
     tolerance="none",
     reason=ORDER,
-    needs={
-        "S43k2e4": Needed({"N": 200, "Omega": 20, "k": 2e4}),
-        "S43k3e4": Needed({"N": 200, "Omega": 20, "k": 3e4}),
-        "F02": Needed({"N": 200, "Omega": 20}, 500),
-        "S43k2e5": Needed({"N": 200, "Omega": 20, "k": 2e5}, 500),
-    },
+    needs=asked(S43k2e4=0, S43k3e4=0, F02=500, S43k2e5=500),
 )
 def normal_stiffness(cases: Cases, claim: Claim) -> Finding:
     names = ("S43k2e4", "S43k3e4", "F02")
@@ -421,7 +400,7 @@ def normal_stiffness(cases: Cases, claim: Claim) -> Finding:
     paper="separation, wandering",
     tolerance="no period within half the record; 0-1 test above 0.7",
     reason=RETURNS,
-    needs={"F22": KP2E3.settled},
+    needs=asked(steady=True, F22=350),
 )
 def soft_inplane(cases: Cases, claim: Claim) -> Finding:
     case = cases["F22"]
@@ -440,7 +419,7 @@ def soft_inplane(cases: Cases, claim: Claim) -> Finding:
     paper="sooner; stable",
     tolerance="none",
     reason=ORDER,
-    needs={"F22": KP2E3, "S43kp2e4": KP2E4, "S43kp2e5": KP2E5},
+    needs=asked(F22=350, S43kp2e4=100, S43kp2e5=200),
 )
 def inplane_stiffness(cases: Cases, claim: Claim) -> Finding:
     soft, base, stiff = (cases[name] for name in ("F22", "S43kp2e4", "S43kp2e5"))
@@ -462,7 +441,7 @@ def inplane_stiffness(cases: Cases, claim: Claim) -> Finding:
     tolerance="within 10 % of the swing",
     reason="read off a figure",
     bound=0.1,
-    needs={"F23": Needed({"N": 200, "Omega": 20, "m": 0.01}, 250, separates=True)},
+    needs=asked(separates=True, F23=250),
 )
 def lowest_position(cases: Cases, claim: Claim) -> Finding:
     case = cases["F23"]
@@ -493,16 +472,7 @@ def lowest_position(cases: Cases, claim: Claim) -> Finding:
     tolerance="99 % of the separations of each case",
     reason="a general statement; single exceptions would not refute it",
     bound=0.99,
-    needs={
-        "F02": Needed({"N": 200, "Omega": 20}, 600).settled,
-        "F07": Needed({"N": 300, "Omega": 20}, 190).settled,
-        "F09": Needed({"N": 200, "Omega": 50}, 190).settled,
-        "F13": Needed({"N": 385, "Omega": 15.1}, 110).settled,
-        "F17": Needed(F17.parameters, 850).settled,
-        "F18": Needed(F18.parameters, 300).settled,
-        "F19": Needed(F19.parameters, 100).settled,
-        "F22": Needed(KP2E3.parameters, 350).settled,
-    },
+    needs=asked(steady=True, F02=600, F07=190, F09=190, F13=110, F17=850, F18=300, F19=100, F22=350),
 )
 def always_upward(cases: Cases, claim: Claim) -> Finding:
     shares = {}
@@ -524,13 +494,7 @@ def always_upward(cases: Cases, claim: Claim) -> Finding:
     paper="destabilises at 385 N",
     tolerance="none",
     reason="runs of 200 s and more from the published start decide it",
-    needs={
-        "F11": F11,
-        "F19": F19,
-        "C4cp01": Needed({"N": 385, "Omega": 15, "c_p": 0.1}, 290),
-        "C4cp1": Needed({"N": 385, "Omega": 15, "c_p": 1}, 290),
-        "C4cpN50": Needed({"N": 50, "Omega": 15, "c_p": 0.5}, 290),
-    },
+    needs=asked(F11=190, F19=100, C4cp01=290, C4cp1=290, C4cpN50=290),
 )
 def inplane_damping_alone(cases: Cases, claim: Claim) -> Finding:
     names = ("F11", "C4cp01", "F19", "C4cp1")
@@ -550,12 +514,7 @@ def inplane_damping_alone(cases: Cases, claim: Claim) -> Finding:
     paper="monotonous",
     tolerance="none",
     reason=ORDER,
-    needs={
-        "S43E100": Needed({"N": 200, "Omega": 20, "E": 1e11}, 590),
-        "F02": Needed({"N": 200, "Omega": 20}, 500),
-        "S43E200": Needed({"N": 200, "Omega": 20, "E": 2e11}, 1000),
-        "F21": Needed({"N": 200, "Omega": 11, "E": 1e11}, 1000),
-    },
+    needs=asked(S43E100=590, F02=500, S43E200=1000, F21=1000),
 )
 def elasticity(cases: Cases, claim: Claim) -> Finding:
     soft, base, stiff = (cases[name] for name in ("S43E100", "F02", "S43E200"))
@@ -586,18 +545,16 @@ def elasticity(cases: Cases, claim: Claim) -> Finding:
     tolerance="a line of ψ within 0.05 Hz of the frequency that the cycle's leading pair of multipliers brings",
     reason="twice what 40 s resolve; the line must be a thousandth of the strongest at least",
     bound=0.05,
-    needs={"F22": KP2E3},
+    needs=asked(F22=350),
 )
 def quasi_periodic_at_first(cases: Cases, claim: Claim) -> Finding:
     """A second frequency of the in-plane motion, long before separation, and whether it is there to stay."""
     case = cases["F22"]
     cycle = measures.cycle_of(case.parameters)
     leading = cycle.multipliers[0]
-    window = measures.stretch(case, "early")
-    start, stop = (float(window["time"][i]) for i in (0, -1))
-    found = spectra.lines(window["time"].values, window["psi"].values, above=1.0, below=200.0, floor=1e-3)
-    found = measures.found_lines(found, case, "early")
-    strongest = max(found, key=lambda line: line.amplitude)
+    start, stop = (float(case.samples("early")["time"][i]) for i in (0, -1))
+    found = measures.lines(case, "early", start, stop, "psi", above=1.0, below=200.0, floor=1e-3)
+    (strongest,) = measures.loudest(found, 1)
     turn = abs(float(np.angle(leading))) / (2 * np.pi)
     expected = np.array([turn, 1 - turn, 1 + turn]) * strongest.frequency
     off, second = min((float(np.min(np.abs(expected - line.frequency))), line) for line in found)
@@ -624,12 +581,7 @@ def quasi_periodic_at_first(cases: Cases, claim: Claim) -> Finding:
     tolerance="range of the last quarter after the first separation no more than 1.02 times that of the one before",
     reason="the amplitude wanders a little",
     bound=1.02,
-    needs={
-        "F02": Needed({"N": 200, "Omega": 20}, 600, separates=True),
-        "F07": Needed({"N": 300, "Omega": 20}, 190, separates=True),
-        "F17": Needed(F17.parameters, 850, separates=True),
-        "F13": Needed({"N": 385, "Omega": 15.1}, 110, separates=True),
-    },
+    needs=asked(separates=True, F02=600, F07=190, F17=850, F13=110),
 )
 def bounded(cases: Cases, claim: Claim) -> Finding:
     said, bounded = [], []
@@ -652,13 +604,7 @@ def bounded(cases: Cases, claim: Claim) -> Finding:
     tolerance="0.1 % of the time",
     reason="a stray stick would not refute the statement",
     bound=1e-3,
-    needs={
-        "F02": Needed({"N": 200, "Omega": 20}, 600, separates=True).settled,
-        "F07": Needed({"N": 300, "Omega": 20}, 190, separates=True).settled,
-        "F09": Needed({"N": 200, "Omega": 50}, 190, separates=True).settled,
-        "F13": Needed({"N": 385, "Omega": 15.1}, 110, separates=True).settled,
-        "F17": Needed(F17.parameters, 850, separates=True).settled,
-    },
+    needs=asked(separates=True, steady=True, F02=600, F07=190, F09=190, F13=110, F17=850),
 )
 def stick_may_vanish(cases: Cases, claim: Claim) -> Finding:
     shares = {name: measures.phase_share(cases[name], "stick") for name in ("F02", "F07", "F09", "F13", "F17")}

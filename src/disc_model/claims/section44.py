@@ -7,16 +7,15 @@ import numpy as np
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import Kind
 from disc_model.claims import measures
+from disc_model.claims.cases import asked
 from disc_model.claims.measures import BETWEEN, many, separates_at
-from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding, undecided
+from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, claim, finding, undecided
 from disc_model.claims.paper_tables import LISTED, SEARCHED, TABLE_2, stick_slip_rate, table_2, table_2_lines
 from disc_model.claims.section41 import RETURNS
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
-F13 = Needed({"N": 385, "Omega": 15.1}, 110)
-SEPARATES = Needed(F13.parameters, 110, separates=True)
-F07 = Needed({"N": 300, "Omega": 20}, 190, separates=True)
-F21 = Needed({"N": 200, "Omega": 11, "E": 1e11}, 480)
+EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
+"""Windows of N = 385 N, 15.1 rad/s, and the stretches of them that are compared, s."""
 LOW, HIGH = 20.0, 700.0
 """Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
 SIGNIFICANT = 1e-3
@@ -34,13 +33,13 @@ FUZZ = "share of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: l
     tolerance="1 Hz; a line each that noise would have less than once in a thousand times, all nine taken together",
     reason="most are printed to a Hz, read off a plot; 'significant' against the spectrum within 1 to 6 Hz of a line",
     bound=1.0,
-    needs={"F13": F13},
+    needs=asked(F13=110),
 )
 def lines(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     found = table_2_lines(case)
     table = table_2(case, found)
-    window = measures.stretch(case, "spectrum_a", 0, 10)
+    window = measures.stretch(case, *EARLY)
     time, values = window["time"].values, window["w_point"].values
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
     chance = max(spectra.chance(time, values, line, SEARCHED) for line in found)
@@ -67,15 +66,14 @@ def lines(cases: Cases, claim: Claim) -> Finding:
     tolerance="-60 dB",
     reason="'take part' without a level; the other lines of Table 2 are at this level or below",
     bound=-60.0,
-    needs={"F13": F13},
+    needs=asked(F13=110),
 )
 def drive(cases: Cases, claim: Claim) -> Finding:
-    window = measures.stretch(cases["F13"], "spectrum_a", 0, 10)
-    drive = cases["F13"]["Omega"] / (2 * np.pi)
-    time, values = window["time"].values, window["w_point"].values
-    lines = measures.found_lines(spectra.lines(time, values, above=0.5 * drive), cases["F13"], "spectrum_a")
-    found = [measures.strongest(cases["F13"], window, "w_point", n * drive, 0.4 * drive) for n in (1, 2, 3)]
-    every = max(lines, key=lambda line: line.amplitude)
+    case = cases["F13"]
+    drive = case["Omega"] / (2 * np.pi)
+    (every,) = measures.loudest(measures.lines(case, *EARLY, above=0.5 * drive), 1)
+    window = measures.stretch(case, *EARLY)
+    found = [measures.strongest(case, window, "w_point", n * drive, 0.4 * drive) for n in (1, 2, 3)]
     level = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
     ours = ", ".join(f"{line.frequency:.2f} Hz at {x:.0f} dB" for line, x in zip(found, level, strict=True))
     near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))
@@ -90,21 +88,14 @@ def drive(cases: Cases, claim: Claim) -> Finding:
     tolerance="within 4 f_Omega of a natural frequency, and more than 0.3 Hz from n f_s + m f_Omega",
     reason="a mode of l nodal diameters is seen shifted by l f_Omega; the rate drifts by that within the 10 s, times n",
     bound=COMBINED,
-    needs={
-        "F13": F13,
-        "T2kp18": Needed({"N": 385, "Omega": 15.1, "k_p": 1.8e4}, 9.9),
-        "T2kp22": Needed({"N": 385, "Omega": 15.1, "k_p": 2.2e4}, 9.9),
-        "T2Om12": Needed({"N": 385, "Omega": 12}, 9.9),
-    },
+    needs=asked(F13=110, T2kp18=9.9, T2kp22=9.9, T2Om12=9.9),
 )
 def follow(cases: Cases, claim: Claim) -> Finding:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     said, combined, near, worst, farthest = [], [], [], 0.0, 0.0
     for name in claim.needs:
         case = cases[name]
-        window = measures.stretch(case, "spectrum_a", 0, 10)
-        found = spectra.lines(window["time"].values, window["w_point"].values, above=100, below=300, apart=1.0)
-        found = sorted(sorted(measures.found_lines(found, case, "spectrum_a"), key=lambda line: -line.amplitude)[:6])
+        found = sorted(measures.loudest(measures.lines(case, *EARLY, above=100, below=300, apart=1.0), 6))
         rate = stick_slip_rate(case)
         off = [_from_combination(case, line, rate) for line in found]
         away = [_from_natural(case, line) for line in found]
@@ -131,16 +122,13 @@ def follow(cases: Cases, claim: Claim) -> Finding:
     tolerance="1 Hz between the middle of the pair and 70 Hz",
     reason="printed to a Hz; the pair is the two strongest lines of 40..100 Hz",
     bound=1.0,
-    needs={"F13": F13},
+    needs=asked(F13=110),
 )
 def inplane_line(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     rate = stick_slip_rate(case)
-    window = measures.stretch(case, "spectrum_a", 0, 10)
     drive = case["Omega"] / (2 * np.pi)
-    found = spectra.lines(window["time"].values, window["w_point"].values, above=40, below=100, apart=1.0)
-    found = measures.found_lines(found, case, "spectrum_a")
-    pair = sorted(sorted(found, key=lambda line: -line.amplitude)[:2])
+    pair = sorted(measures.loudest(measures.lines(case, *EARLY, above=40, below=100, apart=1.0), 2))
     free = float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
     middle = float(np.mean([line.frequency for line in pair]))
     ours = f"ψ at {rate:.2f} Hz; the disc's point at {many([line.frequency for line in pair])} Hz, "
@@ -161,7 +149,7 @@ def inplane_line(cases: Cases, claim: Claim) -> Finding:
     tolerance="5 Hz",
     reason="twice the drive's frequency, which is what rotation can shift a line of the lowest modes by",
     bound=5.0,
-    needs={"F13": F13},
+    needs=asked(F13=110),
 )
 def close_to_natural(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
@@ -185,16 +173,16 @@ def close_to_natural(cases: Cases, claim: Claim) -> Finding:
     tolerance="any two of 0..10, 38..48 and 100..110 s differ twofold, in the disc's range or in the band filled",
     reason="what 'kinds' may mean; (c) of the figure begins as (b) and ends as (d)",
     bound=2.0,
-    needs={"F13": SEPARATES},
+    needs=asked(separates=True, F13=110),
 )
 def three_kinds(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
-    spans = (("spectrum_a", 0, 10), ("spectrum_b", 38, 48), ("spectrum_d", 100, 110))
+    spans = (EARLY, LATER, LATE)
     ranges = [float(np.ptp(measures.stretch(case, *span)["w_point"].values)) for span in spans]
     filled = [_fuzziness(case, *span) for span in spans]
     rates = [measures.slope(case, "P", max(start, 1), stop) for _, start, stop in spans]
     ours = "; ".join(
-        f"{start}..{stop} s: disc within {1e3 * width:.1f} mm, lines fill {100 * share:.1f} % of 20..300 Hz, the "
+        f"{start:g}..{stop:g} s: disc within {1e3 * width:.1f} mm, lines fill {100 * share:.1f} % of 20..300 Hz, the "
         f"force's range grows by {rate:.4f}/s"
         for (_, start, stop), width, share, rate in zip(spans, ranges, filled, rates, strict=True)
     )
@@ -213,10 +201,10 @@ def three_kinds(cases: Cases, claim: Claim) -> Finding:
     tolerance="twice as much of the band filled",
     reason=FUZZ,
     bound=2.0,
-    needs={"F13": SEPARATES},
+    needs=asked(separates=True, F13=110),
 )
 def new_lines(cases: Cases, claim: Claim) -> Finding:
-    shares = [_fuzziness(cases["F13"], "spectrum_a", 0, 10), _fuzziness(cases["F13"], "spectrum_b", 38, 48)]
+    shares = [_fuzziness(cases["F13"], *EARLY), _fuzziness(cases["F13"], *LATER)]
     ours = f"lines fill {100 * shares[0]:.1f} % of 20..300 Hz in 0..10 s, {100 * shares[1]:.1f} % in 38..48 s"
     return finding(ours, shares[1] > claim.bound * shares[0])
 
@@ -229,14 +217,14 @@ def new_lines(cases: Cases, claim: Claim) -> Finding:
     tolerance="a factor of 50 in power",
     reason="before, the share is what a smooth motion leaves; 'sudden' is read off a plot of decades",
     bound=50.0,
-    needs={"F13": SEPARATES},
+    needs=asked(separates=True, F13=110),
 )
 def higher(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     first = case["first_separation"]
     before = _high_share(case, "spectrum_c", 50, first)
     after = _high_share(case, "spectrum_c", first, 60)
-    late = _high_share(case, "spectrum_d", 100, 110)
+    late = _high_share(case, *LATE)
     ours = (
         f"power above {HIGH:g} Hz, of that above {LOW:g} Hz: {before:.1e} before, {after:.1e} after, {late:.1e} later"
     )
@@ -251,15 +239,15 @@ def higher(cases: Cases, claim: Claim) -> Finding:
     tolerance="half as much of the band filled; lines at rest within 0.01 Hz",
     reason=FUZZ,
     bound=2.0,
-    needs={"F13": SEPARATES},
+    needs=asked(separates=True, F13=110),
 )
 def steady_lines(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
-    fuzz = [_fuzziness(case, "spectrum_b", 38, 48), _fuzziness(case, "spectrum_d", 100, 110)]
-    halves = [measures.stretch(case, "spectrum_d", *span) for span in ((100, 105), (105, 110))]
-    found = [spectra.lines(x["time"].values, x["w_point"].values, above=LOW, floor=1e-2) for x in halves]
-    found = [measures.found_lines(each, case, "spectrum_d") for each in found]
-    drift = max(min(abs(a.frequency - b.frequency) for b in found[1]) for a in found[0])
+    fuzz = [_fuzziness(case, *LATER), _fuzziness(case, *LATE)]
+    first, second = (
+        measures.lines(case, "spectrum_d", *span, above=LOW, floor=1e-2) for span in ((100, 105), (105, 110))
+    )
+    drift = max(min(abs(a.frequency - b.frequency) for b in second) for a in first)
     ours = (
         f"lines fill {100 * fuzz[1]:.1f} % of 20..300 Hz ({100 * fuzz[0]:.1f} % in 38..48 s); from 100..105 to "
         f"105..110 s they move by {drift:.0e} Hz at most"
@@ -275,7 +263,7 @@ def steady_lines(cases: Cases, claim: Claim) -> Finding:
     tolerance="half as much of the band filled; release intervals repeat to 1e-8 s",
     reason=FUZZ,
     bound=2.0,
-    needs={"F13": SEPARATES.settled},
+    needs=asked(separates=True, steady=True, F13=110),
 )
 def slider_settles(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
@@ -296,12 +284,12 @@ def slider_settles(cases: Cases, claim: Claim) -> Finding:
     tolerance="0.2 Hz, for all lines above a hundredth of the strongest, from separation to 60 s and in 100..110 s",
     reason="a quarter of what the first stretch resolves",
     bound=0.2,
-    needs={"F13": SEPARATES.settled},
+    needs=asked(separates=True, steady=True, F13=110),
 )
 def multiples(cases: Cases, claim: Claim) -> Finding:
     case = cases["F13"]
     first = case["first_separation"]
-    late = _lines_of_psi(case, "spectrum_d", 100, 110)
+    late = _lines_of_psi(case, *LATE)
     rate = late[0].frequency
     before = _off_multiples(_lines_of_psi(case, "spectrum_c", 50, first), rate)
     after = _off_multiples([*_lines_of_psi(case, "spectrum_c", first, 60), *late], rate)
@@ -322,7 +310,7 @@ def multiples(cases: Cases, claim: Claim) -> Finding:
     tolerance="0.2 s",
     reason="'around' in the text, and slow growth: 1e-7 m in the start moves it by 0.02 s",
     bound=0.2,
-    needs={"F07": Needed({"N": 300, "Omega": 20}, 150)},
+    needs=asked(F07=150),
 )
 def when_it_separates(cases: Cases, claim: Claim) -> Finding:
     return separates_at(cases["F07"], 149.5, claim.bound)
@@ -336,7 +324,7 @@ def when_it_separates(cases: Cases, claim: Claim) -> Finding:
     tolerance="sharp: 3 times the mean rate of the first half",
     reason="what 'sharply' may mean",
     bound=3.0,
-    needs={"F07": F07},
+    needs=asked(separates=True, F07=190),
 )
 def growth_stages(cases: Cases, claim: Claim) -> Finding:
     case = cases["F07"]
@@ -364,13 +352,11 @@ def growth_stages(cases: Cases, claim: Claim) -> Finding:
     tolerance="90 % of the power of the four strongest lines",
     reason="the criterion of T2c for each line; what 'mainly' may mean",
     bound=0.9,
-    needs={"F07": F07},
+    needs=asked(separates=True, F07=190),
 )
 def natural_lines(cases: Cases, claim: Claim) -> Finding:
     case = cases["F07"]
-    window = measures.stretch(case, "spectrum_d", 143, 153)
-    found = spectra.lines(window["time"].values, window["w_point"].values, above=LOW, floor=1e-3)
-    strongest = sorted(measures.found_lines(found, case, "spectrum_d"), key=lambda line: -line.amplitude)[:4]
+    strongest = measures.loudest(measures.lines(case, "spectrum_d", 143, 153, above=LOW, floor=1e-3), 4)
     natural = _natural(case)
     drive = case["Omega"] / (2 * np.pi)
     power = sum(line.amplitude**2 for line in strongest)
@@ -396,7 +382,7 @@ def natural_lines(cases: Cases, claim: Claim) -> Finding:
     tolerance="not less than two thirds as much of the band filled; power above 700 Hz ten times",
     reason=FUZZ,
     bound=1.5,
-    needs={"F07": F07},
+    needs=asked(separates=True, F07=190),
 )
 def fuzz_stays(cases: Cases, claim: Claim) -> Finding:
     case = cases["F07"]
@@ -418,7 +404,7 @@ def fuzz_stays(cases: Cases, claim: Claim) -> Finding:
     paper="quasi-periodic",
     tolerance="no period within half the record; 0-1 test below 0.3",
     reason=RETURNS,
-    needs={"F07": F07.settled},
+    needs=asked(separates=True, steady=True, F07=190),
 )
 def quasi_periodic(cases: Cases, claim: Claim) -> Finding:
     return measures.is_quasi_periodic(cases["F07"])
@@ -432,7 +418,7 @@ def quasi_periodic(cases: Cases, claim: Claim) -> Finding:
     tolerance="1e-7 of the power above 20 Hz",
     reason="70 dB below the vibration is below what the figure shows",
     bound=1e-7,
-    needs={"F21": Needed(F21.parameters, 1500)},
+    needs=asked(F21=1500),
 )
 def no_high_line(cases: Cases, claim: Claim) -> Finding:
     case = cases["F21"]
@@ -454,14 +440,13 @@ def no_high_line(cases: Cases, claim: Claim) -> Finding:
     tolerance="at least 3 lines that are no combination of the stick-slip rate and the drive's",
     reason="'several'; 0.2 Hz tells them apart in 10 s",
     bound=3.0,
-    needs={"F21": F21},
+    needs=asked(F21=480),
 )
 def erratic(cases: Cases, claim: Claim) -> Finding:
     case = cases["F21"]
-    window = measures.stretch(case, "spectrum_d", 465, 475)
-    rate, drive = stick_slip_rate(case, "spectrum_d", 465, 475), case["Omega"] / (2 * np.pi)
-    found = spectra.lines(window["time"].values, window["w_point"].values, above=LOW, below=600, floor=1e-2)
-    other = [line for line in found if abs(spectra.identify(line.frequency, rate, drive).deviation) > 0.2]
+    rate = stick_slip_rate(case, "spectrum_d", 465, 475)
+    found = measures.lines(case, "spectrum_d", 465, 475, above=LOW, below=600, floor=1e-2)
+    other = [line for line in found if _from_combination(case, line, rate) > 0.2]
     motion = measures.late_motion(case)
     ours = (
         f"{len(found)} lines above a hundredth of the strongest, {len(other)} of them no n f_s + m f_Ω; "
@@ -479,9 +464,7 @@ def erratic(cases: Cases, claim: Claim) -> Finding:
 
 def _lines_of_psi(case: CaseView, window: str, start: float, stop: float) -> list[spectra.Line]:
     """Lines of psi above a hundredth of the strongest, by ascending frequency."""
-    part = measures.stretch(case, window, start, stop)
-    found = spectra.lines(part["time"].values, part["psi"].values, above=LOW, below=HIGH, floor=1e-2)
-    return measures.found_lines(found, case, window)
+    return measures.lines(case, window, start, stop, "psi", above=LOW, below=HIGH, floor=1e-2)
 
 
 def _off_multiples(lines: list[spectra.Line], rate: float) -> list[float]:
@@ -519,7 +502,6 @@ def _high_share(case: CaseView, window: str, start: float, stop: float) -> float
 
 def _power_share(case: CaseView, window: str, start: float, stop: float, above: float) -> float:
     """Share of the power above a frequency in Hz in that above `LOW`."""
+    measures.lines(case, window, start, stop, above=LOW)  # without any there is no power to share
     part = measures.stretch(case, window, start, stop)
-    time, values = part["time"].values, part["w_point"].values
-    measures.found_lines(spectra.lines(time, values, above=LOW), case, window)
-    return spectra.power_share(time, values, above, LOW)
+    return spectra.power_share(part["time"].values, part["w_point"].values, above, LOW)

@@ -53,7 +53,7 @@ ERRORS = {"event": "Event-time error (s)", "state": "State error (energy norm)"}
 # Speed against accuracy
 
 
-@styled
+@styled()
 def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
     """One scene: cost against event-time error and against state error, the fitted order at each line's fine end.
 
@@ -71,7 +71,7 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
     return figure
 
 
-@styled
+@styled()
 def overview(dataset: xr.Dataset) -> Figure:
     """All scenes: cost against event-time error."""
     figure = new_figure(PAGE, 4.6)
@@ -180,7 +180,7 @@ _ENOUGH = "#E4F1E4"
 _RED = "#B2182B"
 
 
-@styled
+@styled()
 def answers(dataset: xr.Dataset) -> Figure:
     """Wall time against the error of each answer; with their numbers of nodal diameters, the errors of models.
 
@@ -237,7 +237,7 @@ def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -
     return Line2D([], [], label=str(points["label"].values[0]), **style)
 
 
-@styled
+@styled()
 def prices(dataset: xr.Dataset) -> Figure:
     """What each method asks for each right answer: wall time at its cheapest right setting.
 
@@ -313,7 +313,7 @@ def _seconds(value: float) -> str:
 # Where methods fail
 
 
-@styled
+@styled()
 def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: verdict over setting and number of modes, with what explains the borders."""
     figure, axes = _panels(len(maps), 1.45, 0.75)
@@ -373,7 +373,7 @@ def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None
     ax.set_xlabel(SETTING_LABELS[dataset.attrs["setting"]], labelpad=1)
 
 
-@styled
+@styled()
 def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: whether it finds the first separation, over setting and number of modes."""
     figure, axes = _panels(len(maps), 1.35, 0.4)
@@ -446,7 +446,7 @@ _CONTACT_PANELS: Panels = (
 )
 
 
-@styled
+@styled()
 def contact_truncation(dataset: xr.Dataset) -> Figure:
     """What residual flexibility changes, against the number of real modes; a colour for each case.
 
@@ -469,7 +469,7 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-@styled
+@styled()
 def truncation(dataset: xr.Dataset) -> Figure:
     """What a study asks for against the number of real modes, a colour for each number of nodal circles.
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from functools import wraps
 from pathlib import Path
 from textwrap import fill
-from typing import Any, Literal, ParamSpec
+from typing import Any, Literal
 
 import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from disc_model.data import dataset
@@ -24,7 +24,6 @@ from disc_model.figures import STYLE
 # ----------------------------------------------------------------------------------------------------
 # Style: widths, colours, and saving without time stamps
 
-P = ParamSpec("P")
 COLUMN = 89 / 25.4
 """Width of one column, inch."""
 PAGE = 183 / 25.4
@@ -50,17 +49,13 @@ BEFORE, AFTER = SKY, BLACK
 """Stages of a run: in contact before and after the first separation."""
 
 
-def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Let a function draw in the common style, whatever the user's settings are."""
-
-    @wraps(draw)
-    def wrapped(*args: P.args, **kwargs: P.kwargs) -> Figure:
-        with mpl.rc_context():
-            mpl.rcdefaults()
-            mpl.style.use(STYLE)
-            return draw(*args, **kwargs)
-
-    return wrapped
+@contextmanager
+def styled() -> Iterator[None]:
+    """The common style, whatever the user's settings are; also as a decorator of functions that draw."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.style.use(STYLE)
+        yield
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -75,9 +70,7 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
     metadata: dict[str, Any] = {"CreationDate": None} if path.suffix == ".pdf" else {"Software": None}
     if title:
         metadata["Title"] = title
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.style.use(STYLE)
+    with styled():
         figure.savefig(path, metadata=metadata)
 
 
@@ -257,6 +250,17 @@ def mark_first_separation(ax: Axes, time: float) -> None:
         fontsize=7,
         color=SEPARATED,
     )
+
+
+def shade_cells(
+    ax: Axes, x: np.ndarray, y: np.ndarray, there: np.ndarray, color: str, label: str, alpha: float | None = None
+) -> None:
+    """Fill the cells around some points of a grid, there (len(y), len(x)); a grid of one row or column has none."""
+    if min(there.shape) < 2:
+        return
+    cells = np.ma.masked_where(~there, np.ones(there.shape))
+    ax.pcolormesh(x, y, cells, cmap=ListedColormap([color]), alpha=alpha, shading="nearest", rasterized=True)
+    ax.fill_between([], [], [], color=color, alpha=alpha, label=label)
 
 
 def letter(ax: Axes, text: str) -> None:

@@ -66,11 +66,8 @@ def test_diagrams_show_samples_and_exponents(tmp_path) -> None:
 
 
 def test_a_diagram_without_exponents_has_one_panel() -> None:
-    samples = xr.Dataset(
-        {"P": (("N", "sample"), np.ones((2, 3)), {"units": "N"}), "phase": (("N", "sample"), np.zeros((2, 3), int))},
-        coords={"N": ("N", [1.0, 2.0], {"units": "N"})},
-    )
-    figure = attractors.bifurcation_diagram(samples, "N", "P", scale=1.0)
-    (ax,) = figure.axes
+    samples, _ = made_up_samples()
+    samples["P"] = xr.full_like(samples["psi"], 1.0).assign_attrs(units="N")
+    (ax,) = attractors.draw(samples, {}, Bifurcation(x="N", variable="P", scale=1.0)).axes
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("Preload N (N)", "Contact force (N)")
     assert len(ax.lines) == 1  # all of it stick

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from disc_model.figures.grids import ramps as drawn
-from disc_model.figures.grids.growth_map import Curve
+from disc_model.figures.grids.growth_map import Curve, crossings
 from disc_model.figures.grids.kinds import RampedSpeeds
 from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import ramps
@@ -54,6 +54,6 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
 
 def test_a_curve_may_pass_a_load_several_times() -> None:
     back = Curve(np.array([10.0, 11.0, 12.0, np.nan, 13.0]), np.array([300.0, 400.0, 300.0, np.nan, 350.0]), "fold")
-    np.testing.assert_allclose(drawn.crossings(back, 350.0), [10.5, 11.5])
-    assert drawn.crossings(back, 400.0).tolist() == [11.0]
-    assert drawn.crossings(back, 500.0).size == 0
+    np.testing.assert_allclose(crossings(back, 350.0), [10.5, 11.5])
+    assert crossings(back, 400.0).tolist() == [11.0]
+    assert crossings(back, 500.0).size == 0

@@ -53,10 +53,6 @@ class Law:
         self.modes, self.c = kernels.tables(physics)
         self.constants = np.array([eps, self.excess, self.K, self.C])  # kernels.SMOOTH
 
-    def friction(self, f: float) -> float:
-        """Coefficient of friction with the sign of f."""
-        return float(kernels.smooth_friction(self.c, self.constants, f))
-
     def force(self, y: Array) -> float:
         """Signed penalty force; contact where it is positive."""
         return float(kernels.smooth_force(self.modes, self.c, self.constants, y))
@@ -66,11 +62,6 @@ class Law:
         dy = np.empty_like(y)
         kernels.smooth_rate(self.modes, self.c, self.constants, y, dy)
         return dy
-
-    def stiffness(self, P: float) -> float:
-        """Largest decay rate of the law under the contact force ``P``, 1/s."""
-        p = self.physics.p
-        return p.mu_s * P / (p.m * p.r_0 * self.eps)
 
 
 def _excess(mu_s: float, mu_k: float) -> float:

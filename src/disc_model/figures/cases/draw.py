@@ -27,7 +27,7 @@ AXES = {
 COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}
 
 
-@styled
+@styled()
 def draw(cases: Mapping[str, xr.DataTree], **said: Any) -> Figure:
     """One figure of one case.
 

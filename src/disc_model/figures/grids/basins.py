@@ -42,7 +42,7 @@ ASIDE = 0.06
 """Marks of different fates stand beside each other, by this share of the least step."""
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares) -> Figure:
     """(a) shares of all starts, with intervals; (b) range of each attractor, its mark as large as its share; (c) kicks.
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
@@ -17,70 +16,50 @@ from disc_model.figures.grids.kinds import Bifurcation
 from disc_model.figures.parts import BLACK, BLUE, GREY, ORANGE, PAGE, PHASE_COLOURS, VERMILION, new_figure, styled
 
 
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
-    """The figure of a study of the quantity `bifurcation`; others: ``lyapunov`` of that quantity over the same axis."""
-    norm = parts.normalizations(study)[0]
-    study = parts.of(study, norm)
-    went_well = ~parts.failed(study)
-    study = study.assign(phase=(study["phase"].astype(int) - 1).where(went_well, -1))
-    idle = study[plot.x].values[((study["phase"] == -1).all("sample") & went_well).values]
-    exponents = None
-    if "lyapunov" in others:
-        exponents = parts.without_failed(parts.of(others["lyapunov"], norm), "exponent", "exponent_error")
-    return bifurcation_diagram(study, plot.x, plot.variable, plot.scale, exponents, idle)
-
-
-@styled
-def bifurcation_diagram(
-    samples: xr.Dataset,
-    name: str,
-    variable: str = "psi",
-    scale: float = 1e3,
-    lyapunov: xr.Dataset | None = None,
-    idle: Sequence[float] | NDArray[np.float64] = (),
-) -> Figure:
     """Samples against a parameter; those in stick apart from those in slip or separation, and grey where the motion
     was not steady yet.
 
-    Where all samples or the largest exponent are missing, a cross says so.
+    A cross says where a point failed, or the largest exponent is missing; a dash where the motion has nothing to
+    sample, as no switches.
 
-    samples : as `disc_model.stability.bifurcation.bifurcation_samples` returns; name : its parameter's dimension
-    scale : factor for the axis, 1e3 shows mrad or mm
-    lyapunov : `exponent` and `exponent_error` (1/s) over the parameter and `exponent_number`, for a panel below
-    idle : values at which the motion has nothing to sample, as no switches; no failure
+    Parameters
+    ----------
+    study : of the quantity `bifurcation`
+    others : ``lyapunov`` of that quantity over the same axis, for a panel below, if given
     """
-    figure = new_figure(PAGE, 2.6 if lyapunov is None else 4.0)
-    axes = figure.subplots(1 if lyapunov is None else 2, 1, sharex=True, squeeze=False)[:, 0]
+    norm = parts.normalizations(study)[0]
+    study = parts.of(study, norm).transpose(plot.x, "sample", ...)
+    figure = new_figure(PAGE, 4.0 if "lyapunov" in others else 2.6)
+    axes = figure.subplots(2 if "lyapunov" in others else 1, 1, sharex=True, squeeze=False)[:, 0]
     ax = axes[0]
-    values = samples[variable].transpose(name, "sample")
-    phase = samples["phase"].transpose(name, "sample").values
-    label, factor = parts.axis_of(name)
-    along = values[name].values * factor
+    label, factor = parts.axis_of(plot.x)
+    along, values = study[plot.x].values * factor, study[plot.variable].values * plot.scale
     position = np.broadcast_to(along[:, None], values.shape)
+    lost = parts.failed(study).values
+    phase = np.where(lost[:, None], -1, study["phase"].values.astype(int) - 1)
     unsteady = np.zeros(phase.shape, dtype=bool)
-    if "steady" in samples:
-        unsteady[:] = (flag_names(samples["steady"].transpose(name)) == "no")[:, None]
+    if "steady" in study:
+        unsteady[:] = (flag_names(study["steady"]) == "no")[:, None]
     if (there := unsteady & (phase >= 0)).any():
-        shown = values.values[there] * scale
-        ax.plot(position[there], shown, ".", color=GREY, markersize=1.5, alpha=0.5, label="not steady")
+        ax.plot(position[there], values[there], ".", color=GREY, markersize=1.5, alpha=0.5, label="not steady")
     for code, (name_of_phase, color) in enumerate(PHASE_COLOURS.items()):
         here = (phase == code) & ~unsteady
         if np.any(here):
-            ax.plot(position[here], values.values[here] * scale, ".", color=color, markersize=1.5, label=name_of_phase)
-    none = (phase == -1).all(axis=1)
-    still = none & np.isin(values[name].values, idle)
-    parts.mark_failed(ax, along[none & ~still])
-    if still.any():
-        low = np.full(int(still.sum()), 0.02)
-        ax.plot(
-            along[still], low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="no switches"
-        )
-    unit = values.attrs.get("units", "")
-    prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(scale, f"{1 / scale:g} ")
+            ax.plot(position[here], values[here], ".", color=color, markersize=1.5, label=name_of_phase)
+    parts.mark_failed(ax, along[lost])
+    idle = along[(phase == -1).all(axis=1) & ~lost]
+    if idle.size:
+        low = np.full(idle.size, 0.02)
+        ax.plot(idle, low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="no switches")
+    unit = study[plot.variable].attrs.get("units", "")
+    prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(label)
-    ax.set_ylabel(f"{parts.MOTION[variable]} ({prefix}{unit.replace(' s-1', '/s')})")
-    if lyapunov is not None:
-        _exponents(axes[1], lyapunov, name)
+    ax.set_ylabel(f"{parts.MOTION[plot.variable]} ({prefix}{unit.replace(' s-1', '/s')})")
+    if "lyapunov" in others:
+        exponents = parts.without_failed(parts.of(others["lyapunov"], norm), "exponent", "exponent_error")
+        _exponents(axes[1], exponents, plot.x)
     legend = ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, borderaxespad=0.2)
     for handle in legend.legend_handles:  # dots of the diagram are too small for it
         if isinstance(handle, Line2D):

@@ -37,7 +37,7 @@ SPAN = (-1.1, 0.6)
 """1/s: growth rates that the lower panel shows."""
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:
     """(a) frequencies, (b) growth rates by mode; crossings at which the cycle suffers are numbered and said below."""
     study = parts.of(study, plot.normalization or parts.normalizations(study)[0]).transpose("Omega", ...)

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
@@ -36,7 +35,7 @@ WIDTH = 20.0
 """Of what is measured at one load, N: well within the step of the sweeps."""
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
     """(a) speeds at which separation begins within each horizon, (b) the same beside a sweep of the speed.
 
@@ -87,11 +86,7 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     lowest = np.interp(loads, sweep["N"].values, sweep["persists_to"].values, left=np.nan, right=np.nan)
     highest = float(sweep["sweep_Omega"].max())
     there = (rate.values < 0) & (speeds[:, None] >= lowest[None, :]) & (speeds[:, None] <= highest)
-    if min(there.shape) < 2:
-        return
-    cells = np.ma.masked_where(~there, np.ones(there.shape))
-    ax.pcolormesh(loads, speeds, cells, cmap=ListedColormap([ORANGE]), alpha=0.25, shading="nearest", rasterized=True)
-    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating,\nnot measured")
+    parts.shade_cells(ax, loads, speeds, there, ORANGE, "quiet or separating,\nnot measured", 0.25)
 
 
 def _measured(ax: Axes, basins: xr.Dataset) -> None:
@@ -115,13 +110,8 @@ def _stable_cycle(ax: Axes, cycle: xr.Dataset, study: xr.Dataset) -> None:
     """Shade where the stick-slip cycle exists and is stable, within the speeds that were scanned."""
     scan = study["scan_Omega"].values
     rate = cycle["growth_rate"].transpose("Omega", "N").sel(Omega=slice(scan[0], scan[-1]))
-    stable = np.ma.masked_where(~(rate < 0).values, np.ones(rate.shape))
-    if min(stable.shape) < 2:
-        return
-    ax.pcolormesh(
-        rate["N"].values, rate["Omega"].values, stable, cmap=ListedColormap([QUIET]), shading="nearest", rasterized=True
-    )
-    ax.fill_between([], [], [], color=QUIET, label="stick-slip cycle stable")
+    loads, speeds = rate["N"].values, rate["Omega"].values
+    parts.shade_cells(ax, loads, speeds, (rate < 0).values, QUIET, "stick-slip cycle stable")
     if "outcome" in cycle:
         _region(ax, cycle, float(scan[0]), float(scan[-1]))
 
@@ -130,18 +120,9 @@ def _region(ax: Axes, regions: xr.Dataset, lowest: float, highest: float) -> Non
     """Cells of a map in which the published start separates: no scan can step over them."""
     outcome = regions["outcome"].transpose("Omega", "N").sel(Omega=slice(lowest, highest))
     apart = flag_names(outcome) == "separation"
-    cells = np.ma.masked_where(~apart, np.ones(apart.shape))
-    ax.pcolormesh(
-        outcome["N"].values,
-        outcome["Omega"].values,
-        cells,
-        cmap=ListedColormap([SEPARATED]),
-        alpha=0.25,
-        shading="nearest",
-        rasterized=True,
-    )
     horizon = json.loads(regions.attrs["options"])["horizon"]
-    ax.fill_between([], [], [], color=SEPARATED, alpha=0.25, label=f"separation, {horizon:g} s")
+    loads, speeds = outcome["N"].values, outcome["Omega"].values
+    parts.shade_cells(ax, loads, speeds, apart, SEPARATED, f"separation, {horizon:g} s", 0.25)
 
 
 def _horizons(ax: Axes, study: xr.Dataset) -> None:

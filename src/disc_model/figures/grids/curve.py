@@ -14,7 +14,7 @@ from disc_model.figures.grids.kinds import CurvePlot
 from disc_model.figures.parts import BLACK, COLUMN, new_figure, styled
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:
     """A line, or one for each value of a second dimension; crosses at the axis where there is no value."""
     found = parts.picked(study, plot.variable, plot.at)

@@ -78,6 +78,15 @@ def joined(curves: list[Curve]) -> Curve:
     return Curve(np.concatenate(Omega), np.concatenate(N), "neutral")
 
 
+def crossings(curve: Curve, load: float) -> Array:
+    """Speeds at which a curve passes a load, rad/s."""
+    side = curve.N - load
+    at = np.flatnonzero(side[:-1] * side[1:] <= 0)
+    step = side[at] - side[at + 1]
+    share = np.where(step == 0, 0.0, side[at] / np.where(step == 0, 1.0, step))
+    return np.unique(curve.Omega[at] + share * (curve.Omega[at + 1] - curve.Omega[at]))
+
+
 def draw_curve(ax: Axes, curve: Curve, number: int = 0) -> None:
     """A curve; its number, if it has one, stands beyond its upper end, where it covers no line."""
     ax.plot(curve.Omega, curve.N, color=BLACK, linewidth=1.0, linestyle="-" if curve.kind == "neutral" else DASHED)
@@ -130,7 +139,7 @@ def span(values: Array) -> tuple[float, float]:
 # Maps
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
     """A panel for each normalization.
 

@@ -24,7 +24,7 @@ WORDS = (BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE, GREY)
 """Colours of the values of a flag."""
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> Figure:
     """Panels of one scale of colours; hatched where there is no value.
 

@@ -9,18 +9,16 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from disc_model.figures import parts
-from disc_model.figures.grids.growth_map import DASHED, Curve, curves_of
+from disc_model.figures.grids.growth_map import DASHED, Curve, crossings, curves_of
 from disc_model.figures.grids.kinds import RampedSpeeds
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREY, SEPARATED, new_figure, styled
 
-Array = NDArray[np.float64]
 BEYOND = "none up to the highest speed"
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
     """One point.
 
@@ -70,12 +68,3 @@ def _folds(ax: Axes, curves: list[Curve], study: xr.Dataset, options: Mapping[st
             f"{speed:.2f}", (1, speed), xycoords=("axes fraction", "data"), xytext=(2, 0), textcoords="offset points",
             va="center", fontsize=6, color=GREY,
         )  # fmt: skip
-
-
-def crossings(curve: Curve, load: float) -> Array:
-    """Speeds at which a curve passes a load, rad/s."""
-    side = curve.N - load
-    at = np.flatnonzero(side[:-1] * side[1:] <= 0)
-    step = side[at] - side[at + 1]
-    share = np.where(step == 0, 0.0, side[at] / np.where(step == 0, 1.0, step))
-    return np.unique(curve.Omega[at] + share * (curve.Omega[at + 1] - curve.Omega[at]))

@@ -62,7 +62,7 @@ CYCLES = {
 """What there is to see where no cycle is followed."""
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
     """Two panels for each normalization: outcomes, and growth rates; the paper's cases are marked.
 

@@ -23,7 +23,7 @@ PROBABILITIES = {
 }
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
     """(a) probabilities with 95 % intervals; beside it indices with theirs, a column a point and a row an output."""
     cells = list(cells_of(study))

@@ -86,7 +86,7 @@ LARGE = 55.0
 """Size of their marks."""
 
 
-@styled
+@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
     """One panel for each normalization; the paper's cases are marked in that of the published modes.
 

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import cmcrameri.cm as cmc
-import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
@@ -26,7 +25,7 @@ from numpy.typing import NDArray
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
-from disc_model.figures import STYLE, parts
+from disc_model.figures import parts
 from disc_model.figures.parts import BLACK, DISC, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays, mode_shapes
@@ -70,6 +69,10 @@ class Motion:
         around = self.cosines[:, i, None] * np.cos(turns) + self.sines[:, i, None] * np.sin(turns)
         return np.asarray(shapes.T @ around)
 
+    def around(self, i: int, theta: Array) -> Array:
+        """The disc's displacement at sample i along the circle of radius r_0, mm, shape of theta."""
+        return 1e3 * self.deflection(i, np.array([self.parameters.r_0]), theta)[0]
+
     def losses(self) -> NDArray[np.int64]:
         """First samples of the separations that begin within the stretch."""
         apart = (self.phase == SEPARATION).astype(int)
@@ -106,7 +109,7 @@ def _names(case: xr.DataTree) -> list[str]:
 # The figure
 
 
-@styled
+@styled()
 def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
     """The disc from above at instants between two losses of contact, and around its circle of radius r_0."""
     (case,) = cases.values()
@@ -149,6 +152,10 @@ def _phase(motion: Motion, i: int) -> str:
     return PHASES[int(motion.phase[i])]
 
 
+def _slider_colour(motion: Motion, i: int) -> str:
+    return SEPARATED if motion.phase[i] == SEPARATION else SLIDER
+
+
 def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
     """The disc from above, in mm, with the slider on it."""
     p = motion.parameters
@@ -159,9 +166,8 @@ def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
     ax.add_patch(Circle((0, 0), 1e3 * p.a, fc="0.85", ec=GREY, lw=0.6))
     ax.add_patch(Circle((0, 0), 1e3 * p.b, fc="none", ec=GREY, lw=0.6))
     angle = motion.slider[i]
-    lost = motion.phase[i] == SEPARATION
     place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
-    ax.plot(*place, "o", ms=5, mfc=SEPARATED if lost else SLIDER, mec=BLACK, mew=0.6)
+    ax.plot(*place, "o", ms=5, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
     ax.set_aspect("equal")
     ax.axis("off")
     return mesh
@@ -172,11 +178,9 @@ def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
     theta = np.linspace(0, 2 * np.pi, ANGLES)
     for i, share in zip(shown, np.linspace(1.0, 0.35, len(shown)), strict=True):
         after = 1e3 * (motion.time[i] - motion.time[shown[0]])
-        line = 1e3 * motion.deflection(i, np.array([motion.parameters.r_0]), theta)[0]
-        ax.plot(theta, line, color=DISC, alpha=float(share), label=f"disc, {after:.1f} ms")
-        lost = motion.phase[i] == SEPARATION
+        ax.plot(theta, motion.around(i, theta), color=DISC, alpha=float(share), label=f"disc, {after:.1f} ms")
         angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
-        ax.plot(angle, height, "s", ms=5, mfc=SEPARATED if lost else SLIDER, mec=BLACK, mew=0.6, alpha=float(share))
+        ax.plot(angle, height, "s", ms=5, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6, alpha=float(share))
     ax.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
     ax.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
@@ -212,9 +216,7 @@ def film(case: xr.DataTree, path: Path, frames: int = 70, rate: int = 12) -> Non
 
     motion = motion_of(case)
     step = max(1, motion.time.size // frames)
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.style.use(STYLE)
+    with styled():
         figure = Figure(figsize=FILM)
         figure.set_layout_engine("none")  # panels that do not move
         disc, circle = (figure.add_axes(box) for box in ((0.01, 0.05, 0.38, 0.9), (0.48, 0.19, 0.5, 0.68)))
@@ -235,12 +237,11 @@ def film(case: xr.DataTree, path: Path, frames: int = 70, rate: int = 12) -> Non
 def _still(ax: Axes, motion: Motion, i: int, scale: Normalize) -> None:
     """The circle of radius r_0 and the slider at one instant, with axes that do not move."""
     theta = np.linspace(0, 2 * np.pi, ANGLES)
-    line = 1e3 * motion.deflection(i, np.array([motion.parameters.r_0]), theta)[0]
-    lost = motion.phase[i] == SEPARATION
-    ax.plot(theta, line, color=DISC)
-    height = 1e3 * motion.u[i]
-    ax.plot(motion.slider[i] % (2 * np.pi), height, "s", ms=7, mfc=SEPARATED if lost else SLIDER, mec=BLACK, mew=0.6)
+    ax.plot(theta, motion.around(i, theta), color=DISC)
+    angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
+    ax.plot(angle, height, "s", ms=7, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
     ax.set_ylim(scale.vmin, scale.vmax)
     after = 1e3 * (motion.time[i] - motion.time[0])
-    ax.set_title(f"{after:5.1f} ms, {_phase(motion, i)}", color=SEPARATED if lost else BLACK, loc="left")
+    colour = SEPARATED if motion.phase[i] == SEPARATION else BLACK
+    ax.set_title(f"{after:5.1f} ms, {_phase(motion, i)}", color=colour, loc="left")

@@ -6,53 +6,42 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
 from disc_model.figures.parts import COLUMN, DISC, FORCE, GREY, new_figure, styled
 
 
-@styled
+@styled()
 def force_and_disc(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
     """(a) contact force, (b) disc at r_0 and a fixed angle, as ranges until a time in s; first separation marked."""
     (case,) = cases.values()
     figure = new_figure(COLUMN, 3.4)
     force, disc = figure.subplots(2, 1, sharex=True)
     with parts.or_say_why(force, disc):
-        _ranges(force, disc, case, until)
+        history = parts.history(case, until)
+        parts.envelope(force, history, "P", color=FORCE)
+        parts.envelope(disc, history, "w_point", scale=1e3, color=DISC)
+        force.set(ylabel="Contact force (N)")
+        disc.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
+        for ax, letter in ((force, "a"), (disc, "b")):
+            parts.mark_first_separation(ax, float(case["first_separation"]))
+            parts.letter(ax, letter)
     figure.align_ylabels()
     return figure
 
 
-def _ranges(force: Axes, disc: Axes, case: xr.DataTree, until: float) -> None:
-    history = parts.history(case, until)
-    first = float(case["first_separation"])
-    parts.envelope(force, history, "P", color=FORCE)
-    parts.envelope(disc, history, "w_point", scale=1e3, color=DISC)
-    parts.mark_first_separation(force, first)
-    parts.mark_first_separation(disc, first)
-    force.set(ylabel="Contact force (N)")
-    disc.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
-    parts.letter(force, "a")
-    parts.letter(disc, "b")
-
-
-@styled
+@styled()
 def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Range of the disc's displacement at r_0 and a fixed angle over the run: contact enforced, and separable."""
     figure = new_figure(COLUMN, 2.4)
     ax = figure.subplots()
     with parts.or_say_why(ax):
-        _both(ax, cases)
+        ignored, separating = (parts.history(cases[name]) for name in ("F04", "F02"))
+        for history, color, label in ((ignored, GREY, "separation ignored"), (separating, DISC, "with separation")):
+            parts.envelope(ax, history, "w_point", scale=1e3, color=color, label=label)
+        ax.set(xlabel="Time (s)", ylabel=parts.disc_label(ignored, separating))
+        low, high = ax.get_ylim()
+        ax.set_ylim(low, high + 0.25 * (high - low))
+        ax.legend(loc="upper left")
     return figure
-
-
-def _both(ax: Axes, cases: Mapping[str, xr.DataTree]) -> None:
-    histories = {name: parts.history(cases[name]) for name in ("F04", "F02")}
-    for name, color, label in (("F04", GREY, "separation ignored"), ("F02", DISC, "with separation")):
-        parts.envelope(ax, histories[name], "w_point", scale=1e3, color=color, label=label)
-    ax.set(xlabel="Time (s)", ylabel=parts.disc_label(*histories.values()))
-    low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 0.25 * (high - low))
-    ax.legend(loc="upper left")

@@ -28,7 +28,7 @@ OUTER = 1.2
 """Radius of the disc as drawn."""
 
 
-@styled
+@styled()
 def schematic(cases: Mapping[str, xr.DataTree]) -> Figure:
     """The model of a case."""
     (case,) = cases.values()

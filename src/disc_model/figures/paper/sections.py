@@ -33,33 +33,25 @@ BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "s
 BY_HALVES = {"early": "first half", "later": "second half", "separated": "separated"}
 
 
-@styled
+@styled()
 def sections(cases: Mapping[str, xr.DataTree]) -> Figure:
     """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle."""
     (case,) = cases.values()
     figure = new_figure(PAGE, 2.75)
     slider, disc = figure.subplots(1, 2)
     with parts.or_say_why(slider, disc):
-        _sections(figure, slider, disc, case)
+        samples = dataset.samples(case, "poincare", at_least=1)
+        first, end = float(case["first_separation"]), float(case["time_reached"])
+        found = stages(samples["time"].values, samples["phase"].values, first, end)
+        _scatter(slider, samples["psi"].values, samples["psi_velocity"].values, found)
+        _scatter(disc, samples["w_point"].values * 1e3, samples["w_point_velocity"].values, found)
+        slider.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
+        disc.set(xlabel=parts.disc_label(samples), ylabel=parts.disc_velocity_label(samples))
+        parts.letter(slider, "a")
+        parts.letter(disc, "b")
+        bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
+        _legend(figure, disc, found, first, bonded)
     return figure
-
-
-def _sections(figure: Figure, slider: Axes, disc: Axes, case: xr.DataTree) -> None:
-    samples = dataset.samples(case, "poincare", at_least=1)
-    found = stages(
-        samples["time"].values,
-        samples["phase"].values,
-        float(case["first_separation"]),
-        float(case["time_reached"]),
-    )
-    _scatter(slider, samples["psi"].values, samples["psi_velocity"].values, found)
-    _scatter(disc, samples["w_point"].values * 1e3, samples["w_point_velocity"].values, found)
-    slider.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
-    disc.set(xlabel=parts.disc_label(samples), ylabel=parts.disc_velocity_label(samples))
-    parts.letter(slider, "a")
-    parts.letter(disc, "b")
-    bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
-    _legend(figure, disc, found, float(case["first_separation"]), bonded)
 
 
 def _scatter(ax: Axes, x: np.ndarray, y: np.ndarray, found: Stages) -> None:
@@ -87,7 +79,7 @@ def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool)
 # Phase portraits
 
 
-@styled
+@styled()
 def portrait(cases: Mapping[str, xr.DataTree]) -> Figure:
     """psi' over psi in the window `orbit`, coloured by phase."""
     (case,) = cases.values()

@@ -47,7 +47,7 @@ def legend_above(ax: Axes) -> None:
 # Figure 2: the contact force grows until the slider leaves the disc again and again
 
 
-@styled
+@styled()
 def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
     """(a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
     case = cases["F02"]
@@ -95,7 +95,7 @@ MARGIN = 0.5
 """Time shown before and after, as a share of the separation."""
 
 
-@styled
+@styled()
 def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
 
@@ -105,31 +105,27 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     figure = new_figure(COLUMN, 3.2)
     both, gap = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
     with parts.or_say_why(both, gap):
-        _around_a_separation(both, gap, case)
+        window = dataset.samples(case, "zoom")
+        found = complete_separations(window)
+        if not found:
+            raise Missing("has no complete separation in zoom")
+        start, stop = found[0]
+        margin = MARGIN * (stop - start)
+        part = window.sel(time=slice(start - margin, stop + margin))
+        time = (part["time"].values - start) * 1e3
+        u, w, rest = part["u"].values, part["w"].values, float(case["u_0"])
+        for ax in (both, gap):
+            shade(ax, [(0.0, (stop - start) * 1e3)], "separation")
+        both.plot(time, (w - rest) * 1e3, color=DISC, label="disc")
+        both.plot(time, (u - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
+        gap.plot(time, (u - w) * 1e6, color=BLACK)
+        both.set(ylabel="From equilibrium (mm)")
+        gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
+        parts.letter(both, "a")
+        parts.letter(gap, "b")
+        legend_above(both)
     figure.align_ylabels()
     return figure
-
-
-def _around_a_separation(both: Axes, gap: Axes, case: xr.DataTree) -> None:
-    window = dataset.samples(case, "zoom")
-    found = complete_separations(window)
-    if not found:
-        raise Missing("has no complete separation in zoom")
-    start, stop = found[0]
-    margin = MARGIN * (stop - start)
-    part = window.sel(time=slice(start - margin, stop + margin))
-    time = (part["time"].values - start) * 1e3
-    u, w, rest = part["u"].values, part["w"].values, float(case["u_0"])
-    for ax in (both, gap):
-        shade(ax, [(0.0, (stop - start) * 1e3)], "separation")
-    both.plot(time, (w - rest) * 1e3, color=DISC, label="disc")
-    both.plot(time, (u - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
-    gap.plot(time, (u - w) * 1e6, color=BLACK)
-    both.set(ylabel="From equilibrium (mm)")
-    gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
-    parts.letter(both, "a")
-    parts.letter(gap, "b")
-    legend_above(both)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -139,33 +135,35 @@ SHOWN = 0.025
 """Length of the stretch shown, s."""
 
 
-@styled
+@styled()
 def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Slider and disc from static equilibrium; losses of contact are marked."""
+    case = cases["F23"]
     figure = new_figure(COLUMN, 2.5)
     ax = figure.subplots()
     with parts.or_say_why(ax):
-        _around_losses(ax, cases["F23"])
+        window = dataset.samples(case, "zoom")
+        start = float(window["time"][0])
+        found = complete_separations(window)
+        if found:
+            start = found[0][0] - 0.1 * SHOWN
+        part = window.sel(time=slice(start, start + SHOWN))
+        time = (part["time"].values - start) * 1e3
+        rest = float(case["u_0"])
+        shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(part)], "separation")
+        ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
+        ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
+        losses = np.array([a for a, _ in separations(part) if a > start])
+        if losses.size:
+            height = part["w"].sel(time=losses, method="nearest").values
+            ax.plot(
+                (losses - start) * 1e3,
+                (height - rest) * 1e3,
+                "o",
+                color=SEPARATED,
+                markersize=3.5,
+                label="contact lost",
+            )
+        ax.set(xlabel=f"Time after {start:.4f} s (ms)", ylabel="From equilibrium (mm)")
+        legend_above(ax)
     return figure
-
-
-def _around_losses(ax: Axes, case: xr.DataTree) -> None:
-    window = dataset.samples(case, "zoom")
-    start = float(window["time"][0])
-    found = complete_separations(window)
-    if found:
-        start = found[0][0] - 0.1 * SHOWN
-    part = window.sel(time=slice(start, start + SHOWN))
-    time = (part["time"].values - start) * 1e3
-    rest = float(case["u_0"])
-    shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(part)], "separation")
-    ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
-    ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
-    losses = np.array([a for a, _ in separations(part) if a > start])
-    if losses.size:
-        height = part["w"].sel(time=losses, method="nearest").values
-        ax.plot(
-            (losses - start) * 1e3, (height - rest) * 1e3, "o", color=SEPARATED, markersize=3.5, label="contact lost"
-        )
-    ax.set(xlabel=f"Time after {start:.4f} s (ms)", ylabel="From equilibrium (mm)")
-    legend_above(ax)

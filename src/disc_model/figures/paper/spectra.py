@@ -89,27 +89,24 @@ def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) 
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
 
 
-@styled
+@styled()
 def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
     """Range of the disc's displacement at r_0 and a fixed angle."""
+    case = cases["F13"]
     figure = new_figure(PAGE, 2.2)
     ax = figure.subplots()
     with parts.or_say_why(ax):
-        _range(ax, cases["F13"], until)
+        for name in WINDOWS:
+            start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
+            ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
+            ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
+        history = parts.history(case, until)
+        parts.envelope(ax, history, "w_point", scale=1e3, color=DISC)
+        low, high = ax.get_ylim()
+        ax.set_ylim(low, high + 0.15 * (high - low))
+        parts.mark_first_separation(ax, float(case["first_separation"]))
+        ax.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
     return figure
-
-
-def _range(ax: Axes, case: xr.DataTree, until: float) -> None:
-    for name in WINDOWS:
-        start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
-        ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
-        ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
-    history = parts.history(case, until)
-    parts.envelope(ax, history, "w_point", scale=1e3, color=DISC)
-    low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 0.15 * (high - low))
-    parts.mark_first_separation(ax, float(case["first_separation"]))
-    ax.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -127,7 +124,7 @@ TABLE_2 = {
 """Lines that the paper lists, Hz; pairs are too near to be named apart."""
 
 
-@styled
+@styled()
 def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Power of the disc's displacement at r_0 and a fixed angle over time and frequency, four stretches.
 
@@ -179,7 +176,7 @@ SCALES = {"psi": 1.0, "w_point": 1e3}
 COLOURS = {"psi": SLIDER, "w_point": DISC}
 
 
-@styled
+@styled()
 def response(
     cases: Mapping[str, xr.DataTree],
     *,
