@@ -5,13 +5,18 @@ from __future__ import annotations
 import math
 import sys
 
+import numba
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Record, Window, simulate
+from disc_model import ParameterError, Parameters, Poincare, Record, Window, simulate
+from disc_model.engine import machine, outcomes
 from disc_model.errors import StepLimit
+from disc_model.simulation.api import _Run
+from tests.contact_laws import COMPILES, LAWS
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
+RECORD = Record(windows=(Window(stop=0.01, rate=1000.0),), poincare=Poincare(), energy=True)
 
 
 def test_small_buffers_and_many_pauses_change_nothing(monkeypatch):
@@ -36,6 +41,31 @@ def test_steps_run_out():
     assert result.statistics["steps"] == 3
     with pytest.raises(StepLimit, match="raise max_steps"):
         result.raise_for_status()
+
+
+def test_more_steps_than_the_engine_counts_are_no_bound():
+    """Numba took such a number for one of another kind, and compiled the engine for it, or refused it."""
+    assert simulate(P, 1e-3, max_steps=2**64).status == "ok"
+
+
+@pytest.mark.compiled
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
+@pytest.mark.parametrize(
+    "changes", [{"n_circles": 3}, *(pytest.param(law, marks=COMPILES) for law in LAWS.values())], ids=str
+)
+@pytest.mark.parametrize("record", [None, RECORD], ids=["events", "samples"])
+def test_machine_code_is_given_the_types_it_was_compiled_for(changes, record):
+    """It takes its arguments at their word: it is chosen by the kind of the model, which must decide all types."""
+    p = P.replace(**changes)
+    start = simulate(p, 1e-3).final_state
+    given = []
+    for state in (None, start):
+        run = _Run(p, 0.01, 1e-10, state, record or Record(), None, 10**6 if state else None, ())
+        given.append(tuple(map(numba.typeof, run._arguments())))
+        while run.advance() == outcomes.PAUSED:
+            given.append(tuple(map(numba.typeof, run._arguments())))
+    assert len(set(given)) == 1
+    assert run.engine is machine.run.overloads[given[0]].entry_point
 
 
 def test_a_run_stops_at_its_first_separation():

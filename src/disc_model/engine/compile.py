@@ -9,6 +9,7 @@ more than the helper's own work.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numba
@@ -18,3 +19,15 @@ RULES: dict[str, Any] = {"cache": True, "fastmath": {"contract"}, "error_model":
 
 kernel = numba.njit(**RULES)
 inlined = numba.njit(forceinline=True, **RULES)
+
+
+def compiled_for(function: Callable[..., Any], arguments: tuple[object, ...]) -> Callable[..., Any]:
+    """The machine code of a kernel for arguments of these types, to be called with no others: nothing checks them.
+
+    A kernel itself looks at the types of all arrays in its arguments at every call, which takes ten times as long as to
+    hand them over.
+    """
+    if not hasattr(function, "compile"):  # where compilation is switched off
+        return function
+    code: Callable[..., Any] = function.compile(tuple(numba.typeof(argument) for argument in arguments))
+    return code

@@ -16,6 +16,7 @@ import numpy as np
 from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
+from disc_model.engine.compile import compiled_for
 from disc_model.engine.sampling import ROW
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
 from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
@@ -28,10 +29,11 @@ from disc_model.simulation.result import (
     Result,
     State,
     engine_case,
-    fresh_states,
+    give_back,
     read_state,
     series_order,
     series_tolerance,
+    take_workspace,
     write_state,
 )
 
@@ -48,6 +50,8 @@ Choose = Callable[[Parameters, str], tuple[Parameters, str]]
 AUDIT_EVERY = 64
 ROW_SIZE = 8 * len(ROW)
 """Bytes of a sample."""
+MOST_STEPS = 2**62
+"""What the engine can count."""
 STEPS_PER_PAUSE = 100_000
 """Steps between two pauses of the engine, about 0.1 s of work, where a step costs least."""
 
@@ -123,6 +127,7 @@ def simulate(
         if progress is not None:
             progress(run.time)
     result = run.result(_STATUS[code])
+    run.close()
     if kept is not None:
         kept.remove()
     return result
@@ -145,26 +150,23 @@ class _Run:
         self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
         steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
         self.ramps, self.pieces = ramps, courses.pieces(p, ramps) if ramps else (steady,)
-        self.place = np.zeros(1, np.int64)
         self.case = case = engine_case(p)
         model = case.model
         self.order = series_order(tol)
         self.tolerance = series_tolerance(tol, compliant=p.contact_compliance != 0)
-        self.state, self.probe = fresh_states(case)
+        self.workspace = take_workspace(case, self.order)
+        self.state = self.workspace.state
         if initial_state is not None:
             write_state(case, initial_state, self.state)
-        start = float(self.state.x[layout.TIME])
+        start = self.time
         self.collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_COAST * model.unit)
-        self.counters, self.phase_times = np.zeros(machine.N_COUNTERS, np.int64), np.zeros(3)
-        self.sums, self.wall_time = np.zeros(audit.N_SUMS), np.zeros(1)
-        self.max_steps = _step_limit(model, t_end - start) if max_steps is None else max_steps
+        self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
+        self.max_steps = _step_limit(model, t_end - start) if max_steps is None else min(max_steps, MOST_STEPS)
         self.pause_after = _pause_after(model, record.energy)
-        # compiles, so that the wall time is the simulation's own
-        for place, piece in enumerate(self.pieces):
-            if start < piece.end and piece.begin < t_end and not _compiled_for(self._model_of(piece)):
+        # each of them, the first last: all is compiled by then, and the wall time is the simulation's own
+        for place, piece in reversed(tuple(enumerate(self.pieces))):
+            if start < piece.end and piece.begin < t_end:
                 self._enter(place)
-                self._call(max_steps=0)
-        self._enter(next(i for i, piece in enumerate(self.pieces) if start < piece.end))
 
     def _model_of(self, piece: courses.Piece) -> layout.Model:
         """The engine's constants over a piece of the ramps."""
@@ -177,7 +179,7 @@ class _Run:
         """Go on with another piece of the ramps."""
         self.place[0] = place
         self.model = self._model_of(self.pieces[place])
-        self.series = layout.build_series(self.model, self.order)
+        self.engine = _engine_for(self.model, self._arguments)
 
     @property
     def time(self) -> float:
@@ -194,32 +196,32 @@ class _Run:
         """Compute until the engine pauses or ends, and take over what it gave.  Returns the reason it stopped."""
         began = clock.perf_counter()
         place = int(self.place[0])
-        code = self._call(self.max_steps)
+        code = self.engine(*self._arguments())
         if code == outcomes.TIME_OVER and self.pieces[place].end < self.t_end:
             self._enter(place + 1)
             code = outcomes.PAUSED
-        self.collector.drain(self.counters)
+        self.collector.drain(self.workspace.counters)
         self.wall_time[0] += clock.perf_counter() - began
         return code
 
-    def _call(self, max_steps: int) -> int:
-        keep = self.collector
+    def _arguments(self) -> tuple[object, ...]:
+        """What `machine.run` is given."""
+        work, keep = self.workspace, self.collector
         limits = machine.Limits(
             self.order, self.tolerance, min(self.t_end, self.pieces[self.place[0]].end), self.stop_at is not None,
-            max_steps, self.pause_after, 1 if self.record.energy else AUDIT_EVERY,
+            self.max_steps, self.pause_after, 1 if self.record.energy else AUDIT_EVERY,
         )  # fmt: skip
         kept = machine.Kept(
-            self.counters, self.phase_times, self.sums,
+            work.counters, work.phase_times, work.sums,
             keep.samplers, keep.sampled, keep.rows, keep.capacity, keep.event_rows,
         )  # fmt: skip
-        code: int = machine.run(self.model, self.series, self.state, self.probe, limits, kept)
-        return code
+        return self.model, work.series, work.state, work.probe, limits, kept
 
     def _changing(self) -> dict[str, np.ndarray]:
         """The arrays through which one call of the engine acts on the next."""
         state = {f"state_{name}": array for name, array in self.state._asdict().items()}
-        own = {name: getattr(self, name) for name in ("place", "counters", "phase_times", "sums", "wall_time")}
-        return state | own
+        sums = {name: getattr(self.workspace, name) for name in ("counters", "phase_times", "sums")}
+        return state | sums | {"place": self.place, "wall_time": self.wall_time}
 
     def contents(self) -> Contents:
         """All that the rest of the run depends on and all that was kept so far, for `restore`."""
@@ -235,6 +237,7 @@ class _Run:
     def result(self, status: Status) -> Result:
         """What there is to return."""
         samples, poincare = self.collector.finish()
+        work = self.workspace
         return Result(
             parameters=self.p,
             t_end=self.t_end,
@@ -247,20 +250,28 @@ class _Run:
             final_state=read_state(self.case, self.state),
             u_0=self.model.u_0,
             statistics=_statistics(
-                self.counters, self.phase_times, self.sums, self.record.energy, float(self.wall_time[0])
+                work.counters, work.phase_times, work.sums, self.record.energy, float(self.wall_time[0])
             ),
             samples=samples,
             poincare=poincare,
             ramps=self.ramps,
         )
 
+    def close(self) -> None:
+        """Leave the arrays to later runs; this one is over."""
+        give_back(self.case, self.order, self.workspace)
 
-def _compiled_for(model: layout.Model, _seen: set[tuple[int, ...]] = set()) -> bool:  # noqa: B006 - the set is the memory
-    """Whether the engine was used before for a model of this type (blocks of lanes, law of contact, ramp)."""
+
+def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]]) -> Callable[..., int]:
+    """The engine, compiled for models of this kind: it decides the types of all ``arguments`` of a run."""
     kind = (len(model.more_blocks), len(model.give), len(model.normal), len(model.ramp))
-    known = kind in _seen
-    _seen.add(kind)
-    return known
+    if kind not in _ENGINES:
+        _ENGINES[kind] = compiled_for(machine.run, arguments())
+    return _ENGINES[kind]
+
+
+_ENGINES: dict[tuple[int, ...], Callable[..., int]] = {}
+"""By blocks of lanes, laws of contact and ramp."""
 
 
 def published_start(p: Parameters) -> State:
@@ -309,7 +320,7 @@ def _check_arguments(
 
 def _step_limit(model: layout.Model, duration: float) -> int:
     """Twenty steps for each radian of the highest mode, far more than any of the published cases takes."""
-    return int(min(10_000 + 20 * duration / model.unit, 2**62))
+    return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
 
 
 def _pause_after(model: layout.Model, energy: bool) -> int:

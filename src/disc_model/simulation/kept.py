@@ -269,17 +269,13 @@ class Collector:
         self._parts: list[list[Array]] = [[] for _ in grids]
         self._rest: list[Array] = [np.zeros((0, len(sampling.ROW))) for _ in grids]
         self._poincare = record.poincare is not None
-        self._first_separation = np.array([math.nan])
-
-    @property
-    def first_separation(self) -> float:
+        self.first_separation = math.nan
         """Time of the first loss of contact, s; nan if there was none."""
-        return float(self._first_separation[0])
 
     def position(self) -> dict[str, NDArray[Any]]:
         """What the rest of the run depends on.  Only just after `drain`: the buffers are not part of it."""
         rest = {f"rest_{i}": rows for i, rows in enumerate(self._rest)}
-        return {"sampled": self.sampled, "first_separation": self._first_separation, **rest}
+        return {"sampled": self.sampled, "first_separation": np.array([self.first_separation]), **rest}
 
     def kept(self) -> dict[str, list[Array]]:
         """What was kept so far: lists that only grow."""
@@ -287,7 +283,7 @@ class Collector:
 
     def restore(self, position: Mapping[str, NDArray[Any]], kept: Mapping[str, Sequence[Array]]) -> None:
         """Go on from what `position` and `kept` gave."""
-        self.sampled[:], self._first_separation[:] = position["sampled"], position["first_separation"]
+        self.sampled[:], self.first_separation = position["sampled"], float(position["first_separation"][0])
         self._rest = [position[f"rest_{i}"] for i in range(len(self._rest))]
         for name, parts in self.kept().items():
             parts[:] = kept.get(name, ())
@@ -308,7 +304,7 @@ class Collector:
         if separated and math.isnan(self.first_separation):
             lost = np.flatnonzero(events[:, 1] == machine.LOSS_OF_CONTACT)
             if lost.size:
-                self._first_separation[0] = events[lost[0], 0]
+                self.first_separation = float(events[lost[0], 0])
         if self._keep_events:
             self._events.append(events.copy())
 

@@ -17,8 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 from disc_model import errors
 from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.engine import layout
+from disc_model.engine.audit import N_SUMS
 from disc_model.engine.lanes import aligned_pieces
-from disc_model.engine.machine import EVENT_ROW
+from disc_model.engine.machine import EVENT_ROW, N_COUNTERS
 from disc_model.errors import Fault, ParameterError, Status, shown
 from disc_model.flexibility import contact_give
 from disc_model.parameters import RESIDUAL, Parameters, is_number
@@ -317,28 +318,44 @@ def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
 # Between `Parameters` and `State` (modes in the order of `plate_modes`) and the engine's lanes
 
 CASES = 32
-"""Cases whose constants are kept: less than a megabyte each."""
+"""Cases whose constants and workspaces are kept: tens of kilobytes each, with a thousand modes a few megabytes."""
+
+
+class Workspace(NamedTuple):
+    """What the engine writes to in a run: of one run at a time.
+
+    state, probe : where the run is, and where it looks ahead
+    series : of one step; the next begins them anew
+    counters, phase_times, sums : as in `machine.Kept`
+    """
+
+    state: layout.State
+    probe: layout.State
+    series: layout.Series
+    counters: np.ndarray
+    phase_times: np.ndarray
+    sums: np.ndarray
 
 
 class Case(NamedTuple):
     """What the engine is given of a case.  Shared by all runs of the case, and therefore never written.
 
     model, start : the engine's constants, and the published start
-    pairs, single : rows of `plate_modes` with and without nodal diameters
-    lane : of the pairs' a
-    places : of a, b, alpha and beta of every mode in `layout.State.disc`, shape (4, n_modes)
-    absent : b and beta of `single`, which mean nothing: where they stand in the flat `places`
+    n_modes : rows of `plate_modes`
+    present : of a, b, alpha and beta of all modes, in this order, the numbers of those that there are: modes without
+        nodal diameter have no b and beta
+    places : of these in `layout.State.disc`
     point : u, u' (but for the slope's share) and slope B of the disc under the slider from `layout.State.disc`
+    idle : workspaces that no run uses now, by the order of their series; all that changes here
     """
 
     model: layout.Model
     start: layout.State
-    pairs: np.ndarray
-    single: np.ndarray
-    lane: np.ndarray
+    n_modes: int
+    present: np.ndarray
     places: np.ndarray
-    absent: np.ndarray
     point: np.ndarray
+    idle: dict[int, list[Workspace]]
 
 
 @lru_cache(maxsize=CASES)
@@ -365,12 +382,12 @@ def engine_case(p: Parameters) -> Case:
         normal=p.contact_force == "normal",
     )
     pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)
-    lane, width = layout.pair_lanes(len(pairs)), len(model.shift)
-    places = np.zeros((4, len(modes.diameters)), np.intp)
+    lane, width, n_modes = layout.pair_lanes(len(pairs)), len(model.shift), len(modes.diameters)
+    places = np.full((4, n_modes), -1)
     places[:, pairs] = lane + np.array([[0], [layout.HALF], [width], [width + layout.HALF]])
     places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
-    absent = np.concatenate([row * places.shape[1] + single for row in (1, 3)])
-    return Case(model, layout.build_state(model), pairs, single, lane, places, absent, _point(model))
+    present = np.flatnonzero(places >= 0)
+    return Case(model, layout.build_state(model), n_modes, present, places.ravel()[present], _point(model), {})
 
 
 def _point(model: layout.Model) -> np.ndarray:
@@ -397,6 +414,28 @@ def _state(disc: np.ndarray, width: int, n0: int, x: np.ndarray) -> layout.State
     return layout.State(disc, disc[:width], disc[width:y], disc[y:g], disc[g:end], x)
 
 
+def take_workspace(case: Case, order: int) -> Workspace:
+    """A workspace of the caller's own, at the published start, with nothing counted; for `give_back` in the end.
+
+    To make one takes as long as 30 steps.
+    """
+    try:
+        found = case.idle[order].pop()
+    except LookupError:
+        counters, phase_times, sums = np.zeros(N_COUNTERS, np.int64), np.zeros(3), np.zeros(N_SUMS)
+        return Workspace(*fresh_states(case), layout.build_series(case.model, order), counters, phase_times, sums)
+    for state in (found.state, found.probe):
+        state.disc[:], state.x[:] = case.start.disc, case.start.x
+    for counted in (found.counters, found.phase_times, found.sums):
+        counted.fill(0)
+    return found
+
+
+def give_back(case: Case, order: int, workspace: Workspace) -> None:
+    """Leave a workspace to later runs."""
+    case.idle.setdefault(order, []).append(workspace)
+
+
 def build_model(p: Parameters) -> layout.Model:
     """The engine's constants of a case, not to be written."""
     return engine_case(p).model
@@ -404,9 +443,10 @@ def build_model(p: Parameters) -> layout.Model:
 
 def read_state(case: Case, state: layout.State) -> State:
     """The engine's state as a `State`."""
-    modal = state.disc[case.places]
-    modal.put(case.absent, 0.0)
+    modal = np.zeros(4 * case.n_modes)
+    modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
+    a, b, alpha, beta = modal.reshape(4, -1)
     x = state.x.tolist()
     phase, f = int(x[layout.PHASE]), x[layout.SPEED]
     u, v = x[layout.U], x[layout.U_VELOCITY]
@@ -423,10 +463,10 @@ def read_state(case: Case, state: layout.State) -> State:
         u=u,
         u_velocity=v,
         known=int(x[layout.KNOWN]),
-        a=modal[0],
-        b=modal[1],
-        alpha=modal[2],
-        beta=modal[3],
+        a=a,
+        b=b,
+        alpha=alpha,
+        beta=beta,
     )
 
 
@@ -438,17 +478,13 @@ def write_state(case: Case, given: State, state: layout.State) -> None:
     ParameterError
         If arrays have the wrong shape, numbers are not finite, or the phase contradicts the velocities.
     """
-    pairs, single, lane = case.pairs, case.single, case.lane
     # contact and its force can begin at once where contact is compliant
-    faults = _faults(given, len(pairs) + len(single), highest_known=7 if len(case.model.give) == 1 else 3)
+    faults = _faults(given, case.n_modes, highest_known=7 if len(case.model.give) == 1 else 3)
     if faults:
         raise ParameterError(*faults)
-    for array in (state.z, state.e, state.y, state.g, state.x):
-        array[:] = 0.0
-    a, b, alpha, beta = (np.asarray(array, dtype=float) for array in (given.a, given.b, given.alpha, given.beta))
-    state.z[lane], state.z[lane + layout.HALF] = a[pairs], b[pairs]
-    state.e[lane], state.e[lane + layout.HALF] = alpha[pairs], beta[pairs]
-    state.y[: len(single)], state.g[: len(single)] = a[single], alpha[single]
+    state.disc.fill(0.0)
+    state.x.fill(0.0)
+    state.disc[case.places] = np.concatenate((given.a, given.b, given.alpha, given.beta))[case.present]
     if given.phase != "separation" and len(case.model.give) != 1:  # on a compliant contact u is a state of its own
         _check_height(case, given.u, state)
     x = state.x
@@ -486,7 +522,7 @@ def _faults(given: State, n_modes: int, highest_known: int) -> list[str]:
         if not finite[name]:
             add(name, "must be finite", getattr(given, name))
     # the clock's compensation is at most a unit in the last place of the time
-    last_digit = np.spacing(abs(float(given.time))) if finite["time"] else math.inf
+    last_digit = math.ulp(float(given.time)) if finite["time"] else math.inf
     if not (finite["time_low"] and abs(given.time_low) <= last_digit):
         add("time_low", "must be less than the last digit of the time", given.time_low)
     if given.known not in range(highest_known + 1):
@@ -512,7 +548,7 @@ def _is_finite_array(values: object, size: int) -> bool:
         array = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
         return False
-    return array.shape == (size,) and bool(np.all(np.isfinite(array)))
+    return array.shape == (size,) and all(map(math.isfinite, array.tolist()))
 
 
 # ----------------------------------------------------------------------------------------------------
