@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model.figures.grids import campbell, sensitivity
-from disc_model.figures.grids.campbell import noted, spread
+from disc_model.figures.grids.campbell import gaps, noted, spread
 from disc_model.figures.grids.kinds import Campbell, Sensitivity
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.schema import parse_grid
+from disc_model.studies.grids.summaries.campbell import EFFECTS
 from tests.studies.grids.conftest import SMALL, computed
 from tests.studies.grids.quantities import test_sensitivity as uncertain
 
@@ -37,6 +41,84 @@ def test_a_campbell_diagram_numbers_what_matters() -> None:
     figure = campbell.draw(study, {}, Campbell())
     numbers = [text.get_text() for text in figure.axes[0].texts if text.get_text().isdigit()]
     assert numbers == [str(i) for i in range(1, len(noted(study)) + 1)]
+
+
+def made_up_crossings() -> xr.Dataset:
+    """One mode drifts upward through zero before 11 rad/s, another peaks there; no cycle at 9 and from 13 to 14."""
+    speeds = np.linspace(8, 15, 71)
+    first = -0.09 + 0.1 * (speeds - 10)
+    second = -1 + 0.5 / (1 + ((speeds - 11) / 0.05) ** 2)
+    gone = (np.abs(speeds - 9) < 0.01) | ((speeds > 12.99) & (speeds < 14.01))
+    growth = np.where(gone[:, None], np.nan, np.stack([first, second], axis=1))
+    same = np.ones((71, 2))
+    effects = [EFFECTS.index(effect) for effect in ("no_cycle", "rises", "destabilises")]
+    flags = {"flag_meanings": " ".join(EFFECTS)}
+    at_11 = growth[30, 0]
+    each = {
+        "stick_slip_frequency": np.where(gone, np.nan, 10 * speeds),
+        "rotation_frequency": speeds / (2 * np.pi),
+        "growth_rate": np.where(gone, np.nan, growth.max(axis=1)),
+    }
+    by_mode = {
+        "mode_kind": (1 * same.astype(int), {"flag_meanings": "none disc slider"}),
+        "diameters": (same.astype(int), {}),
+        "sliding_frequency": (same * [100, 220], {}),
+        "cycle_frequency": (same * [100, 220], {}),
+        "cycle_growth_rate": (growth, {}),
+    }
+    crossings = {
+        "crossing_Omega": [9.0, 11.0, 11.04],
+        "crossing_frequency": [180.0, 220.0, 100.0],
+        "crossing_multiple": [2.0, 2.0, 1.0],
+        "crossing_growth_rate": [np.nan, at_11, at_11],
+    }
+    words = {"crossing_effect": effects, "crossing_line": [1, 1, 1]}
+    lines = {"flag_meanings": "none stick_slip rotation"}
+    values = {name: ("Omega", value) for name, value in each.items()}
+    values |= {name: (("Omega", "mode"), value, about) for name, (value, about) in by_mode.items()}
+    values |= {name: ("crossing", value) for name, value in crossings.items()}
+    values["crossing_effect"] = ("crossing", words["crossing_effect"], flags)
+    values["crossing_line"] = ("crossing", words["crossing_line"], lines)
+    attrs = {"base": json.dumps({"N": 385, "normalization": "as_published"}), "title": "made up"}
+    return xr.Dataset(values, {"Omega": speeds, "mode": [1, 2]}, attrs)
+
+
+def test_a_campbell_diagram_named_a_mode_that_stays_stable() -> None:
+    """The mode whose rate rises most is not the one that makes the cycle unstable; two crossings, one peak."""
+    found = noted(made_up_crossings())
+    assert [one.said for one in found] == [
+        "11.00 rad/s, 2 $f_s$ = 220 Hz, 1 $f_s$ = 100 Hz: 100 Hz mode, 0.01/s",
+        "12.95 to 14.05 rad/s: no cycle found",
+    ]
+    assert found[0].crossings == (1, 2)
+
+
+def test_a_campbell_diagram_numbers_gaps_of_several_speeds_and_draws_all() -> None:
+    study = made_up_crossings()
+    assert [(round(low, 9), round(high, 9), count) for low, high, count in gaps(study)] == [
+        (8.95, 9.05, 1),
+        (12.95, 14.05, 11),
+    ]
+    above, below, _ = campbell.draw(study, {}, Campbell()).axes
+    for ax in (above, below):
+        assert [round(bar.get_width(), 9) for bar in ax.patches] == [0.1, 1.1]
+    # nothing is cut off
+    low, high = below.get_ylim()
+    growth = study["cycle_growth_rate"]
+    assert low <= float(growth.min())
+    assert float(growth.max()) <= high
+
+
+def test_all_crossings_lie_on_lines_that_are_drawn() -> None:
+    study = made_up_crossings()
+    ax = campbell.draw(study, {}, Campbell()).axes[0]
+    drawn = [
+        np.asarray(line.get_ydata(), dtype=float) / study["stick_slip_frequency"].values
+        for line in ax.lines
+        if len(line.get_xdata()) == 71
+    ]
+    multiples = {float(np.round(np.nanmean(ratio), 6)) for ratio in drawn if np.nanstd(ratio) < 1e-9}
+    assert multiples >= set(study["crossing_multiple"].values.tolist())
 
 
 @pytest.mark.parametrize("places", [[1.0, 1.01, 1.02], [0.0, 0.0, 10.0], [10.0, 10.0], [5.0], [], list(np.zeros(30))])

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import NamedTuple
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
@@ -19,74 +21,114 @@ from disc_model.figures.parts import (
     BLUE,
     BROWN,
     COLUMN,
-    GREEN,
     GREY,
-    ORANGE,
-    PURPLE,
     SKY,
-    VERMILION,
+    SLIDER,
     new_figure,
     styled,
 )
 
-COLOURS = (GREEN, BLUE, ORANGE, PURPLE, SKY, BROWN)
-"""Of modes by their nodal diameters; those of six or more as those of six fewer."""
-NOTED = ("rises", "destabilises", "no_cycle")
+COLOURS = ("#332288", BLUE, "#999933", "#882255", SKY, BROWN)
+"""Of the disc's modes by their nodal diameters; those of six or more as those of six fewer. None is that of a phase."""
+RISES = ("rises", "destabilises")
 """Effects of a crossing that are numbered."""
-SPAN = (-1.1, 0.6)
-"""1/s: growth rates that the lower panel shows."""
+GAP = 3
+"""Speeds in a row without a cycle, from which on a gap is numbered: at fewer, Newton's method may have failed."""
+LINEAR = 1.0
+"""1/s: growth rates up to which their scale is linear."""
 
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:
-    """(a) frequencies, (b) growth rates by mode; crossings at which the cycle suffers are numbered and said below."""
-    study = parts.of(study, plot.normalization or parts.normalizations(study)[0]).transpose("Omega", ...)
+    """(a) frequencies, (b) growth rates by mode; what happens to the cycle is numbered and said below."""
+    norm = plot.normalization or parts.normalizations(study)[0]
+    study = parts.of(study, norm).transpose("Omega", ...)
     met = noted(study)
-    heights = [3.2, 1.7, 0.105 * max(len(met), 1)]
-    figure = new_figure(COLUMN, sum(heights) + 1.6)
+    heights = [3.2, 1.9, 0.105 * (1 + len(met))]
+    figure = new_figure(COLUMN, sum(heights) + 2.0)
     top, bottom, below = figure.subplots(3, 1, height_ratios=heights)
     _frequencies(top, study)
     _growth_rates(bottom, study)
     for ax in (top, bottom):
         ax.set_xlim(float(study["Omega"][0]), float(study["Omega"][-1]))
+        for low, high, _ in gaps(study):
+            ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
         for one in met:
             ax.axvline(one.Omega, color=GREY, linewidth=0.4, zorder=0)
     _crossings(top, study, met)
     bottom.set_xlabel(parts.axis_of("Omega")[0])
     below.set_axis_off()
-    said = "\n".join(f"{i}  {one.said}" for i, one in enumerate(met, 1)) or "no crossing at which the cycle suffers"
-    below.text(-0.12, 1, said, fontsize=6, va="top", transform=below.transAxes, linespacing=1.25)
-    figure.legend(handles=_handles(study), loc="outside lower center", ncols=3)
-    if plot.title:
-        figure.suptitle(plot.title, fontsize=8)
+    said = "\n".join([_SAID if met else _NOTHING, *(f"{i}  {one.said}" for i, one in enumerate(met, 1))])
+    below.text(-0.2, 1, said, fontsize=6, va="top", transform=below.transAxes, linespacing=1.25)
+    figure.legend(handles=_handles(study), loc="outside lower center", ncols=3, columnspacing=1.2)
+    parts.head(figure, study, f"{plot.title or study.attrs.get('title', '')}, {parts.MODES[norm]}")
     return figure
 
 
+# ----------------------------------------------------------------------------------------------------
+# What happens to the cycle
+
+
 class Noted(NamedTuple):
-    """A crossing at which a growth rate rises or the cycle ends."""
+    """A peak of the cycle's growth rate beside crossings, or a gap without a cycle.
+
+    Omega : rad/s, of the peak, or where the gap begins
+    crossings : their places in the study
+    """
 
     Omega: float
-    frequency: float
+    crossings: tuple[int, ...]
     said: str
 
 
+_SAID = "Peaks of the cycle's growth rate, at crossings: mode that grows, and its rate"
+_NOTHING = "the cycle's growth rate has no peak at a crossing"
+
+
 def noted(study: xr.Dataset) -> list[Noted]:
-    """Of one normalization."""
-    effects, lines = flag_names(study["crossing_effect"]), flag_names(study["crossing_line"])
-    found = []
-    for i in np.flatnonzero(np.isin(effects, NOTED)):
+    """Of one normalization, by speed; crossings with one and the same rise are one."""
+    effects = flag_names(study["crossing_effect"])
+    by_peak: dict[tuple[float, int], list[int]] = {}
+    for i in np.flatnonzero(np.isin(effects, RISES)):
+        by_peak.setdefault(_peak(study, float(study["crossing_growth_rate"][i])), []).append(int(i))
+    found = [_rise(study, place, crossings) for place, crossings in by_peak.items()]
+    wide = [(low, high) for low, high, count in gaps(study) if count >= GAP]
+    found += [Noted(low, (), f"{low:.2f} to {high:.2f} rad/s: no cycle found") for low, high in wide]
+    return sorted(found)
+
+
+def _peak(study: xr.Dataset, highest: float) -> tuple[float, int]:
+    """Speed at which the cycle's growth rate is this one, and the number of the mode that grows so."""
+    there = study.isel(Omega=int(np.nanargmin(np.abs(study["growth_rate"].values - highest))))
+    return float(there["Omega"]), int(there["cycle_growth_rate"].idxmax("mode"))
+
+
+def _rise(study: xr.Dataset, peak: tuple[float, int], crossings: list[int]) -> Noted:
+    """Of the mode that leads at the peak, which need not be that of a crossing."""
+    met = []
+    for i in crossings:
         one = study.isel(crossing=i)
-        multiple = f"{float(one['crossing_multiple']):g} " + ("$f_s$" if lines[i] == "stick_slip" else r"$f_\Omega$")
-        speed, frequency = float(one["crossing_Omega"]), float(one["crossing_frequency"])
-        there = study.sel(Omega=speed, method="nearest")
-        mode = there.sel(mode=int(one["crossing_mode"]))
-        l = int(mode["diameters"]) if flag_names(mode["mode_kind"]) == "disc" else -1
-        met = f"{speed:.2f} rad/s: {multiple} = {frequency:.1f} Hz ({_mode(l)}): {effects[i].replace('_', ' ')}"
-        if effects[i] != "no_cycle":
-            growing = float(there["sliding_frequency"].sel(mode=int(one["crossing_growing_mode"])))
-            met += f", {growing:.0f} Hz by {float(one['crossing_rise']):.2g}/s"
-        found.append(Noted(speed, frequency, met))
-    return found
+        line = "$f_s$" if flag_names(one["crossing_line"]) == "stick_slip" else _TURN
+        met.append(f"{float(one['crossing_multiple']):g} {line} = {float(one['crossing_frequency']):.0f} Hz")
+    there = study.sel(Omega=peak[0], mode=peak[1])
+    own, rate = float(there["sliding_frequency"]), float(there["cycle_growth_rate"])
+    return Noted(peak[0], tuple(crossings), f"{peak[0]:.2f} rad/s, {', '.join(met)}: {own:.0f} Hz mode, {rate:.2g}/s")
+
+
+def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
+    """Ranges of speeds without a cycle, to half a step beyond the last ones, and how many speeds they hold."""
+    speeds = study["Omega"].values
+    edges = np.concatenate([speeds[:1], (speeds[1:] + speeds[:-1]) / 2, speeds[-1:]])
+    gone = ~np.isfinite(study["growth_rate"].values)
+    for first, last in np.flatnonzero(np.diff(np.concatenate([[0], gone, [0]]))).reshape(-1, 2):
+        yield float(edges[first]), float(edges[last]), int(last - first)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Panels
+
+_HALO = [withStroke(linewidth=1.5, foreground="white")]
+_TURN = r"$f_\Omega$"
 
 
 def _mode(l: int) -> str:
@@ -94,7 +136,7 @@ def _mode(l: int) -> str:
 
 
 def _colour(l: int) -> str:
-    return BLACK if l < 0 else COLOURS[l % len(COLOURS)]
+    return SLIDER if l < 0 else COLOURS[l % len(COLOURS)]
 
 
 def _parts(study: xr.Dataset, name: str) -> list[tuple[int, np.ndarray]]:
@@ -118,21 +160,37 @@ def _frequencies(ax: Axes, study: xr.Dataset) -> None:
         ax.plot(speeds[thin], values[thin], ".", color=_colour(l), markersize=2.5)
     highest = 1.06 * float(study["sliding_frequency"].max())
     ax.set_ylim(0, highest)
-    rate = study["stick_slip_frequency"].values
-    known = np.flatnonzero(np.isfinite(rate))
-    if known.size:
-        last = rate[known[-1]]
-        for n in range(1, int(highest / last) + 1):
-            ax.plot(speeds, n * rate, color=GREY, linewidth=0.6, linestyle=(0, (4, 2)), zorder=0)
-            _beside(ax, n * last, "$f_s$" if n == 1 else f"{n} $f_s$")
+    _multiples(ax, speeds, study["stick_slip_frequency"].values, highest)
     turns = study["rotation_frequency"].values
     most = int(study["diameters"].max())
     for l in range(1, most + 1):
         ax.plot(speeds, l * turns, color=GREY, linewidth=0.4, linestyle=":", zorder=0)
     if most:
-        _beside(ax, most * turns[-1] / 2, rf"$f_\Omega$..{most} $f_\Omega$" if most > 1 else r"$f_\Omega$")
+        _beside(ax, most * turns[-1] / 2, rf"{_TURN}..{most} {_TURN}" if most > 1 else _TURN)
     ax.set_ylabel("Frequency in the slider's frame (Hz)")
     ax.set_title("(a)", loc="left", pad=16)
+
+
+def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -> None:
+    """Multiples of the stick-slip frequency, and fainter the halves between them; named where they leave the panel."""
+    known = np.flatnonzero(np.isfinite(rate))
+    if not known.size:
+        return
+    named = speeds[0]
+    for half in range(math.floor(2 * highest / np.nanmin(rate)), 0, -1):
+        n, whole = half / 2, half % 2 == 0
+        look: dict[str, Any] = (
+            {"linewidth": 0.6, "linestyle": (0, (4, 2))} if whole else {"linewidth": 0.3, "linestyle": "-"}
+        )
+        ax.plot(speeds, n * rate, color=GREY, alpha=1 if whole else 0.6, zorder=0, **look)
+        if whole and n * rate[known[-1]] <= highest:
+            _beside(ax, n * rate[known[-1]], "$f_s$" if n == 1 else f"{n:g} $f_s$")
+        elif whole:
+            leaves = speeds[known[np.argmax(n * rate[known] > highest)]]
+            if leaves - named < 0.05 * (speeds[-1] - speeds[0]):
+                continue  # no room
+            named = leaves
+            ax.text(leaves, highest, f"{n:g}", fontsize=6, color=GREY, ha="center", va="top", path_effects=_HALO)
 
 
 def _beside(ax: Axes, height: float, text: str) -> None:
@@ -148,35 +206,30 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     for l, values in _parts(study, "cycle_growth_rate"):
         ax.plot(speeds, values, color=_colour(l), linewidth=0.8)
     ax.axhline(0, color=BLACK, linewidth=0.5)
-    gone = ~np.isfinite(study["growth_rate"].values)
-    ax.fill_between(
-        speeds,
-        0,
-        1,
-        where=gone,
-        step="mid",
-        transform=ax.get_xaxis_transform(),
-        color=VERMILION,
-        alpha=0.25,
-        linewidth=0,
-    )
-    ax.set(ylim=SPAN, ylabel="Cycle's growth rates (1/s)")
+    ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
+    low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))
+    ax.set_ylim(min(1.1 * low, -LINEAR), max(1.3 * high, LINEAR))
+    ticks = [-1, -0.5, 0, 0.5, 1, 10, 100]
+    ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    ax.set_ylim(min(1.1 * low, -LINEAR), max(1.3 * high, LINEAR))
+    ax.set_ylabel(f"Cycle's growth rates (1/s),\nlogarithmic beyond ±{LINEAR:g}")
     parts.letter(ax, "b")
 
 
 def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:
-    """Small open circles at all that were found, full ones and numbers above the panel at those that matter."""
+    """Small open circles at all that were found, full ones at those with a number above the panel."""
     ax.plot(
         study["crossing_Omega"], study["crossing_frequency"], "o", color=BLACK, markersize=2.2, markerfacecolor="white",
         markeredgewidth=0.5,
     )  # fmt: skip
-    ax.plot([one.Omega for one in met], [one.frequency for one in met], "o", color=VERMILION, markersize=3)
+    numbered = study.isel(crossing=[i for one in met for i in one.crossings])
+    ax.plot(numbered["crossing_Omega"], numbered["crossing_frequency"], "o", color=BLACK, markersize=3)
     low, high = ax.get_xlim()
     places = spread([one.Omega for one in met], 0.055 * (high - low), low, high)
     for i, (one, place) in enumerate(zip(met, places, strict=True), 1):
         ax.annotate(
             str(i), (one.Omega, 1), xycoords=("data", "axes fraction"), xytext=(place, 1.03),
-            textcoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=6, color=VERMILION,
+            textcoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=6,
             arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": GREY, "shrinkA": 0, "shrinkB": 0},
         )  # fmt: skip
 
@@ -200,11 +253,11 @@ def spread(places: list[float], apart: float, low: float, high: float) -> list[f
 def _handles(study: xr.Dataset) -> list[Line2D]:
     shown = sorted({l for l, _ in _parts(study, "sliding_frequency")})
     handles = [Line2D([], [], color=_colour(l), label=_mode(l)) for l in shown]
+    ring: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 2.5, "markeredgewidth": 0.5}
     return [
         *handles,
         Line2D([], [], color=BLACK, marker=".", linestyle="", markersize=4, label="stick-slip cycle"),
-        Line2D([], [], color=VERMILION, alpha=0.25, linewidth=6, label="no cycle found"),
-        Line2D(
-            [], [], color=BLACK, marker="o", linestyle="", markersize=2.5, markerfacecolor="white", label="crossing"
-        ),
+        Line2D([], [], color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
+        Line2D([], [], marker="o", markerfacecolor="white", label="crossing", **ring),
+        Line2D([], [], marker="o", label="numbered", **ring),
     ]
