@@ -68,6 +68,17 @@ class ParameterError(DiscModelError, ValueError):
         return (type(self), self.faults)
 
 
+def refuse(faults: Collection[str]) -> None:
+    """Raise one `ParameterError` that lists faults, if there are any."""
+    if faults:
+        raise ParameterError(*faults)
+
+
+def broken(*rules: tuple[object, str, object, str]) -> list[str]:
+    """Faults of arguments: those among ``(holds, name, value, rule)`` that do not hold."""
+    return [Fault((name,), shown(value), rule) for holds, name, value, rule in rules if not holds]
+
+
 class ModeError(DiscModelError):
     """The plate's modes could not be computed to the promised accuracy."""
 

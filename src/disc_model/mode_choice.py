@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from disc_model.errors import DiscModelError, Fault, ParameterError, shown
+from disc_model.errors import DiscModelError, broken, refuse
 from disc_model.parameters import Parameters, is_number
 from disc_model.truncation import (
     BAND,
@@ -78,16 +78,13 @@ def choose_modes(
     """
     quantity, faults = checked_quantity("quantity", quantity)
     tolerance, more = checked_tolerance("tolerance", QUANTITIES.get(quantity, 1.0) if tolerance is None else tolerance)
-    faults += more
-    if not (is_number(band) and 0 < band < math.inf):
-        faults.append(Fault(("band",), shown(band), "must be finite and > 0"))
-    if not (isinstance(rich, tuple | list) and len(rich) == 2 and all(isinstance(n, int) and n >= 0 for n in rich)):
-        faults.append(Fault(("rich",), shown(rich), "must be two whole numbers >= 0, of diameters and circles"))
-    given: object = case
-    if not isinstance(given, Parameters | Mapping):
-        faults.append(Fault(("case",), shown(case), "must be Parameters, or a mapping of names to values"))
-    if faults:
-        raise ParameterError(*faults)
+    counts = isinstance(rich, tuple | list) and len(rich) == 2 and all(isinstance(n, int) and n >= 0 for n in rich)
+    others = broken(
+        (is_number(band) and 0 < band < math.inf, "band", band, "must be finite and > 0"),
+        (counts, "rich", rich, "must be two whole numbers >= 0, of diameters and circles"),
+        (isinstance(case, Parameters | Mapping), "case", case, "must be Parameters, or a mapping of names to values"),
+    )
+    refuse([*faults, *more, *others])
     size = {"n_diameters": CANDIDATES[0][0], "n_circles": 0}
     p = case if isinstance(case, Parameters) else Parameters.model_validate({**case, **size})
     if quantity == FREQUENCIES:
@@ -111,13 +108,8 @@ def read_parameters(values: Mapping[str, Any]) -> tuple[Parameters, str]:
     p, asked = read_asked(values)
     if asked is None:
         return p, ""
-    choice = chosen(p, asked)
+    choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)
     return choice.parameters, choice.to_json()
-
-
-def chosen(p: Parameters, asked: Asked) -> ModeChoice:
-    """The choice that was asked for; raises `DiscModelError` where there is none."""
-    return by_frequencies(p, asked.tolerance) if asked.quantity == FREQUENCIES else by_motion(p, asked)
 
 
 def by_motion(p: Parameters, asked: Asked) -> ModeChoice:

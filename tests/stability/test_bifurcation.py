@@ -36,13 +36,9 @@ def test_samples_that_are_not_reached_are_missing():
     assert (data["phase"] == -1).all()
 
 
-def test_bad_input_is_named_in_full():
-    with pytest.raises(ParameterError, match=r"name='contact': .*; values=\[\]: .*; samples=0: "):
-        bifurcation_samples(BASE, "contact", [], transient=1, samples=0)
+def test_all_values_are_looked_at_before_anything_runs():
     with (
         mock.patch.object(bifurcation, "simulate", side_effect=AssertionError("before all values were looked at")),
         pytest.raises(ParameterError, match="N=-1: must be >= 0"),
     ):
         bifurcation_samples(BASE, "N", [100.0, -1.0], transient=1, samples=1)
-    with pytest.raises(ParameterError, match="Omega: must be > 0"):
-        bifurcation_samples(BASE, "Omega", [0.0], transient=1, samples=1)

@@ -14,28 +14,25 @@ from disc_model.stability.lyapunov import lyapunov_exponents
 P = Parameters(N=200, Omega=20, n_diameters=1)
 
 
-def faults_of(function, *arguments, **options) -> list[str]:
+@pytest.mark.parametrize(
+    ("call", "faults"),
+    [
+        (lambda: floquet("x", tol=0.5, releases=0), "p='x' tol=0.5 releases=0"),
+        (lambda: floquet(P, releases=2), "releases=2"),
+        (lambda: floquet(P, near="x", releases=1.5), "near='x' releases=1.5"),
+        (lambda: continue_cycle(P, "k", (1, 2), near="x", releases=0, start=[1]), "near='x' releases=0 start=[1]"),
+        (lambda: continue_cycle("x", "nu", (1, 2), releases=2), "p='x' names=('nu',) releases=2"),
+        (lambda: steady_sliding("x"), "p='x'"),
+        (
+            lambda: lyapunov_exponents("x", -1, transient=math.nan, count=9, interval=0),
+            "p='x' duration=-1 transient=nan count=9 interval=0",
+        ),
+        (lambda: bifurcation_samples("x", "E", [], transient=-1, samples=0), "p='x' values=[] transient=-1 samples=0"),
+        (lambda: bifurcation_samples(P, "contact", [1.0], transient=0, samples=1), "name='contact'"),
+        (lambda: bifurcation_samples(P, "Omega", [0.0], transient=0, samples=1), "Omega=0"),
+    ],
+)
+def test_every_fault_is_named(call, faults):
     with pytest.raises(ParameterError) as error:
-        function(*arguments, **options)
-    return [fault.partition("=")[0].partition(":")[0] for fault in error.value.faults]
-
-
-def test_every_fault_is_named():
-    assert faults_of(floquet, "x", tol=1, releases=0) == ["p", "tol", "releases"]
-    assert faults_of(floquet, P, releases=2) == ["releases"]
-    assert faults_of(floquet, P, near="x", releases=1.5) == ["near", "releases"]
-    assert faults_of(continue_cycle, P, "Omega", (1, 2), near="x", releases=0, start=[1]) == [
-        "near",
-        "start",
-        "releases",
-    ]
-    assert faults_of(continue_cycle, "x", "nu", (1, 2), releases=2) == ["p", "names", "releases"]
-    assert faults_of(steady_sliding, "x") == ["p"]
-    assert faults_of(lyapunov_exponents, "x", -1, transient=math.nan, count=9, interval=0) == [
-        "p", "duration", "transient", "count", "interval",
-    ]  # fmt: skip
-    assert faults_of(bifurcation_samples, "x", "E", [], transient=-1, samples=0) == [
-        "p", "values", "transient", "samples",
-    ]  # fmt: skip
-    assert faults_of(bifurcation_samples, P, "contact", [1.0], transient=0, samples=1) == ["name"]
-    assert faults_of(bifurcation_samples, P, "Omega", [0.0], transient=0, samples=1) == ["Omega"]
+        call()
+    assert " ".join(fault.partition(": must")[0] for fault in error.value.faults) == faults

@@ -10,11 +10,7 @@ from disc_model.stability.return_map import PARAMETERS, RETURNED, Flight, Return
 from tests.references.printed import Printed
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
-
-
 BASE = Parameters(N=200, Omega=20)
-
-
 DAMPED = Parameters(N=200, Omega=20, c=0.05, c_p=0.02)
 
 

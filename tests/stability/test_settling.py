@@ -10,7 +10,7 @@ import pytest
 
 from disc_model import Parameters, floquet, simulate
 from disc_model.stability import settling
-from disc_model.stability.settling import Settling, follow, late_stretch, numbers
+from disc_model.stability.settling import Settling, follow, late_stretch
 
 DAMPED = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
 LATE = 0.1
@@ -37,7 +37,6 @@ def test_a_damped_motion_settles_on_its_stable_cycle() -> None:
     assert not found.settling.growing
     assert found.late.share_stick == pytest.approx(cycle.stick_fraction, abs=0.05)
     assert found.late.P_min < DAMPED.N < found.late.P_max
-    assert set(numbers(found.late)) >= {"P_min", "P_max", "share_slip", "separation_rate"}
 
 
 @pytest.mark.usefixtures("impatient")

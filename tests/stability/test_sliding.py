@@ -14,8 +14,6 @@ from disc_model.stability.sliding import SlidingStatus
 from tests.engine.full_system import Full
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
-
-
 BASE = Parameters(N=200, Omega=20)
 
 
@@ -49,12 +47,6 @@ def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_movi
         growth = steady_sliding(p.replace(Omega=share * critical)).growth_rate
         # rounding leaves 1e-12 1/s, a thousandth above the critical speed it is 3 to 7
         assert (growth > 1e-6) == grows, share
-
-
-def test_steady_sliding_without_drive():
-    sliding = steady_sliding(BASE.replace(Omega=0))
-    assert sliding.status is SlidingStatus.AT_REST
-    assert not sliding.stable
 
 
 def test_steady_sliding_says_why_there_is_none():

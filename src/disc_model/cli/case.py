@@ -13,6 +13,7 @@ from contextlib import nullcontext
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
+from rich.table import Table
 
 from disc_model.cli.progress import compiling
 from disc_model.errors import Fault, ParameterError, shown
@@ -120,6 +121,16 @@ def case_lines(p: Parameters, choice: str) -> list[tuple[str, str]]:
     """What was computed, and its modes if they were chosen: the first lines of every command on one case."""
     case = f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {p.normalization}, {p.contact} (key {p.key})"
     return [("case", case), *([("modes chosen", choice)] if choice else [])]
+
+
+def table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], **column: Any) -> Table:
+    """A table for the terminal; ``column``: how rich shows each column."""
+    made = Table(title=title)
+    for head in heads:
+        made.add_column(head, **column)
+    for row in rows:
+        made.add_row(*row)
+    return made
 
 
 def tell(lines: Iterable[tuple[str, str]]) -> None:

@@ -7,11 +7,10 @@ from typing import Annotated
 
 import typer
 from rich.console import Console
-from rich.table import Table
 
-from disc_model.cli.case import case_lines, number, parameters_of, tell, with_case_options
+from disc_model.cli.case import case_lines, number, parameters_of, table, tell, with_case_options
 from disc_model.cli.progress import compiling
-from disc_model.errors import ParameterError
+from disc_model.errors import refuse
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_rule
 
 TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
@@ -25,34 +24,24 @@ def modes(*, case: dict[str, str]) -> None:
 
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
-    if faults:
-        raise ParameterError(*faults)
+    refuse(faults)
     if choice:
         tell([("modes chosen", choice)])
-    table = Table(title=f"Modes of the disc ({parameters.normalization})")
-    for heading in ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)"):
-        table.add_column(heading, justify="right")
+    rows = []
     for row in plate_modes(parameters).itertuples():
         omega, psi = float(row.omega), float(row.psi)  # type: ignore[arg-type]
         numbers = (f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6g}")
-        table.add_row(str(row.circles), str(row.diameters), *numbers)
-    flexibility = residual_flexibility(parameters)
-    give = Table(title="Static give of the disc under the slider")
-    for heading in ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)"):
-        give.add_column(heading, justify="right")
-    give.add_row(
-        f"{flexibility.total:.7g}", f"{flexibility.remainder:.1e}", f"{flexibility.kept:.7g}",
-        f"{flexibility.residual:.7g}",
-    )  # fmt: skip
-    shifted = Table(title="Disc and slider at rest")
-    for heading in ("lambda (rad/s)", "f (Hz)"):
-        shifted.add_column(heading, justify="right")
-    for value in slider_at_rest_frequencies(parameters):
-        shifted.add_row(f"{value:.3f}", f"{value / math.tau:.3f}")
-    console = Console()
-    console.print(table)
-    console.print(give)
-    console.print(shifted)
+        rows.append((str(row.circles), str(row.diameters), *numbers))
+    columns = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)")
+    modes = table(f"Modes of the disc ({parameters.normalization})", columns, rows, justify="right")
+    found = residual_flexibility(parameters)
+    flexibility = (f"{found.total:.7g}", f"{found.remainder:.1e}", f"{found.kept:.7g}", f"{found.residual:.7g}")
+    heads = ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)")
+    give = table("Static give of the disc under the slider", heads, [flexibility], justify="right")
+    at_rest = [(f"{value:.3f}", f"{value / math.tau:.3f}") for value in slider_at_rest_frequencies(parameters)]
+    shifted = table("Disc and slider at rest", ("lambda (rad/s)", "f (Hz)"), at_rest, justify="right")
+    for one in (modes, give, shifted):
+        Console().print(one)
 
 
 @with_case_options()
@@ -66,8 +55,7 @@ def floquet(
     parameters, choice = parameters_of(case, faults)
     rule = limits_rule(CYCLE_TOLERANCES)
     tolerance = number("tol", tol, lambda x: CYCLE_TOLERANCES[0] <= x <= CYCLE_TOLERANCES[1], rule, faults)
-    if faults:
-        raise ParameterError(*faults)
+    refuse(faults)
     with compiling():
         from disc_model.stability.cycle import CycleStatus
         from disc_model.stability.cycle import floquet as cycle_of

@@ -12,7 +12,7 @@ import typer
 
 from disc_model.cli.case import case_lines, number, parameters_of, tell, with_case_options
 from disc_model.cli.progress import prepare, simulating
-from disc_model.errors import Fault, ParameterError, shown
+from disc_model.errors import Fault, ParameterError, refuse, shown
 from disc_model.parameters import TOLERANCES, Parameters, limits_rule
 
 if TYPE_CHECKING:
@@ -147,9 +147,10 @@ def _checked(
     if (save := files["save"]) is not None:
         faults += _folder_faults("save", save)
     if checkpoint is not None:
-        faults += _checkpoint_faults(checkpoint)
-    if faults:
-        raise ParameterError(*faults)
+        from disc_model.simulation.kept import faults as checkpoint_faults
+
+        faults += checkpoint_faults(checkpoint, 0)
+    refuse(faults)
     return Asked(parameters, choice, end, tolerance, steps, named, ramps)
 
 
@@ -197,17 +198,12 @@ def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, W
             continue
         try:
             found[name] = Window(**{key.strip(): value for key, _, value in pairs})
-            if math.isfinite(end):
-                _check_within(found[name].resolved(0.0, end), end)
+            if math.isfinite(end) and (stop := found[name].resolved(0.0, end).stop) > end:
+                rule = f"must be within the run: stop={shown(stop)} <= t_end={shown(end)}"
+                faults.append(Fault(("window", name), "", rule))
         except ParameterError as error:
             faults += _placed(error, ("window", name))
     return found
-
-
-def _check_within(window: Window, end: float) -> None:
-    if window.stop > end:
-        rule = f"must be within the run: stop={shown(window.stop)} <= t_end={shown(end)}"
-        raise ParameterError(Fault((), "", rule))
 
 
 def _plot_faults(path: Path) -> Iterator[str]:
@@ -223,12 +219,6 @@ def _plot_faults(path: Path) -> Iterator[str]:
 def _folder_faults(name: str, path: Path) -> Iterator[str]:
     if not path.parent.is_dir():
         yield f"{name}={str(path)!r}: must be in a folder that exists"
-
-
-def _checkpoint_faults(path: Path) -> Iterator[str]:
-    from disc_model.simulation.kept import faults
-
-    return faults(path, 0)
 
 
 def _plot_record(t_end: float) -> Record:
@@ -258,14 +248,12 @@ def _print_summary(result: Result, choice: str) -> None:
     """Modes if they were chosen, status, switches, time in each phase and effort of one run, a line each."""
     s = result.statistics
     reached = float(result.final_state.time)
+    first = result.first_separation
     lines = [
         *case_lines(result.parameters, choice),
         ("status", result.message or result.status.value),
         ("time reached", f"{reached:.9g} s of {result.t_end:g} s"),
-        (
-            "first separation",
-            "none" if math.isnan(result.first_separation) else f"{result.first_separation:.9f} s",
-        ),
+        ("first separation", "none" if math.isnan(first) else f"{first:.9f} s"),
         ("events", str(s["events"])),
     ]
     counts = result.events["kind"].value_counts()
@@ -279,6 +267,6 @@ def _print_summary(result: Result, choice: str) -> None:
         ("wall time", f"{s['wall_time']:.3g} s ({ratio} simulated seconds a second)"),
         ("energy residual", f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)"),
     ]
-    if result.status.value not in ("ok", "stopped"):
+    if not result.status.complete:
         lines.append(("advice", result.status.advice))
     tell(lines)

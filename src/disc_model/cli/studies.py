@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.table import Table
 
+from disc_model.cli.case import table
 from disc_model.errors import DiscModelError, Fault, ParameterError
 
 if TYPE_CHECKING:
@@ -90,12 +90,7 @@ def list_(
         _list_stale(files, directory)
         return
     heads, rows = {"studies": _studies, "figures": _figures, "cases": _cases}[what](chosen, grids, directory)
-    table = Table(title=f"{what} of {chosen.name}")
-    for head in heads:
-        table.add_column(head, overflow="fold")
-    for row in rows:
-        table.add_row(*row)
-    Console().print(table)
+    Console().print(table(f"{what} of {chosen.name}", heads, rows, overflow="fold"))
 
 
 def init(

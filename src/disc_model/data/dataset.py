@@ -154,6 +154,12 @@ def json_attribute(value: Any) -> str:
     return json.dumps(value, sort_keys=True)
 
 
+def agreed(values: Iterable[str]) -> str:
+    """A value that all share; of several the list of all, as text."""
+    different = sorted(set(values))
+    return different[0] if len(different) == 1 else json_attribute(different)
+
+
 def _encoding(tree: xr.DataTree) -> dict[str, dict[str, Any]]:
     own = {node.path: node.to_dataset(inherit=False).variables for node in tree.subtree}
     return {path: {str(name): _encode(var) for name, var in variables.items()} for path, variables in own.items()}
@@ -186,15 +192,12 @@ class DamagedFile(DiscModelError):
 def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
     """Write a file in one piece, with a checksum at its end: `path` is either what it was before or complete.
 
+    Raises `WriteError` if the disk is full, or the file may not be that large.
+
     Parameters
     ----------
     write : called with the name of a new file in the same folder, which it shall write
     size : bytes that the file will roughly have, to find out about a full disk
-
-    Raises
-    ------
-    WriteError
-        If the disk is full, or the file may not be that large.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     # made by `write`, so that the umask says who may read it
@@ -213,13 +216,7 @@ def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
 
 
 def check_whole(path: Path) -> None:
-    """Compare a file with the checksum at its end.
-
-    Raises
-    ------
-    DamagedFile
-        If it does not match or is not there.
-    """
+    """Compare a file with the checksum at its end; raises `DamagedFile` if it does not match or is not there."""
     content = path.read_bytes()
     body, end = content[:-_LENGTH], content[-_LENGTH:]
     if end != _checksum(body):
@@ -270,15 +267,9 @@ def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
 
 
 def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
-    """Apply a function to files.
+    """Apply a function to files; raises `InputsError` if any is damaged or missing.
 
-    Those it finds damaged are set aside under another name, so that the next run finds them missing and computes them
-    anew.
-
-    Raises
-    ------
-    InputsError
-        If any is damaged or missing.
+    Damaged ones are set aside under another name, so that the next run finds them missing and computes them anew.
     """
     found, faults = [], []
     for path in paths:

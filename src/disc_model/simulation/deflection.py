@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from disc_model.errors import Fault, ParameterError, shown
+from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays, mode_shapes
 from disc_model.simulation.api import published_start, simulate
@@ -105,15 +105,15 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
 
 def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> tuple[list[State], Array, Array]:
     """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
-    if faults := _foreign(p, None):
-        raise ParameterError(*faults)
+    refuse(_foreign(p, None))
     given: list[Any] = list(states) if isinstance(states, Iterable) else [states]
     n_modes = len(mode_arrays(p).omega)
     radii, angles = _numbers(r), _numbers(theta)
-    if radii is None or not np.all((radii >= p.a) & (radii <= p.b)):
-        faults.append(Fault(("r",), shown(r), f"must be within a={shown(p.a)} and b={shown(p.b)}"))
-    if angles is None:
-        faults.append(Fault(("theta",), shown(theta), "must be finite"))
+    within = radii is not None and np.all((radii >= p.a) & (radii <= p.b))
+    faults = broken(
+        (within, "r", r, f"must be within a={shown(p.a)} and b={shown(p.b)}"),
+        (angles is not None, "theta", theta, "must be finite"),
+    )
     for i, state in enumerate(given):
         if not isinstance(state, State):
             faults.append(Fault(("states", str(i)), shown(state), "must be a State"))
@@ -127,12 +127,11 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
 
 def _foreign(p: object, initial_state: object) -> list[str]:
     """Arguments of another type."""
-    faults: list[str] = []
-    if not isinstance(p, Parameters):
-        faults.append(Fault(("p",), shown(p), "must be Parameters"))
-    if initial_state is not None and not isinstance(initial_state, State):
-        faults.append(Fault(("initial_state",), shown(initial_state), "must be a State"))
-    return faults
+    state = initial_state is None or isinstance(initial_state, State)
+    return broken(
+        (isinstance(p, Parameters), "p", p, "must be Parameters"),
+        (state, "initial_state", initial_state, "must be a State"),
+    )
 
 
 def _numbers(values: ArrayLike) -> Array | None:

@@ -201,13 +201,7 @@ def _entries(named: Mapping[str, Sequence[Array]]) -> dict[str, tuple[str, list[
 
 
 def _records(path: Path) -> Iterator[tuple[int, dict[str, str], Contents]]:
-    """The file's records: where each ends, whose it is, what it holds.
-
-    Raises
-    ------
-    _Damaged
-        At the first record that is not whole.
-    """
+    """The file's records: where each ends, whose it is, what it holds; raises `_Damaged` at one that is not whole."""
     size = path.stat().st_size
     with open(path, "rb") as file:
         while file.tell() < size:

@@ -32,12 +32,7 @@ class Sampled(Protocol):
 def quicklook(result: Sampled) -> Figure:
     """Contact force (top) and disc displacement under the slider (bottom); one column a window.
 
-    Envelope windows are drawn as bands.
-
-    Raises
-    ------
-    ParameterError
-        If the result holds no window.
+    Envelope windows are drawn as bands.  Raises `ParameterError` if the result holds no window.
     """
     if not result.samples:
         example = "simulate(p, 20, record=Record(windows=(Window(rate=2000),)))"

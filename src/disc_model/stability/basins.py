@@ -35,7 +35,7 @@ from disc_model.simulation.result import Result, State
 from disc_model.stability.cycle import FloquetResult, cycle_of
 from disc_model.stability.fate import CYCLE_TOL, NEAR, Near, follows, published_start_near
 from disc_model.stability.return_map import RETURNED, ReturnMap, newton
-from disc_model.stability.settling import LARGEST_PERIOD
+from disc_model.stability.settling import LARGEST_PERIOD, shares
 
 Array = NDArray[np.float64]
 
@@ -334,9 +334,5 @@ def _apart(one: float, other: float) -> float:
 
 def _signature(result: Result) -> Signature:
     """Of a leg with one window of samples."""
-    statistics = result.statistics
-    stick, slip, separation = (statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
-    total = stick + slip + separation
-    return Signature(
-        float(np.ptp(result.samples[0]["u"])), statistics["separations"] / total, stick / total, separation / total
-    )
+    stick, _, separation, rate = shares(result)
+    return Signature(float(np.ptp(result.samples[0]["u"])), rate, stick, separation)

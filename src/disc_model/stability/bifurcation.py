@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disc_model.data.variables import Variable
-from disc_model.errors import ParameterError, Status
+from disc_model.errors import Status, broken, refuse
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import carried_over, simulate
 from disc_model.simulation.case import Poincare, Record
@@ -85,12 +85,9 @@ def bifurcation_samples(
         record = Record(poincare=Poincare(start=(begin - 0.25) * turn if begin else 0.0, stop=end, theta=theta))
         run = simulate(case, end, tol=tol, initial_state=start, record=record)
         taken = run.poincare or {}
-        count = min(samples, len(taken.get("time", ())))
-        for variable, array in data.items():
-            if count:
-                array[i, :count] = taken[variable][:count]
-        if count:
-            phase[i, :count] = taken["phase"][:count]
+        count = min(samples, len(taken["time"]))
+        for variable, array in (data | {"phase": phase}).items():
+            array[i, :count] = taken[variable][:count]
         first[i], separations[i] = run.first_separation, int(run.statistics["separations"])
         reached = run.final_state.time
         stick[i] = run.statistics["time_stick"] / reached if reached else math.nan
@@ -116,19 +113,16 @@ def bifurcation_samples(
 
 
 def _check(p: object, name: str, values: list[float], transient: float, samples: int) -> None:
-    faults = []
-    if not isinstance(p, Parameters):
-        faults.append(f"p={p!r}: must be Parameters")
-    elif not isinstance(getattr(p, name, None), float) or name not in Parameters.model_fields:
-        faults.append(f"name={name!r}: must be a parameter that is a real number")
-    if not values:
-        faults.append("values=[]: must not be empty")
-    if not (math.isfinite(transient) and transient >= 0):
-        faults.append(f"transient={transient!r}: must be finite and >= 0")
-    if not (isinstance(samples, int) and samples >= 1):
-        faults.append(f"samples={samples!r}: must be a whole number >= 1")
-    speeds = values if name == "Omega" else [getattr(p, "Omega", 1.0)]
-    if any(not speed > 0 for speed in speeds):
-        faults.append("Omega: must be > 0, because samples are taken once a turn")
-    if faults:
-        raise ParameterError(*faults)
+    case = isinstance(p, Parameters)
+    real = not case or (name in Parameters.model_fields and isinstance(getattr(p, name), float))
+    slowest = min(values if name == "Omega" else [getattr(p, "Omega", 1.0)], default=1.0)
+    refuse(
+        broken(
+            (case, "p", p, "must be Parameters"),
+            (real, "name", name, "must be a parameter that is a real number"),
+            (values, "values", values, "must not be empty"),
+            (0 <= transient < math.inf, "transient", transient, "must be finite and >= 0"),
+            (isinstance(samples, int) and samples >= 1, "samples", samples, "must be a whole number >= 1"),
+            (slowest > 0, "Omega", slowest, "must be > 0, because samples are taken once a turn"),
+        )
+    )

@@ -16,7 +16,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError, shown
+from disc_model.errors import ParameterError, broken, refuse
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import FloquetResult, find_cycle, find_cycle_near
@@ -234,39 +234,20 @@ class Branch:
 
 def check(p: object, names: tuple[str, ...], count: int, more: Sequence[str] = ()) -> None:
     """Raise `ParameterError` on these faults and on those of a case and of names of parameters."""
-    faults = []
-    if not isinstance(p, Parameters):
-        faults.append(f"p={p!r}: must be Parameters")
-    if len(names) != count or len(set(names)) != len(names) or not set(names) <= set(PARAMETERS):
-        faults.append(f"names={names!r}: must be {count} of {', '.join(PARAMETERS)}")
-    if faults or more:
-        raise ParameterError(*faults, *more)
-
-
-def faults_near(near: object, releases: object, start: object) -> list[str]:
-    """What is wrong with where a cycle is to be looked for."""
-    faults = []
-    if near is not None and not isinstance(near, State):
-        faults.append(f"near={shown(near)}: must be a State")
-    if near is not None and start is not None:
-        faults.append("start: must not be given beside near, which says where the first cycle is looked for")
-    if not isinstance(releases, int) or releases < 1 or (near is None and releases != 1):
-        faults.append(f"releases={releases!r}: must be a whole number >= 1, and 1 without a state to look near")
-    return faults
+    free = len(names) == count == len(set(names)) and set(names) <= set(PARAMETERS)
+    wrong = broken(
+        (isinstance(p, Parameters), "p", p, "must be Parameters"),
+        (free, "names", names, f"must be {count} of {', '.join(PARAMETERS)}"),
+    )
+    refuse([*wrong, *more])
 
 
 def starting_point(problem: CycleProblem, start: Array | None) -> CyclePoint:
     """The cycle that Newton's method finds from ``start``; raises `ParameterError` if there is none to follow."""
     cycle = find_cycle(problem.base, problem.tol, start)
-    if cycle.state is None:
-        found = cycle.message.removeprefix(f"{cycle.status}: ")
-        raise ParameterError(f"p: must have a cycle to start from, but {found}")
-    if cycle.releases != 1:
+    if cycle.releases > 1:
         raise ParameterError("p: must have a cycle with a single release to start from")
-    try:
-        return problem.evaluate(problem.unknowns(cycle.state))
-    except Lost as lost:
-        raise ParameterError(f"p: must have a cycle to start from, but {lost}") from None
+    return _first_point(problem, cycle, "p: must have a cycle to start from")
 
 
 def starting_point_near(
@@ -274,19 +255,21 @@ def starting_point_near(
 ) -> tuple[CycleProblem, CyclePoint]:
     """The problem of following a cycle that may separate, in one parameter, and the cycle near a state.
 
-    Raises
-    ------
-    ParameterError
-        If there is none.
+    Raises `ParameterError` if there is none.
     """
     cycle = find_cycle_near(p, near, releases, tol)
-    if cycle.state is None:
-        raise ParameterError(f"near: must lie near a cycle, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
     problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol, Order.of(cycle))
+    return problem, _first_point(problem, cycle, "near: must lie near a cycle that can be followed")
+
+
+def _first_point(problem: CycleProblem, cycle: FloquetResult, rule: str) -> CyclePoint:
+    """A cycle as a point of the curve; raises `ParameterError` if there is none that can be followed."""
+    if cycle.state is None:
+        raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
     try:
-        return problem, problem.evaluate(problem.unknowns(cycle.state))
+        return problem.evaluate(problem.unknowns(cycle.state))
     except Lost as lost:
-        raise ParameterError(f"near: must lie near a cycle that can be followed, but {lost}") from None
+        raise ParameterError(f"{rule}, but {lost}") from None
 
 
 def branch_of(problem: CycleProblem, points: Sequence[CyclePoint], folds: Array, ended: str) -> Branch:

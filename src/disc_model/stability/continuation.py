@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError
+from disc_model.errors import ParameterError, broken
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.branch import (
@@ -28,12 +28,12 @@ from disc_model.stability.branch import (
     Stride,
     branch_of,
     check,
-    faults_near,
     newton_step,
     starting_point,
     starting_point_near,
     walk,
 )
+from disc_model.stability.cycle import faults_near
 from disc_model.stability.grazing import grazing
 from disc_model.stability.return_map import multipliers
 
@@ -85,7 +85,8 @@ def continue_cycle(
     ParameterError
         Bad input, or no cycle to start from.
     """
-    check(p, (name,), 1, faults_near(near, releases, start))
+    beside = broken((near is None or start is None, "start", start, "must not be given beside near"))
+    check(p, (name,), 1, [*faults_near(near, releases), *beside])
     if near is None:
         problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol)
         point = starting_point(problem, start)

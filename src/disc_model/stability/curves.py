@@ -204,13 +204,10 @@ def _trace(
         ways.append(way)
         if way.ended == "the curve is closed":
             break
-    first = ways[0]
-    if len(ways) == 1:
-        return _curve(seed, names, first, None)
-    return _curve(seed, names, first, ways[1])
+    return _curve(seed, names, *ways)
 
 
-def _curve(seed: _Seed, names: tuple[str, str], back: Branch, on: Branch | None) -> StabilityCurve:
+def _curve(seed: _Seed, names: tuple[str, str], back: Branch, on: Branch | None = None) -> StabilityCurve:
     def joined(name: str) -> NDArray[np.generic]:
         one = getattr(back, name)
         return one if on is None else np.concatenate([one[:0:-1], getattr(on, name)])

@@ -8,13 +8,13 @@ map's Jacobian.  Two multipliers of the full system are left out: 1, along the o
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import DiscModelError, ParameterError, StatusBase, shown
+from disc_model.errors import DiscModelError, StatusBase, broken, refuse
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_faults
 from disc_model.simulation.result import State
 from disc_model.stability.return_map import (
@@ -24,9 +24,9 @@ from disc_model.stability.return_map import (
     FixedPoint,
     Flight,
     ReturnMap,
+    case_faults,
     growth_rate,
     kind_of,
-    modes_faults,
     multipliers,
     newton,
 )
@@ -68,6 +68,10 @@ class CycleError(DiscModelError):
     """There is no cycle to speak of; the message says what was found instead."""
 
 
+def _no_numbers() -> ComplexArray:
+    return np.zeros(0, complex)
+
+
 @dataclass(frozen=True, eq=False)
 class FloquetResult:
     """The stick-slip cycle of a case.
@@ -94,19 +98,19 @@ class FloquetResult:
     tol: float
     status: CycleStatus
     message: str
-    period: float
-    multipliers: ComplexArray
-    exponents: ComplexArray
-    growth_rate: float
-    stick_fraction: float
-    state: State | None
-    kind: str
-    releases: int
-    backward_releases: int
-    reversals: int
-    separations: int
-    sticks: int
-    residual: float
+    period: float = math.nan
+    multipliers: ComplexArray = field(default_factory=_no_numbers)
+    exponents: ComplexArray = field(default_factory=_no_numbers)
+    growth_rate: float = math.nan
+    stick_fraction: float = math.nan
+    state: State | None = None
+    kind: str = ""
+    releases: int = 0
+    backward_releases: int = 0
+    reversals: int = 0
+    separations: int = 0
+    sticks: int = 0
+    residual: float = math.nan
 
     def __repr__(self) -> str:
         p, found = self.parameters, self.status is CycleStatus.OK
@@ -157,21 +161,17 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
     ParameterError
         Bad input; the message names the argument, its value and the rule.
     """
-    faults: list[str] = []
-    given: object = p
-    around: object = near
-    if not isinstance(given, Parameters):
-        faults.append(f"p={p!r}: must be Parameters")
-    else:
-        faults += modes_faults(given, "floquet")
-    faults += limits_faults("tol", tol, CYCLE_TOLERANCES)
-    if around is not None and not isinstance(around, State):
-        faults.append(f"near={shown(near)}: must be a State")
-    if not isinstance(releases, int) or releases < 1 or (near is None and releases != 1):
-        faults.append(f"releases={releases!r}: must be a whole number >= 1, and 1 without a state to look near")
-    if faults:
-        raise ParameterError(*faults)
+    refuse([*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *faults_near(near, releases)])
     return find_cycle(p, tol) if near is None else find_cycle_near(p, near, releases, tol)
+
+
+def faults_near(near: object, releases: object) -> list[str]:
+    """What is wrong with a state near which a cycle of so many releases is to be looked for."""
+    counts = isinstance(releases, int) and releases >= 1 and (near is not None or releases == 1)
+    return broken(
+        (near is None or isinstance(near, State), "near", near, "must be a State"),
+        (counts, "releases", releases, "must be a whole number >= 1, and 1 without a state to look near"),
+    )
 
 
 def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) -> FloquetResult:
@@ -182,7 +182,7 @@ def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) ->
     motion, in resonance and violently unstable; `disc_model.stability.continuation` finds them from the fold's other
     side, and this function leaves them alone.
     """
-    if p.Omega == 0 or p.N == 0 or p.mu_s == 0 or p.k_p == 0:
+    if not may_stick_and_slip(p):
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol)
     found = newton(map_, map_.static if start is None else start, tol=tol)
@@ -195,7 +195,7 @@ def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) ->
 
 def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-12) -> FloquetResult:
     """A cycle near the next release after a state; it may lose contact."""
-    if p.Omega == 0 or p.N == 0 or p.mu_s == 0 or p.k_p == 0:
+    if not may_stick_and_slip(p):
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol, patience=PATIENT)
     outcome, x = map_.next_release(near)
@@ -216,7 +216,7 @@ def cycle_neared(p: Parameters, state: State, releases: int, tol: float = 1e-12)
     That a motion nearly repeats proves nothing: one on a torus does as well. So Newton's method is begun at its next
     release; the cycle has to be stable, and the motion to come nearer to it.
     """
-    if min(p.Omega, p.N, p.mu_s, p.k_p) <= 0:
+    if not may_stick_and_slip(p):
         return None
     map_ = ReturnMap(p, tol)
     code, x = map_.next_release(state)
@@ -244,8 +244,13 @@ def _shortest(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
     return cycle_of(map_, tol, found)
 
 
+def may_stick_and_slip(p: Parameters) -> bool:
+    """Whether there is a drive, and friction and a spring against it."""
+    return min(p.Omega, p.N, p.mu_s, p.k_p) > 0
+
+
 def _degenerate(p: Parameters, tol: float) -> FloquetResult:
-    """Cases in which nothing can stick and slip."""
+    """What a case is that cannot stick and slip."""
     held = p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N
     if p.Omega == 0 or held:
         return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
@@ -263,20 +268,17 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
                 return cycle_of(map_, tol, _once(map_, tol, found) if releases > 1 else found)
         tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
         return _none(p, tol, CycleStatus.NO_CYCLE, tried)
-    outcome = OUTCOMES[flight.outcome]
-    if outcome == "time_over":
-        return _none(
-            p, tol, CycleStatus.NO_STICK_SLIP, f"the slider slips on for {flight.period:.3g} s without sticking"
-        )
-    if outcome in ("lost_contact", "off_section"):
-        return _none(
-            p, tol, CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the published start"
-        )
-    if outcome == "non_finite":
-        return _none(p, tol, CycleStatus.NON_FINITE, "the motion from the published start overflows")
-    if outcome == "stalled":
-        return _none(p, tol, CycleStatus.NO_CYCLE, "switches follow each other without the clock moving")
-    return _none(p, tol, CycleStatus.PARADOX, "the motion from the published start runs into Painleve's paradox")
+    lost = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the published start")
+    slips = f"the slider slips on for {flight.period:.3g} s without sticking"
+    said = {
+        "time_over": (CycleStatus.NO_STICK_SLIP, slips),
+        "lost_contact": lost,
+        "off_section": lost,
+        "non_finite": (CycleStatus.NON_FINITE, "the motion from the published start overflows"),
+        "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
+        "paradox": (CycleStatus.PARADOX, "the motion from the published start runs into Painleve's paradox"),
+    }
+    return _none(p, tol, *said[OUTCOMES[flight.outcome]])
 
 
 def _once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
@@ -288,41 +290,18 @@ def _once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
 
 
 def _counted(flight: Flight) -> str:
-    parts = [
-        f"{count} {name}{'s' if count > 1 else ''}"
-        for name, count in (
-            ("release", flight.releases),
-            ("backward release", flight.backward_releases),
-            ("slip reversal", flight.reversals),
-            ("separation", flight.separations),
-        )
-        if count
-    ]
-    return ", ".join(parts)
+    counts = {
+        "release": flight.releases,
+        "backward release": flight.backward_releases,
+        "slip reversal": flight.reversals,
+        "separation": flight.separations,
+    }
+    return ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for name, count in counts.items() if count)
 
 
 def _none(p: Parameters, tol: float, status: CycleStatus, found: str) -> FloquetResult:
     """The result where there is no cycle."""
-    none = np.zeros(0, complex)
-    return FloquetResult(
-        p,
-        tol,
-        status,
-        f"{status}: {found}",
-        math.nan,
-        none,
-        none,
-        math.nan,
-        math.nan,
-        None,
-        "",
-        0,
-        0,
-        0,
-        0,
-        0,
-        math.nan,
-    )
+    return FloquetResult(p, tol, status, f"{status}: {found}")
 
 
 def cycle_of(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import layout, outcomes, saltation, tangent, variational
-from disc_model.errors import ParameterError, StatusBase
+from disc_model.errors import StatusBase, broken, refuse
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import (
@@ -27,7 +27,7 @@ from disc_model.simulation.result import (
     series_tolerance,
     write_state,
 )
-from disc_model.stability.return_map import modes_faults
+from disc_model.stability.return_map import case_faults
 
 Array = NDArray[np.float64]
 
@@ -131,12 +131,8 @@ def lyapunov_exponents(
         start = run.final_state
         if not run.status.complete:
             return _nothing(LyapunovStatus(run.status.value), count, 0.0, start)
-    case, order, tolerance = (
-        engine_case(p),
-        series_order(tol),
-        series_tolerance(tol, compliant=p.contact_compliance != 0),
-    )
-    model = case.model
+    case, order = engine_case(p), series_order(tol)
+    model, tolerance = case.model, series_tolerance(tol, compliant=p.contact_compliance != 0)
     series, state = layout.build_series(model, order), layout.build_state(model)
     if start is not None:
         write_state(case, start, state)
@@ -221,22 +217,15 @@ def _nothing(status: LyapunovStatus, count: int, covered: float, state: State) -
 
 
 def _check(p: object, duration: float, transient: float, count: int, interval: float, leave_out_trivial: bool) -> None:
-    faults = []
-    if not isinstance(p, Parameters):
-        faults.append(f"p={p!r}: must be Parameters")
-    else:
-        faults += modes_faults(p, "lyapunov_exponents")
-    if not (math.isfinite(duration) and duration > 0):
-        faults.append(f"duration={duration!r}: must be finite and > 0")
-    if not (math.isfinite(transient) and transient >= 0):
-        faults.append(f"transient={transient!r}: must be finite and >= 0")
     most = layout.WIDTH - leave_out_trivial
-    if not (isinstance(count, int) and 1 <= count <= most):
-        faults.append(f"count={count!r}: must be a whole number from 1 to {most}")
-    if not (math.isfinite(interval) and interval > 0):
-        faults.append(f"interval={interval!r}: must be finite and > 0")
-    if faults:
-        raise ParameterError(*faults)
+    counts = isinstance(count, int) and 1 <= count <= most
+    wrong = broken(
+        (0 < duration < math.inf, "duration", duration, "must be finite and > 0"),
+        (0 <= transient < math.inf, "transient", transient, "must be finite and >= 0"),
+        (counts, "count", count, f"must be a whole number from 1 to {most}"),
+        (0 < interval < math.inf, "interval", interval, "must be finite and > 0"),
+    )
+    refuse([*case_faults(p, "lyapunov_exponents"), *wrong])
 
 
 def _metric(model: layout.Model) -> Array:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import layout, outcomes, switches, variational
 from disc_model.engine import tangent as columns
-from disc_model.errors import Fault, ParameterError, shown
+from disc_model.errors import broken, refuse
 from disc_model.parameters import RESIDUAL, Parameters
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 
@@ -47,17 +47,13 @@ OUTCOMES = {
 }
 
 
-def modes_faults(p: Parameters, analysis: str) -> list[str]:
-    """What of a case ``analysis`` cannot do: without modes there is nothing that could lose its stability."""
-    if p.n_diameters >= 0:
-        return []
-    return [Fault(("n_diameters",), shown(p.n_diameters), f"must be >= 0: {analysis} needs modes of the disc")]
-
-
-def check_modes(p: Parameters, analysis: str) -> None:
-    """Raise `ParameterError` where there are `modes_faults`."""
-    if faults := modes_faults(p, analysis):
-        raise ParameterError(*faults)
+def case_faults(p: object, analysis: str) -> list[str]:
+    """What is no case, or one that ``analysis`` cannot do: without modes nothing could lose its stability."""
+    if not isinstance(p, Parameters):
+        return broken((False, "p", p, "must be Parameters"))
+    return broken(
+        (p.n_diameters >= 0, "n_diameters", p.n_diameters, f"must be >= 0: {analysis} needs modes of the disc")
+    )
 
 
 @dataclass(frozen=True)
@@ -92,7 +88,7 @@ class ReturnMap:
     def __init__(
         self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
     ) -> None:
-        check_modes(p, "the return map")
+        refuse(case_faults(p, "the return map"))
         self.parameters, self.patience = p, patience
         self._case = engine_case(p)
         self.model = model = self._case.model

@@ -17,7 +17,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +28,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State, engine_case
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
-from disc_model.stability.return_map import modes_faults
+from disc_model.stability.return_map import case_faults
 
 Array = NDArray[np.float64]
 
@@ -111,7 +110,7 @@ class Settling:
     @cached_property
     def cycle(self) -> FloquetResult | None:
         """The stick-slip cycle near the published start, if there is one and it can be found."""
-        if modes_faults(self.parameters, "floquet"):
+        if case_faults(self.parameters, "floquet"):
             return None
         found = floquet(self.parameters)
         return found if found.status is CycleStatus.OK else None
@@ -243,21 +242,16 @@ def late_stretch(
 
 def summary(result: Result) -> Late:
     """Ranges and shares over a result with one window of samples that begins where it does."""
-    samples, statistics = result.samples[0], result.statistics
-    times = [statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation")]
-    total = sum(times)
-    u = samples["u"] - result.u_0
-    stick, slip, separation = (time / total for time in times)
-    return Late(
-        P_min=float(samples["P"].min()),
-        P_max=float(samples["P"].max()),
-        u_min=float(u.min()),
-        u_max=float(u.max()),
-        share_stick=stick,
-        share_slip=slip,
-        share_separation=separation,
-        separation_rate=statistics["separations"] / total,
-    )
+    P, u = result.samples[0]["P"], result.samples[0]["u"] - result.u_0
+    return Late(float(P.min()), float(P.max()), float(u.min()), float(u.max()), *shares(result))
+
+
+def shares(result: Result) -> tuple[float, float, float, float]:
+    """Of the time of a result: spent in stick, slip and separation; and separations per second."""
+    statistics = result.statistics
+    stick, slip, separation = (statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
+    total = stick + slip + separation
+    return stick / total, slip / total, separation / total, statistics["separations"] / total
 
 
 def releases(result: Result) -> Array:
@@ -326,8 +320,3 @@ def _probes(horizon: float, late: float) -> list[tuple[float, float]]:
         stop = max(stop * SPACING, stop + late)
     last = max(horizon - late, spans[-1][1] if spans else 0.0)
     return [*spans, (last, horizon)]
-
-
-def numbers(late: Late) -> dict[str, Any]:
-    """The fields of a `Late` by name."""
-    return {name: getattr(late, name) for name in Late.__dataclass_fields__}

@@ -14,16 +14,16 @@ r_0 F = (mu_k + beta) R.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError, StatusBase
+from disc_model.errors import StatusBase, refuse
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
-from disc_model.stability.return_map import check_modes
+from disc_model.stability.return_map import case_faults
 
 Array = NDArray[np.float64]
 
@@ -36,6 +36,10 @@ class SlidingStatus(StatusBase):
     AT_REST = "at_rest", "The disc is not driven (Omega = 0): nothing slides."
     NO_SPRING = "no_spring", "Without the spring in the plane (k_p = 0) nothing balances friction."
     PARADOX = "paradox", "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N."
+
+
+def _no_numbers() -> Array:
+    return np.zeros(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,15 +61,15 @@ class SteadySliding:
 
     status: SlidingStatus
     message: str
-    contact_force: float
-    psi: float
-    a: Array
-    b: Array
-    alpha: Array
-    beta: Array
-    eigenvalues: NDArray[np.complex128]
-    growth_rate: float
-    jacobian: Array
+    contact_force: float = math.nan
+    psi: float = math.nan
+    a: Array = field(default_factory=_no_numbers)
+    b: Array = field(default_factory=_no_numbers)
+    alpha: Array = field(default_factory=_no_numbers)
+    beta: Array = field(default_factory=_no_numbers)
+    eigenvalues: NDArray[np.complex128] = field(default_factory=lambda: np.zeros(0, complex))
+    growth_rate: float = math.nan
+    jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def stable(self) -> bool:
@@ -81,9 +85,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     ParameterError
         If `p` is no `Parameters`, or has no modes.
     """
-    if not isinstance(p, Parameters):
-        raise ParameterError(f"p={p!r}: must be Parameters")
-    check_modes(p, "steady_sliding")
+    refuse(case_faults(p, "steady_sliding"))
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
     if p.k_p == 0 and (p.mu_k > 0 or (p.contact_force == "normal" and p.D_star > 0)):
@@ -140,20 +142,7 @@ class _Law:
 
 
 def _absent(status: SlidingStatus) -> SteadySliding:
-    nothing, none = np.zeros(0), np.zeros(0, complex)
-    return SteadySliding(
-        status,
-        status.advice,
-        math.nan,
-        math.nan,
-        nothing,
-        nothing,
-        nothing,
-        nothing,
-        none,
-        math.nan,
-        np.zeros((0, 0)),
-    )
+    return SteadySliding(status, status.advice)
 
 
 def _equilibrium(p: Parameters, modes: Modes, damping: Array) -> tuple[Array, Array, float]:

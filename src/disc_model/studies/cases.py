@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from disc_model.data.dataset import CONVENTIONS, json_attribute
+from disc_model.data.dataset import CONVENTIONS, agreed
 
 
 def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[str, str]]) -> xr.DataTree:
@@ -52,7 +52,6 @@ def _common(rows: list[xr.Dataset]) -> dict[str, str]:
     """Provenance of the cases; a value that differs between them becomes the list of all."""
     common = {}
     for name in ("source_hash", "git_commit", "versions"):
-        values = sorted({str(row.attrs[name]) for row in rows if name in row.attrs})
-        if values:
-            common[name] = values[0] if len(values) == 1 else json_attribute(values)
+        if values := [str(row.attrs[name]) for row in rows if name in row.attrs]:
+            common[name] = agreed(values)
     return common

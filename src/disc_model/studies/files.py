@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
@@ -16,6 +16,7 @@ from disc_model.errors import DiscModelError, Fault, faults_of, shown
 # Faults, each with its path
 
 M = TypeVar("M", bound=BaseModel)
+T = TypeVar("T")
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 
 
@@ -123,6 +124,17 @@ def inherit(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 # Reading: what YAML itself would pass over or end in an error of its own is a fault
 
 
+def with_more_faults(parse: Callable[[Any], T], raw: Any, more: Sequence[str], source: str) -> T:
+    """What ``parse`` makes of a file's content; faults found before come with its own, in one error with the source."""
+    try:
+        found = parse(raw)
+    except StudyError as error:
+        raise StudyError(*more, *error.faults, source=source) from None
+    if more:
+        raise StudyError(*more, source=source)
+    return found
+
+
 def read_file(path: Path) -> tuple[Any, list[str]]:
     """A YAML file's content and the keys that it gives twice; raises `StudyError` if it cannot be read."""
     try:
@@ -189,13 +201,7 @@ def _marked(error: yaml.MarkedYAMLError) -> str:
 
 
 def read_yaml(text: str) -> tuple[Any, list[str]]:
-    """A YAML document and the keys that it gives twice.
-
-    Raises
-    ------
-    StudyError
-        If the text is no YAML.
-    """
+    """A YAML document and the keys that it gives twice; raises `StudyError` if the text is none."""
     try:
         loader = _UniqueKeyLoader(text)
         try:

@@ -36,6 +36,7 @@ from disc_model.studies.files import (
     read_file,
     shown_path,
     validated,
+    with_more_faults,
 )
 from disc_model.studies.grids.schema import GRID_KEYS, GridStudy, load_grids, parse_grid
 from disc_model.studies.modes import to_text
@@ -195,10 +196,6 @@ class Study:
         Parameters
         ----------
         folders : where files are looked for, the first that has one counts
-
-        Raises
-        ------
-        StudyError
         """
         paths = [path for pattern in self.studies for path in _found(pattern, folders)]
         own = {} if self.grid is None else {self.name: self.grid}
@@ -210,32 +207,23 @@ class Study:
 
 
 def load_study(path: str | Path) -> Study:
-    """Read and check a study file, but for the files that it names.
-
-    Raises
-    ------
-    StudyError
-        Listing every fault: wrong YAML, keys given twice, unknown keys, values that break a rule.
-    """
+    """Read and check a study file, but for the files that it names."""
     raw, faults = read_file(Path(path))
-    return _with_more_faults(raw, faults, str(path))
+    return with_more_faults(parse_study, raw, faults, str(path))
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     """The study that Snakemake read from files, later ones over earlier ones, and its command line.
 
-    Raises
-    ------
-    StudyError
-        As `load_study`; keys given twice are looked for in the files, since the mapping no longer shows them.
+    Keys given twice are looked for in the files, since the mapping no longer shows them.
     """
     paths = [Path(file) for file in files]
     faults = [fault for path in paths for fault in read_file(path)[1]]
-    return _with_more_faults(config, faults, ", ".join(map(shown_path, paths)) or "study")
+    return with_more_faults(parse_study, config, faults, ", ".join(map(shown_path, paths)) or "study")
 
 
 def parse_study(raw: Any) -> Study:
-    """Check the mapping a study file holds; raises `StudyError` listing every fault."""
+    """Check the mapping that a study file holds."""
     faults = Faults()
     header = validated(Document, raw, (), faults)
     raw = mapping(raw)
@@ -448,14 +436,3 @@ def _shown_besides(grid: GridStudy | None, asked: Sequence[str], folders: Sequen
         return []
     wanted = {name for plot in grid.plots.values() for name in plot.others.values()} - set(asked)
     return [path for name in sorted(wanted) for path in _found(f"{name}.yaml", folders) if Path(path).is_file()]
-
-
-def _with_more_faults(raw: Any, more: list[str], source: str) -> Study:
-    """`parse_study`, with faults found already and the name of the file in the error."""
-    try:
-        study = parse_study(raw)
-    except StudyError as error:
-        raise StudyError(*more, *error.faults, source=source) from None
-    if more:
-        raise StudyError(*more, source=source)
-    return study

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import chain, product
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
@@ -168,6 +168,13 @@ class Dimension:
         return tuple(sorted(value for block in self.blocks for value in block))
 
 
+def points(dims: Sequence[Dimension]) -> Iterator[dict[str, Value]]:
+    """What varies, by name, at every point of a grid."""
+    names = [name for dim in dims for name in dim.names]
+    for point in product(*(dim.values for dim in dims)):
+        yield dict(zip(names, chain.from_iterable(point), strict=True))
+
+
 def n_points(dims: Sequence[Dimension]) -> int:
     """Number of points of a grid."""
     return math.prod(len(dim.values) for dim in dims)
@@ -278,9 +285,8 @@ def check_points(dims: Sequence[Dimension], base: Mapping[str, Any], faults: Fau
     related = [dim for dim in dims if not RELATED.isdisjoint(dim.names)]
     varied = [name for dim in related for name in dim.names]
     broken: set[str] = set()
-    for point in product(*(dim.values for dim in related)):
-        values = dict(zip(varied, (value for part in point for value in part), strict=True))
-        for fault in cross_faults(Parameters, {**base, **values}):
+    for point in points(related):
+        for fault in cross_faults(Parameters, {**base, **point}):
             name = fault.path[0] if isinstance(fault, Fault) else ""
             if name not in broken:
                 broken.add(name)
@@ -289,6 +295,6 @@ def check_points(dims: Sequence[Dimension], base: Mapping[str, Any], faults: Fau
 
 def check_size(dims: Sequence[Dimension], faults: Faults) -> None:
     """A fault for a grid of more than `MOST_POINTS`."""
-    points = n_points(dims)
-    if points > MOST_POINTS:
-        faults.add(("axes",), "", f"must make at most {MOST_POINTS} points, and not {points}")
+    size = n_points(dims)
+    if size > MOST_POINTS:
+        faults.add(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")

@@ -15,7 +15,7 @@ from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Count, Finite, Parameters, Positive, Strict, cross_faults, is_number
 from disc_model.simulation.case import SomeParameters
 from disc_model.studies.files import Faults, add_parameter_faults
-from disc_model.studies.grids.dimensions import RELATED, Dimension
+from disc_model.studies.grids.dimensions import RELATED, Dimension, points
 
 # ----------------------------------------------------------------------------------------------------
 # What a file may say
@@ -163,9 +163,8 @@ def _broken(options: Sampled, base: Mapping[str, Any], dims: Sequence[Dimension]
     """Rules that ends of the distributions break, at any point; those between parameters hold if their corners do."""
     related = [name for name in options.names if name in RELATED]
     wanted = [dim for dim in dims if not {*options.names, *RELATED}.isdisjoint(dim.names)]
-    varied = [name for dim in wanted for name in dim.names]
-    for point in product(*(dim.values for dim in wanted)):
-        here = {**base, **dict(zip(varied, (value for part in point for value in part), strict=True))}
+    for point in points(wanted):
+        here = {**base, **point}
         ends = {name: drawn_ends(given, _own(name, here)) for name, given in options.distributions.items()}
         for name, both in ends.items():
             for end in both:

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain, product
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from disc_model.data.dataset import CONVENTIONS, json_attribute
+from disc_model.data.dataset import CONVENTIONS, agreed, json_attribute
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
 from disc_model.studies.grids.run import POINT, STATUSES, describe
@@ -30,18 +31,13 @@ class MergeError(DiscModelError):
 def merge_batches(
     batches: Sequence[xr.Dataset], grid: Sequence[Mapping[str, Any]], attrs: Mapping[str, str]
 ) -> xr.Dataset:
-    """Put batches together.
+    """Put batches together; raises `MergeError` if they disagree about dimensions, or are not those of the grid.
 
     Parameters
     ----------
     batches : as `disc_model.studies.grids.run.run_batch` makes them
     grid : dimensions, as `disc_model.studies.grids.schema.GridStudy.grid`
     attrs : further attributes, such as the title
-
-    Raises
-    ------
-    MergeError
-        If a point is missing, there twice, or foreign to the grid, or if the batches disagree about other dimensions.
     """
     try:
         flat = xr.concat(
@@ -92,21 +88,12 @@ def _places(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]], names: Sequence
         if point in rows:
             raise MergeError(f"there twice: {dict(zip(names, point, strict=True))}")
         rows[point] = row
-    points = list(_points([[tuple(value) for value in dim["values"]] for dim in grid]))
+    points = [tuple(chain.from_iterable(point)) for point in product(*(dim["values"] for dim in grid))]
     if missing := [point for point in points if point not in rows]:
         raise MergeError(f"missing: {dict(zip(names, missing[0], strict=True))} and {len(missing) - 1} more")
     if len(points) != len(rows):
         raise MergeError(f"{len(rows) - len(points)} points do not belong to the grid")
     return np.array([rows[point] for point in points])
-
-
-def _points(dims: Sequence[Sequence[tuple[Any, ...]]]) -> Iterator[tuple[Any, ...]]:
-    if not dims:
-        yield ()
-        return
-    for value in dims[0]:
-        for rest in _points(dims[1:]):
-            yield (*value, *rest)
 
 
 def _coordinates(grid: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, xr.Variable]]:
@@ -127,6 +114,5 @@ def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, st
     common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
     common["source_hash"] = common.pop("sources")
     for name in ("git_commit", "versions"):
-        values = sorted({str(batch.attrs[name]) for batch in batches})
-        common[name] = values[0] if len(values) == 1 else json_attribute(values)
+        common[name] = agreed(str(batch.attrs[name]) for batch in batches)
     return common

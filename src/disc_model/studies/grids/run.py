@@ -68,16 +68,13 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
         variables |= {name: _chosen(name, parameters) for name in ("n_diameters", "n_circles")}
     variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
     coords = {name: _coordinate(name, [point[i] for point in points]) for i, name in enumerate(names)}
-    own = {
-        name: (name, values, variable.attributes) for name, (values, variable) in quantity.coordinates(options).items()
-    }
     attrs = {
         "Conventions": CONVENTIONS,
         "specification": text,
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
     }
-    return xr.Dataset(variables, coords | own, attrs)
+    return xr.Dataset(variables, coords | own_coordinates(quantity, options), attrs)
 
 
 def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Table:
@@ -197,12 +194,17 @@ class Column(NamedTuple):
 
 
 class Described(Protocol):
-    """What every module of a quantity has."""
+    """What every module of a quantity has; those with dimensions of their own also have `coordinates`."""
 
     COLUMNS: Mapping[str, Column]
 
-    def coordinates(self, options: Any) -> Mapping[str, tuple[Any, Variable]]:
-        """Values along the quantity's own dimensions, beyond those of the grid."""
+
+def own_coordinates(quantity: Described, options: Any) -> dict[str, xr.Variable]:
+    """Values along a quantity's own dimensions, beyond those of the grid."""
+    if not hasattr(quantity, "coordinates"):
+        return {}
+    given = quantity.coordinates(options)
+    return {name: xr.Variable(name, values, variable.attributes) for name, (values, variable) in given.items()}
 
 
 class Tiled(Described, Protocol):
@@ -218,7 +220,11 @@ class Quantity(Described, Protocol):
     """A quantity of single points."""
 
     def at(self, p: Parameters, options: Any) -> tuple[Row, str]:
-        """Values at one point by column (flags as words), and a message; columns left out are missing."""
+        """Values at one point by column (flags as words), and a message.
+
+        Columns left out are missing, and so is what a list or array is shorter than its dimension; what it is longer
+        is left out.
+        """
 
 
 class Table(NamedTuple):
@@ -258,20 +264,30 @@ def compute(
 
 def table_of(quantity: Described, rows: Sequence[Row], messages: Sequence[str], options: Any) -> Table:
     """Rows and messages as a table."""
-    sizes = {name: len(values) for name, (values, _) in quantity.coordinates(options).items()}
+    own = own_coordinates(quantity, options)
     arrays = {}
     for name, column in quantity.COLUMNS.items():
-        shape = (len(rows), *(sizes[dim] for dim in column.dims))
-        array = column.empty(shape)
+        arrays[name] = column.empty((len(rows), *(own[dim].size for dim in column.dims)))
         for i, row in enumerate(rows):
             if name in row:
-                array[i] = _stored(row[name], column)
-        arrays[name] = array
+                _store(row[name], arrays[name], (i,), column)
     return Table(arrays, list(messages))
 
 
-def _stored(value: Any, column: Column) -> Any:
-    """Words of a flag, at any depth of lists, as numbers; arrays are numbers already."""
+def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Column) -> None:
+    """Put a value at a place of an array: words of a flag as numbers, of lists and arrays what there is room for."""
+    room = array.shape[len(place) :]
     if isinstance(value, list):
-        return [_stored(item, column) for item in value]
-    return column.variable.flags.index(value) if isinstance(value, str) else value
+        for i, item in enumerate(value[: room[0]]):
+            _store(item, array, (*place, i), column)
+    elif isinstance(value, np.ndarray) and value.ndim:
+        kept = value[tuple(map(slice, room))]
+        array[place][tuple(map(slice, kept.shape))] = kept
+    elif value is not None:
+        array[place] = column.variable.flags.index(value) if isinstance(value, str) else value
+
+
+def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
+    """Rows along a dimension of a quantity's own as its columns; what some rows lack is None, which is missing."""
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: [row.get(name) for row in rows] for name in names}

@@ -13,11 +13,10 @@ import importlib
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise, product
+from itertools import chain, pairwise, product
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 from pydantic import Field
 
 from disc_model.data.provenance import source_hash
@@ -38,6 +37,7 @@ from disc_model.studies.files import (
     read_file,
     shown_path,
     validated,
+    with_more_faults,
 )
 from disc_model.studies.grids.dimensions import (
     PUBLISHED,
@@ -52,6 +52,7 @@ from disc_model.studies.grids.dimensions import (
 )
 from disc_model.studies.grids.distributions import Sampled, check_distributions
 from disc_model.studies.grids.quantities.schema import QUANTITIES, Quantity, module_of
+from disc_model.studies.grids.run import own_coordinates
 from disc_model.studies.grids.summaries import summary_of
 from disc_model.studies.modes import chooser
 from disc_model.truncation import FREQUENCIES, asked_modes
@@ -144,7 +145,7 @@ def _chunks(dims: Sequence[Dimension], batch: BatchSpec) -> Iterator[list[list[V
     # a dimension that is not cut is taken as blocks of one value each
     blocks = [dim.blocks if dim.name in over else tuple((value,) for value in dim.values) for dim in dims]
     for chosen in product(*blocks):
-        points = [[value for part in point for value in part] for point in product(*chosen)]
+        points = [[*chain.from_iterable(point)] for point in product(*chosen)]
         for i in range(0, len(points), batch.size):
             yield points[i : i + batch.size]
 
@@ -165,9 +166,7 @@ def _tiles(
                 name: [(value,) for value in kept] for name, (_, kept) in zip(names, tile, strict=True)
             }
             own |= gathered | {dim.name: [value] for dim, value in zip(others, chosen, strict=True)}
-            points = [
-                [value for part in point for value in part] for point in product(*(own[dim.name] for dim in dims))
-            ]
+            points = [[*chain.from_iterable(point)] for point in product(*(own[dim.name] for dim in dims))]
             along = [values for values, _ in tile]
             within = [[_at(mark[name], values) for name, values in zip(names, along, strict=True)] for mark in sampled]
             kept = sorted(places for places in within if None not in places)
@@ -256,28 +255,17 @@ class GridStudy:
 
 
 def load_grid(path: str | Path, overrides: Mapping[str, Any] | None = None, resolution: Any = 1) -> GridStudy:
-    """Read and check a grid study.
+    """Read and check a grid study; raises one `StudyError` that lists every fault with its path.
 
     Parameters
     ----------
     overrides : laid over the file's content, key by key
     resolution : whole number by which the intervals of all ranges of the grid are divided further
-
-    Raises
-    ------
-    StudyError
-        Listing every fault with its path.
     """
     raw, more = read_file(Path(path))
     if isinstance(raw, Mapping) and overrides:
         raw = inherit(raw, overrides)
-    try:
-        study = parse_grid(raw, resolution)
-    except StudyError as error:
-        raise StudyError(*more, *error.faults, source=shown_path(Path(path))) from None
-    if more:
-        raise StudyError(*more, source=shown_path(Path(path)))
-    return study
+    return with_more_faults(lambda content: parse_grid(content, resolution), raw, more, shown_path(Path(path)))
 
 
 def load_grids(
@@ -534,10 +522,10 @@ def _general(plot: General, quantity: str, options: Strict, values: Values) -> I
     """What keeps a general figure from being drawn: the quantity's module knows its variables and dimensions."""
     module = importlib.import_module(module_of(quantity))
     grid = {name: [one[0] if len(one) == 1 else one for one in along] for name, along in values.items()}
-    own = {name: np.asarray(along).tolist() for name, (along, _) in module.coordinates(options).items()}
+    own = own_coordinates(module, options)
     variables = {name: (*grid, *column.dims) for name, column in module.COLUMNS.items()}
     if (summary := summary_of(quantity)) is not None:
         others = [name for name in grid if name != QUANTITIES[quantity].over]
         variables |= {name: (*others, *column.dims) for name, column in summary.COLUMNS.items()}
-        own |= {name: np.asarray(along).tolist() for name, (along, _) in summary.coordinates(options).items()}
-    return plot.faults_among(grid | own, variables)
+        own |= own_coordinates(summary, options)
+    return plot.faults_among(grid | {name: along.values.tolist() for name, along in own.items()}, variables)

@@ -119,6 +119,5 @@ def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: 
     values, message = bifurcation.at(Parameters(N=385, Omega=Omega), options)
     assert (values["steady"], message) == ("yes", "")
     assert values["period"] == period
-    psi = values["psi"][np.isfinite(values["psi"])]
-    assert len(np.unique(np.round(psi, 5))) == period
-    assert (values["phase"] == bifurcation.COLUMNS["phase"].variable.flags.index(phase)).all()
+    assert len(np.unique(np.round(values["psi"], 5))) == period
+    assert set(values["phase"]) == {phase}

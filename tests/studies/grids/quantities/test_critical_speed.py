@@ -86,8 +86,8 @@ def test_all_crossings_are_found_where_separation_ends_again() -> None:
     known = dict(times)
     ask = lambda i: known.setdefault(i, (times[i - 1] + times[i + 1]) / 2)  # noqa: E731
     critical_speed._bisect(known, ask, 800.0)
-    found = critical_speed._crossings(known, 800.0, lambda i: 10 + i / 10, 4)
+    found = critical_speed._crossings(known, 800.0, lambda i: 10 + i / 10)
     assert found["n_crossings"] == 3
-    assert found["crossing_kind"] == ["begins", "ends", "begins", "none"]
+    assert found["crossing_kind"] == ["begins", "ends", "begins"]
     assert found["critical_speed"] == 10.2
     assert all(b - a == 1 for a, b in [(1, 2), (5, 6), (6, 7)] if a in known)

@@ -18,7 +18,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared, published_start
 from disc_model.simulation.result import State
 from disc_model.stability.basins import KINDS, Attractor, Basins, Reached, random_kick
-from disc_model.studies.grids.run import STATUS, Column
+from disc_model.studies.grids.run import STATUS, Column, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import BasinsOptions
@@ -73,15 +73,15 @@ def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
 def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     """Starts that fail have a status of their own share; the point fails if all do."""
     sample = _Sample(p, options)
-    found = [[sample.reached(j, i) for i in range(options.starts)] for j in range(len(options.energies))]
+    found = [[sample.done[j, i] for i in range(options.starts)] for j in range(len(options.energies))]
     rows = [reached for row in found for reached in row]
     attractors = _by_starts(rows)
     failed = [reached for reached in rows if reached.kind == "failed"]
     values: dict[str, Any] = {
         "status": failed[0].status if len(failed) == len(rows) else "ok",
         "kind": [[reached.kind for reached in row] for row in found],
-        "reached": np.array([[_number(reached.attractor, attractors) for reached in row] for row in found]),
-        "simulated": np.array([[reached.simulated for reached in row] for row in found]),
+        "reached": [[_number(reached.attractor, attractors) for reached in row] for row in found],
+        "simulated": [[reached.simulated for reached in row] for row in found],
         "separated": [["yes" if reached.separated else "no" for reached in row] for row in found],
     }
     values |= _shares("energy_share", found, options.confidence) | _shares("share", [rows], options.confidence, 0)
@@ -101,9 +101,6 @@ class _Sample:
         for i in range(options.starts):
             for j, energy in enumerate(options.energies):
                 self.done[j, i] = self.kicked(energy, j, i)
-
-    def reached(self, j: int, i: int) -> Reached:
-        return self.done[j, i]
 
     def kicked(self, energy: float, j: int, i: int) -> Reached:
         """What a kick of any energy in the direction of a start comes to."""
@@ -167,20 +164,15 @@ def _number(attractor: Attractor | None, attractors: Sequence[Attractor]) -> int
 
 
 def _described(attractors: Sequence[Attractor], rows: Sequence[Reached]) -> dict[str, Any]:
-    values: dict[str, Any] = {name: column.empty((ROOM,)) for name, column in COLUMNS.items() if column.dims == _KNOWN}
-    for i, attractor in enumerate(attractors[:ROOM]):
-        signature = attractor.signature
-        one = {
-            "kind": KINDS.index(attractor.kind),
-            "starts": sum(reached.attractor is attractor for reached in rows),
-            "range": signature.range,
-            "separation_rate": signature.separation_rate,
-            "share_stick": signature.share_stick,
-            "share_separation": signature.share_separation,
-            "releases": attractor.releases,
-            "period": attractor.period,
-            "growth_rate": attractor.growth_rate,
+    described = [
+        {
+            "attractor_kind": attractor.kind,
+            "attractor_starts": sum(reached.attractor is attractor for reached in rows),
+            "attractor_releases": attractor.releases,
+            "attractor_period": attractor.period,
+            "attractor_growth_rate": attractor.growth_rate,
+            **{f"attractor_{name}": value for name, value in attractor.signature._asdict().items()},
         }
-        for name, value in one.items():
-            values[f"attractor_{name}"][i] = value
-    return values
+        for attractor in attractors
+    ]
+    return listed(described)

@@ -15,7 +15,7 @@ from disc_model.simulation.case import Record
 from disc_model.simulation.result import State
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
 from disc_model.stability.cycle import cycle_neared
-from disc_model.stability.return_map import modes_faults
+from disc_model.stability.return_map import case_faults
 from disc_model.studies.grids.run import STATUS, STATUSES, Column
 
 if TYPE_CHECKING:
@@ -102,8 +102,8 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
             stick += run.statistics["time_stick"]
             state, begin = run.final_state, run.final_state.time
             if not run.status.complete:
-                values = {"status": run.status.value, "first_separation": first, "separations": separations}
-                return values, f"the simulation ended early: {run.status}"
+                known = {"status": run.status.value, "first_separation": first, "separations": separations}
+                return known, f"the simulation ended early: {run.status}"
             if recorded:
                 stretches.append(run.events)
         kind = "separation" if any((events["kind"] == "separation").any() for events in stretches) else "stick_to_slip"
@@ -117,12 +117,10 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
         transient *= 2
     taken = after_.iloc[-options.samples :]
     columns = {"psi": taken["psi"], "psi_velocity": p.Omega - taken["f"], "P": taken["P"], "u": taken["u"]}
-    values = {name: _filled(column.to_numpy(dtype=float), options.samples) for name, column in columns.items()}
-    phase = np.zeros(options.samples, np.int8)
-    phase[: len(taken)] = 1 + PHASES.index("separation" if kind == "separation" else "stick")
+    values: dict[str, Any] = {name: column.to_numpy(dtype=float) for name, column in columns.items()}
     values |= {
         "status": "ok",
-        "phase": phase,
+        "phase": ["separation" if kind == "separation" else "stick"] * len(taken),
         "first_separation": first,
         "separations": separations,
         "stick_fraction": stick / begin,
@@ -148,7 +146,7 @@ def _period(p: Parameters, events: Any, kind: str, state: State) -> tuple[int, f
     if n := repeats(intervals):
         return n, closure(intervals, n)
     releases = int((events["kind"] == "stick_to_slip").sum())
-    for n in nearly(intervals) if releases and not modes_faults(p, "a cycle") else ():
+    for n in nearly(intervals) if releases and not case_faults(p, "a cycle") else ():
         cycle = cycle_neared(p, state, max(1, round(n * releases / at.sum())))
         if cycle is not None:
             found = cycle.separations if kind == "separation" else cycle.releases
@@ -187,10 +185,6 @@ def alike(one: np.ndarray, two: np.ndarray) -> bool:
     quantiles = [np.quantile(stretch, np.linspace(0, 1, 21)) for stretch in (one, two)]
     counts = abs(len(one) - len(two)) <= max(1, ALIKE * len(two))
     return bool(counts and np.max(np.abs(quantiles[0] - quantiles[1])) <= ALIKE * spread)
-
-
-def _filled(values: np.ndarray, size: int) -> np.ndarray:
-    return np.concatenate([values, np.full(size - len(values), math.nan)])
 
 
 def state_at(p: Parameters, options: BifurcationOptions) -> State:

@@ -43,14 +43,12 @@ def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
 def at(p: Parameters, options: CampbellOptions) -> tuple[dict[str, Any], str]:
     """Of this point; modes are numbered by their frequency here, whatever they are at its neighbours."""
     found = frequencies(p, tol=options.tol)
-    cycle, room = found.cycle, options.modes
+    cycle = found.cycle
     values: dict[str, Any] = {
         "status": cycle.status.value,
         "growth_rate": cycle.growth_rate,
         "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
         "rotation_frequency": p.Omega / (2 * math.pi),
-    }
-    arrays = {
         "mode_kind": np.where(found.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
         "diameters": np.maximum(found.diameters, 0),
         "forward": found.forward,
@@ -60,7 +58,4 @@ def at(p: Parameters, options: CampbellOptions) -> tuple[dict[str, Any], str]:
         "cycle_growth_rate": found.cycle_growth_rate,
         "likeness": found.likeness,
     }
-    for name, array in arrays.items():
-        values[name] = COLUMNS[name].empty((room,))
-        values[name][: len(array)] = array[:room]
     return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice

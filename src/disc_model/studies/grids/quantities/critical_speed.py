@@ -16,11 +16,12 @@ import numpy as np
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
+from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.fate import Fate, fate
-from disc_model.stability.return_map import modes_faults
+from disc_model.stability.return_map import case_faults
 from disc_model.stability.settling import follow
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.run import STATUS, Column
+from disc_model.studies.grids.run import STATUS, Column, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions
@@ -109,9 +110,7 @@ def at(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], st
         "simulations": len(known),
         "simulated_time": total,
     }
-    columns = [_crossings(known, horizon, scale, options.max_crossings) for horizon in horizons]
-    for name in columns[0]:
-        values[name] = [column[name] for column in columns]
+    values |= listed([_crossings(known, horizon, scale) for horizon in horizons])
     return values, "; ".join(messages)
 
 
@@ -127,7 +126,7 @@ class Motion(NamedTuple):
 def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
     """The motion from the published start, up to the longest horizon."""
     horizon, simulated = options.horizons[-1], 0.0
-    if not modes_faults(case, "fate") and min(case.N, case.Omega, case.k_p, case.mu_s) > 0:
+    if not case_faults(case, "fate") and may_stick_and_slip(case):
         found = fate(case, horizon, tol=options.tol, furthest=FURTHEST)
         if not _doubtful(found, options.horizons):
             return Motion(found.first_separation, found.simulated, found.status, found.message)
@@ -172,16 +171,15 @@ def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
     ]
 
 
-def _crossings(known: dict[int, float], horizon: float, scale: Callable[[int], float], room: int) -> dict[str, Any]:
+def _crossings(known: dict[int, float], horizon: float, scale: Callable[[int], float]) -> dict[str, Any]:
     """What one horizon finds among the known speeds."""
     found = [(scale(b), "begins" if known[b] <= horizon else "ends") for _, b in _changes(known, horizon)]
     # the first that separates; one of which it is not known hides those above it
     first = next((i for i in sorted(known) if not known[i] > horizon), None)
     lowest = math.nan if first is None or math.isnan(known[first]) else scale(first)
-    kept = found[:room] + [(math.nan, "none")] * (room - len(found))
     return {
         "critical_speed": lowest,
         "n_crossings": len(found),
-        "crossing": [speed for speed, _ in kept],
-        "crossing_kind": [kind for _, kind in kept],
+        "crossing": [speed for speed, _ in found],
+        "crossing_kind": [kind for _, kind in found],
     }

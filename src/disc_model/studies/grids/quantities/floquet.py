@@ -26,11 +26,6 @@ COLUMNS = {
 }
 
 
-def coordinates(options: FloquetOptions) -> dict[str, Any]:
-    """No dimensions beyond the grid's."""
-    return {}
-
-
 def at(p: Parameters, options: FloquetOptions) -> tuple[dict[str, Any], str]:
     """The cycle of this point, not started from a neighbour's."""
     cycle = floquet(p, tol=options.tol)

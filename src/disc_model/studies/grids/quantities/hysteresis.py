@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
-from disc_model.stability.settling import late_stretch, numbers
+from disc_model.stability.settling import late_stretch
 from disc_model.studies.grids.dimensions import values_of
 from disc_model.studies.grids.run import STATUS, STATUSES, Column
 
@@ -60,7 +61,7 @@ def at(p: Parameters, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
             break
         state = result.final_state
         values["sweep_status"][place] = STATUSES.index("ok")
-        for name, number in numbers(late).items():
+        for name, number in asdict(late).items():
             if name in values:
                 values[name][place] = number
     done = values["sweep_status"] == STATUSES.index("ok")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared
 from disc_model.simulation.result import Result, State
-from disc_model.stability.settling import Followed, Late, follow, late_stretch, numbers
+from disc_model.stability.settling import Followed, Late, follow, late_stretch
 from disc_model.studies.grids.run import STATUS, Column
 
 if TYPE_CHECKING:
@@ -37,11 +38,6 @@ COLUMNS = {
 }
 
 
-def coordinates(options: OutcomeOptions) -> dict[str, Any]:
-    """No dimensions beyond the grid's."""
-    return {}
-
-
 def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     """The late stretch of a point that separates lies ``after_separation`` later."""
     followed, result, late = _late(p, options)
@@ -60,7 +56,7 @@ def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     if followed.settled:
         values["settled"] = followed.simulated
     if late is not None:
-        values |= numbers(late)
+        values |= asdict(late)
     return values, "" if result.status.complete else result.message
 
 

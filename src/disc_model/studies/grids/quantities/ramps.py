@@ -15,7 +15,7 @@ from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import Result, State
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.run import STATUS, STATUSES, Column
+from disc_model.studies.grids.run import STATUS, Column, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import RampsOptions
@@ -42,18 +42,14 @@ def coordinates(options: RampsOptions) -> dict[str, tuple[Any, Variable]]:
 
 def at(p: Parameters, options: RampsOptions) -> tuple[dict[str, Any], str]:
     """A run for each rate; the point's own Omega is not used."""
-    rates = values_of(options.rates)
-    values: dict[str, Any] = {name: column.empty((len(rates),)) for name, column in COLUMNS.items() if column.dims}
+    rows: list[dict[str, Any]] = []
     status, message = "ok", ""
-    for i, rate in enumerate(rates):
-        run = _Run(p, rate, options)
-        found, failed = run.found()
-        values["rate_status"][i] = STATUSES.index(failed.status.value if failed else "ok")
-        for name, value in found.items():
-            values[name][i] = value
+    for rate in values_of(options.rates):
+        found, failed = _Run(p, rate, options).found()
+        rows.append({"rate_status": failed.status.value if failed else "ok", **found})
         if failed:
             status, message = failed.status.value, f"rate={rate:g}: {failed.message}"
-    return values | {"status": status}, message
+    return listed(rows) | {"status": status}, message
 
 
 class _Run:

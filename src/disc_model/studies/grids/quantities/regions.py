@@ -85,11 +85,6 @@ MOST_CYCLES = 4
 """Cycles carried from point to point, at most."""
 
 
-def coordinates(options: RegionsOptions) -> dict[str, Any]:
-    """No dimensions beyond the grid's."""
-    return {}
-
-
 def over(
     points: Sequence[Sequence[Point]], options: RegionsOptions, sampled: Collection[Place]
 ) -> list[list[tuple[Row, str]]]:

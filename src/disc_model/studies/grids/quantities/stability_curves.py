@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.curves import StabilityCurve, stability_curves
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.run import STATUS, Column
+from disc_model.studies.grids.run import STATUS, Column, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import StabilityCurvesOptions
@@ -61,29 +62,19 @@ def at(p: Parameters, options: StabilityCurvesOptions) -> tuple[dict[str, Any], 
         longest=options.longest,
         tol=options.tol,
     )
-    sizes = {name: len(along) for name, (along, _) in coordinates(options).items()}
-    values: dict[str, Any] = {
-        name: column.empty([sizes[dim] for dim in column.dims]) for name, column in COLUMNS.items() if column.dims
-    }
     # room is for the longest
-    kept = sorted(curves, key=lambda curve: -len(curve.period))[: options.max_curves]
-    for i, curve in enumerate(kept):
-        for name, array in _arrays(curve).items():
-            values[name][i, : len(array)] = array
-        tongue = curve.tongue
-        values["kind"][i] = KINDS.index(curve.kind)
-        for name in ("harmonic", "frequency", "diameters", "sign", "detuning"):
-            values[f"tongue_{name}"][i] = getattr(tongue, name)
-    counts = {"n_curves": len(curves), "n_unfollowed": len(notes)}
-    return values | counts | {"status": "ok"}, ""
+    rows = [_row(curve) for curve in sorted(curves, key=lambda curve: -len(curve.period))]
+    return listed(rows) | {"status": "ok", "n_curves": len(curves), "n_unfollowed": len(notes)}, ""
 
 
-def _arrays(curve: StabilityCurve) -> dict[str, np.ndarray]:
+def _row(curve: StabilityCurve) -> dict[str, Any]:
     return {
+        "kind": curve.kind,
         "x": curve.values[:, 0],
         "y": curve.values[:, 1],
         "border": curve.border,
         "period": curve.period,
         "multiplier_re": curve.multipliers.real,
         "multiplier_im": curve.multipliers.imag,
+        **{f"tongue_{name}": value for name, value in asdict(curve.tongue).items()},
     }

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import xarray as xr
 
 from disc_model.studies.grids.quantities.schema import QUANTITIES
-from disc_model.studies.grids.run import Described, Row, table_of
+from disc_model.studies.grids.run import Described, Row, own_coordinates, table_of
 
 
 class Summary(Described, Protocol):
@@ -62,7 +62,4 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
         )
         for name, column in summary.COLUMNS.items()
     }
-    coords = {
-        name: (name, values, variable.attributes) for name, (values, variable) in summary.coordinates(checked).items()
-    }
-    return study.assign_coords(coords).assign(variables)
+    return study.assign_coords(own_coordinates(summary, checked)).assign(variables)

@@ -18,7 +18,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.variables import Variable
-from disc_model.studies.grids.run import Column
+from disc_model.studies.grids.run import Column, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import CampbellOptions
@@ -77,24 +77,13 @@ def of(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
     """Over the speeds, which ascend."""
     cell = cell.transpose("Omega", ...)
     found = sorted(crossings(cell), key=lambda one: (one.Omega, one.mode, one.multiple))
-    kept = found[: options.max_crossings]
-    columns: dict[str, list[Any]] = {name: [] for name in COLUMNS if name.startswith("crossing_")}
+    rows = []
     growth = cell["cycle_growth_rate"].transpose("Omega", "mode").values
-    for one in kept:
+    for one in found[: options.max_crossings]:
         effect, highest, rise, mode = effect_of(one, growth, cell["growth_rate"].values, options.window, options.rise)
         row = {name: getattr(one, name) for name in ("Omega", "frequency", "mode", "line", "multiple")}
-        row |= {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": mode}
-        for name, value in row.items():
-            columns[f"crossing_{name}"].append(value)
-    return {"n_crossings": len(found)} | {name: _filled(name, column, options) for name, column in columns.items()}
-
-
-def _filled(name: str, found: list[Any], options: CampbellOptions) -> NDArray[Any]:
-    column = COLUMNS[name]
-    whole = column.empty((options.max_crossings,))
-    words = column.variable.flags
-    whole[: len(found)] = [words.index(value) for value in found] if words else found
-    return whole
+        rows.append(row | {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": mode})
+    return {"n_crossings": len(found)} | {f"crossing_{name}": column for name, column in listed(rows).items()}
 
 
 def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
