@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import io
 import json
 import os
@@ -38,8 +39,6 @@ def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str,
 
 def options_of(command: str) -> set[str]:
     commands = {info.callback.__name__: info.callback for info in cli.app.registered_commands if info.callback}
-    import inspect
-
     return set(inspect.signature(commands[command]).parameters)
 
 
@@ -81,6 +80,7 @@ def test_underscores_are_accepted_in_option_names(capsys: pytest.CaptureFixture[
         ((*BASE, "--t-end", "1", "--plot", "no/such/p.png"), ("must be in a folder that exists",)),
         ((*BASE, "--t-end", "1", "--max-steps", "1.5"), ("max_steps=1.5: must be a whole number >= 1",)),
         ((*BASE, "--t-end", "1", "--save", "no/such/r.nc"), ("save='no/such/r.nc': must be in a folder that exists",)),
+        ((*BASE, "--t-end", "1", "--checkpoint", "no/such"), ("checkpoint='no/such': must be a file in a folder",)),
         ((*BASE, "--t-end", "1", "--window", "late"), ("window='late': must be NAME:KEY=VALUE,...",)),
         # used to be refused by the file, after the simulation
         ((*BASE, "--t-end", "1", "--window", "events:rate=100"), ("window='events:rate=100': must be NAME:KEY",)),
@@ -146,8 +146,6 @@ def test_run_prints_a_summary(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_run_agrees_with_simulate(capsys: pytest.CaptureFixture[str]) -> None:
-    from disc_model import simulate
-
     _, out, _ = call(capsys, "run", *BASE, "--t-end", "0.3", "--k-p", "1.5e4", "--tol", "1e-8")
     result = simulate(Parameters(N=385, Omega=15.1, k_p=1.5e4), 0.3, tol=1e-8)
     assert f"events              {result.statistics['events']}\n" in out
@@ -278,9 +276,6 @@ def test_what_is_nobodys_fault_is_not_hidden(monkeypatch):
 
 
 def test_a_checkpoint_may_be_named(capsys, tmp_path):
-    code, _, err = call(capsys, "run", *SMALL_BASE, "--t-end", "0.01", "--checkpoint", str(tmp_path / "no" / "such"))
-    assert code == 2
-    assert "must be a file in a folder that exists" in err
     file = tmp_path / "run"
     code, out, _ = call(capsys, "run", *SMALL_BASE, "--t-end", "0.01", "--checkpoint", str(file))
     assert code == 0

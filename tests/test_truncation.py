@@ -62,7 +62,9 @@ def test_the_choice_is_recorded_and_does_not_depend_on_the_given_size():
     assert choose_modes(P.replace(n_diameters=7, n_circles=1)) == choice
 
 
-def test_bad_tolerances_are_named():
+def test_bad_input_is_named():
+    with pytest.raises(ParameterError, match=r"band=True: must be finite and > 0; rich=\(-1, 0\): .*; case='x': "):
+        choose_modes("x", band=True, rich=(-1, 0))
     with pytest.raises(ParameterError, match=r"tolerance=1e-09: must be finite and >= 0\.0001; band=0"):
         choose_modes(P, 1e-9, band=0)
     with pytest.raises(DiscModelError, match="enlarge rich"):
@@ -146,8 +148,3 @@ def test_a_case_for_which_no_number_of_modes_does_is_a_fault(monkeypatch: pytest
     raw["cases"] = {"A": {"title": "A", "t_end": 0.01, "parameters": {"N": 385}}}
     with pytest.raises(StudyError, match=r"base\.n_diameters = 'auto': tolerance=0\.001: no model up to"):
         parse_study(raw)
-
-
-def test_bad_input_is_named_in_full():
-    with pytest.raises(ParameterError, match=r"band=True: must be finite and > 0; rich=\(-1, 0\): .*; case='x': "):
-        choose_modes("x", band=True, rich=(-1, 0))

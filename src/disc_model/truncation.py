@@ -177,13 +177,13 @@ def _with_faults(values: Mapping[str, Any], faults: list[str]) -> Parameters:
     return p
 
 
-def frequency_error(p: Parameters, rich: Parameters, band: float = BAND) -> float:
+def frequency_error(p: Parameters, rich: Parameters) -> float:
     """Largest relative error of the coupled frequencies of ``p`` within the band, ``rich`` taken as right.
 
-    The band reaches up to ``band`` times the disc's lowest frequency.  A frequency of ``rich`` that ``p`` lacks counts
+    The band reaches up to `BAND` times the disc's lowest frequency.  A frequency of ``rich`` that ``p`` lacks counts
     as an error of 1.
     """
-    return _worst(_frequencies(p), _frequencies(rich), band * float(mode_arrays(rich).omega.min()))
+    return _worst(_frequencies(p), _frequencies(rich), BAND * float(mode_arrays(rich).omega.min()))
 
 
 def _frequencies(p: Parameters) -> np.ndarray:

@@ -370,14 +370,6 @@ class TestCommands:
             line for line in undisturbed.splitlines() if "wall" not in line
         ]
 
-    def test_run_refuses_a_folder_that_is_not_there(self, capsys: pytest.CaptureFixture[str]) -> None:
-        with pytest.raises(SystemExit) as ended:
-            main(["run", "--N", "-1", "--Omega", "1", "--t-end", "1", "--checkpoint", "no/such"])
-        assert ended.value.code == 2
-        err = capsys.readouterr().err
-        assert "N=-1: " in err
-        assert "checkpoint='no/such': must be a file in a folder that exists" in err
-
     def test_a_case_of_the_workflow(self, tmp_path: Path) -> None:
         window = Window(start=0, stop=5, rate=50, envelope=10)
         spec = CaseSpec(P, 5.0, 1e-10, None, (("history", window),), None, (0.0, 5.0), energy=False)

@@ -16,8 +16,6 @@ from disc_model.studies.schema import Study, load_study, parse_study, study_from
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
-
-
 CONFIGS = sorted((ROOT / "config").glob("*.yaml"))
 
 
@@ -170,13 +168,6 @@ def test_what_a_figure_needs_of_a_window_is_checked_with_the_study() -> None:
     assert f"figures.0 = 'fig13': {place}.history must be two envelopes long or more" in faults_of(parse_study, raw)
 
 
-def test_window_outside_the_run() -> None:
-    raw = raw_study()
-    raw["cases"]["A"]["record"] = {"windows": {"zoom": {"start": 11, "rate": 10}}}
-    (fault,) = faults_of(parse_study, raw)
-    assert fault.startswith("cases.A.record.windows.zoom: must be within the run")
-
-
 def test_inherited_faults_are_listed_once_and_where_they_stand() -> None:
     raw = raw_study()
     raw["base"]["m"] = 0
@@ -254,6 +245,7 @@ def recording(**record: Any) -> dict[str, Any]:
         ({"cases": {"A": CASE | {"parameters": 3}}}, "cases.A.parameters"),
         ({"cases": recording(events={"last": 1, "start": 0})}, "must give either last, or start and stop"),
         ({"cases": recording(events={"start": 2})}, "cases.A.record.events: must be within the run"),
+        ({"cases": recording(windows={"zoom": {"start": 11, "rate": 10}})}, "windows.zoom: must be within the run"),
         ({"cases": recording(windows={"events": {"start": 0, "rate": 1}})}, "a window must not be called so"),
         ({"cases": {"A": CASE}, "figures": 3}, "figures"),
         ({"cases": {"F13": CASE}, "figures": ["fig13", "fig11", "fig99"]}, "figures.2 = 'fig99': unknown figure"),

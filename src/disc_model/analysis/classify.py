@@ -20,6 +20,8 @@ NEAR_RETURN = 1e-3
 of n must close a thousand times better than that."""
 FEWEST = 20
 """Fewest intervals that a motion is judged by."""
+FREQUENCIES = 101
+"""Of which the 0-1 test takes the median."""
 
 
 class Kind(enum.StrEnum):
@@ -57,7 +59,7 @@ class Motion(NamedTuple):
         return str(self.kind)
 
 
-def motion_of(intervals: Array, tolerance: float = 1e-8, longest: int | None = None) -> Motion:
+def motion_of(intervals: Array, tolerance: float = 1e-8) -> Motion:
     """Classify a motion by the intervals between its releases.
 
     Parameters
@@ -65,7 +67,6 @@ def motion_of(intervals: Array, tolerance: float = 1e-8, longest: int | None = N
     intervals : s, shape (n,)
     tolerance : s, how exactly a periodic motion has to repeat: above what is left of the approach to it, far below
         the intervals' own differences
-    longest : longest period looked for, in releases; by default half the record
 
     Raises
     ------
@@ -75,9 +76,8 @@ def motion_of(intervals: Array, tolerance: float = 1e-8, longest: int | None = N
     if intervals.size < FEWEST:
         raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
     spread = irregularity(intervals)
-    longest = min(longest or intervals.size, intervals.size // 2)
-    period = shortest_period(intervals, tolerance, longest)
-    if period:
+    longest = intervals.size // 2
+    if period := shortest_period(intervals, tolerance):
         return Motion(Kind.PERIODIC, period, spread, closure(intervals, period), np.nan, longest)
     chaos = zero_one(intervals)
     kind = Kind.IRREGULAR if chaos > 0.7 else Kind.QUASI_PERIODIC if chaos < 0.3 else Kind.UNDECIDED
@@ -94,16 +94,15 @@ def closure(intervals: Array, period: int) -> float:
     return float(np.max(np.abs(intervals[period:] - intervals[:-period])))
 
 
-def shortest_period(intervals: Array, tolerance: float, longest: int | None = None) -> int:
-    """Least number of releases after which intervals repeat to `tolerance` s; 0 if none up to `longest`.
+def shortest_period(intervals: Array, tolerance: float) -> int:
+    """Least number of releases after which intervals repeat to `tolerance` s; 0 if there is none.
 
-    At most half the intervals, which is the default: a period must be seen twice. One that closes no better than
+    At most half the intervals: a period must be seen twice. One that closes no better than
     the near returns of a quasi-periodic motion do (see `NEAR_RETURN`) is none, but for a period of 1: from one release
     to the next there is no near return, only a slow approach or drift, which `tolerance` is there to allow.
     """
-    longest = min(longest or intervals.size, intervals.size // 2)
     extent = float(np.ptp(intervals))
-    for n in range(1, longest + 1):
+    for n in range(1, intervals.size // 2 + 1):
         if abs(intervals[n] - intervals[0]) > tolerance:
             continue
         apart = closure(intervals, n)
@@ -112,14 +111,14 @@ def shortest_period(intervals: Array, tolerance: float, longest: int | None = No
     return 0
 
 
-def zero_one(values: Array, n_frequencies: int = 101, seed: int = 0) -> float:
+def zero_one(values: Array) -> float:
     """The 0-1 test for chaos: the median over random c of the growth of p + iq = sum of values exp(i c j).
+
+    The c, `FREQUENCIES` of them, are drawn from the middle of (0, pi), the same at every call.
 
     Parameters
     ----------
     values : shape (n,), a scalar signal with one value a cycle (no oversampled one, which always seems regular)
-    n_frequencies : how many c are drawn, from the middle of (0, pi)
-    seed : of the draw: equal signals give equal results
 
     Returns
     -------
@@ -130,7 +129,7 @@ def zero_one(values: Array, n_frequencies: int = 101, seed: int = 0) -> float:
     signal = (signal - signal.mean()) / (signal.std() or 1.0)
     n, n_cut = signal.size, max(2, signal.size // 10)
     steps = np.arange(1, n_cut + 1)
-    drawn = np.random.default_rng(seed).uniform(np.pi / 5, 4 * np.pi / 5, n_frequencies)
+    drawn = np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, FREQUENCIES)
     found = [_growth(signal, float(c), steps, n - n_cut) for c in drawn]
     return float(np.median(found))
 

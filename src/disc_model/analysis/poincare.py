@@ -17,6 +17,8 @@ from disc_model.data.variables import PHASES
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 SEPARATION = PHASES.index("separation")
+SAME = 0.01
+"""Share of the range, along every axis, within which points are one."""
 
 
 class Stages(NamedTuple):
@@ -47,19 +49,15 @@ def stages(time: Array, phase: NDArray[np.int8], first_separation: float, t_end:
     return Stages(before & ~apart, ~before & ~apart, apart, divided)
 
 
-def distinct_points(points: Array, tolerance: float = 0.01) -> int:
-    """How many different points a section has.
+def distinct_points(points: Array) -> int:
+    """How many different points a section has, found greedily.
+
+    Those within `SAME` of each other are one; chains of near points stay several, so that a closed curve has about
+    1/`SAME` points.
 
     Parameters
     ----------
     points : shape (n, d); each coordinate is measured in units of its own range
-    tolerance : points nearer to each other than this share of the range, along every axis, are one; chains of near
-        points stay several, so that a closed curve has about 1/tolerance points
-
-    Returns
-    -------
-    int
-        Number of cells of a grid of that width that are needed to cover the section, found greedily.
     """
     points = np.asarray(points, dtype=float)
     if points.size == 0:
@@ -69,6 +67,6 @@ def distinct_points(points: Array, tolerance: float = 0.01) -> int:
     scaled = np.where(extent > rounding, (points - points.min(axis=0)) / np.where(extent > 0, extent, 1.0), 0.0)
     centres: list[Array] = []
     for point in scaled:
-        if not centres or np.min(np.max(np.abs(np.array(centres) - point), axis=1)) > tolerance:
+        if not centres or np.min(np.max(np.abs(np.array(centres) - point), axis=1)) > SAME:
             centres.append(point)
     return len(centres)

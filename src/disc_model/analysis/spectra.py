@@ -11,6 +11,9 @@ from scipy.signal.windows import blackmanharris, hann
 
 Array = NDArray[np.float64]
 
+AROUND = (1.0, 6.0)
+"""Hz, distances from a line between which the level of its neighbourhood is taken."""
+
 
 class Line(NamedTuple):
     """A spectral line: frequency in Hz and amplitude in the signal's unit."""
@@ -107,21 +110,21 @@ def strongest(time: Array, values: Array, near: float, within: float) -> Line:
     return max(found, key=lambda line: line.amplitude)
 
 
-def chance(time: Array, values: Array, line: Line, searched: float, near: float = 1.0, far: float = 6.0) -> float:
+def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     """Probability that noise of its neighbourhood's level has a line as strong within what was searched.
 
     Parameters
     ----------
     line : found among bins no further than `searched` Hz from some place
-    near, far : Hz, distances from the line between which the neighbourhood's level is taken, as the median of the
-        power: other lines, as long as they are few, do not count
 
     Notes
     -----
-    The power of noise in a bin is distributed exponentially: above x medians with the probability 2^-x. Bins are taken
-    for independent, which the window makes them not; the probability is too large by that. Raises ValueError if there
-    is no bin in the neighbourhood: the samples are too short.
+    The level is the median of the power over `AROUND`: other lines, as long as they are few, do not count. The power of
+    noise in a bin is distributed exponentially: above x medians with the probability 2^-x. Bins are taken for
+    independent, which the window makes them not; the probability is too large by that. Raises ValueError if there is no
+    bin in the neighbourhood: the samples are too short.
     """
+    near, far = AROUND
     frequency, amplitude = amplitude_spectrum(time, values)
     apart = np.abs(frequency - line.frequency)
     around = amplitude[(apart > near) & (apart < far)]
@@ -134,12 +137,12 @@ def chance(time: Array, values: Array, line: Line, searched: float, near: float 
     return float(-np.expm1(trials * np.log1p(-np.exp2(-(line.amplitude**2) / level))))
 
 
-def identify(frequency: float, f_s: float, f_drive: float, n_max: int = 12, m_max: int = 3) -> Combination:
-    """The combination ``n f_s + m f_drive`` (0 <= n <= n_max, abs(m) <= m_max) nearest to a frequency, all Hz.
+def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
+    """The combination ``n f_s + m f_drive`` (0 <= n <= 12, abs(m) <= 3) nearest to a frequency, all Hz.
 
     Of combinations equally near, to a thousandth of a Hz, that with the smallest orders is taken.
     """
-    orders = [(n, m) for n in range(n_max + 1) for m in range(-m_max, m_max + 1) if n > 0 or m > 0]
+    orders = [(n, m) for n in range(13) for m in range(-3, 4) if n > 0 or m > 0]
 
     def cost(order: tuple[int, int]) -> tuple[float, int]:
         n, m = order

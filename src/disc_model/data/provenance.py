@@ -168,7 +168,7 @@ def _text(node: ast.AST, imports: list[tuple[int, str, tuple[str, ...]]]) -> str
 _EXAMPLE = "results/paper/cases/F02.nc"
 
 
-def unrecorded(files: Iterable[str], folder: Path = Path(".snakemake")) -> list[str]:
+def unrecorded(files: Iterable[str]) -> list[str]:
     """Those of the files that are there without a readable record.
 
     What an interrupted run left unfinished is not among them: Snakemake knows of it.
@@ -177,8 +177,8 @@ def unrecorded(files: Iterable[str], folder: Path = Path(".snakemake")) -> list[
         file
         for file in files
         if Path(file).exists()
-        and not _readable(folder / "metadata" / _record(file))
-        and not (folder / "incomplete" / _record(file)).exists()
+        and not _readable(Path(".snakemake/metadata", _record(file)))
+        and not Path(".snakemake/incomplete", _record(file)).exists()
     ]
 
 

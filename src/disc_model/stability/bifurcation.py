@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import SERIES, Variable
 from disc_model.errors import Status, broken, refuse
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import carried_over, simulate
@@ -18,13 +18,7 @@ from disc_model.simulation.result import State
 if TYPE_CHECKING:
     import xarray as xr
 
-_VARIABLES = {
-    "psi": Variable("rad", "angle of the drive point ahead of the slider"),
-    "psi_velocity": Variable("rad/s", "its rate, Omega - f"),
-    "P": Variable("N", "contact force"),
-    "u": Variable("m", "height of the slider"),
-    "w_point": Variable("m", "displacement of the disc's point"),
-}
+SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 STATUS_NAMES = tuple(status.value for status in Status)
 
 
@@ -72,7 +66,7 @@ def bifurcation_samples(
     _check(p, name, values, transient, samples)
     cases = [p.replace(**{name: value}) for value in values]
     shape = (len(values), samples)
-    data = {variable: np.full(shape, math.nan) for variable in _VARIABLES}
+    data = {variable: np.full(shape, math.nan) for variable in SAMPLED}
     phase = np.full(shape, -1, np.int8)
     first, stick = np.full(len(values), math.nan), np.full(len(values), math.nan)
     separations, status = np.zeros(len(values), np.int64), np.zeros(len(values), np.int8)
@@ -95,7 +89,7 @@ def bifurcation_samples(
         if follow and run.status.complete:
             given = run.final_state
     both, one = (name, "sample"), (name,)
-    variables = {key: (both, array, _VARIABLES[key].attributes) for key, array in data.items()}
+    variables = {key: (both, array, SERIES[key].attributes) for key, array in data.items()}
     flags = {"flag_values": np.array([-1, 0, 1, 2], np.int8), "flag_meanings": "none stick slip separation"}
     codes = np.arange(len(STATUS_NAMES), dtype=np.int8)
     return xr.Dataset(

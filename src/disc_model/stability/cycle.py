@@ -210,7 +210,7 @@ def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-1
     return _none(p, tol, CycleStatus.NO_CYCLE, f"the motion from the given state does not return: {OUTCOMES[outcome]}")
 
 
-def cycle_neared(p: Parameters, state: State, releases: int, tol: float = 1e-12) -> FloquetResult | None:
+def cycle_neared(p: Parameters, state: State, releases: int) -> FloquetResult | None:
     """The stable cycle to which a motion comes that nearly repeats after some releases; None if that is not shown.
 
     That a motion nearly repeats proves nothing: one on a torus does as well. So Newton's method is begun at its next
@@ -218,6 +218,7 @@ def cycle_neared(p: Parameters, state: State, releases: int, tol: float = 1e-12)
     """
     if not may_stick_and_slip(p):
         return None
+    tol = 1e-12
     map_ = ReturnMap(p, tol)
     code, x = map_.next_release(state)
     found = newton(map_, x, tol=tol, releases=releases, may_separate=True) if code == RETURNED else None

@@ -200,11 +200,11 @@ class ReturnMap:
             self._section.jacobian[:, first : first + len(self._names)].copy(),
         )
 
-    def next_release(self, start: State, *, may_separate: bool = True) -> tuple[int, Array]:
+    def next_release(self, start: State) -> tuple[int, Array]:
         """The point of the section that the motion from `start` reaches first, and how it got there (`RETURNED`)."""
         write_state(self._case, start, self._state)
         course = variational.Course(
-            self.order, self.tolerance, math.inf, self.longest, 1, may_separate=may_separate, tangent=False
+            self.order, self.tolerance, math.inf, self.longest, 1, may_separate=True, tangent=False
         )
         code: int = variational.fly(self.model, self._series, self._state, self._tangent, course)
         return code, self._coordinates()
@@ -236,11 +236,11 @@ class ReturnMap:
         state.x[layout.PHASE] = layout.STICK
         state.x[layout.PSI] = variational.release_angle(self.model, state)
 
-    def iterate(self, x: Array, times: int, releases: int = 1) -> tuple[Flight, Array]:
+    def iterate(self, x: Array, times: int) -> tuple[Flight, Array]:
         """Apply the map several times without its Jacobian; stops early if it does not return."""
         flight = None
         for _ in range(times):
-            flight, end, _, _ = self.evaluate(x, releases=releases, tangent=False)
+            flight, end, _, _ = self.evaluate(x, tangent=False)
             if flight.outcome != RETURNED:
                 break
             x = end

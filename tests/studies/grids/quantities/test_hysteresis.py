@@ -14,8 +14,13 @@ from disc_model.parameters import Parameters
 from disc_model.stability.settling import Late
 from disc_model.studies.grids.quantities import hysteresis
 from disc_model.studies.grids.quantities.schema import HysteresisOptions
-from disc_model.studies.grids.run import compute
+from disc_model.studies.grids.run import Table, compute
 from tests.studies.grids.conftest import SCAN
+
+
+def swept(N: float, scan: dict[str, float]) -> Table:
+    options = HysteresisOptions.model_validate({"scan": scan, "dwell": 60, "late": 2})
+    return compute(hysteresis, [Parameters(N=N, Omega=0)], options)
 
 
 def test_hysteresis_is_the_gap_between_the_ways(sweep: xr.Dataset) -> None:
@@ -33,8 +38,7 @@ def test_a_sweep_that_cannot_go_on_says_where(monkeypatch: pytest.MonkeyPatch) -
         return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, 0)
 
     monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
-    options = HysteresisOptions.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
-    table = compute(hysteresis, [Parameters(N=200, Omega=0)], options)
+    table = swept(200, SCAN)
     assert list(table.messages) == ["Omega=13.5: why"]
     statuses = [[hysteresis.STATUSES[i] for i in row] for row in table.arrays["sweep_status"][0]]
     assert statuses == [["ok", "ok", "ok", "paradox", "failed", "failed", "failed"], ["failed"] * 7]
@@ -57,8 +61,7 @@ def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
         return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, rate)
 
     monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
-    options = HysteresisOptions.model_validate({"scan": SCAN, "dwell": 60, "late": 2})
-    found = compute(hysteresis, [Parameters(N=200, Omega=0)], options).arrays
+    found = swept(200, SCAN).arrays
     assert found["onset"][0] == 14.0
     assert found["persists_to"][0] == pytest.approx(persists_to, nan_ok=True)
     assert hysteresis.STATUSES[found["status"][0]] == "stalled"
@@ -67,8 +70,7 @@ def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
 @pytest.mark.compiled
 def test_hysteresis_at_385_N() -> None:
     """Separation begins beyond the fold at 15.09 rad/s and persists below it on the way down."""
-    options = HysteresisOptions.model_validate({"scan": {"start": 12, "stop": 16, "step": 0.5}, "dwell": 60, "late": 2})
-    found = compute(hysteresis, [Parameters(N=385, Omega=0)], options).arrays
+    found = swept(385, {"start": 12, "stop": 16, "step": 0.5}).arrays
     assert found["onset"][0] == 15.5
     assert found["persists_to"][0] < 15
     assert found["separation_rate"].shape == (1, 2, 9)

@@ -14,12 +14,14 @@ from disc_model.data.variables import flag_names
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.stability import settling
 from disc_model.stability.settling import Settling, follow
 from disc_model.studies.grids.quantities import floquet, outcome
-from disc_model.studies.grids.quantities.schema import FloquetOptions, OutcomeOptions, SettlingOptions
+from disc_model.studies.grids.quantities.schema import FloquetOptions, OutcomeOptions
 from disc_model.studies.grids.run import STATUSES, compute
+from tests.stability.test_settling import impatient
 from tests.studies.grids.conftest import SMALL, computed
+
+__all__ = ["impatient"]
 
 
 def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.ndarray], list[str]]:
@@ -118,11 +120,6 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
     assert STATUSES[arrays["status"][0]] == "step_limit"
 
 
-@pytest.fixture
-def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(settling, "FIRST_PROBE", 0.2)
-
-
 @pytest.mark.usefixtures("impatient")
 def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
     options = {"horizon": 3.0, "late": 0.05, "after_separation": 0.05, "tol": 1e-9}
@@ -164,13 +161,8 @@ def test_growth_without_separation_is_unstable(monkeypatch: pytest.MonkeyPatch) 
         assert list(table.messages) == ["why" if status is Status.STEP_LIMIT else ""]
 
 
-def test_settling_options_have_the_defaults_of_following() -> None:
-    assert SettlingOptions().tol == 1e-10
-
-
 @pytest.mark.compiled
 def test_flags_read_as_words() -> None:
     table = compute(outcome, [Parameters(N=385, Omega=15)], OutcomeOptions(horizon=1, late=0.5))
-
     attrs = {"flag_meanings": " ".join(outcome.OUTCOMES)}
     assert list(flag_names(xr.DataArray(table.arrays["outcome"], attrs=attrs))) == ["stable"]

@@ -13,7 +13,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import after, prepared, simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State
-from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
+from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.cycle import cycle_neared
 from disc_model.stability.return_map import case_faults
 from disc_model.studies.grids.run import STATUS, STATUSES, Column
@@ -37,11 +37,10 @@ REPEATS = 1e-11
 """Intervals that repeat this exactly, s, are periodic: roundings leave 1e-13 s of a cycle."""
 TRIED = 3
 """Numbers of switches for which a cycle is looked for, at most."""
-_SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 STEADY = ("unknown", "no", "yes")
 COLUMNS = {
     "status": Column(STATUS),
-    **{name: Column(SERIES[name], ("sample",)) for name in _SAMPLED},
+    **{name: Column(SERIES[name], ("sample",)) for name in SAMPLED},
     "phase": Column(Variable("1", "phase of the motion at the sample", ("none", *PHASES)), ("sample",)),
     "first_separation": Column(SCALARS["first_separation"]),
     "separations": Column(Variable("1", "number of separations, transient included"), whole=True),

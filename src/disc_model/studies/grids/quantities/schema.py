@@ -316,11 +316,6 @@ class Quantity(NamedTuple):
         """Whether it follows motions that may start elsewhere than from the published start."""
         return issubclass(self.options, Start)
 
-    @property
-    def sampled(self) -> bool:
-        """Whether its points are samples of distributed parameters as well."""
-        return issubclass(self.options, Sampled)
-
 
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
