@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,10 +12,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import flag_names, said_values
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import Bifurcation
-from disc_model.figures.parts import BLACK, BLUE, GREY, ORANGE, PAGE, PHASE_COLOURS, VERMILION, new_figure, styled
+from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, PHASE_COLOURS, new_figure, styled
+
+SWITCHES = {"stick": "at release of stick", "separation": "at loss of contact"}
+"""What samples at switches are called, by the phase that ends or begins there."""
+EXPONENTS = (BLACK, BLUE, BROWN, GREY)
+"""Colours of the exponents, the largest first: none that of a phase."""
+ERRORS = 4
+"""Standard errors in half of the band about an exponent."""
 
 
 @styled()
@@ -31,7 +40,9 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     """
     norm = parts.normalizations(study)[0]
     study = parts.of(study, norm).transpose(plot.x, "sample", ...)
-    figure = new_figure(PAGE, 4.0 if "lyapunov" in others else 2.6)
+    options = json.loads(study.attrs.get("options", "{}"))
+    names = SWITCHES if options.get("section") == "switch" else {}
+    figure = new_figure(PAGE, 4.5 if "lyapunov" in others else 3.1)
     axes = figure.subplots(2 if "lyapunov" in others else 1, 1, sharex=True, squeeze=False)[:, 0]
     ax = axes[0]
     label, factor = parts.axis_of(plot.x)
@@ -47,12 +58,19 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     for code, (name_of_phase, color) in enumerate(PHASE_COLOURS.items()):
         here = (phase == code) & ~unsteady
         if np.any(here):
-            ax.plot(position[here], values[here], ".", color=color, markersize=1.5, label=name_of_phase)
+            ax.plot(
+                position[here],
+                values[here],
+                ".",
+                color=color,
+                markersize=1.5,
+                label=names.get(name_of_phase, name_of_phase),
+            )
     parts.mark_failed(ax, along[lost])
     idle = along[(phase == -1).all(axis=1) & ~lost]
     if idle.size:
         low = np.full(idle.size, 0.02)
-        ax.plot(idle, low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="no switches")
+        ax.plot(idle, low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="slides steadily")
     unit = study[plot.variable].attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(label)
@@ -64,28 +82,41 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     for handle in legend.legend_handles:  # dots of the diagram are too small for it
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
+    parts.head(figure, study, plot.title or study.attrs.get("title", ""))
+    figure.supxlabel(_start(options), fontsize=7, x=1, ha="right")
     return figure
 
 
+def _start(options: Mapping[str, Any]) -> str:
+    """Where the motions of all points start."""
+    prepare = options.get("prepare")
+    if not prepare:
+        return "Each point from the published start; other motions may exist beside."
+    said = said_values(prepare.get("parameters", {}))
+    return f"Each point from the state of {said} after {prepare['time']:g} s; other motions may exist beside."
+
+
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
-    """The largest exponents with four standard errors; rings where they have not converged."""
+    """The largest exponents with their errors; rings of their colours where they have not converged."""
     exponent = lyapunov["exponent"].transpose("exponent_number", name)
     error = lyapunov["exponent_error"].transpose("exponent_number", name)
     along = exponent[name].values * parts.axis_of(name)[1]
     ax.axhline(0, color=GREY, linewidth=0.8)
-    for i, color in zip(range(len(exponent)), (VERMILION, BLUE, ORANGE, BLACK), strict=False):
+    look = {"linestyle": "", "marker": "o", "markerfacecolor": "none", "markersize": 4, "markeredgewidth": 0.6}
+    ring: dict[str, Any] = {"color": GREY, **look}
+    unsure = False
+    for i, color in zip(range(len(exponent)), EXPONENTS, strict=False):
         label = "largest exponent" if i == 0 else f"exponent {i + 1}"
-        low, high = (exponent[i].values + s * 4 * error[i].values for s in (-1, 1))
+        low, high = (exponent[i].values + s * ERRORS * error[i].values for s in (-1, 1))
         ax.plot(along, exponent[i], ".-", color=color, markersize=3, linewidth=0.8, label=label)
         ax.fill_between(along, low, high, color=color, alpha=0.15, linewidth=0)
-    if "converged" in lyapunov:
-        moving = (flag_names(lyapunov["converged"].transpose("exponent_number", name)) == "no") & np.isfinite(exponent)
-        at = np.broadcast_to(along, moving.shape)
-        if moving.any():
-            ax.plot(
-                at[moving], exponent.values[moving], "o", color=BLACK, markerfacecolor="none", markersize=4,
-                markeredgewidth=0.6, label="not converged",
-            )  # fmt: skip
+        if "converged" in lyapunov:
+            moving = flag_names(lyapunov["converged"].transpose("exponent_number", name)[i]) == "no"
+            ax.plot(along[moving], exponent[i][moving], label="_nolegend_", **ring | {"color": color})
+            unsure |= bool(moving.any())
+    ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=f"± {ERRORS} standard errors")
+    if unsure:
+        ax.plot([], [], label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
     ax.set_ylabel("Lyapunov exponents" + (",\ntrivial one left out" if "along" in lyapunov else "") + " (1/s)")
     ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, borderaxespad=0.2)
