@@ -43,9 +43,11 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset, tmp_path) -> 
     figure = drawn.draw(shares, {}, BasinShares(x="Omega"))
     labels = figure.axes[0].get_legend_handles_labels()[1]
     assert labels == ["quiet", "separating"]
-    least = next(line for line in figure.axes[2].lines if line.get_label() == "least, by bisection")
+    least = next(line for line in figure.axes[2].lines if line.get_label() == "by bisection")
     np.testing.assert_allclose(least.get_ydata(), [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
     save(figure, tmp_path / "shares.png")
+    # what separates without a kick has no place on a logarithmic scale, and is not left out
+    assert [(text.get_position()[0], text.get_text()) for text in figure.axes[2].texts] == [(15, "0")]
     # a point that failed is marked
     save(drawn.draw(with_failed(shares, Omega=13.0), {}, BasinShares(x="Omega")), tmp_path / "failed.png")
 

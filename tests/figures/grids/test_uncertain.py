@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.collections import PathCollection
+from matplotlib.colors import to_hex
 
 from disc_model.figures.grids import campbell, sensitivity
 from disc_model.figures.grids.campbell import gaps, noted, spread
 from disc_model.figures.grids.kinds import Campbell, Sensitivity
+from disc_model.figures.parts import GREY, SKY
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.schema import parse_grid
 from disc_model.studies.grids.summaries.campbell import EFFECTS
@@ -28,6 +32,49 @@ def test_bars_and_probabilities_are_those_of_the_study() -> None:
     np.testing.assert_allclose(widths, [*cell["first_index"].values, *cell["total_index"].values])
     assert [label.get_text() for label in first.get_yticklabels()] == ["k", "$\\mu_s$"]
     assert "N = 200 N" in first.get_title(loc="left")
+    assert "k, $\\mu_s$ ± 10 %" in figure.get_suptitle()
+
+
+def test_what_lies_beyond_a_panel_of_indices_is_marked_and_what_is_not_known_grey() -> None:
+    study = uncertain.made_up()
+    shape = study["total_index"].isel(N=0).sel(output="instability").shape
+    assert shape == (2,)
+    for name, value in (("total_index", 1.91), ("total_index_low", 0.5), ("total_index_high", 4.0)):
+        study[name][:] = value
+    for name in ("first_index", "first_index_low", "first_index_high"):
+        study[name][:] = 0.2
+    panel = sensitivity.draw(study, {}, Sensitivity()).axes[1]
+    assert [text.get_text() for text in panel.texts] == ["1.9", "1.9"]
+    arrows = [len(one.get_offsets()) for one in panel.collections if isinstance(one, PathCollection)]
+    assert arrows == [0, 0, 0, 2]
+    known, unknown = (to_hex(panel.patches[place].get_facecolor()) for place in (0, 2))
+    assert (known, unknown) == (to_hex(SKY), to_hex(GREY))
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ({"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}, "k ± 10 %"),
+        ({"distribution": "uniform", "low": 4e4, "high": 6e4, "relative": False}, "k 40 to 60 kN/m"),
+        (
+            {"distribution": "normal", "mean": 1, "deviation": 0.1, "relative": True},
+            "k normal, 1 ± 0.1 times its value",
+        ),
+        (
+            {
+                "distribution": "truncated_normal",
+                "mean": 5e4,
+                "deviation": 1e3,
+                "low": 4e4,
+                "high": 6e4,
+                "relative": False,
+            },
+            "k 40 to 60 kN/m, normal, 50 ± 1 kN/m",
+        ),
+    ],
+)
+def test_distributions_are_said(how: dict[str, Any], said: str) -> None:
+    assert sensitivity.spreads({"k": how}) == said
 
 
 @pytest.mark.compiled

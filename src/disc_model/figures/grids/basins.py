@@ -53,7 +53,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares)
     study = parts.of(study, parts.normalizations(study)[0]).transpose(plot.x, ...)
     label, factor = parts.label_of(study[plot.x])
     along = study[plot.x].values * factor
-    figure = new_figure(COLUMN, 5.2)
+    figure = new_figure(COLUMN, 5.6)
     axes = figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1, 1))
     fates = [fate for fate in COLOURS if (study["share"].sel(fate=fate) > 0).any()]
     _shares(axes[0], study, along, fates)
@@ -64,13 +64,14 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares)
         parts.mark_failed(ax, along[parts.failed(study).values])
         parts.letter(ax, letter)
     axes[-1].set_xlabel(label)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
-    if plot.title:
-        figure.suptitle(plot.title, fontsize=8)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    parts.head(figure, study, plot.title)
     return figure
 
 
 def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, fates: list[str]) -> None:
+    options = json.loads(study.attrs["options"])
+    said = SAID | {"undecided": f"undecided after {options['horizon']:g} s"}
     step = np.diff(along).min() if len(along) > 1 else 0.0
     for i, fate in enumerate(fates):
         one = study.sel(fate=fate)
@@ -79,10 +80,9 @@ def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, fates: list[str]) ->
         aside = ASIDE * step * (i - (len(fates) - 1) / 2)
         ax.errorbar(
             along + aside, share, bounds, fmt="o-", color=COLOURS[fate], markersize=2.5, linewidth=0.8, elinewidth=0.6,
-            label=SAID.get(fate, fate),
+            label=said.get(fate, fate),
         )  # fmt: skip
-    confidence = json.loads(study.attrs["options"])["confidence"]
-    ax.set(ylim=(-0.03, 1.03), ylabel=f"Share, {100 * confidence:g} % interval")
+    ax.set(ylim=(-0.03, 1.03), ylabel=f"Share, {100 * options['confidence']:g} % interval")
 
 
 def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
@@ -101,14 +101,19 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
 
 def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     """The least kick by bisection; the least among the starts; and their energies."""
-    for energy in study["energy"].values:
-        ax.axhline(energy, color=GREY, linestyle=":", linewidth=0.6, zorder=0)
+    for i, energy in enumerate(study["energy"].values):
+        label = "kicks tried" if i == 0 else "_nolegend_"
+        ax.axhline(energy, color=GREY, linestyle=":", linewidth=0.6, zorder=0, label=label)
     sample, found = study["least_kick_sample"].values, study["least_kick"].values
-    ax.plot(along, sample, "_", color=BLACK, markersize=6, label="least among the starts")
-    ax.plot(
-        along, np.where(found > 0, found, np.nan), "v-", color=SEPARATED, markersize=3.5, label="least, by bisection"
-    )
-    ax.set(ylabel="Kick that separates (J)")
+    ax.plot(along, sample, "_", color=BLACK, markersize=6, label="least of them")
+    ax.plot(along, np.where(found > 0, found, np.nan), "v-", color=SEPARATED, markersize=3.5, label="by bisection")
+    ax.set(ylabel="Least kick that\nseparates (J)")
     if np.any(sample > 0):
         ax.set_yscale("log")
-    ax.legend(loc="best")
+        # what separates without a kick has no place on this scale
+        for place in along[found == 0]:
+            ax.text(
+                place, 0.02, "0", color=SEPARATED, fontsize=7, ha="center", va="bottom",
+                transform=ax.get_xaxis_transform(),
+            )  # fmt: skip
+    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, borderaxespad=0.2, columnspacing=0.9)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any
@@ -10,24 +11,35 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from disc_model.data.variables import SAMPLE
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import Sensitivity
-from disc_model.figures.parts import BLACK, BLUE, PAGE, SEPARATED, SKY, new_figure, styled
+from disc_model.figures.parts import BLACK, BLUE, GREY, PAGE, SEPARATED, SKY, new_figure, styled
 
 OUTPUTS = {"instability": "Instability, index", "growth_rate": "Growth rate, index"}
 PROBABILITIES = {
     "probability_unstable": ("unstable", BLUE, "o"),
     "probability_separation": ("separation", SEPARATED, "s"),
 }
+INDICES = {"first": ("first-order index", SKY, "#d5d5d5"), "total": ("total index", BLUE, GREY)}
+"""By kind: what it is called, its colour, and that of one of which nothing is known."""
+SPAN = (-0.25, 1.3)
+"""Indices that are shown; true ones lie from 0 to 1."""
+WIDEST = 1.0
+"""Width of an interval beyond which nothing is known of an index."""
 
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
-    """(a) probabilities with 95 % intervals; beside it indices with theirs, a column a point and a row an output."""
+    """(a) probabilities with 95 % intervals; beside it indices with theirs, a column a point and a row an output.
+
+    Indices of which nothing is known are grey. Arrows show where an interval goes on beyond the panel, and numbers the
+    indices that lie there.
+    """
     cells = list(cells_of(study))
-    figure = new_figure(PAGE, 4.6)
+    figure = new_figure(PAGE, 5.1)
     grid = figure.add_gridspec(len(OUTPUTS), 1 + len(cells), width_ratios=[0.8, *[1] * len(cells)])
     first = figure.add_subplot(grid[:, 0])
     _probabilities(first, cells)
@@ -35,13 +47,40 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity)
         for row, output in enumerate(OUTPUTS):
             ax = figure.add_subplot(grid[row, 1 + column])
             _bars(ax, cell.sel(output=output), labelled=column == 0)
-            ax.set_title(f"({chr(ord('b') + column)}) {title}" if row == 0 else "", loc="left")
+            letter = _letter(row * len(cells) + column)
+            ax.set_title(f"({letter}) {title}" if row == 0 else f"({letter})", loc="left")
             ax.set_xlabel(_said(cell, output))
-    handles = [*first.get_legend_handles_labels()[0], *ax.get_legend_handles_labels()[0]]
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
-    if plot.title:
-        figure.suptitle(plot.title, fontsize=8)
+    handles = first.get_legend_handles_labels()[0]
+    handles += [Patch(color=color, label=label) for label, color, _ in INDICES.values()]
+    handles.append(Patch(color=GREY, label=f"of either, interval wider than {WIDEST:g}"))
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.4)
+    title = plot.title or study.attrs.get("title", "")
+    parts.head(figure, study, f"{title}: {spreads(json.loads(study.attrs['options'])['distributions'])}")
     return figure
+
+
+def _letter(place: int) -> str:
+    """Of a panel of indices; the probabilities are (a)."""
+    return chr(ord("b") + place)
+
+
+def spreads(distributions: Mapping[str, Mapping[str, Any]]) -> str:
+    """How parameters are distributed, those alike together."""
+    alike: dict[str, list[str]] = {}
+    for name, how in distributions.items():
+        alike.setdefault(_spread(name, how), []).append(symbol(name))
+    return "; ".join(f"{', '.join(names)} {said}" for said, names in alike.items())
+
+
+def _spread(name: str, how: Mapping[str, Any]) -> str:
+    """How one is, in words."""
+    if how["distribution"] == "uniform" and how["relative"] and np.isclose(how["low"] + how["high"], 2):
+        return f"± {50 * (how['high'] - how['low']):g} %"
+    factor, unit = (1.0, " times its value") if how["relative"] else (parts.SYMBOLS[name][2], _unit(name))
+    said = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
+    texts = [f"{said['low']} to {said['high']}{unit}"] if "low" in said else []
+    texts += [f"normal, {said['mean']} ± {said['deviation']}{unit}"] if "mean" in said else []
+    return ", ".join(texts)
 
 
 def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
@@ -69,8 +108,8 @@ def _probabilities(ax: Axes, cells: list[tuple[str, xr.Dataset]]) -> None:
         spans = np.maximum([(value - low)[known], (high - value)[known]], 0)  # an end may be the value, to rounding
         style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 4, "linestyle": "", "capsize": 2}
         ax.errorbar(place, value[known], spans, label=label, linewidth=1, **style)
-    letters = [f"({chr(ord('b') + i)})" for i in range(len(cells))]
-    ax.set_xticks(range(len(cells)), labels=letters)
+    letters = [", ".join(_letter(row * len(cells) + i) for row in range(len(OUTPUTS))) for i in range(len(cells))]
+    ax.set_xticks(range(len(cells)), labels=[f"({each})" for each in letters])
     ax.minorticks_off()
     ax.set(ylabel="Probability", ylim=(-0.03, 1.03), xlim=(-0.5, len(cells) - 0.5))
     ax.set_title("(a)", loc="left")
@@ -80,15 +119,31 @@ def _bars(ax: Axes, cell: xr.Dataset, labelled: bool) -> None:
     """First-order and total indices, a pair of bars for each parameter."""
     names = [str(name) for name in cell["parameter"].values]
     place = np.arange(len(names))
-    for i, (kind, color, label) in enumerate((("first", SKY, "first-order index"), ("total", BLUE, "total index"))):
+    for i, (kind, (_, color, unknown)) in enumerate(INDICES.items()):
         value, low, high = (cell[f"{kind}_index{end}"].values for end in ("", "_low", "_high"))
         at = place + 0.36 * (i - 0.5)
-        ax.barh(at, np.nan_to_num(value), 0.34, color=color, label=label)
+        ax.barh(at, np.nan_to_num(value), 0.34, color=np.where(high - low > WIDEST, unknown, color))
         ax.hlines(at, low, high, color=BLACK, linewidth=0.7)
+        for marker, edge, beyond in (("<", SPAN[0], low < SPAN[0]), (">", SPAN[1], high > SPAN[1])):
+            ax.scatter(np.full(beyond.sum(), edge), at[beyond], 6, BLACK, marker=marker, linewidth=0, clip_on=False)
+        for where, index in zip(at, value, strict=True):
+            if not SPAN[0] <= np.nan_to_num(index) <= SPAN[1]:
+                edge, aside = (SPAN[1], 3) if index > 0 else (SPAN[0], -3)
+                ax.annotate(
+                    f"{index:.1f}".replace("-", "−"), (edge, where), (aside, 0), textcoords="offset points", fontsize=6,
+                    ha="left" if index > 0 else "right", va="center", annotation_clip=False,
+                )  # fmt: skip
     ax.axvline(0, color=BLACK, linewidth=0.5)
     ax.set_yticks(place, labels=[symbol(name) for name in names] if labelled else [""] * len(names))
     ax.minorticks_off()
-    ax.set(ylim=(len(names) - 0.4, -0.6), xlim=(-0.25, 1.3))
+    ax.patch.set_visible(False)  # it would cover the numbers beside the panel to its left
+    ax.set(ylim=(len(names) - 0.4, -0.6), xlim=SPAN)
+
+
+def _unit(name: str) -> str:
+    """A parameter's unit, after a space; nothing if it has none."""
+    unit = parts.SYMBOLS[name][1]
+    return f" {unit}" if unit else ""
 
 
 def symbol(name: str) -> str:
