@@ -95,7 +95,7 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 def _said(cell: xr.Dataset, output: str) -> str:
     """The axis of the indices, and what they leave out."""
     left_out = float(cell["left_out"].sel(output=output))
-    return OUTPUTS[output] + (f"\n({left_out:.0%} of the samples: no cycle)" if left_out > 0 else "")
+    return OUTPUTS[output] + (f"\n({left_out:.0%} of samples: no cycle)" if left_out > 0 else "")
 
 
 def _probabilities(ax: Axes, cells: list[tuple[str, xr.Dataset]]) -> None:
