@@ -247,9 +247,7 @@ class Collector:
         grids = [_uniform(window, start, t_end) for window in record.windows]
         if record.poincare is not None:
             grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
-        self.samplers: Array = np.zeros((len(grids), 5))
-        for row, grid in zip(self.samplers, grids, strict=True):
-            row[:] = *grid, t_end
+        self.samplers: Array = np.array([(*grid, t_end) for grid in grids], dtype=float).reshape(-1, 5)
         self.sampled = np.zeros(len(grids), np.int64)
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + sampling.SAME_INSTANT * t_end
