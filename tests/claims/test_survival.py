@@ -69,7 +69,8 @@ NAN = float("nan")
     ],
 )
 def test_onset(letters: str, rates: Sequence[float], verdict: str) -> None:
-    assert judged("Onset", outcome=outcome(letters), growth=growth(*rates)).verdict == verdict
+    folds = curves("fold", (29.0, 29.0))
+    assert judged("Onset", outcome=outcome(letters), growth=growth(*rates), curves=folds).verdict == verdict
 
 
 def test_onset_needs_every_point() -> None:
@@ -98,6 +99,15 @@ def curves(
             "n_unfollowed": missed,
         }
     )
+
+
+def test_separation_just_below_a_fold_is_a_remark() -> None:
+    grids = {"outcome": outcome("qqsqss"), "growth": growth(-0.1, -0.2, 0.1, -0.1, -0.05, NAN)}
+    found = judged("Onset", curves=curves("fold", (20.05, 20.05)), **grids)
+    assert found.verdict == REMARK
+    assert found.remark.endswith("at a fold, too: 385 N, 20 rad/s")
+    assert judged("Onset", curves=curves("fold", (20.2, 20.2)), **grids).verdict == FAILS  # the cycle goes on
+    assert judged("Onset", curves=curves("fold", (19.95, 19.95)), **grids).verdict == FAILS  # it begins there
 
 
 QUIET, UNSTABLE = growth(*[-0.1] * 5, 0.1), growth(*[0.1] * 6)
@@ -366,6 +376,7 @@ def test_each_model_is_judged_by_its_own_data() -> None:
     rates = growth(-0.1, -0.2, 0.1, -0.1, 0.05, NAN)
     apart = [outcome("qqsqgs"), outcome("qqsqgs"), outcome("qssqgs"), outcome("qqqqgg")]
     grids = {
+        "survival_curves": xr.concat([curves("fold", (29.0, 29.0))] * 4, DIM).assign_coords(models),
         "survival_growth": xr.concat([rates] * 4, DIM).assign_coords(models),
         "survival_outcome": xr.concat(apart, DIM, combine_attrs="override").assign_coords(models),
     }

@@ -26,14 +26,14 @@ def test_exponents_of_stick_are_those_of_the_coupled_mode():
     assert abs(found.exponents[0]) < decay
     assert not found.chaotic
     assert found.separations == 0
-    assert found.final_state.time == pytest.approx(0.125)
+    assert found.final_state.time == pytest.approx(0.2)
 
 
 def test_exponents_from_a_state_after_a_transient():
     p = Parameters(N=200, Omega=20, n_diameters=1, c=5.0, D_star=1e-3)
     start = simulate(p, 0.02, tol=1e-9).final_state
     found = lyapunov_exponents(p, 0.05, transient=0.01, count=1, initial_state=start, tol=1e-9)
-    assert found.final_state.time == pytest.approx(0.02 + 0.01 + 0.05 * 1.25)
+    assert found.final_state.time == pytest.approx(0.02 + 0.01 + 0.05 * 2)
     assert found.exponents[0] < 50
     sliding = start.replace(phase="separation", direction=0, f=5.0, u=start.u + 1e-4)
     through = lyapunov_exponents(p, 0.05, count=2, initial_state=sliding, tol=1e-9)
@@ -67,6 +67,27 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     pair = lyapunov_exponents(p, 40.0, count=3, initial_state=cycle.state)
     # a complex pair has one rate: the two following zero are equal in the mean
     assert np.mean(pair.exponents[1:]) == pytest.approx(np.mean(expected[1:3]), rel=0.02)
+
+
+@pytest.mark.compiled
+def test_columns_that_had_no_time_to_turn_were_taken_for_converged():
+    """A separating cycle, whose rates lie 0.05/s apart: a short time is not taken for enough, and a long one is."""
+    p = Parameters(N=385, Omega=15.0)
+    start = simulate(p.replace(Omega=15.1), 70.0).final_state.replace(time=0.0)
+    start = simulate(p, 30.0, initial_state=start).final_state
+    rate = floquet(p, near=start, releases=2).growth_rate
+    short, long = (
+        lyapunov_exponents(p, duration, initial_state=start, leave_out_trivial=True, tol=1e-8)
+        for duration in (10.0, 30.0)
+    )
+    assert short.separations > 1000
+    # columns turn as exp(-0.05 t), the difference between the rates: after 10 s more than half of it is still there
+    assert np.all(np.abs(short.exponents - rate) > 0.005)
+    assert not short.converged.any()
+    assert long.converged.all()
+    assert np.all(np.abs(long.exponents - rate) <= long.errors)
+    # a tenth of 0.05/s, exp(-0.05 * 45), is left amid the 30 s over which rates are averaged after 30 s of turning
+    assert np.all(np.abs(long.exponents - rate) < 0.005)
 
 
 @pytest.mark.compiled
@@ -112,7 +133,7 @@ def test_an_unstable_cycle_grows_at_its_rate_while_near():
 def test_through_separations_the_motion_itself_is_the_simulators():
     p = Parameters(N=385, Omega=15.1)
     start = simulate(p, 70.0).final_state
-    found = lyapunov_exponents(p, 4.0, count=2, initial_state=start, tol=1e-12)
+    found = lyapunov_exponents(p, 2.5, count=2, initial_state=start, tol=1e-12)
     run = simulate(p, 75.0, initial_state=start, tol=1e-12)
     assert found.separations > 100
     assert found.final_state.time == pytest.approx(75.0, abs=1e-9)

@@ -20,9 +20,13 @@ CONVERGED = ("unknown", "no", "yes")
 COLUMNS = {
     "status": Column(STATUS),
     "exponent": Column(Variable("s-1", "Lyapunov exponent, the one along the motion left out"), ("exponent_number",)),
-    "exponent_error": Column(Variable("s-1", "its standard error, from 16 stretches"), ("exponent_number",)),
+    "exponent_error": Column(
+        Variable("s-1", "the larger of its standard error and the difference between both halves"),
+        ("exponent_number",),
+    ),
     "converged": Column(
-        Variable("1", "whether both halves of the time give it, to a fifth or 0.01 /s", CONVERGED), ("exponent_number",)
+        Variable("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED),
+        ("exponent_number",),
     ),
     "along": Column(Variable("s-1", "exponent along the motion: 0 but for what the time is too short for")),
     "covered": Column(Variable("s", "time over which the rates are averaged")),
