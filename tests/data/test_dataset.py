@@ -55,7 +55,7 @@ def spec_of(p: Parameters = P, events: tuple[float, float] | None = (0.1, T_END)
         ("history", Window(start=0, stop=0.4995, rate=1000, envelope=50)),
         ("zoom", Window(start=0.1, stop=0.2, rate=2000, theta=0.5)),
     )
-    return CaseSpec(p, T_END, 1e-10, None, windows, Poincare(theta=2.0), events, False)
+    return CaseSpec(parameters=p, t_end=T_END, windows=windows, poincare=Poincare(theta=2.0), events=events)
 
 
 @pytest.fixture(scope="module")
@@ -204,7 +204,7 @@ def test_a_case_that_fails_of_its_compliance_is_a_status(monkeypatch: pytest.Mon
     """Its scalars asked for the compliance once more, and the error that had been caught ended the job."""
     monkeypatch.setattr(flexibility, "MODAL_SUM", (4, 0))  # a case with so many modes leaves none out
     p = Parameters(N=201, Omega=20, n_diameters=4, n_circles=0, contact_compliance="residual")
-    spec = CaseSpec(p, 1.0, 1e-10, None, (), None, None, energy=False)
+    spec = CaseSpec(parameters=p, t_end=1.0)
     failed = run_case(spec)
     assert failed.attrs["status"] == "failed"
     assert "contact_compliance='residual'" in failed.attrs["message"]

@@ -372,7 +372,7 @@ class TestCommands:
 
     def test_a_case_of_the_workflow(self, tmp_path: Path) -> None:
         window = Window(start=0, stop=5, rate=50, envelope=10)
-        spec = CaseSpec(P, 5.0, 1e-10, None, (("history", window),), None, (0.0, 5.0), energy=False)
+        spec = CaseSpec(parameters=P, t_end=5.0, windows=(("history", window),), events=(0.0, 5.0))
         interrupt(2, P, spec.t_end, record=spec.record, checkpoint=tmp_path / ".A.checkpoint")
         script = [sys.executable, str(ROOT / "workflow/scripts/simulate_case.py"), spec.canonical]
         done = subprocess.run([*script, str(tmp_path / "A.nc")], capture_output=True, text=True, check=True)

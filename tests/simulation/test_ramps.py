@@ -145,8 +145,8 @@ def test_a_file_says_its_ramps(tmp_path: Path):
 
 
 def test_a_case_with_ramps_is_another_case():
-    plain = CaseSpec(P, 1.0, 1e-10, None, (), None, None, False)
-    ramped = CaseSpec(P, 1.0, 1e-10, None, (), None, None, False, ramps=(BRAKE,))
+    plain = CaseSpec(parameters=P, t_end=1.0)
+    ramped = CaseSpec(parameters=P, t_end=1.0, ramps=(BRAKE,))
     assert "ramps" not in plain.canonical
     assert plain.key != ramped.key
     assert CaseSpec.from_canonical(ramped.canonical) == ramped

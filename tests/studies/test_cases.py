@@ -11,7 +11,7 @@ from disc_model.studies.cases import merge_cases
 
 
 def test_attributes_of_cases_that_differ_become_a_list() -> None:
-    spec = CaseSpec(Parameters(N=1, Omega=0), 0.01, 1e-6, None, (), None, None, energy=False)
+    spec = CaseSpec(parameters=Parameters(N=1, Omega=0), t_end=0.01, tol=1e-6)
     cases = {name: run_case(spec) for name in ("A", "B")}
     for name, tree in cases.items():
         tree.attrs |= {"git_commit": name, "source_hash": "same"}

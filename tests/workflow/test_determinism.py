@@ -54,7 +54,8 @@ from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 
 windows = (("history", Window(start=0, stop=1, rate=1000)),)
-spec = CaseSpec(Parameters(N=385, Omega=15.1), 1.0, 1e-10, None, windows, Poincare(), (0.0, 1.0), True)
+p = Parameters(N=385, Omega=15.1)
+spec = CaseSpec(parameters=p, t_end=1.0, windows=windows, poincare=Poincare(), events=(0.0, 1.0), energy=True)
 save(run_case(spec), sys.argv[1])
 """
 

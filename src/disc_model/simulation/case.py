@@ -7,7 +7,6 @@ import json
 import math
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
@@ -233,19 +232,22 @@ class Start(Strict):
 # One case ready to be run, and its content address
 
 
-@dataclass(frozen=True)
-class CaseSpec:
+_LATER = ("start", "truncation", "modes", "ramps")
+"""What came later: left out of the text at its default, so that old addresses hold."""
+
+
+class CaseSpec(Strict):
     """A case ready to be run: everything a simulation depends on, and nothing else (no titles)."""
 
     parameters: Parameters
     t_end: float
-    tol: float
-    stop_at: Literal["first_separation"] | None
-    windows: tuple[tuple[str, Window], ...]
-    poincare: Poincare | None
-    events: tuple[float, float] | None
-    energy: bool
-    start: Start = field(default_factory=Start)
+    tol: float = 1e-10
+    stop_at: Literal["first_separation"] | None = None
+    windows: tuple[tuple[str, Window], ...] = ()
+    poincare: Poincare | None = None
+    events: tuple[float, float] | None = None
+    energy: bool = False
+    start: Start = Start()
     truncation: str = ""
     """How the number of modes was chosen, as JSON; empty if it was given, or is to be chosen."""
     modes: str = ""
@@ -270,22 +272,9 @@ class CaseSpec:
     @property
     def canonical(self) -> str:
         """JSON text, equal for equal cases however they were written; `from_canonical` reads it."""
-        return canonical_json(
-            {
-                "parameters": self.parameters.canonical,
-                "t_end": self.t_end,
-                "tol": self.tol,
-                "stop_at": self.stop_at,
-                "windows": [[name, window.model_dump()] for name, window in self.windows],
-                "poincare": self.poincare and self.poincare.model_dump(),
-                "events": self.events,
-                "energy": self.energy,
-            }
-            | ({"start": self.start.model_dump()} if self.start != Start() else {})
-            | ({"truncation": self.truncation} if self.truncation else {})
-            | ({"modes": self.modes} if self.modes else {})
-            | ({"ramps": [ramp.model_dump() for ramp in self.ramps]} if self.ramps else {})
-        )
+        fields = type(self).model_fields
+        unsaid = {name for name in _LATER if getattr(self, name) == fields[name].default}
+        return canonical_json(self.model_dump(exclude=unsaid) | {"parameters": self.parameters.canonical})
 
     @property
     def key(self) -> str:
@@ -294,21 +283,8 @@ class CaseSpec:
 
     @classmethod
     def from_canonical(cls, text: str) -> CaseSpec:
-        data = json.loads(text)
-        return cls(
-            parameters=Parameters(**data["parameters"]),
-            t_end=data["t_end"],
-            tol=data["tol"],
-            stop_at=data["stop_at"],
-            windows=tuple((name, Window(**window)) for name, window in data["windows"]),
-            poincare=data["poincare"] and Poincare(**data["poincare"]),
-            events=data["events"] and tuple(data["events"]),
-            energy=data["energy"],
-            start=Start.model_validate(data.get("start", {})),
-            truncation=data.get("truncation", ""),
-            modes=data.get("modes", ""),
-            ramps=tuple(Ramp(**ramp) for ramp in data.get("ramps", ())),
-        )
+        """The case of a text that `canonical` has made."""
+        return cls.model_validate(json.loads(text))
 
 
 def content_key(text: str) -> str:

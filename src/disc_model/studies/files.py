@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
@@ -30,11 +31,7 @@ class StudyError(DiscModelError, ValueError):
         super().__init__("\n  ".join([f"{source}: {count}", *faults]))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_rebuild_error, (self.faults, self.source))
-
-
-def _rebuild_error(faults: tuple[str, ...], source: str) -> StudyError:
-    return StudyError(*faults, source=source)
+        return (partial(type(self), source=self.source), self.faults)
 
 
 class Faults(list[str]):

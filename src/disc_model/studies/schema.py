@@ -286,20 +286,9 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
     if case.ramps:
         wrong = ramp_faults(parameters, case.ramps, poincare=case.record.poincare is not None)
         add_parameter_faults(wrong, lambda name: place.of((name,) if name in _KEYS else ("parameters", name)), faults)
-    spec = CaseSpec(
-        parameters,
-        case.t_end,
-        case.tol,
-        case.stop_at,
-        windows,
-        case.record.poincare,
-        events,
-        case.record.energy,
-        case.start,
-        truncation,
-        modes,
-        case.ramps,
-    )
+    kept = {"windows": windows, "poincare": case.record.poincare, "events": events, "energy": case.record.energy}
+    how = {name: getattr(case, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
+    spec = CaseSpec(parameters=parameters, truncation=truncation, modes=modes, **kept, **how)
     return case, spec
 
 
