@@ -152,6 +152,9 @@ CHOOSING = ("truncation_quantity", "truncation_tolerance")
 RESIDUAL = "residual"
 """As ``contact_compliance``: the static give of the modes left out."""
 
+RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu")
+"""Parameters that rules relate to each other."""
+
 _LATER = ("contact_compliance", "contact_force")
 """Parameters that came later: left out of the canonical form at their defaults, so that old hashes hold."""
 
@@ -281,7 +284,7 @@ def _rigidity(E: float, h: float, nu: float) -> float:
 def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     """Rules between parameters, checked where both sides are finite numbers: no fault hides another."""
     values: dict[str, float] = {}
-    for name in ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu"):
+    for name in RELATED:
         try:
             value = number(data.get(name, model.model_fields[name].default))
         except ValueError:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
@@ -14,9 +14,6 @@ PHASES = ("stick", "slip", "separation")
 EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
 """Phases and kinds of switch, in the order of the engine's numbers for them."""
 STATUSES = (*(status.value for status in Status), "failed")
-NORMALIZATIONS = ("as_published", "orthonormal")
-CONTACTS = ("separable", "bonded")
-CONTACT_FORCES = ("vertical", "normal")
 
 
 class Variable(NamedTuple):
@@ -78,7 +75,9 @@ COUNTS = {
 """Whole numbers among the scalars, and what `Result.statistics` calls them."""
 BESIDE_WINDOWS = frozenset({"events", "poincare", *SCALARS, *Parameters.model_fields})
 """Groups and variables that stand beside the windows in a file: no window can be called so."""
-CHOICES = {"normalization": NORMALIZATIONS, "contact": CONTACTS, "contact_force": CONTACT_FORCES}
+CHOICES: dict[str, tuple[str, ...]] = {
+    name: get_args(Parameters.model_fields[name].annotation) for name in ("normalization", "contact", "contact_force")
+}
 KICKS = {
     "kick_u": Variable("m", "kick of the slider and of the disc under it, upward"),
     "kick_u_velocity": Variable("m s-1", "kick of their velocity, upward"),

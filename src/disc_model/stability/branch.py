@@ -40,6 +40,9 @@ Array = NDArray[np.float64]
 REORDERED = "the order of switches changes"
 """How the reason for which a branch of cycles that separate ends may begin."""
 
+USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5}
+"""Values of parameters that have none in Table 1, or 0."""
+
 CORRECTIONS = 8
 """Newton steps allowed to a corrector before the arclength is halved."""
 
@@ -175,18 +178,8 @@ def newton_step(matrix: Array, right: Array) -> Array:
 
 def default_scale(p: Parameters, name: str) -> float:
     """Change of a parameter that counts as much as the static deflection itself: its value, or part of a usual one."""
-    usual = {
-        "Omega": 20.0,
-        "N": 300.0,
-        "D_star": 1e-5,
-        "c": 0.5,
-        "c_p": 0.5,
-        "k": 5e4,
-        "k_p": 2e4,
-        "E": 1.5e11,
-        "m": 0.1,
-    }
-    return max(abs(float(getattr(p, name))), 0.2 * usual[name])
+    usual = USUAL.get(name, Parameters.model_fields[name].default)
+    return max(abs(float(getattr(p, name))), 0.2 * usual)
 
 
 # ----------------------------------------------------------------------------------------------------

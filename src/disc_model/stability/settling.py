@@ -285,7 +285,8 @@ def return_difference(result: Result, states: Array) -> float:
         P = result.samples[0]["P"]
         return float(P.max() - P.min()) / p.N
     spans = range(1, min(LARGEST_PERIOD, len(states) // 2) + 1)
-    return min((_root_mean_square(states[n:] - states[:-n]) for n in spans), default=math.nan)
+    changes = (states[n:] - states[:-n] for n in spans)
+    return min((float(np.sqrt(np.mean(change**2))) for change in changes), default=math.nan)
 
 
 def _scaled(p: Parameters, slider: Array) -> Array:
@@ -300,10 +301,6 @@ def _scaled(p: Parameters, slider: Array) -> Array:
 def _angle_at_release(p: Parameters) -> float:
     """Angle at which friction lets go under the preload, rad."""
     return p.mu_s * p.N / (p.k_p * p.r_0) if p.k_p > 0 and p.mu_s > 0 else 1.0
-
-
-def _root_mean_square(x: Array) -> float:
-    return float(np.sqrt(np.mean(x**2)))
 
 
 def _watching(start: float, stop: float) -> Record:

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from disc_model.data.variables import KICKS
-from disc_model.parameters import Parameters
-from disc_model.studies.grids.dimensions import RELATED
+from disc_model.parameters import RELATED, Parameters
 from disc_model.studies.grids.schema import GridStudy, parse_grid
 from tests.studies.refused import faults_of
 

@@ -12,7 +12,7 @@ from pydantic import Field, model_validator
 
 from disc_model.data.variables import KICKS
 from disc_model.errors import Fault, ParameterError, shown, suggestion
-from disc_model.parameters import AUTO, RESIDUAL, Count, Finite, Parameters, Real, Strict, cross_faults, number
+from disc_model.parameters import AUTO, RELATED, RESIDUAL, Count, Finite, Parameters, Real, Strict, cross_faults, number
 from disc_model.simulation.case import START, SomeParameters
 from disc_model.studies.files import Faults, add_parameter_faults, mapping, validated
 
@@ -144,8 +144,6 @@ PUBLISHED = "published"
 """The start that needs not be said."""
 VARIED = (*Parameters.model_fields, START, *KICKS)
 """What a grid may vary, in the order of its dimensions: every parameter, and the start."""
-RELATED = frozenset({"mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu"})
-"""Parameters that rules relate to each other."""
 MOST_POINTS = 1_000_000
 """Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
 
@@ -282,7 +280,7 @@ def _kick(value: Value) -> float:
 
 def check_points(dims: Sequence[Dimension], base: Mapping[str, Any], faults: Faults) -> None:
     """Faults for rules between parameters of which some vary, each where it is broken first."""
-    related = [dim for dim in dims if not RELATED.isdisjoint(dim.names)]
+    related = [dim for dim in dims if not set(RELATED).isdisjoint(dim.names)]
     varied = [name for dim in related for name in dim.names]
     broken: set[str] = set()
     for point in points(related):

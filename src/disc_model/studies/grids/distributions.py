@@ -12,10 +12,10 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, PrivateAttr, model_validator
 
 from disc_model.errors import Fault, ParameterError, shown
-from disc_model.parameters import Count, Finite, Parameters, Positive, Strict, cross_faults, is_number
+from disc_model.parameters import RELATED, Count, Finite, Parameters, Positive, Strict, cross_faults, is_number
 from disc_model.simulation.case import SomeParameters
 from disc_model.studies.files import Faults, add_parameter_faults
-from disc_model.studies.grids.dimensions import RELATED, Dimension, points
+from disc_model.studies.grids.dimensions import Dimension, points
 
 # ----------------------------------------------------------------------------------------------------
 # What a file may say
