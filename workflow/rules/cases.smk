@@ -11,6 +11,8 @@ rule warm_cache:
         f"results/compiled/{SOLVER}.txt",
     log:
         f"results/compiled/{SOLVER}.log",
+    # almost all waits for it; what can be done meanwhile, other kernels, comes after it
+    priority: 2
     conda:
         "../envs/disc_model.yaml"
     message:

@@ -38,6 +38,7 @@ try:
         why_unknown,
     )
     from disc_model.studies.files import StudyError, read_file
+    from disc_model.studies.grids.schema import LAWS
     from disc_model.studies.schema import study_from_config
 except ModuleNotFoundError as error:
     raise WorkflowError(
@@ -185,6 +186,14 @@ def merged_file(study):
     return f"results/{study}/merged/{GRIDS[study].key}.nc"
 
 
+def compiled_for(study):
+    """What says that the kernels are compiled which a study needs."""
+    first, *others = LAWS
+    marks = {law: f"results/compiled/studies-{COMPILED}-{law}.txt" for law in others}
+    marks[first] = f"results/compiled/studies-{COMPILED}.txt"
+    return [marks[law] for law in GRIDS[study].laws]
+
+
 def merge_plan(study):
     """What a merge needs to know beyond its files, as JSON."""
     plan = {
@@ -200,6 +209,7 @@ def merge_plan(study):
 CASE_SOURCES = sources_of("simulate_case")
 BATCH_SOURCES = sources_of("compute_batch")
 LABELS = json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False)
+COMPILED = sources_of("warm_studies")
 
 
 def digest(*parts):

@@ -32,7 +32,6 @@ import xarray as xr
 
 from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
 from disc_model.errors import DiscModelError
-from disc_model.flexibility import contact_give
 from disc_model.parameters import RESIDUAL, Parameters
 
 CONVENTIONS = "CF-1.11"
@@ -96,6 +95,9 @@ def _compliance(p: Parameters) -> float:
     """Of the contact, m/N; nan where the modes leave nothing out to make it of: then the case has failed of that."""
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
+    # not above: with it comes scipy, for which each job that only reads results would wait
+    from disc_model.flexibility import contact_give
+
     try:
         return contact_give(p)
     except DiscModelError:

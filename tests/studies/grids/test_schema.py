@@ -18,7 +18,7 @@ from disc_model.mode_choice import read_parameters
 from disc_model.studies import modes
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
-from disc_model.studies.grids.schema import GridStudy, load_grid, load_grids, parse_grid
+from disc_model.studies.grids.schema import LAWS, GridStudy, load_grid, load_grids, parse_grid
 from disc_model.truncation import ModeChoice
 from tests.studies.grids.conftest import study
 from tests.studies.refused import faults_of
@@ -67,6 +67,15 @@ def test_all_kinds_of_parameters_can_vary() -> None:
         study(axes={"N": [1], "Omega": [1], "n_diameters": ["4", 3.0], "contact": ["bonded"]}, batch={"over": ["N"]})
     )
     assert points(grid) == [[[1.0, 1.0, 3, "bonded"]], [[1.0, 1.0, 4, "bonded"]]]
+
+
+def test_the_laws_of_contact_are_those_of_its_points() -> None:
+    both = {"contact_compliance": [0, 1e-7], "contact_force": ["vertical", "normal"]}
+    axes = {"N": [100], "Omega": [10]}
+    assert parse_grid(study()).laws == ["rigid_vertical"]
+    assert parse_grid(study(base={"contact_compliance": "residual"})).laws == ["compliant_vertical"]
+    assert parse_grid(study(axes={**axes, **both})).laws == list(LAWS)
+    assert parse_grid(study(axes=axes, zip=both)).laws == ["rigid_vertical", "compliant_normal"]
 
 
 def test_spelling_and_order_do_not_matter() -> None:

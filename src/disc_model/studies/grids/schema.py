@@ -212,6 +212,13 @@ class _Header(Strict):
     figures: dict[Name, Any] = Field({})
 
 
+LAWS = ("rigid_vertical", "rigid_normal", "compliant_vertical", "compliant_normal")
+"""Laws of contact, the paper's first."""
+_OF_LAW: dict[str, Any] = {
+    name: Parameters.model_fields[name].default for name in ("contact_compliance", "contact_force")
+}
+
+
 @dataclass(frozen=True)
 class GridStudy:
     """A checked grid study.
@@ -247,6 +254,19 @@ class GridStudy:
     def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
         """Values along each dimension, by its name."""
         return {dim.name: dim.values for dim in self.dims}
+
+    @property
+    def laws(self) -> list[str]:
+        """Laws of contact of its points, in `LAWS`: each has kernels of its own."""
+        taken = [
+            {tuple(item for item in zip(dim.names, value, strict=True) if item[0] in _OF_LAW) for value in dim.values}
+            for dim in self.dims
+        ]
+        found = set()
+        for chosen in product(*taken):
+            compliance, force = ({**_OF_LAW, **self.base, **dict(chain(*chosen))}[name] for name in _OF_LAW)
+            found.add(f"{'compliant' if compliance else 'rigid'}_{force}")
+        return [law for law in LAWS if law in found]
 
     @property
     def n_points(self) -> int:
