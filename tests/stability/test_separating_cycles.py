@@ -12,7 +12,7 @@ from disc_model.simulation.result import State
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.return_map import PATIENT, ReturnMap, multipliers
-from tests.engine.test_variational import differences
+from tests.stability.test_return_map import central_differences
 
 # Derivatives take a minute to compile, and motions minutes of their own time to settle.
 pytestmark = [pytest.mark.slow, pytest.mark.compiled]
@@ -63,11 +63,9 @@ def test_its_multipliers_are_those_of_differences_of_the_map(cycle) -> None:
     p, _, found, _ = cycle
     map_ = ReturnMap(p, 1e-14, patience=PATIENT)
     x = map_.point(found.state)
-    how = {"releases": found.releases, "may_separate": True, "tangent": False}
     # a hundred times what keeps the order of switches, and far above the rounding of the flight
     size = 1e-6 * float(np.linalg.norm(map_.static))
-    columns = [differences(lambda s, e=e: map_.evaluate(x + s * e, **how)[1], size) for e in np.eye(map_.size)]
-    expected = multipliers(np.array(columns).T)
+    expected = multipliers(central_differences(map_, x, size, releases=found.releases, may_separate=True))
     apart = np.abs(found.multipliers[:, None] - expected[None, :]).min(axis=1)
     assert apart.max() < 1e-5
     assert found.growth_rate == pytest.approx(math.log(abs(expected[0])) / found.period, abs=1e-4)
