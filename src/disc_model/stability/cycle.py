@@ -219,7 +219,7 @@ def cycle_neared(p: Parameters, state: State, releases: int) -> FloquetResult | 
     if not may_stick_and_slip(p):
         return None
     tol = 1e-12
-    map_ = ReturnMap(p, tol)
+    map_ = ReturnMap(p, tol, patience=PATIENT)
     code, x = map_.next_release(state)
     found = newton(map_, x, tol=tol, releases=releases, may_separate=True) if code == RETURNED else None
     if found is None:

@@ -121,3 +121,11 @@ def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: 
     assert values["period"] == period
     assert len(np.unique(np.round(values["psi"], 5))) == period
     assert set(values["phase"]) == {phase}
+
+
+@pytest.mark.compiled
+def test_the_period_of_a_motion_that_sticks_rarely_was_missed() -> None:
+    """It sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several."""
+    options = BifurcationOptions(prepare=APART, transient=30, section="switch", longest=30, samples=50)
+    values, _ = bifurcation.at(Parameters(N=385, Omega=22.25), options)
+    assert (values["period"], values["steady"]) == (40, "yes")
