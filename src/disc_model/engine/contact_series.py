@@ -9,7 +9,7 @@ series with beta are the price.  Rigid stick moves as under the vertical force.
 from __future__ import annotations
 
 from .compile import inlined
-from .lanes import WIDTH, add, fma, splat, total
+from .lanes import WIDTH, add, fma, item, mul, splat, total
 from .layout import (
     DOWN,
     DRIVE_SERIES,
@@ -72,6 +72,32 @@ def _slope(model, s, k):
 
 
 @inlined
+def _disc_velocity(model, s):
+    """Order 0 of the disc's velocity under the slider, but for f_0 B."""
+    width, lanes = lane_count(model), splat(0.0)
+    for b in range(0, width, WIDTH):
+        lanes = fma(_row(model, FORCE_ROW, b), _e(s, width, b), lanes)
+    v = total(lanes)
+    for j in range(len(model.force0)):
+        v += model.force0[j] * s.g[j]
+    return v
+
+
+@inlined
+def _closing(model, s, k, e, carried):
+    """Order k of the disc's velocity under the slider as the order before leaves it: without V_{k-1} and f_k."""
+    width, n = lane_count(model), len(model.force0)
+    lanes = fma(_row(model, FORCE_ROW, 0), e, mul(_row(model, SLOPE, 0), carried))
+    for b in range(WIDTH, width, WIDTH):
+        lanes = fma(_row(model, FORCE_ROW, b), _e(s, width, k * width + b), lanes)
+        lanes = fma(_row(model, SLOPE, b), _kept(s, _CARRIED, width, b), lanes)
+    v = total(lanes)
+    for j in range(n):
+        v += item(model.force0, j) * item(s.g, k * n + j)
+    return v
+
+
+@inlined
 def _spring(model, s, k):
     """F of order k, from psi_k and f_k."""
     F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k]
@@ -131,10 +157,13 @@ def compliant_slip_series(model, s, order, direction):
     width, stiffness, friction = lane_count(model), 1.0 / give_of(model.give), direction * model.mu_k
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
-    e, carried, e_last, z_last = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
+    e, carried, e_last, z_last = _e(s, width, 0), splat(0.0), splat(0.0), splat(0.0)
+    w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
     for k in range(order):
         f = s.slider[F + k]
-        V = (_deflection(model, s, k) - s.slider[U_SERIES + k]) * stiffness
+        V = (w - s.slider[U_SERIES + k]) * stiffness
+        # ahead of the modes: their sum would be what every order waits for
+        w = (closing + f * slope - impulse * model.compliance) * s.slider[UP + k]
         if is_normal(model):
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             if k == 0:
@@ -159,6 +188,7 @@ def compliant_slip_series(model, s, order, direction):
             for b in range(WIDTH, width, WIDTH):
                 _order_from_memory(model, s, width, b, k, f, f0, impulse)
         _axisymmetric(model, s, k, impulse)
+        closing = _closing(model, s, k + 1, e, carried)
         impulse = V * s.slider[UP + k]
     _last_force(model, s, order, impulse)
     _set_switch(s, order, direction)

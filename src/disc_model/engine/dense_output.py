@@ -57,14 +57,19 @@ def state_at(model, s, order, x, phase, state):
     """Fill ``state`` with the series' value at x (time units); u, u' only where they are not the disc's."""
     _modes_at(model, s, order, x, state)
     psi, f = item(s.psi, order), item(s.f, order)
-    for k in range(order - 1, -1, -1):
-        psi, f = psi * x + item(s.psi, k), f * x + item(s.f, k)
+    if is_compliant(model) or phase == SEPARATION:
+        # in one loop: each of the four waits for its own last term only
+        u, v = item(s.u, order), item(s.v, order)
+        for k in range(order - 1, -1, -1):
+            psi, f = psi * x + item(s.psi, k), f * x + item(s.f, k)
+            u, v = u * x + item(s.u, k), v * x + item(s.v, k)
+        state.x[U], state.x[U_VELOCITY] = u, v
+    else:
+        for k in range(order - 1, -1, -1):
+            psi, f = psi * x + item(s.psi, k), f * x + item(s.f, k)
     state.x[PHASE] = phase
     state.x[PSI] = psi
     state.x[SPEED] = 0.0 if phase == STICK else f
-    if is_compliant(model) or phase == SEPARATION:
-        state.x[U] = value(s.u, 0, order, x)
-        state.x[U_VELOCITY] = value(s.v, 0, order, x)
     if is_ramped(model):
         state.x[DRIVE] = s.slider[DRIVE_SERIES] + x * s.slider[DRIVE_SERIES + 1]
         state.x[LOAD] = s.slider[LOAD_SERIES] + x * s.slider[LOAD_SERIES + 1]

@@ -37,6 +37,8 @@ F, PSI_SERIES, P, U_SERIES, V_SERIES, SWITCH, SWITCH2, POWERS, UP, DOWN, SLOPE_S
 HALF = WIDTH // 2
 # Rows of Series.roots; the numbers that integrate and differentiate powers.
 ROOT_ROWS = 7 * WIDTH
+# Longest ``Model.free_unit``: the highest power of eight of them has to be a number.
+MOST_FREE = 1e4
 _FROM_1 = np.arange(1.0, ROWS + 1.0)
 
 
@@ -77,6 +79,7 @@ class Model(NamedTuple):
     compliance: float  # S2 = sum psi_l^2, 1/kg
     damped_compliance: float  # sum 2 xi_l omega_l psi_l^2, 1/(kg s)
     unit: float  # time unit of the series, s
+    free_unit: float  # one radian of the fastest motion out of contact, time units; not used in rigid contact
     velocity_scale: float  # m/s times sqrt(kg): what a modal velocity is compared with
     slider_scale: float  # m/s: what u' is compared with in separation
     speed_scale: float  # rad/s: what f is compared with
@@ -232,6 +235,7 @@ def build_model(
     row["minus_force_stiffness"][:] = -row["force"] * row["stiffness"]
     more, S2 = width // WIDTH - 1, float(np.sum(psi**2))
     unit = _time_unit(omega, (1 / m + S2) / give if give else 0.0, max(k, k_p) / m)
+    free_unit = min(_time_unit(omega, 0.0, max(k, k_p) / m) / unit, MOST_FREE)
     modes = no_modes()
     if not normal:
         modes = build_stick_modes(
@@ -261,6 +265,7 @@ def build_model(
         compliance=S2,
         damped_compliance=float(np.sum(damping * psi**2)),
         unit=unit,
+        free_unit=free_unit,
         velocity_scale=N * float(np.max(np.abs(psi) / omega, initial=0.0)),
         slider_scale=N * (float(np.sum(psi**2 / omega)) + give / unit),
         speed_scale=Omega,
@@ -303,7 +308,7 @@ def build_series(model: Model, order: int) -> Series:
     width, n0 = len(model.shift), len(model.force0)
     modes, slider, y, g, amplitudes, roots = aligned_pieces(
         (2 * ROWS + 5) * width, len(SLIDER_ROWS) * ROWS, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
-        ROOT_ROWS * (order + 4),
+        ROOT_ROWS * (padded(order + 1) + WIDTH),
     )  # fmt: skip
     rows = slider.reshape(-1, ROWS)
     np.divide(model.unit, _FROM_1, out=rows[UP // ROWS])

@@ -27,6 +27,7 @@ from .layout import (
     TIME,
     TIME_LOW,
     U_VELOCITY,
+    is_compliant,
 )
 from .outcomes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
 from .sampling import sample_step
@@ -112,11 +113,12 @@ def _kind(state, cause):
 def _switch(model, state, cause, at_once, kept):
     """Carry out the switch and record its events; ``at_once``: after no time.  Returns its outcome."""
     came_from, before, velocity, slope = state.x[DIRECTION], 0.0, 0.0, 0.0
-    if cause == GAP_CLOSED:
+    hits = cause == GAP_CLOSED and not is_compliant(model)
+    if hits:
         before, velocity = transverse_energy(model, state, SEPARATION), state.x[U_VELOCITY]
         _, _, slope = disc_point(model, state)
     outcome = change_phase(model, state, cause, at_once)
-    if cause == GAP_CLOSED:
+    if hits:
         audit_impact(model, before, model.m * (state.x[U_VELOCITY] - velocity), slope, state, kept.audit)
     if outcome == NO_SOLUTION:
         return outcome

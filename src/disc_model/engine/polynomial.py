@@ -8,11 +8,34 @@ half first (Descartes' rule, de Casteljau's algorithm).
 
 from __future__ import annotations
 
+import numpy as np
+
 from .compile import inlined, kernel
-from .lanes import WIDTH, add, item, load, minimum, mul, splat, store, total
+from .lanes import WIDTH, add, fma, item, load, maximum, minimum, mul, put, splat, spread, store, total
+from .layout import ROWS
 
 NO_ROOT = -1.0
+# Halley's method ends at a step of this size, relative to the root.
+_SETTLED = 4e-16
+# In haste, at one whose cube is rounding, as long as the curve bends this little over it: the next would be its cube.
+_SMALL, _STRAIGHT = 1e-5, 1e-4
 _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and the cell's end decides
+
+
+def _binomials():
+    """Pascal's triangle: j over i at [i, j], shape (ROWS, ROWS)."""
+    choose = np.zeros((ROWS, ROWS))
+    choose[0] = 1.0
+    for j in range(1, ROWS):
+        choose[1:, j] = choose[1:, j - 1] + choose[:-1, j - 1]
+    return choose
+
+
+# Flat, in whole blocks of lanes: j over i at i * ROWS + j; one over (n over j), or 0 for j > n, at n * ROWS + j.
+_CHOOSE = _binomials().ravel()
+_ONE_OVER_CHOOSE = np.divide(1.0, _binomials().T, out=np.zeros((ROWS, ROWS)), where=_binomials().T > 0.0).ravel()
+_HALVES = 0.5 ** np.arange(ROWS)
+_COUNT = np.arange(float(ROWS))
 
 
 @inlined
@@ -63,30 +86,47 @@ def _sign_changes(b, n):
     return changes
 
 
+@inlined
+def _raised(c, n, b):
+    """Lanes b..b+7 of sum_i (j over i) c[i], i <= n, which is what ``n`` rounds of adding neighbours come to."""
+    v = splat(0.0)
+    for i in range(min(n + 1, b + WIDTH)):
+        v = fma(spread(c, i), load(_CHOOSE, i * ROWS + b), v)
+    return v
+
+
 @kernel
-def _to_bernstein(d, n, b):
+def _to_bernstein(d, n, work, b):
     """Bernstein coefficients on [0, 1] of sum d_j x^j."""
-    choose = 1.0
-    for j in range(n + 1):
-        b[j] = d[j] / choose
-        choose *= (n - j) / (j + 1.0)
-    for i in range(1, n + 1):
-        for j in range(n, i - 1, -1):
-            b[j] += b[j - 1]
+    for j in range(0, n + 1, WIDTH):
+        store(work, j, mul(load(d, j), load(_ONE_OVER_CHOOSE, n * ROWS + j)))
+    for j in range(0, n + 1, WIDTH):
+        store(b, j, _raised(work, n, j))
 
 
 @kernel
-def _split(b, right, n):
-    """Halve the interval: b becomes the left half's coefficients, ``right`` the right half's."""
-    for i in range(n + 1):
-        right[n - i] = b[n]
-        for j in range(n, i, -1):
-            b[j] = 0.5 * (b[j] + b[j - 1])
+def _halve(cell, left, n, work):
+    """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` those of the right half.
+
+    The right half's are the left half's of the cell read backwards; work: shape of a cell.
+    """
+    for j in range(0, n + 1, WIDTH):
+        store(left, j, mul(_raised(cell, n, j), load(_HALVES, j)))
+    for j in range(n + 1):
+        put(work, j, item(cell, n - j))
+    # last block first: a block needs those before it
+    for j in range(n - n % WIDTH, -1, -WIDTH):
+        store(work, j, mul(_raised(work, n, j), load(_HALVES, j)))
+    for j in range(n + 1):
+        put(cell, n - j, item(work, j))
 
 
 @inlined
-def _polish(d, n, low, high, x):
-    """Root between ``low`` (positive) and ``high`` (not positive), from the guess x: Halley in a shrinking bracket."""
+def _polish(d, n, low, high, x, hasty):
+    """Root between ``low`` (positive) and ``high`` (not positive), from the guess x: Halley in a shrinking bracket.
+
+    hasty: whether to leave out a step that would be rounding.
+    """
     for _ in range(80):
         p, slope, curve = d[n], 0.0, 0.0
         for j in range(n - 1, -1, -1):
@@ -99,41 +139,56 @@ def _polish(d, n, low, high, x):
             high = x
         # Halley: p p' / (p'^2 - p p''/2), the loop's curve being p''/2
         new = x - p * slope / (slope * slope - p * curve)
+        enough = _SETTLED
         if not (low <= new <= high):
             new = 0.5 * (low + high)
-        if abs(new - x) <= 4e-16 * x:
+        elif hasty and abs(p * curve) <= _STRAIGHT * slope * slope:
+            enough = _SMALL
+        if abs(new - x) <= enough * x:
             return new
         x = new
     return x
 
 
 @inlined
-def _surely_falling(d, n):
-    """True if the slope is negative all over [0, 1]: d_1 plus all positive later terms of the derivative is."""
-    slope = d[1]
-    for j in range(2, n + 1):
-        slope += max(0.0, j * d[j])
-    return slope < 0.0
+def _crossing(b, n):
+    """Where the polygon through b[0..n], which changes sign once, crosses zero, between 0 and 1."""
+    i = 1
+    while item(b, i) >= 0.0:
+        i += 1
+    before, after = item(b, i - 1), item(b, i)
+    return (i - 1 + before / (before - after)) / n
 
 
 @inlined
-def first_root(c, low, n, x_end, powers, work):
+def _surely_falling(d, n):
+    """True if the slope is negative all over [0, 1]: d_1 plus all positive terms of the derivative is."""
+    zero = splat(0.0)
+    rising = zero
+    for j in range(0, n + 1, WIDTH):
+        rising = add(rising, maximum(zero, mul(load(d, j), load(_COUNT, j))))
+    return d[1] + total(rising) < 0.0
+
+
+@inlined
+def first_root(c, low, n, x_end, powers, work, hasty):
     """Smallest x in (0, x_end] where the polynomial stops being positive, or NO_ROOT.
 
     c: coefficients, zero beyond n; low: known multiplicity of the root at 0; powers: x_end**j; both padded to whole
-    blocks of lanes; work: shape (>= 54, >= n + 3).  A polynomial that is negative at 0 has its root there.
+    blocks of lanes; work: shape (>= 54, whole blocks for n + 1 coefficients and two more);
+    hasty: see ``_polish``.  A polynomial that is negative at 0 has its root there.
     """
     if surely_positive(c, low, n, powers):
         return NO_ROOT
-    return _search(c, low, n, x_end, powers, work)
+    return _search(c, low, n, x_end, powers, work, hasty)
 
 
 @kernel
-def _search(c, low, n, x_end, powers, work):
+def _search(c, low, n, x_end, powers, work, hasty):
     degree = n - low
     d = work[0]
-    for j in range(degree + 1):
-        d[j] = c[low + j] * powers[j]
+    for j in range(0, degree + 1, WIDTH):
+        store(d, j, mul(load(c, low + j), load(powers, j)))
     end = 0.0
     for j in range(degree + 1):
         end += d[j]
@@ -141,37 +196,36 @@ def _search(c, low, n, x_end, powers, work):
         return 0.0 if d[0] < 0.0 or end < 0.0 else NO_ROOT
     if _surely_falling(d, degree):
         # one root if the end is not positive, none otherwise
-        return x_end * _polish(d, degree, 0.0, 1.0, d[0] / (d[0] - end)) if end <= 0.0 else NO_ROOT
-    _to_bernstein(d, degree, work[2])
-    root = _leftmost(d, degree, work)
+        return x_end * _polish(d, degree, 0.0, 1.0, d[0] / (d[0] - end), hasty) if end <= 0.0 else NO_ROOT
+    _to_bernstein(d, degree, work[1], work[2])
+    root = _leftmost(d, degree, work, hasty)
     return NO_ROOT if root == NO_ROOT else x_end * root
 
 
 @kernel
-def _leftmost(d, n, work):
+def _leftmost(d, n, work, hasty):
     """First root in (0, 1] of the polynomial whose Bernstein form is work[2]; NO_ROOT if there is none.
 
-    work[2:] is a stack of cells, leftmost on top: n + 1 coefficients, left end, width.
+    work[2:] is a stack of cells, leftmost on top: coefficients in whole blocks of lanes, left end, width.
     """
-    top = 2
-    work[top, n + 1], work[top, n + 2] = 0.0, 1.0
+    top, start = 2, work.shape[1] - 2
+    work[top, start], work[top, start + 1] = 0.0, 1.0
     while top >= 2:
         cell = work[top]
-        low, width = cell[n + 1], cell[n + 2]
+        low, width = cell[start], cell[start + 1]
         changes = _sign_changes(cell, n)
         if cell[0] < 0.0:
             return low
         if changes == 1:
-            return _polish(d, n, low, low + width, low + 0.5 * width)
+            guess = _crossing(cell, n) if hasty else 0.5
+            return _polish(d, n, low, low + width, low + guess * width, hasty)
         if changes == 2 and width > _NARROWEST:
             top += 1
             left = work[top]
-            for j in range(n + 1):
-                left[j] = cell[j]
-            _split(left, cell, n)
+            _halve(cell, left, n, work[1])
             width *= 0.5
-            left[n + 1], left[n + 2] = low, width
-            cell[n + 1], cell[n + 2] = low + width, width
+            left[start], left[start + 1] = low, width
+            cell[start], cell[start + 1] = low + width, width
         elif changes == 2 and cell[n] < 0.0:
             return low + width
         else:

@@ -478,17 +478,22 @@ def separation_series(model, s, order):
     width, n = lane_count(model), len(model.force0)
     f0, driven, weight = s.slider[F], drive(model, s), load_at(model, s) - model.k * model.u_0
     pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (driven - f0)
+    e, carried, e_last, z_last = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for k in range(order + 1):
         if k == 0:
             for b in range(0, width, WIDTH):
                 _order_zero(model, s, width, b, f0)
+            e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
+            e_last, z_last = _e(s, width, 0), _z(s, width)
         else:
             pull, driven, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0, 0.0
             if is_ramped(model):
                 driven, weight = s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
                 pull += model.c_p * driven
-            for b in range(0, width, WIDTH):
-                _order_from_memory(model, s, width, b, k, s.slider[F + k], f0, 0.0)
+            f = s.slider[F + k]
+            _, _, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, 0.0, e, carried, e_last, z_last)
+            for b in range(WIDTH, width, WIDTH):
+                _order_from_memory(model, s, width, b, k, f, f0, 0.0)
         _axisymmetric(model, s, k, 0.0)
         w = splat(0.0)
         for b in range(0, width, WIDTH):

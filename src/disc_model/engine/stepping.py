@@ -39,7 +39,7 @@ from .switches import (
     usual_denominator,
 )
 
-# Longest step, in units of 1 / largest omega: beyond it the terms of the series cancel more digits than they add.
+# Longest step, in radians of the fastest motion: beyond it the terms of the series cancel more digits than they add.
 LONGEST_STEP = 8.0
 TYPICAL_STEP = 3.0
 
@@ -57,9 +57,9 @@ def _size(model, s, k):
 
 
 @inlined
-def _last_two(c, order):
-    """Size of the last two terms, as if the step were ``TYPICAL_STEP``."""
-    return max(abs(c[order]), abs(c[order - 1]) / TYPICAL_STEP)
+def _last_two(c, order, typical):
+    """Size of the last two terms, as if the step were ``typical``."""
+    return max(abs(c[order]), abs(c[order - 1]) / typical)
 
 
 @inlined
@@ -82,23 +82,26 @@ def step_size(model, s, order, tolerance, phase):
     more; f with the drive speed; where it is not the disc's also u'.  The two terms are merged as if the step were
     ``TYPICAL_STEP``, which spares a root.
     """
-    last = max(_size(model, s, order), _size(model, s, order - 1) / TYPICAL_STEP)
+    # out of contact the fastest motion is not that on a compliant contact, by which time is measured
+    calm = model.free_unit if is_compliant(model) and phase == SEPARATION else 1.0
+    typical, longest = TYPICAL_STEP * calm, LONGEST_STEP * calm
+    last = max(_size(model, s, order), _size(model, s, order - 1) / typical)
     usual_speed, share = model.speed_scale, 1.0
     if is_ramped(model):
         usual_speed, share = drive(model, s), load_at(model, s) / model.N
     scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
-    error = _relative(last, scale) + _relative(_last_two(s.f, order), speed)
+    error = _relative(last, scale) + _relative(_last_two(s.f, order, typical), speed)
     if is_compliant(model) or phase == SEPARATION:
-        error += _relative(_last_two(s.v, order), _scale(share * model.slider_scale, abs(s.v[0]), abs(s.v[1])))
+        error += _relative(_last_two(s.v, order, typical), _scale(share * model.slider_scale, abs(s.v[0]), abs(s.v[1])))
     if phase != SEPARATION:
         # P is known to one order less
         last_force = max(abs(s.P[order - 1]) / TYPICAL_STEP, abs(s.P[order - 2]) / TYPICAL_STEP**2)
         error += _relative(last_force, _scale(load_at(model, s), abs(s.P[0]), abs(s.P[1])))
     if not error < math.inf or not scale + speed < math.inf:
         return math.nan
-    if error * LONGEST_STEP**order <= tolerance:
-        return LONGEST_STEP
+    if error * longest**order <= tolerance:
+        return longest
     return math.exp(math.log(tolerance / error) / order)
 
 
@@ -146,12 +149,13 @@ def first_switch(model, s, state, order, x_end):
     phase, known, known_force = state.x[PHASE], int(state.x[KNOWN]), 0
     if is_compliant(model):
         known, known_force = known % TOUCHING, known // TOUCHING
+    hasty = is_compliant(model)  # rigid contact keeps its bits
     set_powers(s.powers, x_end)
     cause, known_release = NOTHING, known_force
     if phase == STICK:
         if not model.bonded and never_pulled(model, state):
             # P = 0 and the friction limit coincide, and it is contact that ends
-            x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots)
+            x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots, hasty)
             if x != NO_ROOT:
                 x_end, cause = x, CONTACT_LOST
                 set_powers(s.powers, x_end)
@@ -159,32 +163,32 @@ def first_switch(model, s, state, order, x_end):
                 return x_end, cause
             # the slope of the disc may pull: P is no factor of the release functions here
             known_release = 0
-        x = first_root(s.switch, known_release, order - 1, x_end, s.powers, s.roots)
+        x = first_root(s.switch, known_release, order - 1, x_end, s.powers, s.roots, hasty)
         if x != NO_ROOT:
             x_end, cause = x, RELEASE_FORWARD
             set_powers(s.powers, x_end)
         # under the vertical force the pull only grows; the slope of a disc that bends can turn it, and so can a drive
         # that slows down, by its damper
         if is_normal(model) or is_ramped(model) or s.switch2[0] < s.switch[0]:
-            x = first_root(s.switch2, known_release, order - 1, x_end, s.powers, s.roots)
+            x = first_root(s.switch2, known_release, order - 1, x_end, s.powers, s.roots, hasty)
             if x != NO_ROOT:
                 x_end, cause = x, RELEASE_BACKWARD
                 set_powers(s.powers, x_end)
         if model.mu_s == 0.0 and not model.bonded:
             # the friction limit is zero all along and says nothing of contact
-            x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots)
+            x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots, hasty)
             if x != NO_ROOT:
                 x_end, cause = x, CONTACT_LOST
         return x_end, cause
     if phase == SEPARATION:
-        x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
+        x = first_root(s.switch, known, order, x_end, s.powers, s.roots, hasty)
         return (x, GAP_CLOSED) if x != NO_ROOT else (x_end, NOTHING)
-    x = first_root(s.switch, known, order, x_end, s.powers, s.roots)
+    x = first_root(s.switch, known, order, x_end, s.powers, s.roots, hasty)
     if x != NO_ROOT:
         x_end, cause = x, AT_REST
         set_powers(s.powers, x_end)
     if not model.bonded:
-        x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots)
+        x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots, hasty)
         if x != NO_ROOT:
             x_end, cause = x, CONTACT_LOST
     return x_end, cause
