@@ -89,10 +89,14 @@ def _sign_changes(b, n):
 @inlined
 def _raised(c, n, b):
     """Lanes b..b+7 of sum_i (j over i) c[i], i <= n, which is what ``n`` rounds of adding neighbours come to."""
-    v = splat(0.0)
-    for i in range(min(n + 1, b + WIDTH)):
-        v = fma(spread(c, i), load(_CHOOSE, i * ROWS + b), v)
-    return v
+    last = min(n, b + WIDTH - 1)
+    even, odd = splat(0.0), splat(0.0)  # a sum's next term waits for its last one
+    for i in range(0, last, 2):
+        even = fma(spread(c, i), load(_CHOOSE, i * ROWS + b), even)
+        odd = fma(spread(c, i + 1), load(_CHOOSE, (i + 1) * ROWS + b), odd)
+    if last % 2 == 0:
+        even = fma(spread(c, last), load(_CHOOSE, last * ROWS + b), even)
+    return add(even, odd)
 
 
 @kernel
@@ -128,11 +132,11 @@ def _polish(d, n, low, high, x, hasty):
     hasty: whether to leave out a step that would be rounding.
     """
     for _ in range(80):
-        p, slope, curve = d[n], 0.0, 0.0
+        p, slope, curve = item(d, n), 0.0, 0.0
         for j in range(n - 1, -1, -1):
             curve = curve * x + slope
             slope = slope * x + p
-            p = p * x + d[j]
+            p = p * x + item(d, j)
         if p > 0.0:
             low = x
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .compile import inlined, kernel
+from .lanes import WIDTH, absolute, add, load, mul, splat, total
 from .layout import (
     COASTED,
     DIRECTION,
@@ -79,12 +80,14 @@ def _compliant_force(model, state):
 
     Those are the modes' shares of w, not w, which may be a difference of far larger ones.
     """
-    w, _, _ = disc_point(model, state)
-    give, size = give_of(model.give), abs(state.x[U])
-    for j in range(len(model.force)):
-        size += abs(model.force[j] * state.z[j])
+    shares, sizes = splat(0.0), splat(0.0)
+    for b in range(0, len(model.force), WIDTH):
+        share = mul(load(model.force, b), load(state.z, b))
+        shares, sizes = add(shares, share), add(sizes, absolute(share))
+    w, size, give = total(shares), abs(state.x[U]) + total(sizes), give_of(model.give)
     for j in range(len(model.force0)):
-        size += abs(model.force0[j] * state.y[j])
+        part = model.force0[j] * state.y[j]
+        w, size = w + part, size + abs(part)
     return (w - state.x[U]) / give, size / give
 
 
