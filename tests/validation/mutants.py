@@ -8,7 +8,7 @@ What is changed is read from the syntax tree, so that no formatting and no new t
     2.0 in a sum or product         4.0 (any float)
     a < b, a == b, ...              the opposite
 
-Left alone are elements' numbers, messages of errors, and sizes (sums of abs(), by which rounding is judged).
+Left alone are elements' numbers, messages of errors, and sizes (sums of moduli, by which rounding is judged).
 `FUNCTIONS` says which functions; `EQUIVALENT` lists, each with its reason, the changes that make no difference.
 """
 
@@ -34,7 +34,7 @@ FUNCTIONS = {
         *("slip_series", "_stick_order", "stick_series", "separation_series"),
     ),
     "engine/contact_series.py": (
-        *("_deflection", "_slope", "_spring", "_weight", "_leverage", "_move_slider"),
+        *("_deflection", "_slope", "_disc_velocity", "_closing", "_spring", "_weight", "_leverage", "_move_slider"),
         *("compliant_slip_series", "compliant_stick_series", "release_series", "normal_slip_series"),
     ),
     "engine/coasting.py": ("coast_length", "coast_to", "_times"),
@@ -157,7 +157,7 @@ def _changeable(node: ast.AST) -> Iterator[ast.AST]:
     called = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
     if called in NUMBERS_OF_ELEMENTS:
         return
-    if called in VECTOR_OPERATIONS or _is_changeable(node):
+    if (called in VECTOR_OPERATIONS and not _is_size(node)) or _is_changeable(node):
         yield node
     if isinstance(node, ast.BinOp):
         yield from (side for side in (node.left, node.right) if _is_factor(side))
@@ -184,7 +184,9 @@ def _is_factor(side: ast.AST) -> bool:
 
 
 def _is_size(term: ast.AST) -> bool:
-    return any(isinstance(part, ast.Call) and getattr(part.func, "id", "") == "abs" for part in ast.walk(term))
+    return any(
+        isinstance(part, ast.Call) and getattr(part.func, "id", "") in ("abs", "absolute") for part in ast.walk(term)
+    )
 
 
 def _is_index(argument: ast.AST) -> bool:

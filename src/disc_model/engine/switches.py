@@ -84,7 +84,7 @@ def _compliant_force(model, state):
     for b in range(0, len(model.force), WIDTH):
         share = mul(load(model.force, b), load(state.z, b))
         shares, sizes = add(shares, share), add(sizes, absolute(share))
-    w, size, give = total(shares), abs(state.x[U]) + total(sizes), give_of(model.give)
+    w, size, give = total(shares), total(sizes) + abs(state.x[U]), give_of(model.give)
     for j in range(len(model.force0)):
         part = model.force0[j] * state.y[j]
         w, size = w + part, size + abs(part)
