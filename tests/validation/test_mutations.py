@@ -48,7 +48,7 @@ NOTICED_BY = {
     "engine/audit.py": (*EQUATIONS, *RAMPS),
     "engine/contact_series.py": (LAWS, *RAMPS),
     "engine/dense_output.py": (*EQUATIONS, *RAMPS),
-    "engine/layout.py": (*EQUATIONS, *RAMPS),
+    "engine/layout.py": (*CLOSED_FORM, *RAMPS, "tests/engine/test_layout.py"),
     "engine/sampling.py": (*EQUATIONS, *RAMPS),
     "engine/stepping.py": RAMPS,
     "simulation/ramps.py": RAMPS,
