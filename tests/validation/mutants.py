@@ -72,6 +72,8 @@ FUNCTIONS = {
 }
 #: By the name of a mutant (as `Mutant` prints it): why it makes no difference.
 EQUIVALENT: dict[str, str] = {
+    "engine/audit.py:_powers_in: + lost -> -": "a size, without abs() as it is never negative",
+    "engine/audit.py:_powers_in: + damped -> -": "a size, without abs() as it is never negative",
     "engine/stick_modes.py:_compliant_eigenmodes: + k -> -": "the scale of u is free",
     "engine/stick_modes.py:_compliant_eigenmodes: 1.0 -> 2.0": "the scale of u is free",
     "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
