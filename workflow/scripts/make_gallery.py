@@ -30,7 +30,8 @@ OTHERS = {
     ),
     "critical_speed/figures/thresholds.png": (
         "Where the cycle becomes unstable, and where separation follows.",
-        "Neutral curves and folds by continuation, named after their resonances n f_s = f ± l Ω / 2π.",
+        "Neutral curves and folds by continuation, named after their resonances n f_s = f ± l Ω / 2π. Areas: what "
+        "the published start comes to within 1000 s.",
     ),
     "survival_growth/figures/survival_growth.png": (
         "Growth rate under four models.",
@@ -49,8 +50,7 @@ OTHERS = {
     ),
     "ramps/figures/ramps.png": (
         "Separation on ramps of the speed.",
-        "Onset as the speed rises steadily, and end as it falls, at N = 385 N. Dashed: where the stick-slip cycle "
-        "ends.",
+        "Onset as the speed rises steadily, and end as it falls, at N = 385 N. Dotted: where the stable cycle ends.",
     ),
     "bench/figures/overview.png": (
         "Speed against accuracy.",

@@ -47,6 +47,30 @@ STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
 PHASE_COLOURS = {"stick": STICK, "slip": SLIP, "separation": SEPARATED}
 BEFORE, AFTER = SKY, BLACK
 """Stages of a run: in contact before and after the first separation."""
+ONSET, END = SEPARATED, BLUE
+"""Speeds at which separation begins, and at which it ends."""
+PAPER = "#F0E442"
+"""Colour of what the paper says, always with a black edge: no other mark and no map has it."""
+PAPER_SAYS: dict[str, Any] = {
+    "marker": "*",
+    "color": PAPER,
+    "markeredgecolor": BLACK,
+    "markeredgewidth": 0.6,
+    "markersize": 9,
+}
+"""A number of the paper among curves."""
+
+BORDERS: dict[str, tuple[str, Any]] = {
+    "neutral": ("cycle loses stability", "-"),
+    "fold": ("stable cycle ends (fold)", (0, (1.2, 0.8))),
+}
+"""Names and dashes of the lines of stability charts; the dashes are so short that corners of cells stay visible."""
+
+
+def border(kind: str) -> dict[str, Any]:
+    """How a line of `BORDERS` is drawn and named in all charts."""
+    label, dashes = BORDERS[kind]
+    return {"color": BLACK, "linewidth": 1.0, "linestyle": dashes, "label": label}
 
 
 @contextmanager
@@ -139,6 +163,8 @@ MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes
 """What a panel is titled by normalization."""
 FORCES = {"vertical": "vertical contact force", "normal": "normal contact force"}
 """And by the contact force's direction."""
+MODELS = {"normal": FORCES["normal"], "bonded": "bonded contact", "residual": "residual flexibility"}
+"""What a study says of its model, where that is not the paper's."""
 
 
 def axis_of(name: str) -> tuple[str, float]:
@@ -164,11 +190,26 @@ def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.Da
     return study[name].sel(words).sel(numbers, method="nearest").squeeze()
 
 
-def head(figure: Figure, study: xr.Dataset, title: str) -> None:
-    """Over a figure of a grid: its title, or the study's, and what did not vary."""
+def fixed(study: xr.Dataset) -> str:
+    """What did not vary in a study of a grid: N, Omega, and what differs from Table 1."""
     values = json.loads(study.attrs.get("base", "{}"))
-    said = said_values({name: value for name, value in values.items() if name not in study.coords})
-    texts = [title or study.attrs.get("title", ""), said]
+    values = {name: value for name, value in values.items() if name not in study.coords}
+    words = [MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS]
+    numbers = said_values({name: value for name, value in values.items() if not isinstance(value, str)})
+    return ", ".join(filter(None, [numbers, *words]))
+
+
+def head(figure: Figure, study: xr.Dataset, title: str, shown: xr.DataArray | None = None) -> None:
+    """Over a figure of a grid: its title, or the study's, and what did not vary.
+
+    shown : what is shown, if it is one value of some dimensions
+    """
+    values = [
+        value_said(shown, str(name))
+        for name, size in study.sizes.items()
+        if shown is not None and size > 1 and name in shown.coords and name not in shown.dims
+    ]
+    texts = [title or study.attrs.get("title", ""), ", ".join(filter(None, [*values, fixed(study)]))]
     if any(texts):
         width = round(figure.get_figwidth() / 0.06)
         figure.suptitle("\n".join(fill(text, width) for text in texts if text), fontsize=8)

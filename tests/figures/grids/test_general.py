@@ -45,7 +45,7 @@ def mesh(figure: Figure) -> Any:
 
 def test_a_heat_map_has_a_panel_for_each_normalization(study: xr.Dataset, tmp_path: Path) -> None:
     figure = mapped(study, "drift")
-    assert [ax.get_title(loc="left") for ax in figure.axes[:2]] == ["modes as published", "orthonormal modes"]
+    assert [ax.get_title(loc="left") for ax in figure.axes[:2]] == ["(a) modes as published", "(b) orthonormal modes"]
     shown = mesh(figure).get_array()
     assert shown.shape == (3, 4)
     assert np.ma.getmaskarray(shown)[0, 0]
@@ -105,7 +105,7 @@ def test_a_zip_has_a_panel_for_each_of_its_points(study: xr.Dataset) -> None:
     plot = HeatMap(variable="growth_rate", x="c_p", y="mu_k", by="both")
     figure = heat_map.draw(zipped(study), {}, plot)
     said = [" ".join(ax.get_title(loc="left").split()) for ax in figure.axes[:2]]
-    assert said == ["modes as published, vertical contact force", "orthonormal modes, normal contact force"]
+    assert said == ["(a) modes as published, vertical contact force", "(b) orthonormal modes, normal contact force"]
     expected = study["growth_rate"].sel(normalization="orthonormal").transpose("mu_k", "c_p").values
     np.testing.assert_array_equal(np.ma.filled(figure.axes[1].collections[0].get_array(), np.nan), expected)
 

@@ -47,7 +47,7 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
     np.testing.assert_allclose(lines["onset of separation, speed rising"].get_ydata(), [15.3, np.nan, np.nan])
     np.testing.assert_allclose(lines["end of separation, speed falling"].get_ydata(), [9.7, 9.3, np.nan])
     assert list(lines[drawn.BEYOND].get_xdata()) == [0.1]
-    assert list(lines["the stick-slip cycle ends (folds)"].get_ydata()) == pytest.approx([15.1, 15.1])
+    assert list(lines["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
     save(figure, tmp_path / "ramps.png")
     save(drawn.draw(study, {}, RampedSpeeds()), tmp_path / "alone.png")
 

@@ -51,20 +51,20 @@ def lengths(ax) -> list[int]:
 )
 def test_cells_borders_and_marks(x: str, values: list[float], scale: str, tmp_path) -> None:
     study = made_up(x, values, ["as_published", "orthonormal"])
-    marks = {"a": Mark(x=values[0], y=100, paper="stable"), "b": Mark(x=values[-1], y=400, paper="separation")}
+    marks = {"F2": Mark(x=values[0], y=100, paper="stable"), "b": Mark(x=values[-1], y=400, paper="separation")}
     figure = maps.draw(study, {}, RegionMap(x=x, y="N", marks=marks))
     outcome, _, growth, _ = figure.axes[:4]
     assert outcome.get_xscale() == scale
     # the cycle's stability changes at two loads between the second and third value; stable ones end at two values
     assert lengths(outcome) == lengths(growth) == [2, 2]
-    assert {text.get_text() for text in outcome.texts} == {"a", "b"}
+    assert {text.get_text() for text in outcome.texts} == {"F2", "b"}
     above, below = ([text.get_text() for text in legend.get_texts()] for legend in figure.legends)
-    assert {"stays quiet", "separation", "undecided", "cycle loses stability"} <= set(above)
-    assert "the paper's answer; F2: in its Fig. 2" in above
-    assert not any("undivided" in text for text in above)
+    assert {"stays quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"} <= set(above)
+    assert {"the paper: stays quiet", "the paper: separation"} <= set(above)
+    assert not any("inferred" in text for text in above)
     assert "no cycle found" in below
-    said = "Within 900 s of the published start. 24 of 24 points simulated."
-    alone = "Points unlike all beside them: 2, most on strips thinner than the grid."
+    said = "Within 900 s of the published start.\n24 of 24 points simulated. F2: in Fig. 2 of the paper."
+    alone = "Points unlike all beside them: 2."
     assert f"{said}\n{alone}\nb: the paper says “separation”, the published start: undecided." in below
     save(figure, tmp_path / "map.png")
 
@@ -84,7 +84,33 @@ def test_what_lies_inside_an_undivided_cell_is_paler(tmp_path) -> None:
     study["origin"][0] = regions.ORIGINS.index("undivided_cell")
     figure = maps.draw(study, {}, RegionMap(x="Omega", y="N"))
     assert colours(figure.axes[0]) > worked_out
-    assert "paler: inside an undivided cell" in [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "paler: inferred from the corners of a cell" in [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
+    """Any cell without a cycle that was followed was said to be beyond a fold, and the picture showed the tiles."""
+    study = made_up("Omega", [5.0, 10, 20], ["as_published"])
+    plot = RegionMap(x="Omega", y="N")
+    for name, code in (
+        ("cycle", regions.CYCLES.index("only_near")),  # another is near
+        ("outcome", regions.OUTCOMES.index("stable")),  # it is inferred to stay quiet
+    ):
+        other = study.copy(deep=True)
+        other[name][2:] = code
+        other["origin"][2:] = regions.ORIGINS.index("undivided_cell")
+        figure = maps.draw(other, {}, plot)
+        assert lengths(figure.axes[0]) == [2, 0]
+        above, below = (" ".join(text.get_text() for text in legend.get_texts()) for legend in figure.legends)
+        assert "ends" not in above
+        assert ("Inferred to stay quiet, though the start was followed to no cycle: 6." in below) == (name == "outcome")
+
+
+def test_what_did_not_vary_is_said() -> None:
+    study = made_up("Omega", [5.0, 10, 20], ["as_published"]).rename(N="m")
+    study.attrs["base"] = json.dumps({"N": 200.0, "c": 0.0, "contact": "separable", "D_star": 2e-5})
+    figure = maps.draw(study, {}, RegionMap(x="Omega", y="m"))
+    (said,) = (text for text in figure.legends[1].get_texts() if "Within" in text.get_text())
+    assert said.get_text().startswith("N = 200 N, D* = 2e-05 N m s. Within 900 s of the published start.")
 
 
 def test_points_unlike_all_beside_them_are_counted() -> None:
@@ -100,9 +126,7 @@ def test_points_unlike_all_beside_them_are_counted() -> None:
     )
     study = xr.Dataset({"outcome": outcome})
     plot = RegionMap(x="Omega", y="N")
-    assert maps.standing_alone(study, plot) == [
-        "Points unlike all beside them: 2, most on strips thinner than the grid."
-    ]
+    assert maps.standing_alone(study, plot) == ["Points unlike all beside them: 2."]
     assert maps.standing_alone(study.isel(N=[1, 2], Omega=[3, 4]), plot) == []
 
 

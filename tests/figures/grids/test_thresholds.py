@@ -2,72 +2,99 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.colors import to_rgba
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from disc_model.figures.grids import thresholds
 from disc_model.figures.grids.growth_map import Curve
 from disc_model.figures.grids.kinds import Thresholds
-from disc_model.figures.parts import BLUE, save
+from disc_model.figures.parts import save
 from tests.studies.grids.conftest import growth_over
 
-SPEEDS, LOADS = np.linspace(5, 50, 6), np.linspace(50, 600, 5)
-NEUTRAL = Curve(SPEEDS, np.linspace(600, 50, 6), "neutral")
-FOLD = Curve(SPEEDS, SPEEDS * 12, "fold", "2 f_s = 135.42 Hz")
-BAND = "no stable cycle, no separation within 1000 s"
+SPEEDS, LOADS = np.linspace(5, 50, 10), np.array([100.0, 200, 300])
+NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
+FOLD = Curve(SPEEDS, SPEEDS * 6, "fold", "2 f_s = 135.42 Hz")
+OUTCOMES = {"flag_meanings": "unknown stable unstable separation undecided"}
+KINDS = {"flag_meanings": "none begins ends"}
 
 
 def labels(figure: Figure) -> set[str]:
     return {text.get_text() for legend in figure.legends for text in legend.get_texts()}
 
 
-def chart(monkeypatch: pytest.MonkeyPatch, separation: np.ndarray, **others: xr.Dataset) -> Figure:
-    """Of known curves, and speeds of separation by load."""
-    monkeypatch.setattr(thresholds, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
-    study = xr.Dataset(
+def scanned() -> xr.Dataset:
+    """At 100 N nothing separates, at 200 N from 30 rad/s on, at 300 N from 10 to 20 and from 40 on."""
+    crossing = np.full((3, 1, 4), np.nan)
+    crossing[1, 0, 0], crossing[2, 0, :3] = 30.0, [10.0, 20.0, 40.0]
+    kind = np.where(np.isfinite(crossing), 1, 0)
+    kind[2, 0, 1] = 2
+    return xr.Dataset(
         {
-            "critical_speed": (("N", "horizon"), separation[:, None]),
-            "status": ("N", np.zeros(len(LOADS), np.int8), {"flag_meanings": "ok failed"}),
+            "critical_speed": (("N", "horizon"), np.array([[np.nan], [30.0], [10.0]])),
+            "crossing": (("N", "horizon", "crossing_number"), crossing),
+            "crossing_kind": (("N", "horizon", "crossing_number"), kind, KINDS),
+            "status": ("N", np.zeros(3, np.int8), {"flag_meanings": "ok failed"}),
         },
         {"N": LOADS, "horizon": [1000.0], "scan_Omega": SPEEDS, "normalization": ["as_published"]},
     )
-    plot = Thresholds(claim={"paper": (200, 12.6)})
-    return thresholds.draw(study, {"curves": xr.Dataset(), **others}, plot)
 
 
-def test_thresholds_shade_where_the_cycle_is_unstable(monkeypatch: pytest.MonkeyPatch) -> None:
-    figure = chart(monkeypatch, np.array([np.nan, 45.0, 40, 35, 30]))
-    assert {"fold: the cycle ends", "paper", "cycle loses stability", BAND} <= labels(figure)
+def chart(monkeypatch: pytest.MonkeyPatch, **others: xr.Dataset) -> Figure:
+    """Of known curves."""
+    monkeypatch.setattr(thresholds, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
+    curves = xr.Dataset({"n_unfollowed": 2})
+    return thresholds.draw(scanned(), {"curves": curves, **others}, Thresholds(claim={"paper": (200, 12.6)}))
+
+
+def test_curves_crossings_and_what_the_paper_says_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    figure = chart(monkeypatch)
+    named = {"cycle loses stability", "stable cycle ends (fold)", "separation begins", "open: separation ends again"}
+    named |= {"what the paper says", "2 $f_s$ = 135.42 Hz", "curves stop, not followed: 2"}
+    assert labels(figure) == named
     (ax,) = figure.axes
     assert {text.get_text() for text in ax.texts} == {"1"}
-    assert "2 $f_s$ = 135.42 Hz" in labels(figure)
-    # between the curve, interpolated at each load, and the separation
-    (shaded,) = (c for c in ax.collections if c.get_label() == BAND)
-    assert to_rgba(shaded.get_facecolor()[0]) == to_rgba(BLUE, 0.15)
-    corners = shaded.get_paths()[0].vertices
-    for load in LOADS[1:]:
-        lowest = np.interp(load, NEUTRAL.N[::-1], NEUTRAL.Omega[::-1])
-        at = corners[np.isclose(corners[:, 1], load)]
-        assert np.any(np.isclose(at[:, 0], lowest))
 
 
-@pytest.mark.parametrize("separation", [np.array([np.nan, 45.0, 40, 35, 30]), np.full(5, np.nan)])
-def test_cells_in_which_no_cycle_is_stable_are_shaded(separation: np.ndarray, monkeypatch: pytest.MonkeyPatch) -> None:
-    rate = (("N", "Omega"), np.linspace(-0.1, 0.2, 30).reshape(5, 6))
-    figure = chart(monkeypatch, separation, cycle=xr.Dataset({"growth_rate": rate}, {"N": LOADS, "Omega": SPEEDS}))
+def test_no_separation_is_presumed_between_loads(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It was interpolated from the lowest crossings, up to loads without any, and above the end of a separation."""
+    loads = np.array([100.0, 150, 200, 250, 300])
+    rate = (("N", "Omega"), np.full((5, 10), 0.1))
+    cycle = xr.Dataset({"growth_rate": rate}, {"N": loads, "Omega": SPEEDS})
+    figure = chart(monkeypatch, cycle=cycle)
     assert figure.axes[0].get_xlim() == (5, 50)
-    assert BAND in labels(figure)
+    assert any("no stable cycle, no separation" in label for label in labels(figure))
+    apart = thresholds.separates(scanned(), 1000.0, loads, SPEEDS)
+    at_200, at_300 = SPEEDS >= 30, ((SPEEDS >= 10) & (SPEEDS < 20)) | (SPEEDS >= 40)
+    np.testing.assert_array_equal(apart, [np.zeros(10, bool), at_200, at_200, at_200 | at_300, at_300])
+
+
+def test_areas_are_the_outcomes_of_a_map_where_there_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    loads, codes = np.array([100.0, 200, 300]), np.repeat([[1], [2], [3]], 10, axis=1)
+    cycle = xr.Dataset(
+        {
+            "growth_rate": (("N", "Omega"), np.where(codes == 1, -0.1, 0.1)),
+            "outcome": (("N", "Omega"), codes, OUTCOMES),
+        },
+        {"N": loads, "Omega": SPEEDS},
+        {"options": json.dumps({"horizon": 1000.0})},
+    )
+    figure = chart(monkeypatch, cycle=cycle)
+    named = {"stays quiet", "grows, no separation", "separation"}
+    assert named <= labels(figure)
+    (mesh,) = (one for one in figure.axes[0].collections if isinstance(one, QuadMesh))
+    assert not np.ma.getmaskarray(mesh.get_array()).any()
 
 
 def test_thresholds_are_drawn(plane: xr.Dataset, speeds: xr.Dataset, tmp_path) -> None:
     growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
     chart = thresholds.draw(speeds, {"curves": plane, "cycle": growth}, Thresholds(claim={"a": (200, 12.6)}))
     said = [text.get_text() for text in chart.legends[0].get_texts()]
-    assert "separation within 1000 s" in said
-    assert "paper" in said
+    assert {"separation begins", "what the paper says"} <= set(said)
     save(chart, tmp_path / "chart.png")
     without = thresholds.draw(speeds, {"curves": plane}, Thresholds())
     assert len(without.axes) == 1

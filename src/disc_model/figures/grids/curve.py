@@ -48,5 +48,5 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -
         parts.mark_failed(ax, along[np.isnan(found.transpose(plot.x, ...).values.reshape(len(along), -1)).any(axis=1)])
     if by is not None:
         figure.legend(loc="outside right upper")
-    parts.head(figure, study, plot.title)
+    parts.head(figure, study, plot.title, found)
     return figure

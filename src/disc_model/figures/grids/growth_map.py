@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -15,10 +16,9 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
+from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells
 from disc_model.figures.grids.kinds import GrowthMap
-from disc_model.figures.grids.region_map import cycle_patches, growth_cells
-from disc_model.figures.grids.stability_map import growth_bar, growth_mesh, no_cycle_patch
-from disc_model.figures.parts import BLACK, COLUMN, PAGE, axis_of, new_figure, styled
+from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, axis_of, new_figure, styled
 from disc_model.stability.resonances import Tongue
 
 # ----------------------------------------------------------------------------------------------------
@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 NEAR = 3.0
 """Hz; a resonance further off than this is not named."""
-DASHED = (0, (3, 1.5))
+OTHER: dict[str, Any] = {"color": GREY, "linewidth": 0.5, "label": "the same, of another cycle"}
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 
 
@@ -71,11 +71,60 @@ def _tongue(one: xr.Dataset) -> Tongue:
     return Tongue(**numbers)
 
 
-def joined(curves: list[Curve]) -> Curve:
-    """Several curves as one, with gaps between."""
-    gap = np.array([np.nan])
-    Omega, N = ([part for curve in curves for part in (getattr(curve, name), gap)] or [gap] for name in ("Omega", "N"))
-    return Curve(np.concatenate(Omega), np.concatenate(N), "neutral")
+def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
+    """The same curves where the cycle that a map shows becomes unstable or ends, and where another one does.
+
+    cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega
+    """
+    rate = cycle["growth_rate"].transpose("N", "Omega")
+    padded = np.pad(rate.values, 1, mode="edge")
+    # shape (N, Omega, 3, 3): the cells around each
+    around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
+    stable, unstable = ((sign * around > 0).any((2, 3)) for sign in (-1, 1))
+    beside = {"neutral": stable & unstable, "fold": stable & (~(around < 0)).any((2, 3))}
+    shown: list[Curve] = []
+    other: list[Curve] = []
+    for curve in curves:
+        there = np.isfinite(curve.Omega)
+        at = [_nearest(rate[name].values, getattr(curve, name)) for name in ("N", "Omega")]
+        own = _closed(there & np.asarray(beside[curve.kind])[at[0], at[1]]) & there
+        for found, stretch in ((shown, own), (other, there & ~own)):
+            if stretch.any():
+                Omega, N = (np.where(_and_next(stretch), along, np.nan) for along in (curve.Omega, curve.N))
+                found.append(replace(curve, Omega=Omega, N=N, label=curve.label if found is shown else ""))
+    return shown, other
+
+
+def _nearest(grid: Array, values: Array) -> NDArray[np.int64]:
+    """Index of the grid's value nearest to each, 0 for nan."""
+    return np.argmin(np.abs(grid[None, :] - np.nan_to_num(values)[:, None]), axis=1)
+
+
+def _closed(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Without the gaps between stretches that make up most of a curve: cells are coarser than the curve."""
+    at = np.flatnonzero(own)
+    if at.size and own[at[0] : at[-1] + 1].mean() >= 0.5:
+        own[at[0] : at[-1] + 1] = True
+    return own
+
+
+def _and_next(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """One point more at the end of each stretch, so that the stretches of a curve meet."""
+    return there | np.concatenate([[False], there[:-1]])
+
+
+def unfollowed(data: xr.Dataset) -> int:
+    """Number of places at which a curve could not be followed."""
+    return int(data["n_unfollowed"].sum())
+
+
+def unfollowed_handle(lost: Sequence[int]) -> list[Line2D]:
+    """For legends: at how many places curves stop that could not be followed, by panel; nothing if at none."""
+    if not any(lost):
+        return []
+    each = zip("abcdef", lost, strict=False)
+    said = [f"{count} in ({letter})" if len(lost) > 1 else str(count) for letter, count in each]
+    return [Line2D([], [], linestyle="", label=f"curves stop, not followed: {', '.join(said)}")]
 
 
 def crossings(curve: Curve, load: float) -> Array:
@@ -89,7 +138,7 @@ def crossings(curve: Curve, load: float) -> Array:
 
 def draw_curve(ax: Axes, curve: Curve, number: int = 0) -> None:
     """A curve; its number, if it has one, stands beyond its upper end, where it covers no line."""
-    ax.plot(curve.Omega, curve.N, color=BLACK, linewidth=1.0, linestyle="-" if curve.kind == "neutral" else DASHED)
+    ax.plot(curve.Omega, curve.N, **parts.border(curve.kind) | {"label": "_nolegend_"})
     if number and np.isfinite(curve.N).any():
         i = int(np.nanargmax(curve.N))
         ax.annotate(
@@ -151,34 +200,30 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -
     norms = parts.normalizations(study)
     figure = new_figure(PAGE if len(norms) > 1 else COLUMN, 2.9)
     axes = list(figure.subplots(1, len(norms), sharey=True, squeeze=False)[0])
-    shown = {norm: curves_of(parts.of(others["curves"], norm)) if "curves" in others else [] for norm in norms}
+    shown, other, gaps = {}, {}, set[str]()
+    for norm in norms:
+        curves = curves_of(parts.of(others["curves"], norm)) if "curves" in others else []
+        shown[norm], other[norm] = parted(curves, parts.of(study, norm))
     numbers = numbers_of([curve for curves in shown.values() for curve in curves])
     for ax, norm, letter in zip(axes, norms, "abcdef", strict=False):
         grid = parts.of(study, norm)
-        cells = growth_cells if "cycle" in study else growth_mesh
-        mesh = cells(ax, grid, "Omega", "N")
+        mesh = growth_cells(ax, grid, "Omega", "N")
+        gaps |= set(cycles_of(grid, "Omega", "N").flat)
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
+        for curve in other[norm]:
+            ax.plot(curve.Omega, curve.N, **OTHER)
         for curve in shown[norm]:
             draw_curve(ax, curve, numbers.get(curve.label, 0))
         ax.set_title(f"({letter}) {parts.MODES[norm]}" if len(norms) > 1 else parts.MODES[norm], loc="left", pad=9)
     axes[0].set_ylabel(LOAD)
-    _legend(figure, [curve for curves in shown.values() for curve in curves], study)
+    kinds = {curve.kind for curves in shown.values() for curve in curves}
+    handles: list[Artist] = [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
+    handles += [Line2D([], [], **OTHER)] if any(other.values()) else []
+    handles += [*cycle_patches(gaps), *number_handles(numbers)]
+    if "curves" in others:
+        lost = [unfollowed(parts.of(others["curves"], norm)) for norm in norms]
+        handles += unfollowed_handle(lost)
+    if handles:
+        figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
     growth_bar(figure, mesh, axes)
     return figure
-
-
-def _legend(figure: Figure, curves: Sequence[Curve], study: xr.Dataset) -> None:
-    ax = figure.axes[-1]
-    kinds = {curve.kind for curve in curves}
-    handles: list[Artist] = []
-    if "neutral" in kinds:
-        handles += ax.plot([], [], color=BLACK, linewidth=1.0, label="a multiplier crosses the unit circle")
-    if "fold" in kinds:
-        handles += ax.plot([], [], color=BLACK, linewidth=1.0, linestyle=DASHED, label="fold")
-    if "cycle" in study:
-        handles += cycle_patches(study)
-    elif study["growth_rate"].isnull().any():
-        handles.append(no_cycle_patch())
-    handles += number_handles(numbers_of(curves))
-    if handles:
-        figure.legend(handles=handles, loc="outside lower center", ncols=3 if figure.get_figwidth() > COLUMN else 1)

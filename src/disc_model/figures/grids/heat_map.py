@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any
 
@@ -16,12 +16,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from disc_model.figures import parts
+from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
 from disc_model.figures.grids.kinds import HeatMap
-from disc_model.figures.grids.stability_map import HATCH, growth_bar, growth_norm
 from disc_model.figures.parts import BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, new_figure, styled
 
 WORDS = (BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE, GREY)
 """Colours of the values of a flag."""
+HATCH = "//////"
+"""Where there is no value."""
 
 
 @styled()
@@ -35,21 +37,50 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> 
     panels = parts.slices(found, by)
     figure = new_figure(PAGE if len(panels) > 1 else COLUMN * 1.2, 2.9)
     axes = list(figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0])
-    colours = _colours(found, plot)
-    width = round(figure.get_figwidth() / len(panels) / 0.08)
-    for ax, (said, panel) in zip(axes, panels, strict=True):
-        mesh = _panel(ax, panel, plot, colours)
-        if by is not None:
-            # a value stays with its name
-            ax.set_title(fill(said.replace(" = ", "\u00a0=\u00a0"), width), loc="left")
-    axes[0].set_ylabel(parts.label_of(found[plot.y])[0])
-    _bar(figure, mesh, axes, found, plot)
-    if "flag_meanings" not in found.attrs and bool(found.isnull().any()):
-        said = "no such cycle" if plot.variable == "growth_rate" else "no value"
-        gap = Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label=said)
-        figure.legend(handles=[gap], loc="outside lower right")
-    parts.head(figure, study, plot.title)
+    growth = plot.variable == "growth_rate" and not plot.log
+    handles: list[Patch] = []
+    if growth:
+        mesh, handles = _growth(axes, study, plot, by)
+    else:
+        colours = _colours(found, plot)
+        for ax, (_, panel) in zip(axes, panels, strict=True):
+            mesh = _panel(ax, panel, plot, colours)
+        if "flag_meanings" not in found.attrs and bool(found.isnull().any()):
+            handles = [Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label="no value")]
+    _name(figure, axes, [said for said, _ in panels], found, plot)
+    if growth:
+        growth_bar(figure, mesh, axes)
+    else:
+        _bar(figure, mesh, axes, found)
+    if handles:
+        figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
+    parts.head(figure, study, plot.title, found)
     return figure
+
+
+def _name(figure: Figure, axes: Sequence[Axes], values: Sequence[str], found: xr.DataArray, plot: HeatMap) -> None:
+    """Letters and values above the panels, and the axes."""
+    width = round(figure.get_figwidth() / len(axes) / 0.08)
+    for ax, said, letter in zip(axes, values, "abcd", strict=False):
+        ax.set_xlabel(parts.label_of(found[plot.x])[0])
+        if len(axes) > 1:
+            # a value stays with its name
+            ax.set_title(fill(f"({letter}) " + said.replace(" = ", "\u00a0=\u00a0"), width), loc="left")
+    axes[0].set_ylabel(parts.label_of(found[plot.y])[0])
+
+
+def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> tuple[QuadMesh, list[Patch]]:
+    """Growth rates, and what there is where there is no cycle, as in all growth maps."""
+    names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
+    picked = {name: parts.slices(parts.picked(study, name, plot.at), by) for name in names}
+    words: set[str] = set()
+    for i, ax in enumerate(axes):
+        data = xr.Dataset({name: panels[i][1] for name, panels in picked.items()})
+        mesh = growth_cells(ax, data, plot.x, plot.y)
+        words |= set(cycles_of(data, plot.x, plot.y).flat)
+        for axis, name in plot.axes.items():
+            ax.set(**{f"{axis}scale": "log" if scale_of(name, data[name].values) == "log" else "linear"})
+    return mesh, cycle_patches(words)
 
 
 def _panel(ax: Axes, panel: xr.DataArray, plot: HeatMap, colours: Mapping[str, Any]) -> QuadMesh:
@@ -62,9 +93,7 @@ def _panel(ax: Axes, panel: xr.DataArray, plot: HeatMap, colours: Mapping[str, A
         if parts.spaced_by_factor(sides[axis]):  # cells at its ends may reach beyond 0
             ax.set(**{f"{axis}scale": "log", f"{axis}lim": (sides[axis][0], sides[axis][-1])})
     ax.patch.set(facecolor="white", hatch=HATCH, edgecolor=GREY, linewidth=0)
-    mesh = ax.pcolormesh(sides["x"], sides["y"], values, shading="nearest", rasterized=True, **colours)
-    ax.set_xlabel(parts.label_of(panel[plot.x])[0])
-    return mesh
+    return ax.pcolormesh(sides["x"], sides["y"], values, shading="nearest", rasterized=True, **colours)
 
 
 def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
@@ -72,8 +101,6 @@ def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
     if words := found.attrs.get("flag_meanings", "").split():
         many = [WORDS[i % len(WORDS)] for i in range(len(words))]
         return {"cmap": ListedColormap(many), "norm": BoundaryNorm(np.arange(len(words) + 1) - 0.5, len(words))}
-    if plot.variable == "growth_rate" and not plot.log:
-        return {"cmap": cm.vik, "norm": growth_norm()}
     values = found.values[np.isfinite(found.values)]
     if plot.log:
         above = values[values > 0]
@@ -86,10 +113,7 @@ def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
     return {"cmap": cm.batlow, "norm": Normalize(low, high)}
 
 
-def _bar(figure: Figure, mesh: QuadMesh, axes: list[Axes], found: xr.DataArray, plot: HeatMap) -> None:
-    if plot.variable == "growth_rate" and not plot.log:
-        growth_bar(figure, mesh, axes)
-        return
+def _bar(figure: Figure, mesh: QuadMesh, axes: list[Axes], found: xr.DataArray) -> None:
     bar = figure.colorbar(mesh, ax=axes, pad=0.01, aspect=30)
     bar.set_label(parts.label_of(found)[0])
     if words := found.attrs.get("flag_meanings", "").split():

@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
-from disc_model.figures.grids.growth_map import DASHED, Curve, crossings, curves_of
+from disc_model.figures.grids.growth_map import Curve, crossings, curves_of
 from disc_model.figures.grids.kinds import RampedSpeeds
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREY, SEPARATED, new_figure, styled
+from disc_model.figures.parts import COLUMN, END, GREY, ONSET, new_figure, styled
 
 BEYOND = "none up to the highest speed"
 
@@ -34,12 +34,12 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
     gone = study["rate_status"].values != 0
     figure = new_figure(COLUMN, 3.4)
     ax = figure.subplots()
-    ax.plot(rates, onset, "^-", color=SEPARATED, markersize=4, linewidth=0.8, label="onset of separation, speed rising")
-    ax.plot(rates, end, "v-", color=BLUE, markersize=4, linewidth=0.8, label="end of separation, speed falling")
+    ax.plot(rates, onset, "^-", color=ONSET, markersize=4, linewidth=0.8, label="onset of separation, speed rising")
+    ax.plot(rates, end, "v-", color=END, markersize=4, linewidth=0.8, label="end of separation, speed falling")
     late = rates[np.isnan(onset) & ~gone]
     if late.size:
         top = np.full(late.size, options["high"])
-        ax.plot(late, top, "^", color=SEPARATED, markersize=4, markerfacecolor="white", clip_on=False, label=BEYOND)
+        ax.plot(late, top, "^", color=ONSET, markersize=4, markerfacecolor="white", clip_on=False, label=BEYOND)
     if "curves" in others:
         _folds(ax, curves_of(parts.of(others["curves"], norm)), study, options)
     parts.mark_failed(ax, rates[gone])
@@ -62,8 +62,8 @@ def _folds(ax: Axes, curves: list[Curve], study: xr.Dataset, options: Mapping[st
     """Speeds at which the stick-slip cycle ends at this load: where the onset goes as the rate goes to zero."""
     folds = np.concatenate([[], *(crossings(curve, _load(study)) for curve in curves if curve.kind == "fold")])
     for i, speed in enumerate(folds[(folds > options["low"]) & (folds < options["high"])]):
-        label = "the stick-slip cycle ends (folds)" if i == 0 else "_nolegend_"
-        ax.axhline(speed, color=BLACK, linestyle=DASHED, linewidth=0.8, label=label, zorder=0)
+        style = parts.border("fold") | ({"label": "_nolegend_"} if i else {})
+        ax.axhline(speed, **style, zorder=0)
         ax.annotate(
             f"{speed:.2f}", (1, speed), xycoords=("axes fraction", "data"), xytext=(2, 0), textcoords="offset points",
             va="center", fontsize=6, color=GREY,

@@ -2,67 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from cmcrameri import cm
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
-from matplotlib.colors import AsinhNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import FixedLocator, FuncFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
+from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
 from disc_model.figures.grids.kinds import StabilityMap
-from disc_model.figures.parts import BLACK, GREY, PAGE, axis_of, new_figure, styled
-
-# ----------------------------------------------------------------------------------------------------
-# The one scale of colours for growth rates of the stick-slip cycle
-
-GREATEST = 0.3
-"""Growth rate at which the colours end, 1/s."""
-LINEAR = 0.01
-"""Growth rate up to which the colours are about linear, 1/s."""
-TICKS = (-0.1, -0.01, 0, 0.01, 0.1)
-HATCH = "//////"
-"""How it looks where there is no cycle."""
-
-
-def growth_norm() -> AsinhNorm:
-    """About linear near 0, about logarithmic beyond."""
-    return AsinhNorm(linear_width=LINEAR, vmin=-GREATEST, vmax=GREATEST)
-
-
-def growth_mesh(ax: Axes, growth: xr.Dataset, x: str, y: str) -> QuadMesh:
-    """`growth_rate` (1/s, nan without a cycle) over two parameters in colour; hatched where there is no cycle."""
-    across, up = (growth[name].values * axis_of(name)[1] for name in (x, y))
-    rate = np.ma.masked_invalid(growth["growth_rate"].transpose(y, x).values)
-    ax.patch.set(facecolor="white", hatch=HATCH, edgecolor=GREY, linewidth=0)
-    return ax.pcolormesh(across, up, rate, cmap=cm.vik, norm=growth_norm(), shading="nearest", rasterized=True)
-
-
-def growth_bar(figure: Figure, mesh: QuadMesh, axes: list[Axes]) -> None:
-    """The scale beside the panels."""
-    bar = figure.colorbar(mesh, ax=axes, extend="both", pad=0.01, aspect=30)
-    bar.set_label("Growth rate of the stick-slip cycle (1/s)")
-    bar.set_ticks(TICKS, labels=[f"{x:g}".replace("-", "−") for x in TICKS])
-    bar.minorticks_off()
-
-
-def no_cycle_patch() -> Patch:
-    """For legends."""
-    return Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label="no cycle found")
-
-
-# ----------------------------------------------------------------------------------------------------
-# Maps
+from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure, styled
 
 
 class Look(NamedTuple):
@@ -80,8 +38,6 @@ OUTCOMES = {
     "separation": Look("separation", "s", BLACK, 10),
     "unknown": Look("failed", "x", BLACK, 12),
 }
-PAPER = "#F0E442"
-"""Colour of the paper's cases: none of the map's."""
 LARGE = 55.0
 """Size of their marks."""
 
@@ -98,10 +54,13 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
     norms = parts.normalizations(study)
     figure = new_figure(PAGE, 3.3)
     axes = figure.subplots(1, len(norms), sharex=True, sharey=True, squeeze=False)[0]
-    mesh = None
+    mesh: QuadMesh | None = None
+    gaps: set[str] | None = None
     for ax, norm, letter in zip(axes, norms, "abcd", strict=False):
         if "growth" in others:
-            mesh = _background(ax, parts.of(others["growth"], norm), plot) or mesh
+            growth = parts.of(others["growth"], norm)
+            mesh = _background(ax, growth, plot)
+            gaps = {*(gaps or ()), *cycles_of(growth, plot.x, plot.y).flat}
         _points(ax, parts.of(study, norm), plot)
         panel = f"({letter}) " if len(norms) > 1 else ""
         ax.set_title(f"{panel}{parts.MODES[norm]}", loc="left")
@@ -110,17 +69,17 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
     set_scales(axes[None, :], study, plot)
     if mesh is not None:
         growth_bar(figure, mesh, list(axes))
-    _legend(figure, study, bool(plot.marks) and "as_published" in norms, mesh is not None)
+    _legend(figure, study, gaps, paper_rings(plot) if "as_published" in norms else [])
     return figure
 
 
 def _background(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> QuadMesh:
-    """Growth rate in colour, its sign's change as a line; hatched where there is no cycle."""
-    mesh = growth_mesh(ax, growth, plot.x, plot.y)
+    """Growth rate in colour, its sign's change as a line."""
+    mesh = growth_cells(ax, growth, plot.x, plot.y)
     x, y = (growth[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
     rate = growth["growth_rate"].transpose(plot.y, plot.x).values
     if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
-        ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=0.8)
+        ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=1.0)
     return mesh
 
 
@@ -146,17 +105,7 @@ def _marks(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
     """The paper's cases: their names, and large marks in the shape of what the paper says of them."""
     for name, mark in plot.marks.items():
         at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
-        for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
-            ax.scatter(
-                *at,
-                LARGE,
-                marker=OUTCOMES[mark.paper].marker,
-                facecolor="none",
-                edgecolor=color,
-                linewidth=width,
-                zorder=4,
-                clip_on=False,
-            )
+        paper_ring(ax, at, mark.paper)
         leftward, downward = _far(study[plot.x].values, mark.x), _far(study[plot.y].values, mark.y)
         ax.annotate(
             name,
@@ -172,15 +121,27 @@ def _marks(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
         )
 
 
-def paper_ring() -> Line2D:
-    """For legends: the marks of the paper's cases."""
-    ring = Line2D([], [], linestyle="", marker="o", markerfacecolor="none", markersize=6, markeredgewidth=1.4)
-    ring.set(
-        markeredgecolor=PAPER,
-        label="the paper's answer; F2: in its Fig. 2",
-        path_effects=[withStroke(linewidth=2.4, foreground=BLACK)],
-    )
-    return ring
+def paper_ring(ax: Axes, at: tuple[float, float], outcome: str) -> None:
+    """A large open mark in the shape of what the paper says."""
+    for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
+        ax.scatter(
+            *at, LARGE, marker=OUTCOMES[outcome].marker, facecolor="none", edgecolor=color, linewidth=width, zorder=4,
+            clip_on=False,
+        )  # fmt: skip
+
+
+def paper_rings(plot: StabilityMap) -> list[Line2D]:
+    """For legends: one for each shape among the marks."""
+    said = {name: f"the paper: {look.label}" for name, look in OUTCOMES.items()}
+    said = {name: label for name, label in said.items() if name in {mark.paper for mark in plot.marks.values()}}
+    return [
+        Line2D(
+            [], [], linestyle="", marker=OUTCOMES[name].marker, markerfacecolor="none", markersize=6,
+            markeredgewidth=1.4, markeredgecolor=PAPER, path_effects=[withStroke(linewidth=2.4, foreground=BLACK)],
+            label=label,
+        )
+        for name, label in said.items()
+    ]  # fmt: skip
 
 
 def _far(values: np.ndarray, value: float) -> bool:
@@ -189,24 +150,24 @@ def _far(values: np.ndarray, value: float) -> bool:
 
 
 def set_scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
-    """Logarithmic where values span decades, with a linear stretch up to the second value if the first is 0.
+    """Limits, labels and scales of the axes; with a linear stretch up to the second value if a logarithmic one has a 0.
 
     axes : shape (rows, columns), all over the same two parameters
     """
     for name, which in ((plot.x, "x"), (plot.y, "y")):
         label, factor = parts.axis_of(name)
         values = study[name].values * factor
-        positive = values[values > 0]
-        decades = name not in ("N", "Omega") and positive.size > 1 and positive[-1] / positive[0] > 15
+        scale = scale_of(name, values)
         for ax in axes.flat:
             axis = ax.xaxis if which == "x" else ax.yaxis
-            if decades and values[0] > 0:
+            if scale == "log":
                 ax.set(**{f"{which}scale": "log"})
-            elif decades:
+            elif scale == "symlog":
                 getattr(ax, f"set_{which}scale")("symlog", linthresh=values[1], linscale=0.4)
-                powers = 10.0 ** np.arange(np.ceil(np.log10(values[1])), np.floor(np.log10(values[-1])) + 1)
-                axis.set_major_locator(FixedLocator([0.0, *powers]))
+            if scale != "linear":
+                axis.set_major_locator(FixedLocator(_round_values(values)))
                 axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+                axis.set_minor_formatter(NullFormatter())
             to_axis = axis.get_transform()
             low, high = to_axis.transform(values[[0, -1]])
             margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
@@ -215,7 +176,17 @@ def set_scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
             ax.set(**{f"{which}label": label})
 
 
-def _legend(figure: Figure, study: xr.Dataset, marked: bool, mapped: bool) -> None:
+def _round_values(values: NDArray[np.float64]) -> list[float]:
+    """1, 2 and 5 in each decade within the values, and their ends."""
+    positive = values[values > 0]
+    decades = 10.0 ** np.arange(np.floor(np.log10(positive[0])), np.ceil(np.log10(positive[-1])) + 1)
+    steps = np.outer(decades, [1.0, 2.0, 5.0]).ravel()
+    inside = steps[(steps >= 0.999 * positive[0]) & (steps <= 1.001 * positive[-1])]
+    return [*([0.0] if values[0] == 0 else []), *inside.tolist()]
+
+
+def _legend(figure: Figure, study: xr.Dataset, gaps: Collection[str] | None, rings: Sequence[Artist]) -> None:
+    """gaps : what there is where no cycle is, if growth is shown"""
     present = set(np.unique(flag_names(study["outcome"])))
     handles: list[Artist] = [
         Line2D([], [], linestyle="", marker=look.marker, markerfacecolor=look.face, markeredgecolor=BLACK,
@@ -223,9 +194,8 @@ def _legend(figure: Figure, study: xr.Dataset, marked: bool, mapped: bool) -> No
         for name, look in OUTCOMES.items()
         if name in present
     ]  # fmt: skip
-    if mapped:
-        handles.append(Line2D([], [], color=BLACK, linewidth=0.8, label="growth rate 0"))
-        handles.append(no_cycle_patch())
-    if marked:
-        handles.append(paper_ring())
+    if gaps is not None:
+        handles.append(Line2D([], [], **parts.border("neutral")))
+        handles += cycle_patches(gaps)
+    handles += rings
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))

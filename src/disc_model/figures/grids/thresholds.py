@@ -2,98 +2,130 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from disc_model.figures import parts
+from disc_model.figures.grids.cells import edges_of, fill, patch
 from disc_model.figures.grids.growth_map import (
-    DASHED,
     LOAD,
     SPEED,
-    crossings,
+    Curve,
     curves_of,
     draw_curve,
-    joined,
     number_handles,
     numbers_of,
+    parted,
     span,
+    unfollowed,
+    unfollowed_handle,
 )
 from disc_model.figures.grids.kinds import Thresholds
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, ORANGE, VERMILION, new_figure, styled
+from disc_model.figures.grids.separating import (
+    BEHIND,
+    draw_behind,
+    draw_ends,
+    draw_onsets,
+    ends_handle,
+    horizon_of,
+    onsets,
+    speeds_of,
+)
+from disc_model.figures.parts import COLUMN, ONSET, new_figure, styled
 
 Array = NDArray[np.float64]
+MARKS: dict[str, Any] = {"color": ONSET, "marker": "o", "markersize": 3, "linewidth": 1.0}
 
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Thresholds) -> Figure:
-    """Where the cycle becomes unstable, and where separation follows within the longest horizon.
-
-    What is shaded is where no cycle is stable below the speeds of separation; as far as is known, if the growth rates
-    of cycles are not given: from the curve on which the cycle loses its stability.
+    """Where the cycle becomes unstable or ends, and where separation follows within a stated time, on one chart.
 
     Parameters
     ----------
-    study : of the quantity `critical_speed`
-    others : ``curves`` of the quantity `stability_curves` over Omega and N; ``cycle`` of the quantity `floquet` over
-        the same, if given
+    study : of the quantity `critical_speed`, over N
+    others : ``curves`` of the quantity `stability_curves` over Omega and N; ``cycle`` of the quantity `regions` or
+        `floquet` over the same, if given: what is behind, and which curves are of the cycle that it shows
     """
     norm = parts.normalizations(study)[0]
     study = parts.of(study, norm)
-    found = curves_of(parts.of(others["curves"], norm))
-    neutral = joined([curve for curve in found if curve.kind == "neutral"])
-    folds = [curve for curve in found if curve.kind == "fold"]
-    figure = new_figure(COLUMN, 3.4)
+    lost = parts.failed(study).values
+    curves_data = parts.of(others["curves"], norm)
+    cycle = _scanned(parts.of(others["cycle"], norm), study) if "cycle" in others else None
+    horizon = horizon_of(study, cycle)
+    figure = new_figure(COLUMN, 3.8)
     ax = figure.subplots()
     loads = study["N"].values
     ax.set_ylim(0.95 * loads.min(), 1.02 * loads.max())
-    lost = parts.failed(study).values
     parts.mark_failed(ax, loads[lost], on="y")
-    horizon = float(study["horizon"].max())
-    known = study["critical_speed"].sel(horizon=horizon)[~lost].sortby("N")
-    N, separation = known["N"].values, known.values
-    ax.plot(separation, N, "o-", color=VERMILION, markersize=3, label=f"separation within {horizon:g} s")
-    ax.plot(neutral.Omega, neutral.N, color=BLUE, label="cycle loses stability")
-    # beyond the scan nothing is known of separation
-    scan = study["scan_Omega"].values
-    cycle = parts.of(others["cycle"], norm).sel(Omega=slice(scan[0], scan[-1])) if "cycle" in others else None
-    band = f"no stable cycle, no separation within {horizon:g} s"
-    if cycle is None or min(cycle["growth_rate"].shape) < 2:
-        lowest = np.array([min(crossings(neutral, load), default=np.nan) for load in N])
-        ax.fill_betweenx(
-            N, lowest, separation, where=lowest < separation, color=BLUE, alpha=0.15, linewidth=0, label=band
-        )
-    else:
+    study = study.isel(N=np.argsort(loads)[~lost[np.argsort(loads)]])
+    behind: list[Patch] = []
+    if cycle is not None:
         ax.set_xlim(*span(cycle["Omega"].values))
-        if N.size:
-            _unstable_before(ax, cycle, N, separation, band)
-    numbers = numbers_of(folds)
-    for i, fold in enumerate(folds):
-        label = "fold: the cycle ends" if i == 0 else "_nolegend_"
-        ax.plot(fold.Omega, fold.N, color=BLACK, linestyle=DASHED, label=label)
-        if fold.label:
-            draw_curve(ax, fold, numbers[fold.label])
-    if plot.claim:
-        printed = np.array(list(plot.claim.values()))
-        ax.plot(printed[:, 1], printed[:, 0], "s", color=ORANGE, markersize=4, label="paper")
+        behind = draw_behind(ax, cycle, "Omega", "N") if "outcome" in cycle else _growing(ax, cycle, study, horizon)
+    numbers = _curves(ax, curves_of(curves_data), cycle)
+    draw_onsets(ax, study, horizon, load_along="y", label="separation begins", zorder=1.9, **MARKS)
+    handles = [*ax.get_legend_handles_labels()[0], *behind]
+    if draw_ends(ax, study, horizon, load_along="y", **MARKS):
+        handles.append(ends_handle("o", ONSET))
+    for load, speed in plot.claim.values():
+        (mark,) = ax.plot(speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, label="what the paper says")
+        handles = [*(one for one in handles if one.get_label() != mark.get_label()), mark]
+    handles += number_handles(numbers) + unfollowed_handle([unfollowed(curves_data)])
     ax.set(xlabel=SPEED, ylabel=LOAD)
-    figure.legend(
-        handles=[*ax.get_legend_handles_labels()[0], *number_handles(numbers)], loc="outside upper center", ncols=1
-    )
+    ax.set_title(f"{parts.MODES[norm]}, within {horizon:g} s", loc="left", pad=9)
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=1.0)
     return figure
 
 
-def _unstable_before(ax: Axes, cycle: xr.Dataset, N: Array, separation: Array, label: str) -> None:
-    """Shade where no cycle is stable, at speeds below those of separation."""
+def _scanned(cycle: xr.Dataset, study: xr.Dataset) -> xr.Dataset | None:
+    """What lies within the scan of speeds, beyond which nothing is known of separation; None if that is no plane."""
+    scan = study["scan_Omega"].values
+    within = cycle.sel(Omega=slice(scan[0], scan[-1]))
+    return within if min(within["growth_rate"].shape) > 1 else None
+
+
+def _curves(ax: Axes, curves: Sequence[Curve], cycle: xr.Dataset | None) -> dict[str, int]:
+    """Curves of the cycle that is shown, of all cycles if none is; the numbers of their names."""
+    shown = list(curves) if cycle is None else parted(curves, cycle)[0]
+    numbers = numbers_of(shown)
+    for curve in shown:
+        draw_curve(ax, curve, numbers.get(curve.label, 0))
+    for kind in parts.BORDERS:
+        if any(curve.kind == kind for curve in shown):
+            ax.plot([], [], **parts.border(kind))
+    return numbers
+
+
+def _growing(ax: Axes, cycle: xr.Dataset, study: xr.Dataset, horizon: float) -> list[Patch]:
+    """Shade where no cycle is stable, and none of the nearest loads of the scan separates within the horizon.
+
+    Between a load that separates at a speed and one that does not nothing is said.
+    """
     rate = cycle["growth_rate"].transpose("N", "Omega")
-    loads, speeds = rate["N"].values, rate["Omega"].values
-    known = np.isfinite(separation)
-    until = np.interp(loads, N[known], separation[known]) if known.any() else np.full(len(loads), np.inf)
-    # none found at the loads on both sides
-    until[np.interp(loads, N, known.astype(float)) == 0] = np.inf
-    here = ~(rate.values < 0) & (speeds[None, :] < until[:, None])
-    parts.shade_cells(ax, speeds, loads, here, BLUE, label, 0.18)
+    apart = separates(study, horizon, rate["N"].values, rate["Omega"].values)
+    words = np.where(~(rate.values < 0) & ~apart, "unstable", "")
+    fill(ax, edges_of(cycle, "Omega", "N"), words, BEHIND)
+    said = "no stable cycle, no separation;\nwhite: all else, or not known"
+    return [patch(BEHIND["unstable"]._replace(label=said))]
+
+
+def separates(study: xr.Dataset, horizon: float, loads: Array, speeds: Array) -> NDArray[np.bool_]:
+    """Whether one of the scanned loads beside a load separates at a speed, or none is beside: (loads, speeds)."""
+    scanned = study["N"].values
+    if not scanned.size:
+        return np.ones((len(loads), len(speeds)), bool)
+    changes = zip(onsets(study, horizon), speeds_of(study, horizon, "ends"), strict=True)
+    passed = [[np.searchsorted(np.sort(at), speeds, "right") for at in pair] for pair in changes]
+    at_scan = np.array([begun > ended for begun, ended in passed])
+    below, above = (np.searchsorted(scanned, loads, side) for side in ("right", "left"))
+    beyond = (below == 0) | (above == len(scanned))
+    below, above = np.clip(below - 1, 0, None), np.clip(above, None, len(scanned) - 1)
+    return at_scan[below] | at_scan[above] | beyond[:, None]

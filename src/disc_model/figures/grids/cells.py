@@ -1,0 +1,186 @@
+"""Cells of maps: how outcomes, growth rates of the stick-slip cycle and what stands for no cycle fill them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from cmcrameri import cm
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import AsinhNorm, BoundaryNorm, ListedColormap, to_hex, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from disc_model.data.variables import flag_names
+from disc_model.figures.parts import GREY, SEPARATED, label_of
+
+Array = NDArray[np.float64]
+Names = NDArray[np.str_]
+Edges = tuple[Array, Array]
+
+# ----------------------------------------------------------------------------------------------------
+# Cells in flat colours: hatches would be wider than a cell
+
+
+class Look(NamedTuple):
+    """How cells are filled, and what they are called."""
+
+    label: str
+    face: str
+
+
+OUTCOMES = {
+    "stable": Look("stays quiet", "#e9eef2"),
+    "unstable": Look("grows, no separation", "#a9b4bd"),
+    "separation": Look("separation", SEPARATED),
+    "undecided": Look("undecided", "#a98b6d"),
+    "unknown": Look("failed", "#333333"),
+}
+CYCLES = {
+    "slides": Look("slides steadily", "#d9cfe3"),
+    "sticks": Look("sticks", "#cfe3d6"),
+    "separates": Look("separates at once", "#f3c9ae"),
+    "only_near": Look("start follows no cycle", "#f2e6a2"),
+    "none_found": Look("no cycle found", "#b5b5b5"),
+    "alone": Look("growth unlike all cells around", "#d3d98f"),
+    "failed": Look("failed", "#333333"),
+}
+"""What there is to see where no cycle is followed."""
+WITHOUT = {
+    "ok": "none_found",
+    "no_cycle": "none_found",
+    "separates": "separates",
+    "no_stick_slip": "slides",
+    "at_rest": "sticks",
+}
+"""The same, by the status of a point of the quantity `floquet`."""
+
+
+def paler(look: Look, share: float) -> Look:
+    """The same on the way to white."""
+    red, green, blue = (part + share * (1 - part) for part in to_rgb(look.face))
+    return look._replace(face=to_hex((red, green, blue)))
+
+
+def edges_of(data: xr.Dataset | xr.DataArray, x: str, y: str) -> Edges:
+    """Edges of the cells around the points, halfway between neighbours, in the units of the axes."""
+    edges = []
+    for name in (x, y):
+        values = data[name].values * label_of(data[name])[1]
+        log = scale_of(name, values) == "log"
+        along = np.log(values) if log else values
+        middle = 0.5 * (along[1:] + along[:-1])
+        whole = np.concatenate([along[:1], middle, along[-1:]])
+        edges.append(np.exp(whole) if log else whole)
+    return edges[0], edges[1]
+
+
+def scale_of(name: str, values: Array) -> str:
+    """Of an axis: logarithmic where values span decades and crowd at the lower end; from 0, with a linear start."""
+    positive = values[values > 0]
+    if name in ("N", "Omega") or positive.size < 2 or positive[-1] / positive[0] <= 15:
+        return "linear"
+    if np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
+        return "linear"
+    return "log" if values[0] > 0 else "symlog"
+
+
+def words_of(data: xr.Dataset, name: str, x: str, y: str) -> Names:
+    """Names of a flag: shape (len(y), len(x))."""
+    return np.asarray(flag_names(data[name].transpose(y, x)))
+
+
+def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look]) -> None:
+    """Cells in the look of their word; those of no look stay as they are."""
+    codes = np.full(words.shape, np.nan)
+    for i, word in enumerate(looks):
+        codes[words == word] = i
+    if np.isnan(codes).all():
+        return
+    colours = ListedColormap([look.face for look in looks.values()])
+    norm = BoundaryNorm(np.arange(len(looks) + 1) - 0.5, len(looks))
+    ax.pcolormesh(*edges, np.ma.masked_invalid(codes), cmap=colours, norm=norm, rasterized=True)
+
+
+def patch(look: Look) -> Patch:
+    """For legends."""
+    return Patch(facecolor=look.face, edgecolor=GREY, linewidth=0.4, label=look.label)
+
+
+# ----------------------------------------------------------------------------------------------------
+# The one scale of colours for growth rates of the stick-slip cycle
+
+GREATEST = 0.3
+"""Growth rate at which the colours end, 1/s."""
+LINEAR = 0.01
+"""Growth rate up to which the colours are about linear, 1/s."""
+TICKS = (-0.1, -0.01, 0, 0.01, 0.1)
+UNLIKE = 0.1
+"""Share of the scale of colours that lies between a cell which stands alone and each around it, at least."""
+
+
+def growth_norm() -> AsinhNorm:
+    """About linear near 0, about logarithmic beyond."""
+    return AsinhNorm(linear_width=LINEAR, vmin=-GREATEST, vmax=GREATEST)
+
+
+def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
+    """`growth_rate` (1/s) over two parameters; where no cycle is followed, what there is instead.
+
+    data : of the quantity `regions`, or of `floquet`; without flags all that has no rate is without a cycle
+    """
+    edges, words = edges_of(data, x, y), cycles_of(data, x, y)
+    shown = np.ma.masked_where(words != "", data["growth_rate"].transpose(y, x).values)
+    mesh = ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=growth_norm(), rasterized=True)
+    fill(ax, edges, words, CYCLES)
+    return mesh
+
+
+def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
+    """What there is where no cycle is followed, a key of `CYCLES`, or "": shape (len(y), len(x))."""
+    rate = data["growth_rate"].transpose(y, x).values
+    if "cycle" in data:
+        return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y))
+    words = np.full(rate.shape, "none_found", dtype="<U16")
+    if "status" in data:
+        status = words_of(data, "status", x, y)
+        words = np.array([WITHOUT.get(word, "failed") for word in status.flat], dtype="<U16").reshape(rate.shape)
+    if "sliding_growth_rate" in data:
+        # steady sliding that grows is no motion to stay in
+        grows = ~(data["sliding_growth_rate"].transpose(y, x).values < 0)
+        words[(words == "slides") & grows] = "none_found"
+    words[np.isfinite(rate)] = ""
+    words[alone(rate)] = "alone"
+    return words
+
+
+def alone(rate: Array) -> NDArray[np.bool_]:
+    """Cells whose growth rate is unlike that of the eight around them: each has a cycle of its own.
+
+    Each point of the quantity `floquet` is computed by itself, and where several cycles exist it is any of them.
+    """
+    place = np.where(np.isfinite(rate), growth_norm()(np.nan_to_num(rate)), np.nan).clip(0, 1)
+    padded = np.pad(place, 1, constant_values=np.nan)
+    rows, columns = rate.shape
+    around = [padded[i : i + rows, j : j + columns] for i, j in product(range(3), range(3)) if (i, j) != (1, 1)]
+    like = np.any([np.abs(place - other) < UNLIKE for other in around], axis=0)
+    some = np.any([np.isfinite(other) for other in around], axis=0)
+    return np.isfinite(rate) & some & ~like
+
+
+def cycle_patches(words: Collection[str]) -> list[Patch]:
+    """For legends: what there is where no cycle is followed."""
+    return [patch(look) for name, look in CYCLES.items() if name in words]
+
+
+def growth_bar(figure: Figure, mesh: QuadMesh, axes: list[Axes]) -> None:
+    """The scale beside the panels."""
+    bar = figure.colorbar(mesh, ax=axes, extend="both", pad=0.01, aspect=30)
+    bar.set_label("Growth rate of the stick-slip cycle (1/s)")
+    bar.set_ticks(TICKS, labels=[f"{x:g}".replace("-", "−") for x in TICKS])
+    bar.minorticks_off()
