@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
+import pytest
 import xarray as xr
 
 from disc_model.benchmarks import scenes
@@ -37,9 +40,37 @@ def test_every_method_looks_otherwise_and_every_scene_has_a_title():
     assert figures.VERDICTS == scenes.VERDICT_WORDS
 
 
-def test_many_settings_are_said_in_few_letters() -> None:
-    """Five of them were longer than the cell that they stand in."""
-    setting = np.array([1e-7, 1e-3, 1e-5, 1e-9])
-    listed = [figures._listed(setting, np.array(chosen, bool)) for chosen in ([0, 1, 0, 0], [1, 0, 1, 0], [1, 1, 1, 0])]
-    assert listed == ["1e-3", "1e-5, 1e-7", "1e-3 to 1e-7"]
-    assert figures._listed(setting, np.array([True, True, False, True])) == "3 settings"
+@pytest.fixture
+def priced() -> xr.Dataset:
+    """One line with a right and a wrong setting, one without answers, and a model of which two points coincide."""
+    lines = ["RK4", "RK4", "CVODE", "rigid", "rigid", "rigid"]
+    settings, errors = [1e-4, 4e-4, 1e-3, 8, 6, 1], [1e-3, 5.0, np.nan, 1e-2, 1e-2, 1.0]
+    varies = ["step", "step", "tol", *["diameters"] * 3]
+    columns = {
+        "answer": ["first_separation"] * 6,
+        "line": lines,
+        "label": lines,
+        "setting": settings,
+        "varies": varies,
+        "error": errors,
+        "seconds": [0.4, 0.1, 2.0, 0.3, 0.29, 0.01],
+        "verdict": [figures.RIGHT, figures.WRONG, figures.NO_ANSWER, figures.RIGHT, figures.RIGHT, figures.WRONG],
+        "colour": ["#000000"] * 6,
+        "marker": ["s"] * 6,
+        "dash": ["-"] * 6,
+    }
+    questions = json.dumps({"first_separation": {"enough": 0.1}})
+    return xr.Dataset({name: ("row", column) for name, column in columns.items()}, attrs={"questions": questions})
+
+
+def test_a_cell_of_prices_names_its_setting_and_holds_no_list(priced: xr.Dataset) -> None:
+    """Lists of settings were set in less than 5 points, and what varies was not named."""
+    texts = figures.prices(priced).axes[0].texts
+    assert [text.get_text() for text in texts] == ["0.4 s", "step 1e-4 s", "wrong at 1", "no answer"]
+    assert min(text.get_fontsize() for text in texts) >= 6
+
+
+def test_answers_name_what_is_drawn_and_no_number_covers_another(priced: xr.Dataset) -> None:
+    figure = figures.answers(priced)
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["RK4", "rigid"]
+    assert [text.get_text() for text in figure.axes[0].texts] == ["8", "1"]

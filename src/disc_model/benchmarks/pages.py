@@ -130,8 +130,8 @@ def passages(run: Summary) -> dict[str, str]:
         ),
         "prices": (
             "\n\n![What each right answer costs](docs/gallery/prices.png)\n\n*What each method asks for each right "
-            "answer: its time at its cheapest right setting; in red the settings at which it answers wrongly, without "
-            "a warning. More on [the page of the benchmark](docs/benchmark.md).*"
+            "answer: its time at its cheapest right setting; in red at how many others it answers wrongly, without a "
+            "warning. More on [the page of the benchmark](docs/benchmark.md).*"
         ),
     }
 
@@ -186,13 +186,18 @@ def page(run: Summary) -> str:
     text += ["", known["speed"], "", "## Answers", ""]
     text += [
         "What a study asks for, and what each method asks for it: time on one core at its cheapest right setting; in",
-        "red the settings at which it answers wrongly, without a warning. Right answers come from methods that share",
-        "no code with the engine. A region's cells are drawn at random, with a fixed seed, where all take too long.",
+        "red at how many others it answers wrongly, without a warning (the table says at which). Right answers come",
+        "from methods that share no code with the engine. A region's cells are drawn at random, with a fixed seed,",
+        "where all take too long.",
         "Methods and settings that do not appear were not measured.",
         "",
         "![What each right answer costs](gallery/prices.png)",
         "",
         "![Error against wall time](gallery/answers.png)",
+        "",
+        "Error against time. Green: right. Hollow, at the right edge: what the method says not to exist, wrongly; at",
+        "the left one: errors below all others, zero among them. Numbers: nodal diameters of a model; dots are further",
+        "ones, between their neighbours.",
         "",
     ]
     for name, sentence in run["sentences"].items():
@@ -218,6 +223,7 @@ def page(run: Summary) -> str:
 def _price(cell: Mapping[str, Any] | None) -> str:
     if cell is None:
         return "-"
+    wrong = f"wrong at {', '.join(f'{setting:g}' for setting in cell['wrong'])}" if cell["wrong"] else ""
     if cell["seconds"] is None:
-        return "wrong" if cell["wrong"] else "no answer"
-    return f"{_plain(cell['seconds'])} s ({cell['at']})"
+        return wrong or "no answer"
+    return f"{_plain(cell['seconds'])} s ({'; '.join(filter(None, (cell['at'], wrong)))})"

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import cycle
 from typing import Any
 
@@ -23,6 +23,7 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
+from disc_model.data.variables import said_values
 from disc_model.figures import parts
 from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, new_figure, styled
 
@@ -46,6 +47,8 @@ SHADES = ("#08519C", "#9ECAE1", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
 ANSWER_SHADES = ("#08519C", "#B2182B", "#D9D9D9")
 ANSWER_WORDS = ("right", "wrong, without a warning", "no answer")
 SETTING_LABELS = {"tol": "Tolerance", "step": "Step (s)", "epsilon": r"$\epsilon$ (rad/s)"}
+PRICED = {"tol": "tol {}", "step": "step {} s", "epsilon": "ε {} rad/s"}
+"""A setting as a cell of prices has room for it."""
 ERRORS = {"event": "Event-time error (s)", "state": "State error (energy norm)"}
 
 
@@ -66,7 +69,7 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
         _cost_panel(ax, part, error, orders=True)
         parts.letter(ax, letter)
         ax.set_xlabel(ERRORS[error])
-    left.set_ylabel("Time per simulated second")
+    left.set_ylabel("Time per simulated second (s)")
     figure.legend(handles=_method_handles(part), loc="outside right center", title=TITLES[scene])
     return figure
 
@@ -82,7 +85,7 @@ def overview(dataset: xr.Dataset) -> Figure:
     for ax in axes[2:]:
         ax.set_xlabel(ERRORS["event"])
     for ax in axes[::2]:
-        ax.set_ylabel("Time per simulated second")
+        ax.set_ylabel("Time per simulated second (s)")
     figure.legend(handles=_method_handles(dataset), loc="outside right center")
     return figure
 
@@ -159,7 +162,7 @@ def _method_handles(part: xr.Dataset) -> list[Line2D]:
 
 ANSWERS = {
     "first_separation": "First separation, error (s)",
-    "separation_rate": "Separations per second, error",
+    "separation_rate": "Separations per second, error (1/s)",
     "disc_range": "Range of the disc, error (m)",
     "onset": "Speed of onset, error (rad/s)",
     "growth_rate": "Growth rate, error (1/s)",
@@ -204,11 +207,13 @@ def answers(dataset: xr.Dataset) -> Figure:
         least = min(0.3 * float(positive.min(initial=math.inf)), 0.1 * about[name]["enough"])
         for line in dict.fromkeys(map(str, part["line"].values)):
             points = part.isel(row=part["line"].values == line)
-            handles[line] = _answer_line(ax, points, least, counted=line in MODELS)
+            if (handle := _answer_line(ax, points, least, counted=line in MODELS)) is not None:
+                handles[line] = handle
         low, _ = ax.get_xlim()
         ax.axvspan(low, about[name]["enough"], color=_ENOUGH, zorder=0)
         ax.set_xlim(left=low)
         ax.xaxis.set_minor_formatter(NullFormatter())
+        _number_models(ax, part.isel(row=np.isin(part["line"].values, MODELS)), least)
     for ax in axes[::columns]:
         ax.set_ylabel("Time on one core (s)")
     for ax in axes[len(names) :]:
@@ -217,8 +222,8 @@ def answers(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -> Line2D:
-    """Draw a line; returns its legend entry."""
+def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -> Line2D | None:
+    """Draw a line; returns its legend entry, if there is anything to draw."""
     color, marker, dash = _look(points.isel(row=0))
     x, y = points["error"].values, points["seconds"].values
     found = np.isfinite(x)
@@ -226,22 +231,41 @@ def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -
     style: dict[str, Any] = {"color": color, "linestyle": dash, "marker": "" if counted else marker, "markersize": size}
     drawn = np.maximum(x[found], least)
     ax.plot(drawn, y[found], linewidth=0.9, **style)
-    if counted:
-        for at_x, at_y, count in zip(drawn, y[found], points["setting"].values[found], strict=True):
-            ax.annotate(f"{int(count)}", (at_x, at_y), ha="center", va="center", fontsize=6, path_effects=_HALO)
     denied = ~found & (points["verdict"].values == WRONG) & np.isfinite(y)
     if denied.any() and not counted:
         edge = np.full(np.count_nonzero(denied), 0.97)
         ax.plot(edge, y[denied], transform=ax.get_yaxis_transform(), linestyle="", marker=marker, color=color,
                 markerfacecolor="white", markersize=size)  # fmt: skip
+    if not (found.any() or denied.any()):
+        return None
     return Line2D([], [], label=str(points["label"].values[0]), **style)
+
+
+APART = 0.045
+"""Least distance of two numbers in a panel, as a share of its sides."""
+
+
+def _number_models(ax: Axes, points: xr.Dataset, least: float) -> None:
+    """Numbers of nodal diameters at the points of models, the largest first; a dot where there is no room for one."""
+    points = points.isel(row=np.flatnonzero(np.isfinite(points["error"].values)))
+    points = points.isel(row=np.argsort(-points["setting"].values, kind="stable"))
+    x, y = np.maximum(points["error"].values, least), points["seconds"].values
+    to_panel = ax.transScale + ax.transLimits
+    numbered: list[np.ndarray] = []
+    for at, count in zip(np.stack([x, y], axis=1), points["setting"].values, strict=True):
+        place = np.asarray(to_panel.transform(at))
+        if any(np.abs(place - other).max() < APART for other in numbered):
+            ax.plot(*at, ".", color=BLACK, markersize=2)
+        else:
+            numbered.append(place)
+            ax.annotate(f"{int(count)}", tuple(at), ha="center", va="center", fontsize=6, path_effects=_HALO)
 
 
 @styled()
 def prices(dataset: xr.Dataset) -> Figure:
     """What each method asks for each right answer: wall time at its cheapest right setting.
 
-    Below it the setting; in red the settings at which it answers wrongly without a warning.
+    Below it the setting; in red at how many others it answers wrongly, without a warning.
     """
     names = [name for name in HEADS if name in dataset["answer"].values]
     lines = [line for line in dict.fromkeys(map(str, dataset["line"].values)) if line not in MODELS]
@@ -277,26 +301,15 @@ def _price(ax: Axes, part: xr.Dataset, column: int, row: int, colors: Colormap, 
         best = np.flatnonzero(right)[np.argmin(seconds[right])]
         face = colors(norm(seconds[best]))
         ink = "white" if seconds[best] > 3.0 else BLACK
-        texts = [(_seconds(seconds[best]), 6.5, ink), (f"at {_power(setting[best])}", 5.0, ink)]
-    if wrong.any():
-        listed = _listed(setting, wrong)
-        texts.append((f"wrong: {listed}" if right.any() else listed, 4.6, _RED))
+        said = PRICED[str(part["varies"].values[best])].format(_power(setting[best]))
+        texts = [(_seconds(seconds[best]), 6.5, ink), (said, 6.0, ink)]
+        if wrong.any():
+            texts.append((f"wrong at {wrong.sum()}", 6.0, _RED))
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
     for place, (text, size, ink) in enumerate(texts):
         at = row + 0.3 * (place - 0.5 * (len(texts) - 1))
         halo = _HALO if ink == _RED else None
         ax.text(column, at, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
-
-
-def _listed(setting: np.ndarray, chosen: np.ndarray) -> str:
-    """Some of the settings in as few letters as a cell has room for: two, or from where to where, or how many."""
-    coarse_first = np.argsort(-setting)
-    found, places = setting[coarse_first][chosen[coarse_first]], np.flatnonzero(chosen[coarse_first])
-    if len(found) <= 2:
-        return ", ".join(map(_power, found))
-    if np.ptp(places) == len(places) - 1:
-        return f"{_power(found[0])} to {_power(found[-1])}"
-    return f"{len(found)} settings"
 
 
 def _power(value: float) -> str:
@@ -434,10 +447,12 @@ _PANELS: Panels = (
     ("separations", "Separations per second", True),
     ("cost", "Wall time per\nsimulated second", True),
 )
+FAR = 25.0
+"""Per cent by which first separations differ, at most, to be shown to scale."""
 _CONTACT_PANELS: Panels = (
     ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
     ("growth_rate", "Growth rate (1/s)", False),
-    ("late", "First separation, later\nthan converged (%)", False),
+    ("late", "First separation, later than\nconverged (%); arrows: more", False),
     ("cost", "Cost before it, s of\nprocessor per s", True),
     ("separations", "After it: separations\nper second", True),
     ("separated_share", "Share of the time apart", False),
@@ -451,7 +466,8 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     """What residual flexibility changes, against the number of real modes; a colour for each case.
 
     Filled: residual flexibility; hollow and dashed: rigid contact.  First separations are compared with that of the
-    largest model with residual flexibility; what lies far off is cut.
+    largest model with residual flexibility; arrows at the edge stand for what lies far off, crosses at the foot for
+    models without a cycle.
     """
     first = dataset["first_separation"]
     late = 100 * (first / first.sel(contact="residual").isel(model=-1) - 1)
@@ -462,11 +478,40 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
         for contact in ("residual", "rigid")
     ]
     figure, axes = _against_modes(lines, _CONTACT_PANELS, (1, 3, 10, 30, 100))
-    axes["late"].set_ylim(-25, 25)
+    for ax in axes.values():
+        ax.autoscale(False)
+    axes["late"].set_ylim(-FAR, FAR)
+    for line, (color, _), _ in lines:
+        _beyond(axes["late"], line, color)
+        _gone(axes["growth_rate"], line, color)
     axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
-    handles = _look_handles(map(str, dataset["case"].values), filled="residual", hollow="rigid")
+    cases = json.loads(dataset.attrs["cases"])
+    labels = [_case_said(cases[str(name)]) for name in dataset["case"].values]
+    handles = _look_handles(labels, filled="residual", hollow="rigid")
+    handles.append(Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found"))
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
+
+
+def _beyond(ax: Axes, line: xr.Dataset, color: str) -> None:
+    """Arrows at the edge for first separations that are farther off than the panel shows."""
+    late = line["late"].values
+    for marker, edge, there in (("^", FAR, late > FAR), ("v", -FAR, late < -FAR)):
+        ax.plot(line["modes"][there], np.full(there.sum(), 0.96 * edge), marker, color=color, markersize=3, alpha=0.7)
+
+
+def _gone(ax: Axes, line: xr.Dataset, color: str) -> None:
+    """Crosses at the foot for models without a cycle."""
+    gone = ~np.isfinite(line["growth_rate"].values)
+    if gone.any():
+        at_foot: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "clip_on": False}
+        ax.plot(line["modes"][gone], np.zeros(gone.sum()), "x", color=color, markersize=3.5, zorder=4, **at_foot)
+
+
+def _case_said(parameters: Mapping[str, Any]) -> str:
+    """A case in words, with units."""
+    norm = str(parameters.get("normalization", "as_published"))
+    return f"{norm.replace('_', ' ')}, {said_values(parameters)}"
 
 
 @styled()

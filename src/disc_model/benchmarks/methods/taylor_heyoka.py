@@ -112,7 +112,7 @@ class Unguarded(Heyoka):
     """As heyoka documents it, native events trusted at the start of a separation too."""
 
     label = "heyoka, no guard step"
-    look = (BROWN, "*", "--")
+    look = (BROWN, "X", "--")
     settings: Mapping[str, Sequence[float]] = {}
 
     def __init__(self, guard: float = 0.0, compact: bool = False) -> None:
