@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from PIL import Image
+from PIL import Image, ImageColor
 
 from disc_model.data.dataset import load_cases
+from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
 from disc_model.studies.schema import load_study
 
@@ -40,13 +41,13 @@ OTHERS = {
     ),
     "sensitivity/figures/sensitivity.png": (
         "How sure is it that a case is stable.",
-        "(a) Probabilities at the three points (b) to (d), with intervals of 95 %; (b) to (d) Sobol indices of "
-        "instability and of the growth rate, published modes.",
+        "(a) Probabilities at the three points, with intervals of 95 %; (b) to (d) Sobol indices of "
+        "instability, (e) to (g) of the growth rate, published modes; arrows: on beyond the panel.",
     ),
     "campbell/figures/campbell.png": (
         "Frequencies over speed.",
         "(a) Frequencies of steady sliding and of the stick-slip cycle at N = 385 N, and multiples of the stick-slip "
-        "frequency; numbered crossings are those at which something happens. (b) Growth rates of the cycle's modes.",
+        "frequency; numbered are peaks of the cycle's growth rate and gaps without a cycle. (b) Growth rates of the cycle's modes.",
     ),
     "ramps/figures/ramps.png": (
         "Separation on ramps of the speed.",
@@ -64,8 +65,19 @@ OTHERS = {
 """Figures of other studies; where they are not there, the pictures of an earlier run stay."""
 FILM = (
     "The stretch of Fig. 2b, 35 ms, slowed down about 170 times. Left: deflection of the disc from above, colours as "
-    "in Fig. B1. Right: the disc along the circle of radius r_0, and the slider; red where it has left the disc."
+    "in Fig. B1. Right: the disc along the circle of radius r_0, and the slider; vermilion where it has left the disc."
 )
+STYLE_COLOURS = (
+    *(parts.BLUE, parts.VERMILION, parts.GREEN, parts.PURPLE, parts.ORANGE, parts.SKY),
+    *(parts.BLACK, parts.GREY, parts.BROWN, parts.FORCE, "#ffffff"),
+)
+TINTS = (1.0, 0.3, 0.25, 0.15)
+"""How strong they are drawn: as lines, and as areas on white."""
+KEPT = [
+    tuple(round(255 - tint * (255 - part)) for part in ImageColor.getrgb(colour)[:3])
+    for colour in STYLE_COLOURS
+    for tint in TINTS
+]
 WIDTH = 900
 """Pixels of a figure as wide as a page; narrower ones are as much smaller."""
 PAGE = 2161
@@ -107,13 +119,23 @@ def film(source: Path, target: Path) -> None:
 
 
 def shrink(source: Path, target: Path) -> Path:
-    """Write a small copy of a picture, with a palette of 128 colours; equal pictures give equal bytes."""
+    """Write a small copy of a picture, with a palette that holds the style's colours; equal ones give equal bytes."""
     target.parent.mkdir(parents=True, exist_ok=True)
     with Image.open(source) as picture:
         scale = WIDTH / PAGE
         size = (round(picture.width * scale), round(picture.height * scale))
-        picture.convert("RGB").resize(size, Image.Resampling.LANCZOS).quantize(128).save(target, optimize=True)
+        small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+    small.quantize(palette=_palette(small), dither=Image.Dither.NONE).save(target, optimize=True)
     return target
+
+
+def _palette(picture: Image.Image) -> Image.Image:
+    """256 colours: those that have a meaning, which a choice by frequency alone would mix, and the picture's own."""
+    rest = 256 - len(KEPT)
+    own = (picture.quantize(rest).getpalette() or [])[: 3 * rest]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*(part for colour in KEPT for part in colour), *own])
+    return palette
 
 
 if __name__ == "__main__":
