@@ -47,7 +47,8 @@ OTHERS = {
     "campbell/figures/campbell.png": (
         "Frequencies over speed.",
         "(a) Frequencies of steady sliding and of the stick-slip cycle at N = 385 N, and multiples of the stick-slip "
-        "frequency; numbered are peaks of the cycle's growth rate and gaps without a cycle. (b) Growth rates of the cycle's modes.",
+        "frequency; numbered are peaks of the cycle's growth rate, and gaps without a cycle. (b) Growth rates of the "
+        "cycle's modes.",
     ),
     "ramps/figures/ramps.png": (
         "Separation on ramps of the speed.",

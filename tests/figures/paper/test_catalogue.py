@@ -24,7 +24,7 @@ from disc_model.figures.paper.catalogue import (
     number_of,
     said_parameters,
 )
-from disc_model.figures.paper.separations import complete_separations, separations
+from disc_model.figures.paper.separations import complete_separations, contact_force, separations
 from disc_model.figures.parts import COLUMN, PAGE, SYMBOLS, save
 from tests.claims.damaged import DAMAGES, damaged
 
@@ -163,6 +163,17 @@ def test_users_settings_do_not_change_a_figure() -> None:
     with mpl.rc_context({"axes.labelsize": 30, "lines.linewidth": 9}):
         figure = draw("fig02")
     assert figure.axes[1].yaxis.label.get_fontsize() == 8
+
+
+def test_a_closer_look_began_inside_a_separation() -> None:
+    """What the window cuts off looked like a jump of the force at its start."""
+    case = made_up_case()
+    zoom = case["zoom"].to_dataset()
+    apart = np.flatnonzero(zoom["phase"].values == 2)
+    case["zoom"] = xr.DataTree(zoom.isel(time=slice(int(apart[5]), None)))
+    line = contact_force({"F02": case}).axes[1].lines[0]
+    assert line.get_xdata()[0] == 0
+    assert line.get_ydata()[0] > 0
 
 
 def test_separations_of_a_window() -> None:

@@ -60,7 +60,8 @@ def _section(section: str, case: str, title: str, what: str) -> Entry:
 
 
 BEFORE = (
-    "Light blue crosses: in contact before the first separation; black dots: in contact after it; red triangles: apart."
+    "Light blue crosses: in contact before the first separation; black dots: in contact after it; vermilion triangles: "
+    "apart."
 )
 HALVES = "Light blue crosses: first half of the run; black dots: second half."
 IGNORED = f"Separation ignored. {HALVES}"
@@ -77,7 +78,8 @@ CATALOGUE: Mapping[str, Entry] = {
         "2",
         "The model",
         "Disc and slider: (a) from the side, with springs, dampers and preload, (b) from above, radii to scale, (c) "
-        "forces at the contact.",
+        "forces at the contact. The displacement Δ, kept, gives the preload N; u_0 is the height at the static start, "
+        "f = dφ/dt, F = k_p ψ + c_p (Ω - f), B = ∂w/∂θ under the slider.",
         {"F02": ()},
         "model.schematic",
     ),
@@ -154,7 +156,8 @@ CATALOGUE: Mapping[str, Entry] = {
         "Disc's spectrum in time above the critical speed",
         "Time-frequency spectrum of the disc's displacement at r_0 and {theta} in four stretches of the run, relative "
         "to the strongest line of all four; below, the same up to 300 Hz, the lines of Table 2 named. The "
-        "first half second, half a window, is left out. Dashed: first separation.",
+        "first half second, half a window, is left out. Dashed: first separation. Ticks without a name: the lines of a "
+        "pair.",
         {"F13": ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
         "spectra.four_stretches",
     ),
@@ -162,7 +165,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "4.4",
         "Slider's motion above the critical speed",
         "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
-        "the first separation, (b) its time-frequency spectrum. Dashed: first separation.",
+        "the first separation, (b) its time-frequency spectrum in the shaded stretch. Dashed: first separation.",
         {"F13": ("history", "spectrum_c", "spectrum_d")},
         "spectra.response",
         {
@@ -176,8 +179,8 @@ CATALOGUE: Mapping[str, Entry] = {
     "fig27": Entry(
         "4.4",
         "Disc's vibration, smaller preload",
-        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum. Dashed: first "
-        "separation.",
+        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum in the shaded "
+        "stretch. Dashed: first separation.",
         {"F07": ("history", "spectrum_d")},
         "spectra.response",
         {"case": "F07", "variable": "w_point", "spectrum": "spectrum_d", "until": 200.0},
@@ -186,7 +189,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "4.4",
         "Slider's motion, smaller preload",
         "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
-        "the first separation, (b) its time-frequency spectrum. Dashed: first separation.",
+        "the first separation, (b) its time-frequency spectrum in the shaded stretch. Dashed: first separation.",
         {"F07": ("history", "spectrum_d")},
         "spectra.response",
         {
@@ -200,8 +203,8 @@ CATALOGUE: Mapping[str, Entry] = {
     "fig29": Entry(
         "4.4",
         "Disc's vibration, soft disc",
-        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum. Dotted: the disc's "
-        "highest natural frequency.",
+        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum in the stretch "
+        "marked there. Dotted: the disc's highest natural frequency.",
         {"F21": ("history", "spectrum_d")},
         "spectra.response",
         {"case": "F21", "variable": "w_point", "spectrum": "spectrum_d", "highest": True},
@@ -224,8 +227,8 @@ CATALOGUE: Mapping[str, Entry] = {
         "B",
         "The whole disc while the slider leaves it",
         "Deflection of the disc from the plane of the disc at rest at four instants, equally far apart, from one loss "
-        "of contact to the next: (a) to (d) from above, the slider as a dot, (e) along its circle, the slider as a "
-        "square.",
+        "of contact to the next: (a) to (d) from above, the slider as a dot, with a tick at θ = 0 and an arrow in the "
+        "sense of θ and of the drive's rotation, (e) along its circle, the slider as a square.",
         {"F02": AROUND},
         "disc.instants",
     ),

@@ -38,6 +38,8 @@ RADII, ANGLES = 25, 181
 """Points across and around the disc at which it is drawn."""
 INSTANTS = 4
 """Of the figure: equally far apart from one loss of contact to the next."""
+STYLES = ("-", "--", "-.", ":")
+"""Of the lines at these instants."""
 
 
 @dataclass(frozen=True)
@@ -168,19 +170,32 @@ def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
     angle = motion.slider[i]
     place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
     ax.plot(*place, "o", ms=5, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
+    _directions(ax, p)
     ax.set_aspect("equal")
     ax.axis("off")
     return mesh
 
 
+def _directions(ax: Axes, p: Parameters) -> None:
+    """A tick at theta = 0, and an arrow in the sense in which theta grows and the slider is dragged."""
+    edge, middle = 1e3 * p.b, 0.6 * 1e3 * p.a
+    ax.plot([edge, 1.07 * edge], [0, 0], color=BLACK, lw=0.8)
+    arc = np.radians(np.linspace(-60, 60, 30))
+    ax.plot(middle * np.cos(arc), middle * np.sin(arc), color=BLACK, lw=0.8)
+    ends = [(middle * np.cos(angle), middle * np.sin(angle)) for angle in np.radians([60, 75])]
+    ax.annotate(
+        "", ends[1], ends[0], arrowprops={"arrowstyle": "-|>", "lw": 0.8, "shrinkA": 0, "shrinkB": 0, "fc": BLACK}
+    )
+
+
 def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
     """The disc along the circle of radius r_0, and the slider, at some instants."""
     theta = np.linspace(0, 2 * np.pi, ANGLES)
-    for i, share in zip(shown, np.linspace(1.0, 0.35, len(shown)), strict=True):
+    for i, style in zip(shown, STYLES, strict=True):
         after = 1e3 * (motion.time[i] - motion.time[shown[0]])
-        ax.plot(theta, motion.around(i, theta), color=DISC, alpha=float(share), label=f"disc, {after:.1f} ms")
+        ax.plot(theta, motion.around(i, theta), color=DISC, linestyle=style, label=f"disc, {after:.1f} ms")
         angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
-        ax.plot(angle, height, "s", ms=5, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6, alpha=float(share))
+        ax.plot(angle, height, "s", ms=5, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
     ax.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
     ax.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Arc, Circle, Rectangle
 from numpy.typing import NDArray
 
-from disc_model.figures.parts import BLACK, DISC, GREEN, PAGE, VERMILION, styled
+from disc_model.figures.parts import BLACK, DISC, FORCE, PAGE, SLIDER, styled
 from disc_model.parameters import Parameters
 
 Point = tuple[float, float] | NDArray[np.float64]
@@ -69,8 +69,11 @@ def _side(ax: Axes) -> None:
     ax.text(0, bottom + 0.275, "$m$", ha="center", va="center")
     ax.plot([0, 0], [float(surface(0)), bottom], color=SOFT, lw=0.8, ls=":")
     # heights, measured from the plane of the disc at rest, at the slider's place
-    _arrow(ax, (-0.75, 0), (-0.75, bottom), "$u$", (-0.16, 0), VERMILION)
-    ax.plot([-0.85, -0.4], [bottom, bottom], color=VERMILION, lw=0.7)
+    _arrow(ax, (-0.75, 0), (-0.75, bottom), "$u$", (-0.16, 0), SLIDER)
+    ax.plot([-0.85, -0.4], [bottom, bottom], color=SLIDER, lw=0.7)
+    _arrow(ax, (-1.2, 0), (-1.2, -0.38), colour=SLIDER)
+    ax.plot([-1.35, -1.05], [-0.38, -0.38], color=SLIDER, lw=0.7)
+    _write(ax, (-1.2, -0.52), "$u_0$ at the static start", color=SLIDER, fontsize=SMALL)
     _arrow(ax, (0.18, 0), (0.18, float(surface(0.12))), "$w$", (0.2, -0.01), DISC, "->")
     # vertical branch
     top = 2.15
@@ -79,7 +82,9 @@ def _side(ax: Axes) -> None:
     _damper(ax, (0.2, bottom + 0.55), (0.2, top))
     ax.text(-0.47, 1.63, "$k$", ha="center")
     ax.text(0.5, 1.63, "$c$", ha="center")
-    _arrow(ax, (1.0, 2.3), (1.0, 1.8), "preload $N$", (0.62, 0.02))
+    _arrow(ax, (0.85, top + 0.3), (0.85, top))
+    ax.plot([0.6, 1.0], [top, top], color=BLACK, lw=0.7)
+    ax.text(1.02, top + 0.12, r"$\Delta$, kept: preload $N$", va="center")
     # in-plane branch
     drive = 2.6
     _wall(ax, (drive, 0.5), (drive, 1.15), (0.13, 0.12))
@@ -88,12 +93,12 @@ def _side(ax: Axes) -> None:
     ax.text(1.5, 1.16, "$k_p$", ha="center")
     ax.text(1.85, 0.44, "$c_p$", ha="center", va="center")
     _arrow(ax, (drive + 0.2, 1.3), (drive + 0.95, 1.3), r"drive point, $r_0\,\Omega$", (0.15, 0.2))
-    _arrow(ax, (-0.4, 1.3), (-1.15, 1.3), style="<|-", colour=VERMILION)
-    ax.text(-1.25, 1.3, r"$r_0\,\dot\varphi = r_0\,f$", ha="right", va="center", color=VERMILION)
-    _arrow(ax, (0, -0.55), (drive, -0.55), r"$r_0\,\psi$", (-0.4, -0.17), GREEN, "<|-|>")
+    _arrow(ax, (-0.4, 1.3), (-1.15, 1.3), style="<|-", colour=SLIDER)
+    ax.text(-1.25, 1.3, r"$r_0\,\dot\varphi = r_0\,f$", ha="right", va="center", color=SLIDER)
+    _arrow(ax, (0, -0.55), (drive, -0.55), r"$r_0\,\psi$", (-0.4, -0.17), SLIDER, "<|-|>")
     for place in (0.0, drive):
-        ax.plot([place, place], [-0.65, -0.1], color=GREEN, lw=0.7)
-    _arrow(ax, (-2.4, -0.55), (-1.5, -0.55), r"$\theta$", (0.6, 0))
+        ax.plot([place, place], [-0.65, -0.1], color=SLIDER, lw=0.7)
+    _arrow(ax, (-2.45, -0.72), (-1.85, -0.72), r"$\theta$", (0.42, 0))
     ax.set(xlim=(-2.6, 4.6), ylim=(-0.85, 2.45))
     ax.set_title("(a) from the side, along the circle of radius $r_0$", loc="left")
 
@@ -106,15 +111,15 @@ def _above(ax: Axes, p: Parameters) -> None:
     ax.add_patch(Circle((0, 0), r_0, fc="none", ec=SOFT, lw=0.8, ls="--"))
     phi, ahead, fixed = np.radians(38), np.radians(92), np.radians(-32)
     ax.plot([0, 1.55], [0, 0], color=BLACK, lw=0.8)
-    for angle, colour in ((phi, VERMILION), (ahead, BLACK)):
+    for angle, colour in ((phi, SLIDER), (ahead, BLACK)):
         ax.plot(*np.transpose([(0, 0), _at(angle, 1.38)]), color=colour, lw=0.9)
     ax.add_patch(Circle(tuple(_at(phi, r_0)), 0.075, fc=BODY, ec=BLACK, lw=1.3, zorder=5))
     _write(ax, _at(phi, r_0), "$m$", fontsize=SMALL, zorder=6)
     ax.plot(*_at(ahead, r_0), "o", color=BLACK, ms=5, zorder=5)
     _write(ax, _at(ahead, 1.45, (0.05, 0)), r"drive point, $\Omega t$", va="baseline")
-    _write(ax, _at(phi, 1.42, (0.16, 0.02)), "slider", va="baseline", color=VERMILION)
-    _angle(ax, 0.0, phi, r"$\varphi$", VERMILION)
-    _angle(ax, phi, ahead, r"$\psi$", GREEN)
+    _write(ax, _at(phi, 1.42, (0.16, 0.02)), "slider", va="baseline", color=SLIDER)
+    _angle(ax, 0.0, phi, r"$\varphi$", SLIDER)
+    _angle(ax, phi, ahead, r"$\psi$", SLIDER)
     ax.plot(*_at(fixed, r_0), "x", color=BLACK, ms=7)
     place = _at(fixed, 1.3, (0.38, -0.06))
     _write(ax, place, "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
@@ -134,17 +139,19 @@ def _forces(ax: Axes) -> None:
     ax.add_patch(Rectangle((-0.45, 0.55), 0.9, 0.6, fc=BODY, ec=BLACK, lw=1.3))
     ax.text(0, 0.85, "$m$", ha="center", va="center")
     _arrow(ax, (-0.12, 2.0), (-0.12, 1.15), "$N + k\\,(u - u_0) + c\\,\\dot u$", (0.12, 0.58))
-    _arrow(ax, (0, 0.02), (0, 0.55), "$P$", (0.2, -0.02), VERMILION)
-    _arrow(ax, (0.45, 0.93), (1.3, 0.93), "$r_0\\,F$", (0.1, 0.2), GREEN)
-    _arrow(ax, (-0.45, 0.62), (-1.3, 0.62), colour=VERMILION)
-    ax.text(-0.9, 0.86, "slip: $\\mu_k P$", ha="center", color=VERMILION, fontsize=SMALL)
+    _arrow(ax, (0, 0.02), (0, 0.55), "$P$", (0.2, -0.02), FORCE)
+    _arrow(ax, (0.45, 0.93), (1.3, 0.93), "$r_0\\,F$", (0.1, 0.2), FORCE)
+    ax.text(1.62, 1.42, "$F = k_p\\,\\psi + c_p\\,(\\Omega - f)$", ha="right", color=FORCE, fontsize=SMALL)
+    _arrow(ax, (-0.45, 0.62), (-1.3, 0.62), colour=FORCE)
+    ax.text(-0.9, 0.86, "slip: $\\mu_k P$", ha="center", color=FORCE, fontsize=SMALL)
     _arrow(ax, (-1.25, 1.5), (-0.65, 1.5), "$f > 0$", (0.0, 0.17))
     x = np.linspace(-1.5, 1.5, 100)
     level = -0.62
     ax.plot(x, level + 0.2 * x - 0.05 * x**2, color=DISC, lw=2.5)
     ax.plot([-1.5, 1.5], [level, level], color=SOFT, lw=0.8, ls="--")
-    _arrow(ax, (0, level + 0.53), (0, level), "$P$", (0.2, 0.03), VERMILION)
-    ax.text(1.45, level + 0.36, "slope $B / r_0$", ha="right", color=DISC)
+    _arrow(ax, (0, level + 0.53), (0, level), "$P$", (0.2, 0.03), FORCE)
+    ax.text(1.6, level + 0.52, "slope $B / r_0$,", ha="right", color=DISC, fontsize=SMALL)
+    ax.text(1.6, level + 0.32, "$B = \\partial w / \\partial\\theta$", ha="right", color=DISC, fontsize=SMALL)
     ax.set(xlim=(-1.65, 1.65), ylim=(-0.95, 2.35))
     ax.set_title("(c) forces at the contact", loc="left")
 

@@ -76,6 +76,8 @@ def _show_zero(ax: Axes, case: xr.DataTree) -> None:
 
 def _zoom(ax: Axes, case: xr.DataTree) -> None:
     window = dataset.samples(case, "zoom")
+    # a separation that the window cuts off at its start would look like a jump
+    window = window.isel(time=slice(int(np.argmin(window["phase"].values == SEPARATION)), None))
     parts.letter(ax, "b")
     time = window["time"].values
     start = float(time[0])
@@ -83,7 +85,7 @@ def _zoom(ax: Axes, case: xr.DataTree) -> None:
     shade(ax, spans, "separation")
     ax.plot((time - start) * 1e3, window["P"].values, color=FORCE)
     _show_zero(ax, case)
-    ax.set(xlabel=f"Time after {start:.3f} s (ms)", ylabel="Contact force (N)")
+    ax.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Contact force (N)")
     if spans:
         legend_above(ax)
 

@@ -162,7 +162,7 @@ def _name_lines(ax: Axes) -> None:
     right = ax.secondary_yaxis("right")
     right.set_yticks([float(np.mean(pair)) for pair in TABLE_2.values()], labels=list(TABLE_2))
     right.set_yticks([line for pair in TABLE_2.values() for line in pair], minor=True)
-    right.tick_params(length=0)
+    right.tick_params(length=0, pad=7)  # names keep clear of the ticks of single lines
     right.tick_params(which="minor", length=3, width=0.6)
     right.spines["right"].set_visible(False)
     right.set_label("shares the axis to its left")
