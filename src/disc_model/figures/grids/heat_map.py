@@ -37,21 +37,18 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> 
     panels = parts.slices(found, by)
     figure = new_figure(PAGE if len(panels) > 1 else COLUMN * 1.2, 2.9)
     axes = list(figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0])
-    growth = plot.variable == "growth_rate" and not plot.log
     handles: list[Patch] = []
-    if growth:
+    if plot.variable == "growth_rate" and not plot.log:
         mesh, handles = _growth(axes, study, plot, by)
+        growth_bar(figure, mesh, axes)
     else:
         colours = _colours(found, plot)
         for ax, (_, panel) in zip(axes, panels, strict=True):
             mesh = _panel(ax, panel, plot, colours)
+        _bar(figure, mesh, axes, found)
         if "flag_meanings" not in found.attrs and bool(found.isnull().any()):
             handles = [Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label="no value")]
     _name(figure, axes, [said for said, _ in panels], found, plot)
-    if growth:
-        growth_bar(figure, mesh, axes)
-    else:
-        _bar(figure, mesh, axes, found)
     if handles:
         figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
     parts.head(figure, study, plot.title, found)
