@@ -165,6 +165,8 @@ FORCES = {"vertical": "vertical contact force", "normal": "normal contact force"
 """And by the contact force's direction."""
 MODELS = {"normal": FORCES["normal"], "bonded": "bonded contact", "residual": "residual flexibility"}
 """What a study says of its model, where that is not the paper's."""
+SAID = {**MODES, **FORCES}
+"""Words of parameters as panels are titled, those of the paper first."""
 
 
 def axis_of(name: str) -> tuple[str, float]:
@@ -218,20 +220,29 @@ def head(figure: Figure, study: xr.Dataset, title: str, shown: xr.DataArray | No
 def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]]:
     """What each value along a dimension stands for, and what there is of it; all of it where there is no dimension.
 
-    A zip, which has no values of its own, stands for those of its parameters.
+    A zip, which has no values of its own, stands for those of its parameters.  Words, which datasets have in the order
+    of the alphabet, come in that of `SAID`.
     """
     if by is None:
         return [("", found)]
     along = [str(name) for name, values in found.coords.items() if values.dims == (by,)]
     each = [found.isel({by: i}) for i in range(found.sizes[by])]
+    each.sort(key=lambda one: [_rank(one[name].item()) for name in along])
     return [(", ".join(value_said(one, name) for name in along), one) for one in each]
+
+
+def _rank(value: float | str) -> float:
+    """Where a value comes among others of its parameter; words that are not in `SAID` stay where they are."""
+    if isinstance(value, str):
+        return [*SAID].index(value) if value in SAID else 0
+    return value
 
 
 def value_said(one: xr.DataArray, by: str) -> str:
     """What a panel or a line stands for."""
     value = one[by].item()
     if isinstance(value, str):
-        return {**MODES, **FORCES}.get(value, value)
+        return SAID.get(value, value)
     label, factor = label_of(one[by])
     name, _, unit = label.rpartition(" (")
     return f"{name} = {value * factor:g} {unit.rstrip(')')}" if name else f"{label} = {value * factor:g}"

@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
+from disc_model.figures import parts
 from disc_model.figures.grids import curve, heat_map
 from disc_model.figures.grids.kinds import MOST_PANELS, CurvePlot, HeatMap
 from disc_model.figures.parts import save
@@ -115,6 +116,17 @@ def test_a_zip_has_a_line_for_each_of_its_points(study: xr.Dataset) -> None:
     lines = curve.draw(zipped(study), {}, plot).axes[0].lines
     said = [line.get_label() for line in lines]
     assert said[:2] == ["modes as published, vertical contact force", "orthonormal modes, normal contact force"]
+
+
+def test_panels_come_as_the_page_has_its_columns(study: xr.Dataset) -> None:
+    """Survival's figure had the normal force before the vertical one, as the alphabet has them."""
+    alphabetic = xr.concat([study.sel(normalization=name, drop=True) for name in study["normalization"].values], "both")
+    alphabetic = alphabetic.assign_coords(
+        contact_compliance=("both", [3e-7, 3e-7]), contact_force=("both", ["normal", "vertical"])
+    )
+    panels = parts.slices(alphabetic["growth_rate"], "both")
+    assert [one["contact_force"].item() for _, one in panels] == ["vertical", "normal"]
+    np.testing.assert_array_equal(panels[0][1], study["growth_rate"].sel(normalization="orthonormal"))
 
 
 def test_a_curve_of_words_names_them(study: xr.Dataset) -> None:
