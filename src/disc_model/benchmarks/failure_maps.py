@@ -66,23 +66,31 @@ def failure_map(
         facts.append(_facts(problem, answer))
         if method == "RK4" and scene == "stick_slip":
             facts[-1]["observed_limit"] = observed_step_limit(diameters)
-    dims = ("diameters", "value")
-    dataset = xr.Dataset(
-        {
-            "verdict": (dims, verdict, VERDICT.attributes),
-            "event_error": (dims, event_error, {"units": "s", "long_name": "largest error of an event time"}),
-            "longest_step": (dims, longest, {"units": "s", "long_name": "longest step"}),
-        },
-        coords={
-            "diameters": ("diameters", list(truncations), {"units": "1", "long_name": "highest nodal diameter"}),
-            "value": ("value", list(values), {"long_name": f"setting: {own.setting}"}),
-        },
-        attrs={"method": method, "label": METHODS[method].label, "setting": own.setting, "scene": scene}
-        | {"machine": machine(), "budget": budget, "span": SPANS[scene]},
-    )
+    variables = {
+        "verdict": (verdict, VERDICT),
+        "event_error": (event_error, Variable("s", "largest error of an event time")),
+        "longest_step": (longest, Variable("s", "longest step")),
+    }
+    dataset = map_of(method, truncations, values, variables)
+    dataset.attrs |= {"scene": scene, "budget": budget, "span": SPANS[scene]}
     for name in facts[0]:
         dataset[name] = ("diameters", [fact[name] for fact in facts], _FACTS[name].attributes)
     return dataset
+
+
+def map_of(
+    method: str, diameters: Sequence[int], values: Sequence[float], found: Mapping[str, tuple[np.ndarray, Variable]]
+) -> xr.Dataset:
+    """Variables of a method's map along (diameters, value), and what the map is of."""
+    own = METHODS[method]
+    return xr.Dataset(
+        {name: (("diameters", "value"), array, about.attributes) for name, (array, about) in found.items()},
+        coords={
+            "diameters": ("diameters", list(diameters), Variable("1", "highest nodal diameter").attributes),
+            "value": ("value", list(values), {"long_name": f"setting: {own.setting}"}),
+        },
+        attrs={"method": method, "label": own.label, "setting": own.setting, "machine": machine()},
+    )
 
 
 _FACTS = {

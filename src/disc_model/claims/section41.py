@@ -309,7 +309,16 @@ def trajectory_changes(cases: Cases, claim: Claim) -> Finding:
     needs=asked(steady=True, F04=790),
 )
 def bonded_orbit_closes(cases: Cases, claim: Claim) -> Finding:
-    return _closes(cases, claim, "F04")
+    """Whether it returns to itself at each release."""
+    events = cases["F04"].events
+    psi = events["psi"].values[measures.is_kind(events, "stick_to_slip")]
+    if psi.size < 20:
+        raise Missing("case F04 keeps fewer than 20 releases")
+    apart = min(float(np.max(np.abs(psi[n:] - psi[:-n]))) for n in range(1, 9))
+    width = float(np.ptp(cases["F04"].samples("orbit")["psi"].values))
+    apart = measures.ratio(apart, width, "the width of the orbit of case F04")
+    ours = f"releases of up to 8 cycles apart differ by {apart:.1e} of the orbit's width"
+    return finding(ours, apart <= claim.bound)
 
 
 @claim(
@@ -430,16 +439,3 @@ def _bonded(cases: Cases, claim: Claim, name: str) -> Finding:
     ours = f"one release per {1e3 * intervals.mean():.3f} ms, spread {spread:.1e}"
     late = measures.late_range(cases[name], "P")
     return finding(f"{ours}; P {late.low:.0f}..{late.high:.0f} N", spread <= claim.bound)
-
-
-def _closes(cases: Cases, claim: Claim, name: str) -> Finding:
-    """Whether the slider's orbit in the phase plane returns to itself at each release."""
-    events = cases[name].events
-    psi = events["psi"].values[measures.is_kind(events, "stick_to_slip")]
-    orbit = cases[name].samples("orbit")["psi"].values
-    if psi.size < 20:
-        raise Missing(f"case {name} keeps fewer than 20 releases")
-    apart = min(float(np.max(np.abs(psi[n:] - psi[:-n]))) for n in range(1, 9))
-    apart = measures.ratio(apart, float(np.ptp(orbit)), f"the width of the orbit of case {name}")
-    ours = f"releases of up to 8 cycles apart differ by {apart:.1e} of the orbit's width"
-    return finding(ours, apart <= claim.bound)

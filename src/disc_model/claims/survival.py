@@ -7,6 +7,7 @@ computed.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -21,7 +22,6 @@ from disc_model.analysis.classify import FEWEST, Kind, motion_of, stick_disappea
 from disc_model.claims import measures
 from disc_model.claims.ledger import Comparison
 from disc_model.claims.model import (
-    FAILS,
     NOT_COMPUTED,
     STRETCH,
     STRETCHES,
@@ -248,13 +248,7 @@ def _beginnings(speed: xr.Dataset, load: float) -> tuple[Array, float]:
     one = speed.sel(N=load).isel(horizon=0)
     _require_ok(one, "survival_speed")
     begins = flag_names(one["crossing_kind"]) == "begins"
-    return one["crossing"].values[begins], _precision(speed)
-
-
-def _precision(speed: xr.Dataset) -> float:
-    import json
-
-    return float(json.loads(speed.attrs["options"])["precision"])
+    return one["crossing"].values[begins], float(json.loads(speed.attrs["options"])["precision"])
 
 
 def _require_ok(grid: xr.Dataset, name: str) -> None:
@@ -467,12 +461,10 @@ def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     rows = []
     for model in MODELS:
         found = evidence(model, cases, grids)
-        rows += [(one.title, model.name, *_said(one.judge(found))) for one in CONCLUSIONS]
+        for one in CONCLUSIONS:
+            judged = one.judge(found)
+            rows.append((one.title, model.name, judged.verdict, judged.ours, judged.remark))
     return pd.DataFrame(rows, columns=["conclusion", "model", "verdict", "ours", "remark"])
-
-
-def _said(found: Finding) -> tuple[str, str, str]:
-    return found.verdict, found.ours, found.remark
 
 
 INTRODUCTION = (
@@ -501,6 +493,3 @@ def page_of(table: pd.DataFrame) -> Comparison:
             shown = shown.drop(columns="Remark")
         sections.append((one.title, f"{one.text} Rule: {one.rule}. Why: {one.reason}.", shown))
     return Comparison("What survives of the paper's conclusions", tuple(sections))
-
-
-__all__ = ["CONCLUSIONS", "FAILS", "MODELS", "judge", "page_of"]

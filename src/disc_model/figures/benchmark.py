@@ -33,15 +33,8 @@ TITLES = {
     "many_modes": "Many modes, l up to 12",
     "rigid": r"Rigid disc, $E = 10^{20}$ Pa",
 }
-VERDICTS = ("converged", "inaccurate", "wrong_events", "unstable", "gave_up", "not_run")
-WORDS = {
-    "converged": "converged",
-    "inaccurate": "inaccurate (> 1 μs)",
-    "wrong_events": "events missed or invented",
-    "unstable": "unstable",
-    "gave_up": "gave up",
-    "not_run": "not run",
-}
+WORDS = ("converged", "inaccurate (> 1 μs)", "events missed or invented", "unstable", "gave up", "not run")
+"""What verdicts are called, by number."""
 _HALO = [withStroke(linewidth=1.5, foreground="white")]
 SHADES = ("#08519C", "#9ECAE1", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
 ANSWER_SHADES = ("#08519C", "#B2182B", "#D9D9D9")
@@ -333,7 +326,7 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     used: set[int] = set()
     for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
         used |= _map_panel(ax, dataset, letter)
-    handles: list[Any] = [Patch(facecolor=SHADES[i], edgecolor=GREY, label=WORDS[VERDICTS[i]]) for i in sorted(used)]
+    handles: list[Any] = [Patch(facecolor=SHADES[i], edgecolor=GREY, label=WORDS[i]) for i in sorted(used)]
     handles += [
         Line2D([], [], color=BLACK, linewidth=1.4, label=r"RK4: $h\,\omega_{max} = 2\sqrt{2}$"),
         Line2D([], [], color=BLACK, linestyle=":", linewidth=1.4, label="longest step = shortest phase"),

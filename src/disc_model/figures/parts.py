@@ -291,17 +291,23 @@ def mark_first_separation(ax: Axes, time: float) -> None:
     if not low <= time <= high:
         return
     ax.axvline(time, color=SEPARATED, linewidth=0.8, linestyle=(0, (4, 2)))
+    say_above(ax, time, f"first separation {time:.2f} s", fontsize=7, color=SEPARATED)
+
+
+def say_above(ax: Axes, x: float, text: str, **look: Any) -> None:
+    """A few words above the panel."""
     ax.annotate(
-        f"first separation {time:.2f} s",
-        (time, 1),
-        xycoords=("data", "axes fraction"),
-        xytext=(0, 2),
-        textcoords="offset points",
-        ha="center",
-        va="bottom",
-        fontsize=7,
-        color=SEPARATED,
-    )
+        text, (x, 1), xycoords=("data", "axes fraction"), xytext=(0, 2), textcoords="offset points", ha="center",
+        va="bottom", **look,
+    )  # fmt: skip
+
+
+def say_beside(ax: Axes, height: float, text: str) -> None:
+    """A line's name at its right end, outside of the panel."""
+    ax.annotate(
+        text, (1, height), xycoords=("axes fraction", "data"), xytext=(2, 0), textcoords="offset points", va="center",
+        fontsize=6, color=GREY,
+    )  # fmt: skip
 
 
 def shade_cells(

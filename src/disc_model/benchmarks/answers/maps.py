@@ -15,7 +15,8 @@ import xarray as xr
 
 from disc_model.benchmarks.answers import simulated
 from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, Found, Status, verdict
-from disc_model.benchmarks.machine import machine, one_core
+from disc_model.benchmarks.failure_maps import map_of
+from disc_model.benchmarks.machine import one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import MethodResult, Problem
 from disc_model.data.variables import Variable
@@ -75,17 +76,9 @@ def answer_map(
             error = abs(found.value - right[row])
             for name, number in zip(VARIABLES, (said, found.status, found.value, error, found.seconds), strict=True):
                 data[name][row, column] = number
-    dims = ("diameters", "value")
     flags = {name: data[name].astype(np.int8) if about.flags else data[name] for name, about in VARIABLES.items()}
-    dataset = xr.Dataset(
-        {name: (dims, flags[name], about.attributes) for name, about in VARIABLES.items()},
-        coords={
-            "diameters": ("diameters", list(diameters), Variable("1", "highest nodal diameter").attributes),
-            "value": ("value", list(values), {"long_name": f"setting: {own.setting}"}),
-        },
-        attrs={"method": method, "label": METHODS[method].label, "setting": own.setting, "machine": machine()}
-        | {"budget": budget, "horizon": horizon, "parameters": CASE.canonical_json},
-    )
+    dataset = map_of(method, diameters, values, {name: (flags[name], about) for name, about in VARIABLES.items()})
+    dataset.attrs |= {"budget": budget, "horizon": horizon, "parameters": CASE.canonical_json}
     modes = [real_modes(count, 0) for count in diameters]
     dataset["modes"] = ("diameters", modes, Variable("1", "number of real modes").attributes)
     dataset["right"] = ("diameters", right, Variable("s", "first separation").attributes)

@@ -53,6 +53,10 @@ class Broken(Exception):
         super().__init__(result.message or f"{result.outcome}")
         self.status = _STATUS[result.outcome]
 
+    def found(self, seconds: float) -> Found:
+        """No answer, and why."""
+        return Found(math.nan, seconds, self.status, str(self))
+
 
 def first_separation(
     solve: Solve,
@@ -66,7 +70,7 @@ def first_separation(
     try:
         time = _separation(result)
     except Broken as broken:
-        return {"first_separation": Found(math.nan, seconds, broken.status, str(broken))}
+        return {"first_separation": broken.found(seconds)}
     return {"first_separation": _found(time, seconds, f"no separation within {horizon:g} s")}
 
 
@@ -85,8 +89,7 @@ def after_separation(
         _, seconds = _timed(solve, Problem(p, start, problem.t_end), budget)
     names = ("separation_rate", "disc_range", "period")
     if result.outcome is not Outcome.FINISHED:
-        broken = Broken(result)
-        return dict.fromkeys(names, Found(math.nan, seconds, broken.status, str(broken)))
+        return dict.fromkeys(names, Broken(result).found(seconds))
     low, high = result.heights
     values = (result.separations / problem.span, high - low, period(_times(result, "stick_to_slip")))
     return {
@@ -131,7 +134,7 @@ def onset(solve: Solve, budget: float, within: float = questions.ONSET_WITHIN) -
             middle = 0.5 * (low + high)
             low, high = (low, middle) if separates(middle) else (middle, high)
     except Broken as broken:
-        return {"onset": Found(math.nan, used, broken.status, str(broken), low, high)}
+        return {"onset": broken.found(used)._replace(low=low, high=high)}
     return {"onset": Found(0.5 * (low + high), used, Status.FOUND, "", low, high)}
 
 
@@ -141,8 +144,7 @@ def growth_rate(solve: Solve, budget: float) -> Answers:
     problem = Problem(questions.GROWING, start, start.time + questions.GROWING_SPAN)
     result, seconds = _timed(solve, problem, budget)
     if result.outcome is not Outcome.FINISHED:
-        broken = Broken(result)
-        return {"growth_rate": Found(math.nan, seconds, broken.status, str(broken))}
+        return {"growth_rate": Broken(result).found(seconds)}
     found = growth(_times(result, "stick_to_slip"))
     return {"growth_rate": _found(found, seconds, "no oscillation that grows or dies out steadily")}
 
@@ -208,8 +210,7 @@ def judged(
             return Found(math.nan, each * len(places), Status.TOO_SLOW, why, cells=TRIED)
         verdicts += [judge(int(place)) for place in places[TRIED:count]]
     except Broken as broken:
-        seconds = sum(s for _, s in verdicts)
-        return Found(math.nan, seconds, broken.status, str(broken), cells=len(verdicts))
+        return broken.found(sum(s for _, s in verdicts))._replace(cells=len(verdicts))
     wrong = sum(said != right[place] for (said, _), place in zip(verdicts, places, strict=False))
     part = float(wrong) / count
     low = high = part

@@ -201,10 +201,12 @@ class Meter:
         if self.heights is not None:
             self.heights.path(times, states)
 
-    @property
-    def range(self) -> tuple[float, float]:
-        """Least and greatest w (m) so far; nan if they are not watched."""
-        return (math.nan, math.nan) if self.heights is None else (self.heights.low, self.heights.high)
+    def result(
+        self, seconds: float, times: Array, kinds: tuple[str, ...], final: State, outcome: Outcome, message: str
+    ) -> MethodResult:
+        """What a method found, with what was counted meanwhile."""
+        heights = (math.nan, math.nan) if self.heights is None else (self.heights.low, self.heights.high)
+        return MethodResult(times, kinds, final, seconds, self.work, outcome, message, self.longest_step, heights)
 
     def check(self) -> None:
         """Raise `BudgetExceeded` if the time is used up."""

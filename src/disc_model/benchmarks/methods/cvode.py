@@ -46,7 +46,7 @@ class Cvode(Method):
 
         def solver(phase: Phase, watched: bool = True) -> Any:
             code, direction = PHASES.index(phase.name), phase.direction
-            count = 0 if not watched else len(switch_kinds(phase, problem.parameters.contact == "bonded"))
+            count = len(switch_kinds(phase, problem.parameters.contact == "bonded"))
 
             def rhs(_t: float, y: Array, dy: Array) -> None:
                 meter.work += 1
@@ -55,14 +55,12 @@ class Cvode(Method):
             def events(_t: float, y: Array, out: Array) -> None:
                 kernels.switch_values(modes, c, code, direction, y, out)
 
+            options = {"method": self.family, "rtol": value, "atol": value * scale, "max_num_steps": MAX_STEPS}
             if not watched:
-                return CVODE(rhs, method=self.family, rtol=value, atol=value * scale, max_num_steps=MAX_STEPS)
+                return CVODE(rhs, **options)
             events.direction = [-1] * count  # type: ignore[attr-defined]
             events.terminal = [True] * count  # type: ignore[attr-defined]
-            return CVODE(
-                rhs, method=self.family, rtol=value, atol=value * scale, eventsfn=events,
-                num_events=count, max_num_steps=MAX_STEPS,
-            )  # fmt: skip
+            return CVODE(rhs, eventsfn=events, num_events=count, **options)
 
         quiet = solver(Phase("separation", 0), watched=False)
 

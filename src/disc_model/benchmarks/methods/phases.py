@@ -126,14 +126,6 @@ def run_phases(problem: Problem, physics: Physics, advance: Advance, meter: Mete
     except IntegrationFailed as failure:
         outcome, message = Outcome.FAILED, str(failure)
     seconds, origin = meter.seconds, problem.start.time
-    return MethodResult(
-        times=origin + np.array(times),
-        kinds=tuple(EVENT_KINDS[kind] for kind in kinds),
-        final=physics.unpack(origin + t, phase.name, phase.direction, y),
-        seconds=seconds,
-        work=meter.work,
-        outcome=outcome,
-        message=message,
-        longest_step=meter.longest_step,
-        heights=meter.range,
-    )
+    final = physics.unpack(origin + t, phase.name, phase.direction, y)
+    words = tuple(EVENT_KINDS[kind] for kind in kinds)
+    return meter.result(seconds, origin + np.array(times), words, final, outcome, message)

@@ -117,17 +117,7 @@ class Regularised(Method):
             outcome, message = Outcome.TOO_SLOW, f"not finished after {budget:g} s"
         if not np.all(np.isfinite(y)):
             outcome = Outcome.NON_FINITE
-        return MethodResult(
-            times=origin + times,
-            kinds=kinds,
-            final=_state(law, origin + t, y),
-            seconds=meter.seconds,
-            work=meter.work,
-            outcome=outcome,
-            message=message,
-            longest_step=meter.longest_step,
-            heights=meter.range,
-        )
+        return meter.result(meter.seconds, origin + times, kinds, _state(law, origin + t, y), outcome, message)
 
     @staticmethod
     def _start(problem: Problem, physics: Physics, law: Law) -> Array:

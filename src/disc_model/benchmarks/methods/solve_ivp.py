@@ -24,16 +24,18 @@ from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.data.variables import PHASES
 from disc_model.figures.parts import BLUE, GREEN, PURPLE, SKY
 
+FLOOR = 2.3e-14
+"""Least relative tolerance that scipy takes."""
 Function = Callable[[float, Array], Any]
 
 
 class Choice(NamedTuple):
-    """How one of scipy's algorithms is shown and measured."""
+    """How one of scipy's algorithms is shown, and the settings at which it is measured, by scene and for maps."""
 
     look: tuple[str, str, str]
-    plain: tuple[float, ...]
+    stick_slip: tuple[float, ...]
     separating: tuple[float, ...]
-    many: tuple[float, ...]
+    many_modes: tuple[float, ...]
     rigid: tuple[float, ...]
     map_values: tuple[float, ...] = MAP_TOLERANCES
 
@@ -65,13 +67,7 @@ class SolveIvp(Method):
         self.label = f"scipy {algorithm}"
         choice = CHOICES[algorithm]
         self.look, self.map_values = choice.look, choice.map_values
-        self.settings = dict(
-            zip(
-                ("stick_slip", "separating", "many_modes", "rigid"),
-                (choice.plain, choice.separating, choice.many, choice.rigid),
-                strict=True,
-            )
-        )
+        self.settings = {scene: getattr(choice, scene) for scene in Choice._fields[1:-1]}
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         physics = Physics(problem.parameters)
@@ -83,15 +79,10 @@ class SolveIvp(Method):
             rate, events = parts(phase)
             with np.errstate(over="ignore", invalid="ignore"):
                 found = solve_ivp(
-                    meter.counted(rate),
-                    (t, t_end),
-                    y,
-                    method=self.algorithm,
-                    rtol=max(value, 2.3e-14),  # scipy's own floor
-                    atol=value * scale,
-                    max_step=self.max_step,
+                    meter.counted(rate), (t, t_end), y,
+                    method=self.algorithm, rtol=max(value, FLOOR), atol=value * scale, max_step=self.max_step,
                     events=events if watched else [],
-                )
+                )  # fmt: skip
             meter.steps(found.t, found.y.T)
             if found.status == -1:
                 raise IntegrationFailed(found.message)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data import dataset
 from disc_model.figures import parts
-from disc_model.figures.cases.kinds import CASE_PLOTS, History, Portrait, Section, Spectrogram
+from disc_model.figures.cases.kinds import CASE_PLOTS, History, Portrait, Spectrogram
 from disc_model.figures.paper.sections import orbit, sections
 from disc_model.figures.paper.spectra import colour_bar, mark_time, spectrogram, spectrum_in_time
 from disc_model.figures.parts import COLUMN, DISC, FORCE, PAGE, SLIDER, new_figure, styled
@@ -66,10 +66,6 @@ def _history(case: xr.DataTree, plot: History) -> Figure:
     return figure
 
 
-def _section(case: xr.DataTree, plot: Section) -> Figure:
-    return sections({plot.case: case})
-
-
 def _spectrogram(case: xr.DataTree, plot: Spectrogram) -> Figure:
     figure = new_figure(PAGE / 2, 2.7)
     ax = figure.subplots()
@@ -105,7 +101,7 @@ def _axis(name: str, window: xr.Dataset) -> tuple[str, float]:
 
 DRAWN: dict[str, Callable[[xr.DataTree, Any], Figure]] = {
     "history": _history,
-    "poincare": _section,
+    "poincare": lambda case, plot: sections({plot.case: case}),
     "spectrogram": _spectrogram,
     "portrait": _portrait,
 }

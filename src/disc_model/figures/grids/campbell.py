@@ -166,7 +166,7 @@ def _frequencies(ax: Axes, study: xr.Dataset) -> None:
     for l in range(1, most + 1):
         ax.plot(speeds, l * turns, color=GREY, linewidth=0.4, linestyle=":", zorder=0)
     if most:
-        _beside(ax, most * turns[-1] / 2, rf"{_TURN}..{most} {_TURN}" if most > 1 else _TURN)
+        parts.say_beside(ax, most * turns[-1] / 2, rf"{_TURN}..{most} {_TURN}" if most > 1 else _TURN)
     ax.set_ylabel("Frequency in the slider's frame (Hz)")
     ax.set_title("(a)", loc="left", pad=16)
 
@@ -184,21 +184,13 @@ def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -
         )
         ax.plot(speeds, n * rate, color=GREY, alpha=1 if whole else 0.6, zorder=0, **look)
         if whole and n * rate[known[-1]] <= highest:
-            _beside(ax, n * rate[known[-1]], "$f_s$" if n == 1 else f"{n:g} $f_s$")
+            parts.say_beside(ax, n * rate[known[-1]], "$f_s$" if n == 1 else f"{n:g} $f_s$")
         elif whole:
             leaves = speeds[known[np.argmax(n * rate[known] > highest)]]
             if leaves - named < 0.05 * (speeds[-1] - speeds[0]):
                 continue  # no room
             named = leaves
             ax.text(leaves, highest, f"{n:g}", fontsize=6, color=GREY, ha="center", va="top", path_effects=_HALO)
-
-
-def _beside(ax: Axes, height: float, text: str) -> None:
-    """A line's name at its right end, outside of the panel."""
-    ax.annotate(
-        text, (1, height), xycoords=("axes fraction", "data"), xytext=(2, 0), textcoords="offset points", va="center",
-        fontsize=6, color=GREY,
-    )  # fmt: skip
 
 
 def _growth_rates(ax: Axes, study: xr.Dataset) -> None:

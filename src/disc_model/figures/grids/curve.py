@@ -27,15 +27,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -
     words = found.attrs.get("flag_meanings", "").split()
     for i, (said, line) in enumerate(lines):
         colour = BLACK if len(lines) == 1 else cm.batlow(i / len(lines))
-        ax.plot(
-            along,
-            line.values,
-            ".-" if not words else ".",
-            color=colour,
-            markersize=3,
-            linewidth=0.8,
-            label=said or None,
-        )
+        mark = "." if words else ".-"
+        ax.plot(along, line.values, mark, color=colour, markersize=3, linewidth=0.8, label=said or None)
     if plot.log:
         ax.set_yscale("log")
     if parts.spaced_by_factor(along):

@@ -47,15 +47,9 @@ def decibel(power: np.ndarray, reference: float) -> np.ndarray:
 def spectrogram(ax: Axes, found: TimeFrequency, reference: float, highest: float) -> QuadMesh:
     """Draw power in dB relative to a reference, up to a frequency in Hz."""
     shown = found.frequency <= highest
+    power = decibel(found.power[shown], reference)
     mesh = ax.pcolormesh(
-        found.time,
-        found.frequency[shown],
-        decibel(found.power[shown], reference),
-        cmap=POWERS,
-        vmin=FLOOR,
-        vmax=0,
-        shading="nearest",
-        rasterized=True,
+        found.time, found.frequency[shown], power, cmap=POWERS, vmin=FLOOR, vmax=0, shading="nearest", rasterized=True
     )
     ax.set_facecolor(POWERS(0.0))
     ax.set_xlim(*stretch(found))
@@ -219,25 +213,13 @@ def _whole_run(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, 
     if marked is not None:
         ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
         if marked[1] - marked[0] < 0.02 * float(history["time"][-1]):
-            _point_out(ax, sum(marked) / 2)
+            # a line where the stretch of (b) is too narrow to be seen
+            ax.axvline(sum(marked) / 2, color=BLACK, linewidth=0.8)
+            parts.say_above(ax, sum(marked) / 2, "(b)")
     parts.envelope(ax, history, variable, scale=SCALES[variable], color=COLOURS[variable])
     parts.mark_first_separation(ax, float(tree["first_separation"]))
     ax.set(xlabel="Time (s)", ylabel=_label(variable, history))
     parts.letter(ax, "a")
-
-
-def _point_out(ax: Axes, time: float) -> None:
-    """A line where the stretch of (b) is too narrow to be seen."""
-    ax.axvline(time, color=BLACK, linewidth=0.8)
-    ax.annotate(
-        "(b)",
-        (time, 1),
-        (0, 2),
-        xycoords=("data", "axes fraction"),
-        textcoords="offset points",
-        ha="center",
-        va="bottom",
-    )
 
 
 def _label(variable: str, window: xr.Dataset) -> str:
@@ -248,12 +230,8 @@ def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first:
     part = window.sel(time=slice(start, start + ZOOM))
     if part.sizes["time"] < 2:
         raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
-    ax.plot(
-        (part["time"].values - start) * 1e3,
-        part[variable].values * SCALES[variable],
-        color=COLOURS[variable],
-        linewidth=0.6,
-    )
+    time, values = (part["time"].values - start) * 1e3, part[variable].values * SCALES[variable]
+    ax.plot(time, values, color=COLOURS[variable], linewidth=0.6)
     ax.set_xlabel(f"Time after {start:g} s (ms)")
     ax.set_xlim(0, ZOOM * 1e3)
     if first:
