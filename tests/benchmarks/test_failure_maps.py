@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 
 import numpy as np
 import pytest
@@ -14,14 +13,7 @@ from disc_model.benchmarks.methods.base import MethodResult
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
-
-
-def available() -> set[int]:
-    """Cores that this process may use."""
-    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
-
-
-CORES = available()
+from tests.benchmarks.conftest import CORES, available
 
 
 @pytest.fixture

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 
 import numpy as np
 import pytest
@@ -14,15 +13,7 @@ from disc_model.benchmarks import work_precision
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.data.dataset import load, save
 from disc_model.data.variables import flag_names
-from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
-
-
-def available() -> set[int]:
-    """Cores that this process may use."""
-    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
-
-
-CORES = available()
+from tests.benchmarks.conftest import CORES, SET_UP, SETTINGS, Known, available
 
 
 def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict[str, Known]) -> None:

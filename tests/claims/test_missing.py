@@ -9,23 +9,12 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims import ledger, measures
+from disc_model.claims import ledger
 from disc_model.claims.ledger import CLAIMS
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim
-from tests.claims import made_up
 from tests.claims.damaged import DAMAGES, damaged
 
-
-@pytest.fixture(scope="module")
-def told() -> xr.DataTree:
-    return made_up.made_up(made_up.as_told())
-
-
-@pytest.fixture(autouse=True)
-def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
-
-
+pytestmark = pytest.mark.usefixtures("cycles_as_told")
 NOT_HELD = {
     "failed": "failed (case ",
     "nothing recorded": "did not record",

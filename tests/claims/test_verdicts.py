@@ -126,9 +126,9 @@ def test_the_contrary_does_not_hold(found: dict[str, dict[str, str]]) -> None:
     assert {claim for claim, verdict in contrary.items() if verdict != FAILS} == ALWAYS
 
 
-def test_a_motion_that_still_grows_has_no_steady_state(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.usefixtures("cycles_as_told")
+def test_a_motion_that_still_grows_has_no_steady_state(told: xr.DataTree) -> None:
     """Late stretches used to be called steady because they were late."""
-    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
     cases = {name: CaseView(name, damaged(node, growing_in_the_end)) for name, node in told.children.items()}
     steady = [claim for claim in CLAIMS if any(needed.steady for needed in claim.needs.values())]
     assert len(steady) > 20
@@ -139,23 +139,15 @@ def test_a_motion_that_still_grows_has_no_steady_state(told: xr.DataTree, monkey
         assert judged.ours
 
 
-@pytest.fixture(scope="module")
-def told() -> xr.DataTree:
-    return made_up.made_up(made_up.as_told())
+def verdicts(tree: xr.DataTree, least: float = 0.2) -> pd.DataFrame:
+    """The table by claim, with growth rates of cycles as told."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(measures, "cycle_of", made_up.cycle_as_told)
+        return check_claims(tree, made_up.scan(least)).set_index("id")
 
 
-@pytest.fixture(scope="module")
-def contrary() -> xr.DataTree:
-    return made_up.made_up(made_up.to_the_contrary())
-
-
-def verdicts(monkeypatch: pytest.MonkeyPatch, cycle, tree: xr.DataTree) -> pd.DataFrame:
-    monkeypatch.setattr(measures, "cycle_of", cycle)
-    return check_claims(tree, made_up.scan(0.2)).set_index("id")
-
-
-def test_the_table_says_what_was_found(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
-    table = verdicts(monkeypatch, made_up.cycle_as_told, told)
+def test_the_table_says_what_was_found(told: xr.DataTree) -> None:
+    table = verdicts(told)
     assert table["ours"].str.len().min() > 0
     assert table.loc["F13", "ours"] == "first separation at 54.45 s"
     assert table.loc["F12", "ours"].startswith("67.6300 Hz, spread")
@@ -164,12 +156,10 @@ def test_the_table_says_what_was_found(told: xr.DataTree, monkeypatch: pytest.Mo
     assert "stuck" not in to_markdown(table.reset_index())
 
 
-def test_a_scan_that_is_not_there_is_named(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_scan_that_is_not_there_is_named(told: xr.DataTree) -> None:
     """S41a used to say "always" of four cases."""
-    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
-    table = check_claims(told).set_index("id")
-    assert table.loc["S41a", "verdict"] == f"{NOT_COMPUTED}: study bonded is not among those of this run"
-    table = check_claims(told, made_up.scan(np.nan)).set_index("id")
+    assert judged("S41a", told).verdict == f"{NOT_COMPUTED}: study bonded is not among those of this run"
+    table = verdicts(told, np.nan)
     assert table.loc["S41a", "verdict"] == f"{NOT_COMPUTED}: study bonded has points that failed"
 
 
@@ -204,31 +194,27 @@ def test_a_history_of_one_bin_is_no_evidence(told: xr.DataTree) -> None:
         case.range_of("P", 0, 1)
 
 
-def test_few_releases_judge_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_few_releases_judge_nothing() -> None:
     """Cases that hardly stick once they have separated, and a window without a separation."""
     stories = made_up.as_told()
     stories |= {name: stories[name].replace(stick=0.0) for name in ("F02", "F22")}
     stories["F23"] = made_up.GROWING
-    table = verdicts(monkeypatch, made_up.cycle_as_told, made_up.made_up(stories))
+    table = verdicts(made_up.made_up(stories))
     assert table.loc["A2", "verdict"] == f"{NOT_COMPUTED}: case F02 keeps fewer than 20 stick-slip cycles"
     assert table.loc["F22", "verdict"] == f"{NOT_COMPUTED}: case F22 keeps fewer than 20 stick-slip cycles"
     assert table.loc["F23", "verdict"] == FAILS
     assert table.loc["F05", "verdict"].startswith(f"{NOT_COMPUTED}: case F02")
 
 
-def test_a_vibration_that_goes_on_growing_is_not_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_vibration_that_goes_on_growing_is_not_bounded() -> None:
     """The last quarter used to be compared with a half that contains it; and speeds with the list's own."""
     stories = {name: made_up.as_told()[name] for name in ("F02", "F07", "F09", "F13", "F17")}
-    table = verdicts(monkeypatch, made_up.cycle_as_told, made_up.made_up(stories))
+    table = verdicts(made_up.made_up(stories))
     assert set(table.loc[["S43b", "F15b"], "verdict"]) == {HOLDS}
-    table = verdicts(
-        monkeypatch,
-        made_up.cycle_as_told,
-        made_up.made_up(stories | {"F02": made_up.STILL, "F09": made_up.STILL}),
-    )
+    table = verdicts(made_up.made_up(stories | {"F02": made_up.STILL, "F09": made_up.STILL}))
     assert table.loc["F15b", "verdict"] == FAILS
     stories["F07"] = stories["F07"].replace(sharp=0.0, grows_on=0.001)
-    table = verdicts(monkeypatch, made_up.cycle_as_told, made_up.made_up(stories))
+    table = verdicts(made_up.made_up(stories))
     assert table.loc["S43b", "verdict"] == FAILS
 
 
@@ -238,23 +224,27 @@ def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.M
     tree = made_up.made_up({name: stories[name] for name in ("F02", "F07", "F22")})
     repeated = np.tile(0.05 + 0.03 * np.random.default_rng(1).random(45), 40)
     monkeypatch.setattr(measures, "release_intervals", lambda case: repeated)
-    table = verdicts(monkeypatch, made_up.cycle_as_told, tree)
+    table = verdicts(tree)
     assert set(table.loc[["F05", "F07", "A2", "F22", "F28"], "verdict"]) == {FAILS}
     assert "repeats after 45 releases = " in table.loc["F07", "ours"]
     monkeypatch.setattr(classify, "zero_one", lambda values: 0.5)
     monkeypatch.setattr(measures, "release_intervals", lambda case: 0.1 + 0.01 * np.random.default_rng(1).random(400))
-    table = verdicts(monkeypatch, made_up.cycle_as_told, tree)
+    table = verdicts(tree)
     assert set(table.loc[["F05", "F07", "F22", "F28"], "verdict"]) == {UNDECIDED}
 
 
-def judged(
-    monkeypatch: pytest.MonkeyPatch, claim: str, tree: xr.DataTree, damage: Mapping[str, Damage] | None = None
-) -> Finding:
+def judged(claim: str, tree: xr.DataTree, **damage: Damage) -> Finding:
     """What one claim makes of made-up cases, some of them changed."""
-    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
-    changed = {name: damaged(tree[name], change) for name, change in (damage or {}).items()}
+    changed = {name: damaged(tree[name], change) for name, change in damage.items()}
     cases = {name: CaseView(name, node) for name, node in (dict(tree.children) | changed).items()}
-    return next(one for one in CLAIMS if one.id == claim).evaluate(cases)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(measures, "cycle_of", made_up.cycle_as_told)
+        return next(one for one in CLAIMS if one.id == claim).evaluate(cases)
+
+
+def changed_root(**values: float) -> Damage:
+    """Other values of what a case says of its whole run."""
+    return lambda groups: groups | {"": groups[""].assign(values)}
 
 
 def without_the_last_reattachment(groups: Groups) -> Groups:
@@ -263,56 +253,46 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
     return groups | {"events": events.isel(event=slice(last))}
 
 
-def test_a_separation_that_does_not_end_is_not_short(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_separation_that_does_not_end_is_not_short(told: xr.DataTree) -> None:
     """F03b looked only at those that ended, though it says that all do."""
-    assert judged(monkeypatch, "F03b", told).verdict == HOLDS
-    found = judged(monkeypatch, "F03b", told, {"F02": without_the_last_reattachment})
+    assert judged("F03b", told).verdict == HOLDS
+    found = judged("F03b", told, F02=without_the_last_reattachment)
     assert found.verdict == FAILS
     assert "the last one lasts since" in found.ours
 
 
-def never_separates(groups: Groups) -> Groups:
-    return groups | {"": groups[""].assign(first_separation=np.nan, n_separations=0)}
-
-
-def test_more_modes_that_do_not_separate_are_a_change(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_more_modes_that_do_not_separate_are_a_change(told: xr.DataTree) -> None:
     """P03 passed over a number of modes without separation: nan is no maximum."""
-    assert judged(monkeypatch, "P03", told).verdict == REMARK
-    assert judged(monkeypatch, "P03", told, {"P03l6": never_separates}).verdict == FAILS
+    assert judged("P03", told).verdict == REMARK
+    assert judged("P03", told, P03l6=changed_root(first_separation=np.nan, n_separations=0)).verdict == FAILS
 
 
-def test_growth_of_a_narrow_range_is_growth(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_growth_of_a_narrow_range_is_growth() -> None:
     """A thousandth of the preload was allowed besides the 2 % that S43d states: a range of as much could double."""
     grows = made_up.STILL.replace(early=1e-3, late=1.9e-3)
     tree = made_up.made_up(dict.fromkeys(("S43a126", "S43a10"), grows))
-    assert judged(monkeypatch, "S43d", tree).verdict == FAILS
+    assert judged("S43d", tree).verdict == FAILS
 
 
 @pytest.mark.parametrize("claim", ["S43c", "S43z"])
-def test_how_long_a_separation_was_waited_for_counts(
-    claim: str, told: xr.DataTree, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_how_long_a_separation_was_waited_for_counts(claim: str, told: xr.DataTree) -> None:
     """A run that ended early was taken for one without separation."""
-    found = judged(monkeypatch, claim, told, {"S43c11": lambda groups: groups | {"": ended(groups[""], 100.0)}})
+    found = judged(claim, told, S43c11=changed_root(time_reached=100.0))
     assert found.verdict == f"{NOT_COMPUTED}: case S43c11 ends at 100 s, 2000 s are needed"
 
 
-def test_a_speed_that_did_not_separate_is_not_named(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_speed_that_did_not_separate_is_not_named(told: xr.DataTree) -> None:
     """S43c said that "nan rad/s separates too"."""
-    one = judged(monkeypatch, "S43c", told)
+    one = judged("S43c", told)
     assert one.verdict == REMARK
     assert "nan" not in one.remark
 
 
-def ended(root: xr.Dataset, time: float) -> xr.Dataset:
-    return root.assign(time_reached=time)
-
-
-def test_a_claim_looks_at_its_own_cases_only(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_claim_looks_at_its_own_cases_only(told: xr.DataTree) -> None:
     """S43c took every case whose name begins as those of its scan do."""
-    mine = damaged(told["F17"], lambda groups: groups | {"": groups[""].assign(first_separation=100.0)})
+    mine = damaged(told["F17"], changed_root(first_separation=100.0))
     more = xr.DataTree.from_dict(dict(told.children) | {"S43c_mine": mine})
-    assert judged(monkeypatch, "S43c", more) == judged(monkeypatch, "S43c", told)
+    assert judged("S43c", more) == judged("S43c", told)
 
 
 @pytest.mark.parametrize("claim", ["F21", "F29b"])
@@ -321,7 +301,7 @@ def test_between_regular_and_chaotic_nothing_is_decided(
 ) -> None:
     """These two were called refuted where F05, F07, F22 and F28 were called undecided."""
     monkeypatch.setattr(classify, "zero_one", lambda values: 0.5)
-    assert judged(monkeypatch, claim, told).verdict == UNDECIDED
+    assert judged(claim, told).verdict == UNDECIDED
 
 
 def test_remarks_do_not_contradict_their_verdicts(found: dict[str, dict[str, str]]) -> None:
@@ -355,16 +335,14 @@ def orthonormal(tree: xr.DataTree) -> xr.DataTree:
     return xr.DataTree.from_dict(cases | {"/X30": cases["/F02"]})
 
 
-def test_the_two_normalisations_side_by_side(
-    told: xr.DataTree, contrary: xr.DataTree, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_two_normalisations_side_by_side(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
     def cycle(p: Parameters) -> made_up.Cycle:
         if p.contact == "bonded":
             raise Missing("no stick-slip cycle")
         return made_up.cycle_as_told(p)
 
     monkeypatch.setattr(measures, "cycle_of", cycle)
-    found = ledger.compare(told, orthonormal(contrary))
+    found = ledger.compare(told, orthonormal(made_up.made_up(made_up.to_the_contrary())))
     modes, cases, instead, changed = (table for _, _, table in found.sections)
     ratios = modes["ratio"].astype(float)
     assert ratios[1] == pytest.approx(14, abs=1)  # how much too strong the mode with one nodal diameter is

@@ -8,7 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -53,6 +53,12 @@ class Project:
             timeout=900,
             preexec_fn=prepare,
         )
+
+    def complete(self, *options: str, config: str | None = "config/tiny.yaml") -> str:
+        """Run Snakemake, which must succeed; what it says."""
+        done = self.snakemake(*options, config=config)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout + done.stderr
 
     def command(self, *options: str, config: str | None = "config/tiny.yaml") -> list[str]:
         """The command of such a run."""
@@ -108,16 +114,17 @@ class Project:
                 continue
         return dict(sorted(found.items()))
 
-    def planned(self, *options: str, config: str | None = "config/tiny.yaml") -> set[str]:
-        """Jobs that a run would do, as rule or rule:wildcard, without the target `all`."""
-        done = self.snakemake("-n", *options, config=config)
-        assert done.returncode == 0, done.stdout + done.stderr
-        jobs = set()
-        for block in re.split(r"\n(?=(?:local)?rule \w+:)", done.stdout + done.stderr)[1:]:
+    def jobs(self, *options: str, config: str | None) -> Iterator[tuple[str, dict[str, str]]]:
+        """Jobs that a run would do: rule and wildcards."""
+        for block in re.split(r"\n(?=(?:local)?rule \w+:)", self.complete("-n", *options, config=config))[1:]:
             rule = re.match(r"(?:local)?rule (\w+):", block)
-            wildcard = re.search(r"^ +wildcards: \w+=(\S+)", block, re.MULTILINE)
+            wildcards = re.search(r"^ +wildcards: (.*)", block, re.MULTILINE)
             assert rule is not None
-            jobs.add(rule[1] + (f":{wildcard[1]}" if wildcard else ""))
+            yield rule[1], dict(re.findall(r"(\w+)=([^\s,]+)", wildcards[1] if wildcards else ""))
+
+    def planned(self, *options: str, config: str | None = "config/tiny.yaml") -> set[str]:
+        """The same as rule or rule:wildcard, without the target `all`."""
+        jobs = {":".join((rule, *wildcards.values())) for rule, wildcards in self.jobs(*options, config=config)}
         return jobs - {"all"}
 
     def edit(self, path: str, old: str, new: str) -> None:
@@ -157,8 +164,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """The small study, computed."""
     project = copy_repository(tmp_path_factory.mktemp("project"))
     (project.folder / "config" / "tiny.yaml").write_text(STUDY)
-    done = project.snakemake("-j2")
-    assert done.returncode == 0, done.stdout + done.stderr
+    project.complete("-j2")
     return project
 
 

@@ -50,15 +50,12 @@ def run(project: Project, *options: str) -> subprocess.CompletedProcess[str]:
 
 def complete(project: Project, *options: str) -> None:
     """Run, successfully."""
-    done = run(project, *options)
-    assert done.returncode == 0, done.stdout + done.stderr
+    project.complete("-j2", *options, config=CONFIG)
 
 
 def mend(project: Project) -> str:
     """What is to be typed after a fault; what it says."""
-    done = project.snakemake("-j1", "check", config=CONFIG)
-    assert done.returncode == 0, said(done)
-    return said(done)
+    return project.complete("-j1", "check", config=CONFIG)
 
 
 def said(done: subprocess.CompletedProcess[str]) -> str:

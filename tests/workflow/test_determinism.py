@@ -39,8 +39,7 @@ def test_one_and_two_cores(tmp_path: Path) -> None:
         threads = {name: str(cores) for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
         project = Project(copy_repository(folder).folder, variables=threads)
         write_study(project)
-        done = project.snakemake(f"-j{cores}", config=CONFIG)
-        assert done.returncode == 0, done.stdout + done.stderr
+        project.complete(f"-j{cores}", config=CONFIG)
         found.append(products(project))
     assert set(found[0]) == set(found[1])
     assert [name for name in found[0] if found[0][name] != found[1][name]] == []

@@ -66,8 +66,7 @@ def finished_grid(tmp_path_factory: pytest.TempPathFactory) -> Project:
     project = copy_repository(tmp_path_factory.mktemp("grid"))
     for path, text in ((CONFIG, MAIN), (GRID, MAP), ("config/inc_growth.yaml", GROWTH)):
         (project.folder / path).write_text(text)
-    done = project.snakemake(*RUN, config=CONFIG)
-    assert done.returncode == 0, done.stdout + done.stderr
+    project.complete(*RUN, config=CONFIG)
     return project
 
 
@@ -79,16 +78,8 @@ def grid(finished_grid: Project, tmp_path: Path) -> Project:
 
 def planned(project: Project, *options: str) -> Jobs:
     """Jobs of grid studies that a run would do: rule and study, for batches the batch instead."""
-    done = project.snakemake("-n", *options, config=CONFIG)
-    assert done.returncode == 0, done.stdout + done.stderr
-    jobs = set()
-    for block in re.split(r"\n(?=(?:local)?rule \w+:)", done.stdout + done.stderr)[1:]:
-        rule = re.match(r"(?:local)?rule (\w+):", block)
-        wildcards = dict(re.findall(r"(\w+)=([\w]+)", re.search(r"wildcards: (.*)|$", block)[0]))  # type: ignore[index]
-        assert rule is not None
-        if rule[1] in RULES:
-            jobs.add((rule[1], wildcards.get("batch") or wildcards.get("study", "")))
-    return jobs
+    jobs = project.jobs(*options, config=CONFIG)
+    return {(rule, found.get("batch") or found.get("study", "")) for rule, found in jobs if rule in RULES}
 
 
 def batches(project: Project, name: str) -> Jobs:
@@ -135,12 +126,12 @@ def test_a_value_added_as_a_block_leaves_the_others_batches(grid: Project) -> No
 def test_a_removed_value_computes_nothing_and_is_gone(grid: Project) -> None:
     grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 300]")
     assert planned(grid) == MAP_TAIL
-    assert grid.snakemake(*RUN, config=CONFIG).returncode == 0
+    grid.complete(*RUN, config=CONFIG)
     with xr.open_dataset(grid.folder / "results" / "inc_map" / "inc_map.nc") as study:
         assert list(study["N"].values) == [100, 300]
     grid.edit(GRID, "N: [100, 300]", "N: [100, 200, 300]")
     assert not {job for job in planned(grid) if job[0] in ("compute_batch", "merge_batches")}
-    assert grid.snakemake(*RUN, config=CONFIG).returncode == 0
+    grid.complete(*RUN, config=CONFIG)
     with xr.open_dataset(grid.folder / "results" / "inc_map" / "inc_map.nc") as study:
         assert list(study["N"].values) == [100, 200, 300]
 
@@ -220,8 +211,7 @@ def test_sources_run_what_uses_them(grid: Project, source: str, jobs: Callable[[
 
 def test_the_explorer_computes_motions_of_what_changed(grid: Project) -> None:
     page = grid.folder / "results" / "inc" / "explorer.html"
-    done = grid.snakemake("-j2", "explorer", config=CONFIG)
-    assert done.returncode == 0, done.stdout + done.stderr
+    grid.complete("-j2", "explorer", config=CONFIG)
     assert {path.parents[1].name for path in (grid.folder / "results").glob("*/motions/*.nc")} == {
         "inc_map",
         "inc_growth",
@@ -243,17 +233,14 @@ def test_the_explorer_computes_motions_of_what_changed(grid: Project) -> None:
 
 def explored(project: Project) -> dict[str, int]:
     """How many jobs of motions and of the explorer a run would do."""
-    done = project.snakemake("-n", "explorer", config=CONFIG)
-    assert done.returncode == 0, done.stdout + done.stderr
-    jobs = dict(re.findall(r"^(\w+) +(\d+)$", done.stdout + done.stderr, re.MULTILINE))
+    jobs = dict(re.findall(r"^(\w+) +(\d+)$", project.complete("-n", "explorer", config=CONFIG), re.MULTILINE))
     return {rule: int(jobs[rule]) for rule in ("compute_motions", "build_explorer") if rule in jobs}
 
 
 def test_a_point_that_fails_is_reported_and_the_study_completes(grid: Project) -> None:
     grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 200, 1.0e+6]")
     grid.edit(GRID, "axes:\n", "base: {k_p: 2.0e+6, mu_s: 3, mu_k: 2.9, E: 1.0e+9}\naxes:\n")
-    done = grid.snakemake(*RUN, config=CONFIG)
-    assert done.returncode == 0, done.stdout + done.stderr
+    grid.complete(*RUN, config=CONFIG)
     results = grid.folder / "results" / "inc_map"
     with xr.open_dataset(results / "inc_map.nc") as study:
         bad = int((study["status"] != 0).sum())
@@ -267,8 +254,8 @@ def test_a_point_that_fails_is_reported_and_the_study_completes(grid: Project) -
 def test_gc_removes_what_no_study_needs(grid: Project) -> None:
     kept = {path.name for path in (grid.folder / "results" / "inc_growth").rglob("*.nc")}
     grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 300, 400]")
-    assert grid.snakemake(*RUN, config=CONFIG).returncode == 0
-    assert grid.snakemake("-j1", "gc", config=CONFIG).returncode == 0
+    grid.complete(*RUN, config=CONFIG)
+    grid.complete("-j1", "gc", config=CONFIG)
     left = {path.stem for path in (grid.folder / "results" / "inc_map" / "batches").iterdir()}
     assert left == {batch for _, batch in batches(grid, "inc_map")}
     assert {path.name for path in (grid.folder / "results" / "inc_growth").rglob("*.nc")} == kept

@@ -58,8 +58,7 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
     @functools.cache
     def results(**variables: str) -> Path:
         project = Project(copy_repository(tmp_path_factory.mktemp("study")).folder, variables=variables)
-        done = project.snakemake("-j2", *DATASETS, config="config/test.yaml")
-        assert done.returncode == 0, done.stdout + done.stderr
+        project.complete("-j2", *DATASETS, config="config/test.yaml")
         return project.folder / "results"
 
     return results

@@ -78,8 +78,7 @@ def test_a_new_case_runs_alone(project: Project) -> None:
 def test_a_removed_case_leaves_the_merged_file(project: Project) -> None:
     project.edit(TINY, "  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}\n", "")
     assert project.planned() == TABLES
-    done = project.snakemake("-j2")
-    assert done.returncode == 0, done.stdout + done.stderr
+    project.complete("-j2")
     with xr.open_dataset(project.folder / "results" / "tiny" / "cases.nc") as table:
         assert list(table["case"].values) == ["F11", "F13"]
 
@@ -132,8 +131,7 @@ def test_deleted_intermediate_is_not_missed_but_a_deleted_figure_is(project: Pro
 def test_equal_sources_give_equal_results(project: Project) -> None:
     case = project.folder / "results" / "tiny" / "cases" / "F13.nc"
     before = case.read_bytes()
-    done = project.snakemake("-j2", "--force", str(case.relative_to(project.folder)))
-    assert done.returncode == 0, done.stdout + done.stderr
+    project.complete("-j2", "--force", str(case.relative_to(project.folder)))
     assert case.read_bytes() == before
 
 
@@ -153,6 +151,5 @@ def test_an_interrupted_run_goes_on(project: Project, tmp_path: Path) -> None:
         "        os.kill(os.getpid(), 9)\n",
         "        os.replace(temporary, path)\n",
     )
-    done = project.snakemake("-j2")
-    assert done.returncode == 0, done.stdout + done.stderr
+    project.complete("-j2")
     assert project.planned() == set()

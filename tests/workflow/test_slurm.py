@@ -111,8 +111,7 @@ def small_study(folder: Path) -> Project:
 def local(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """The study as one machine computes it."""
     project = small_study(tmp_path_factory.mktemp("slurm") / "project")
-    done = project.snakemake("-j2", config=CONFIG)
-    assert done.returncode == 0, done.stdout + done.stderr
+    project.complete("-j2", config=CONFIG)
     return Project(project.folder.rename(project.folder.with_name("local")))
 
 
@@ -142,9 +141,8 @@ def grown(queued: tuple[Project, str]) -> Iterator[tuple[Project, list[str]]]:
 
 
 def planned_batches(project: Project) -> list[str]:
-    done = project.snakemake("-n", PUBLISHED, config=CONFIG)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return sorted(set(re.findall(r"batch=([0-9a-f]{12})", done.stdout + done.stderr)))
+    jobs = project.jobs(PUBLISHED, config=CONFIG)
+    return sorted(wildcards["batch"] for _, wildcards in jobs if "batch" in wildcards)
 
 
 def submitted(said: str) -> dict[str, str]:

@@ -17,17 +17,7 @@ from disc_model.data.dataset import markdown_table
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) that the others have to reach as well."""
-HEAD = (
-    "method",
-    "setting",
-    "verdict",
-    "cost",
-    "event-time error (s)",
-    "state error",
-    "events",
-    "order",
-    "x series",
-)
+HEAD = ("method", "setting", "verdict", "cost", "event-time error (s)", "state error", "events", "order", "x series")
 
 
 def headline(dataset: xr.Dataset) -> dict[str, dict[str, float]]:

@@ -21,16 +21,7 @@ from numpy.typing import NDArray
 from disc_model.analysis.classify import FEWEST, Kind, motion_of, stick_disappears
 from disc_model.claims import measures
 from disc_model.claims.ledger import Comparison
-from disc_model.claims.model import (
-    NOT_COMPUTED,
-    STRETCH,
-    STRETCHES,
-    CaseView,
-    Finding,
-    Missing,
-    finding,
-    undecided,
-)
+from disc_model.claims.model import NOT_COMPUTED, STRETCH, STRETCHES, CaseView, Finding, Missing, finding, undecided
 from disc_model.data.variables import flag_names
 
 Array = NDArray[np.float64]

@@ -15,18 +15,7 @@ from cmcrameri import cm
 from matplotlib.colors import to_hex
 from PIL import Image
 
-from disc_model.figures.parts import (
-    BLACK,
-    BLUE,
-    BROWN,
-    GREEN,
-    GREY,
-    ORANGE,
-    PHASE_COLOURS,
-    PURPLE,
-    SKY,
-    VERMILION,
-)
+from disc_model.figures.parts import BLACK, BLUE, BROWN, GREEN, GREY, ORANGE, PHASE_COLOURS, PURPLE, SKY, VERMILION
 
 PICTURE_WIDTH = 1100
 """Pixels of a figure as wide as a page; narrower ones are as much smaller."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from disc_model.benchmarks.methods import kernels
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import METHODS, kernels
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.parameters import Parameters
@@ -14,6 +15,12 @@ BASE = Parameters(N=385.0, Omega=15.1)
 def task(phase="slip", direction=1, span=1e-4, p=P):
     """A motion of one phase."""
     return Problem(p, lively(phase, direction, p), span)
+
+
+def judge(name, scene, value, budget=30.0):
+    """What a method finds of a scene, and how far off it is."""
+    result = METHODS[name].solve(scenes.problem(scene), value, budget)
+    return result, scenes.errors(scenes.problem(scene), scenes.answer(scene), result)
 
 
 def vector(start, p=P):

@@ -14,18 +14,14 @@ from disc_model.benchmarks.methods.base import Method, Problem
 from disc_model.benchmarks.methods.cvode import Cvode
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.solve_ivp import SolveIvp
-from disc_model.benchmarks.methods.taylor_heyoka import Heyoka
+from disc_model.benchmarks.methods.taylor_heyoka import Unguarded
 from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
 from disc_model.benchmarks.work_precision import fitted_order
 from tests import needs
 from tests.benchmarks.methods.problems import BASE as P
+from tests.benchmarks.methods.problems import judge
 
 INSTALLED = [name for name, method in METHODS.items() if not method.unavailable()]
-
-
-def _judge(name, scene, value, budget=30.0):
-    result = METHODS[name].solve(problem(scene), value, budget)
-    return result, errors(problem(scene), answer(scene), result)
 
 
 @functools.cache
@@ -74,7 +70,7 @@ def test_the_series_engine_reaches_rounding_on_smooth_motion():
     ["stick_slip", "separating", pytest.param("many_modes", marks=pytest.mark.slow)],  # compiles for a minute
 )
 def test_the_series_engine_reaches_rounding(scene):
-    _, found = _judge("series", scene, 1e-15)
+    _, found = judge("series", scene, 1e-15)
     assert found.verdict is Verdict.CONVERGED
     assert found.event_time < 2e-14
     assert found.state < 1e-11
@@ -105,20 +101,20 @@ def test_methods_of_variable_order_follow_their_tolerance(name):
 def test_every_method_finds_the_135_switches_of_stick_slip(name, value, allowed):
     if name not in INSTALLED:
         pytest.skip(needs.RIVALS.reason)
-    result, found = _judge(name, "stick_slip", value)
+    result, found = judge(name, "stick_slip", value)
     assert (result.outcome, len(result.kinds)) == (Outcome.FINISHED, 135)
     assert found.event_time < allowed
 
 
 def test_rigid_cycle_is_met_by_an_implicit_method_at_once():
-    _, found = _judge("LSODA", "rigid", 1e-7)
+    _, found = judge("LSODA", "rigid", 1e-7)
     assert found.verdict is Verdict.CONVERGED
     assert found.event_time < 1e-7
 
 
 @pytest.mark.parametrize(("name", "most"), [("RK45", 100), ("DOP853", 60), ("LSODA", 20)])
 def test_default_steps_jump_over_losses_of_contact(name, most):
-    result, found = _judge(name, "separating", 1e-3)  # scipy's default rtol
+    result, found = judge(name, "separating", 1e-3)  # scipy's default rtol
     assert found.verdict is Verdict.MISSED
     assert result.separations < most  # of 131
     assert result.longest_step > scenes.shortest_phase(answer("separating"))
@@ -126,7 +122,7 @@ def test_default_steps_jump_over_losses_of_contact(name, most):
 
 @pytest.mark.slow
 def test_a_tight_tolerance_does_not_help_dop853_but_short_steps_do():
-    result, found = _judge("DOP853", "separating", 1e-11, budget=120.0)
+    result, found = judge("DOP853", "separating", 1e-11, budget=120.0)
     assert found.verdict is Verdict.MISSED
     assert result.separations < 131
     short = SolveIvp("DOP853", 8, max_step=2e-5).solve(problem("separating"), 1e-9)
@@ -136,7 +132,7 @@ def test_a_tight_tolerance_does_not_help_dop853_but_short_steps_do():
 @pytest.mark.compiled
 @pytest.mark.parametrize("tol", [1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14])
 def test_the_engine_misses_none(tol):
-    result, found = _judge("series", "separating", tol)
+    result, found = judge("series", "separating", tol)
     assert result.separations == 131
     assert found.verdict in (Verdict.CONVERGED, Verdict.INACCURATE)
 
@@ -144,8 +140,8 @@ def test_the_engine_misses_none(tol):
 @needs.RIVALS.mark
 def test_native_events_fail_on_the_triple_root_without_a_guard():
     """Whether they do hangs on the rounding of a gap that should be zero; in compact mode it is on the wrong side."""
-    assert _judge("heyoka", "separating", 1e-10)[1].event_time < 1e-10
-    result = Heyoka(guard=0.0, compact=True).solve(problem("separating"), 1e-8, 5.0)
+    assert judge("heyoka", "separating", 1e-10)[1].event_time < 1e-10
+    result = Unguarded(compact=True).solve(problem("separating"), 1e-8, 5.0)
     found = errors(problem("separating"), answer("separating"), result)
     assert found.verdict in (Verdict.MISSED, Verdict.GAVE_UP, Verdict.UNSTABLE)
 

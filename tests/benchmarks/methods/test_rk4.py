@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from disc_model.benchmarks.methods import METHODS, Outcome, kernels
+from disc_model.benchmarks.methods import Outcome, kernels
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
-from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
-from tests.benchmarks.methods.problems import BASE, vector
+from disc_model.benchmarks.scenes import Verdict
+from tests.benchmarks.methods.problems import BASE, judge, vector
 from tests.references.printed import lively
 
 
@@ -17,20 +17,8 @@ def test_fixed_steps_end_as_they_must():
     _, y, modes, c = vector(lively("slip", 1))
 
     def run(t_end, h, max_steps, room=4, y=y):
-        return kernels.rk4_run(
-            modes,
-            c,
-            kernels.SLIP,
-            1,
-            y.copy(),
-            t_end,
-            h,
-            max_steps,
-            False,
-            np.empty(room),
-            np.empty(room, np.int64),
-            np.zeros(2),
-        )
+        filled = (np.empty(room), np.empty(room, np.int64), np.zeros(2))
+        return kernels.rk4_run(modes, c, kernels.SLIP, 1, y.copy(), t_end, h, max_steps, False, *filled)
 
     assert run(1e-4, 1e-5, 3)[0] == kernels.STEP_LIMIT
     assert run(1e-4, 1e-5, 99)[0] == kernels.FINISHED
@@ -38,29 +26,24 @@ def test_fixed_steps_end_as_they_must():
     assert run(0.02, 1e-5, 9999, room=0)[0] == kernels.STALLED
 
 
-def _judge(name, scene, value, budget=30.0):
-    result = METHODS[name].solve(problem(scene), value, budget)
-    return result, errors(problem(scene), answer(scene), result)
-
-
 @pytest.mark.compiled
 def test_rk4_at_its_stability_limit():
     """h omega_max = 2 sqrt(2) lies at 6.453e-4 s."""
     limit = STABILITY_LIMIT / Physics(BASE).omega.max()
     assert limit == pytest.approx(6.453e-4, rel=1e-3)
-    below, found = _judge("RK4", "stick_slip", 6.40e-4)
+    below, found = judge("RK4", "stick_slip", 6.40e-4)
     assert (len(below.kinds), below.separations) == (135, 0)
     assert found.verdict is Verdict.INACCURATE
-    at, found = _judge("RK4", "stick_slip", 6.45e-4)
+    at, found = judge("RK4", "stick_slip", 6.45e-4)
     assert at.separations > 100  # there are none
     assert found.verdict is Verdict.UNSTABLE
-    above, found = _judge("RK4", "stick_slip", 7e-4)
+    above, found = judge("RK4", "stick_slip", 7e-4)
     assert above.outcome is Outcome.NON_FINITE
     assert found.verdict is Verdict.UNSTABLE
 
 
 @pytest.mark.compiled
 def test_rk4_misses_separations_shorter_than_a_step():
-    result, found = _judge("RK4", "separating", 1e-4)
+    result, found = judge("RK4", "separating", 1e-4)
     assert result.separations == 129  # of 131
     assert found.verdict is Verdict.MISSED

@@ -12,16 +12,8 @@ from disc_model.data.variables import flag_names
 from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids.kinds import Bifurcation
 from disc_model.figures.parts import save
+from tests.figures.grids.reading import crosses
 from tests.studies.grids.conftest import SMALL, computed, made_up_samples, with_failed
-
-
-def crosses(ax) -> list[list[float]]:
-    """Where points are marked as failed, along the axis."""
-    lines = [line for line in ax.lines if line.get_label() == "failed"]
-    return [
-        list(line.get_xdata() if line.get_transform() == ax.get_xaxis_transform() else line.get_ydata())
-        for line in lines
-    ]
 
 
 def test_diagrams_mark_points_that_failed() -> None:

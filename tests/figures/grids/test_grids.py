@@ -9,16 +9,8 @@ from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids import critical_speed as curves
 from disc_model.figures.grids import growth_map, thresholds
 from disc_model.figures.grids.kinds import Bifurcation, CriticalSpeed, GrowthMap, Thresholds
+from tests.figures.grids.reading import crosses
 from tests.studies.grids.conftest import growth_over, in_base, made_up_samples, with_failed
-
-
-def crosses(ax) -> list[list[float]]:
-    """Where points are marked as failed, along the axis."""
-    lines = [line for line in ax.lines if line.get_label() == "failed"]
-    return [
-        list(line.get_xdata() if line.get_transform() == ax.get_xaxis_transform() else line.get_ydata())
-        for line in lines
-    ]
 
 
 def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:

@@ -21,15 +21,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import (
-    BudgetExceeded,
-    Meter,
-    Method,
-    MethodResult,
-    Outcome,
-    Problem,
-    decades,
-)
+from disc_model.benchmarks.methods.base import BudgetExceeded, Meter, Method, MethodResult, Outcome, Problem, decades
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
 from disc_model.figures.parts import ORANGE

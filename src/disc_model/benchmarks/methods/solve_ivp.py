@@ -57,13 +57,10 @@ CHOICES = {
 
 
 class SolveIvp(Method):
-    """`scipy.integrate.solve_ivp` with a compiled right-hand side.
+    """`scipy.integrate.solve_ivp` with a compiled right-hand side; ``max_step`` (s) bounds the steps."""
 
-    ``max_step`` (s) bounds the steps; ``guard`` (s): see `phases.GUARD`.
-    """
-
-    def __init__(self, algorithm: str, order: float = math.nan, max_step: float = np.inf, guard: float = GUARD) -> None:
-        self.algorithm, self.order, self.max_step, self.guard = algorithm, order, max_step, guard
+    def __init__(self, algorithm: str, order: float = math.nan, max_step: float = np.inf) -> None:
+        self.algorithm, self.order, self.max_step = algorithm, order, max_step
         self.label = f"scipy {algorithm}"
         choice = CHOICES[algorithm]
         self.look, self.map_values = choice.look, choice.map_values
@@ -89,8 +86,8 @@ class SolveIvp(Method):
             return found
 
         def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
-            if phase.name == "separation" and self.guard > 0:
-                until = min(t + self.guard, t_end)
+            if phase.name == "separation":
+                until = min(t + GUARD, t_end)
                 t, y = until, integrate(phase, t, y, until, watched=False).y[:, -1]
                 if until >= t_end:
                     return Ended(None, t_end, y)

@@ -36,12 +36,14 @@ class Heyoka(Method):
     }
     map_values = MAP_TOLERANCES[::2]
 
-    def __init__(self, guard: float = GUARD, compact: bool = False) -> None:
-        self.guard, self.compact = guard, compact
+    guard = GUARD
+
+    def __init__(self, compact: bool = False) -> None:
+        self.compact = compact
 
     def economical(self) -> Heyoka:
         """In compact mode: a map compiles it for every truncation and tolerance."""
-        return type(self)(self.guard, compact=True)
+        return type(self)(compact=True)
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         import heyoka as hy
@@ -114,9 +116,7 @@ class Unguarded(Heyoka):
     label = "heyoka, no guard step"
     look = (BROWN, "X", "--")
     settings: Mapping[str, Sequence[float]] = {}
-
-    def __init__(self, guard: float = 0.0, compact: bool = False) -> None:
-        super().__init__(guard, compact)
+    guard = 0.0
 
 
 def _places(physics: Physics) -> dict[str, Array]:

@@ -13,18 +13,7 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import BasinShares
-from disc_model.figures.parts import (
-    BLACK,
-    BLUE,
-    COLUMN,
-    GREEN,
-    GREY,
-    ORANGE,
-    PURPLE,
-    SEPARATED,
-    new_figure,
-    styled,
-)
+from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PURPLE, SEPARATED, new_figure, styled
 
 COLOURS = {
     "quiet": BLUE,

@@ -54,18 +54,14 @@ def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
     figure = new_figure(PAGE, 2.3)
     whole, zoom = figure.subplots(1, 2)
     with parts.or_say_why(whole):
-        _whole(whole, case)
+        parts.envelope(whole, parts.history(case), "P", color=FORCE)
+        _show_zero(whole, case)
+        parts.mark_first_separation(whole, float(case["first_separation"]))
+        whole.set(xlabel="Time (s)", ylabel="Contact force (N)")
+        parts.letter(whole, "a")
     with parts.or_say_why(zoom):
         _zoom(zoom, case)
     return figure
-
-
-def _whole(ax: Axes, case: xr.DataTree) -> None:
-    parts.letter(ax, "a")
-    parts.envelope(ax, parts.history(case), "P", color=FORCE)
-    _show_zero(ax, case)
-    parts.mark_first_separation(ax, float(case["first_separation"]))
-    ax.set(xlabel="Time (s)", ylabel="Contact force (N)")
 
 
 def _show_zero(ax: Axes, case: xr.DataTree) -> None:

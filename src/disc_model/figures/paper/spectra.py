@@ -18,6 +18,8 @@ from disc_model.data.dataset import Missing
 from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
 from disc_model.figures.parts import BLACK, DISC, PAGE, SKY, SLIDER, new_figure, styled
+from disc_model.parameters import Parameters
+from disc_model.plate import plate_modes
 
 # ----------------------------------------------------------------------------------------------------
 # Power over time and frequency
@@ -244,15 +246,9 @@ def _spectrum(figure: SubFigure, ax: Axes, tree: xr.DataTree, found: TimeFrequen
     mesh = spectrogram(ax, found, float(found.power.max()), HIGHEST)
     mark_time(ax, float(tree["first_separation"]))
     if highest:
-        ax.axhline(_highest_natural(tree), color="white", linewidth=0.9, linestyle=(0, (1, 2)))
+        p = Parameters.model_validate_json(tree.attrs["parameters"])
+        natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
+        ax.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
     ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
     parts.letter(ax, "b")
     colour_bar(figure, mesh, ax)
-
-
-def _highest_natural(tree: xr.DataTree) -> float:
-    from disc_model.parameters import Parameters
-    from disc_model.plate import plate_modes
-
-    p = Parameters.model_validate_json(tree.attrs["parameters"])
-    return float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)

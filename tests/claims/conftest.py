@@ -1,0 +1,21 @@
+"""The paper's cases, made up once."""
+
+from __future__ import annotations
+
+import pytest
+import xarray as xr
+
+from disc_model.claims import measures
+from tests.claims import made_up
+
+
+@pytest.fixture(scope="session")
+def told() -> xr.DataTree:
+    """What happened, by the paper."""
+    return made_up.made_up(made_up.as_told())
+
+
+@pytest.fixture
+def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Growth rates that fit it, without a search for cycles."""
+    monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
