@@ -193,7 +193,7 @@ def test_it_is_written_and_drawn(dataset: xr.Dataset) -> None:
 
 def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(METHODS, "late", Late())
-    monkeypatch.setattr(maps, "_right", lambda count, horizon: 54.42 if count < 4 else math.nan)
+    monkeypatch.setattr(maps, "_right", lambda count: 54.42 if count < 4 else math.nan)
     found = maps.answer_map("late", (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))
     right, wrong, silent = Verdict.RIGHT, Verdict.WRONG, Verdict.NO_ANSWER
     assert found["verdict"].values.tolist() == [

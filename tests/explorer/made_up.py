@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import PHASES, Variable
+from disc_model.explorer.contents import study_contents
 from disc_model.studies.grids.motions import SAMPLES, Motions
 from disc_model.studies.grids.run import describe
 
@@ -84,6 +85,11 @@ def motions() -> xr.Dataset:
     }
     coords = {name: ("point", [point[i] for point in points]) for i, name in enumerate(("N", "Omega", "normalization"))}
     return xr.Dataset(data, coords)
+
+
+def contents() -> list[dict[str, object]]:
+    """What the page is told of both studies."""
+    return [study_contents("plane", plane(), motions(), "After the transient."), study_contents("line", line())]
 
 
 def _attributes(variable: Variable) -> dict[str, str]:

@@ -23,7 +23,7 @@ def numbers(stored, kind: str) -> np.ndarray:
 
 @pytest.fixture
 def contents():
-    return study_contents("plane", made_up.plane(), made_up.motions(), "After the transient.")
+    return made_up.contents()[0]
 
 
 def test_every_number_comes_through(contents):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from disc_model.explorer.contents import LEVELS, study_contents
+from disc_model.explorer.contents import LEVELS
 from disc_model.explorer.page import WORDS, Picture, page
 from tests import needs
 from tests.explorer import made_up
@@ -30,11 +30,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     Image.new("RGB", (1200, 500), "#0072B2").save(folder / "one.png")
     Image.new("RGB", (1200, 900), "#D55E00").save(folder / "two.png")
     pictures = [Picture("Figures", name, f"The caption of {name}.", folder / f"{name}.png") for name in ("one", "two")]
-    studies = [
-        study_contents("plane", made_up.plane(), made_up.motions(), "After the transient."),
-        study_contents("line", made_up.line()),
-    ]
-    (folder / "explorer.html").write_text(page("Made up", studies, pictures), encoding="utf-8")
+    (folder / "explorer.html").write_text(page("Made up", made_up.contents(), pictures), encoding="utf-8")
     return folder / "explorer.html"
 
 

@@ -13,7 +13,6 @@ import pytest
 from PIL import Image
 
 from disc_model.explorer import page as page_module
-from disc_model.explorer.contents import study_contents
 from disc_model.explorer.page import PAGE_WIDTH, PICTURE_WIDTH, SCRIPTS, Picture, page
 from tests.explorer import made_up
 
@@ -29,12 +28,8 @@ def figure(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def text(figure: Path) -> str:
-    studies = [
-        study_contents("plane", made_up.plane(), made_up.motions(), "After the transient."),
-        study_contents("line", made_up.line()),
-    ]
     pictures = [Picture("Sec. 1", "One", CAPTION, figure), Picture("Sec. 2", "Two", CAPTION, figure)]
-    return page("A <title>", studies, pictures)
+    return page("A <title>", made_up.contents(), pictures)
 
 
 class Reader(HTMLParser):

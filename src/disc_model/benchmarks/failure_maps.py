@@ -28,6 +28,8 @@ TRUNCATIONS = (1, 2, 4, 6, 8)
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
 """s"""
 REFERENCE_TOL = 1e-14
+RESOLUTION = 2e-3
+"""Relative, of the largest step that is observed not to blow up."""
 
 
 @one_core()
@@ -36,7 +38,6 @@ def failure_map(
     scene: str = "separating",
     truncations: Sequence[int] = TRUNCATIONS,
     values: Sequence[float] | None = None,
-    budget: float | None = None,
 ) -> xr.Dataset:
     """Verdicts of a method along (diameters, value), with what explains them.
 
@@ -49,7 +50,6 @@ def failure_map(
     `observed_step_limit`.
     """
     own = METHODS[method].economical()
-    budget = own.map_budget if budget is None else budget
     values = own.map_values if values is None else values
     shape = (len(truncations), len(values))
     verdict = np.full(shape, int(Verdict.NOT_RUN), dtype=np.int8)
@@ -59,7 +59,7 @@ def failure_map(
         problem = short_problem(scene, diameters)
         answer = engine_answer(scene, diameters)
         for column, value in enumerate(values):
-            result = own.solve(problem, value, budget)
+            result = own.solve(problem, value, own.map_budget)
             found = errors(problem, answer, result)
             verdict[row, column] = int(found.verdict)
             event_error[row, column], longest[row, column] = found.event_time, result.longest_step
@@ -72,7 +72,7 @@ def failure_map(
         "longest_step": (longest, Variable("s", "longest step")),
     }
     dataset = map_of(method, truncations, values, variables)
-    dataset.attrs |= {"scene": scene, "budget": budget, "span": SPANS[scene]}
+    dataset.attrs |= {"scene": scene, "budget": own.map_budget, "span": SPANS[scene]}
     for name in facts[0]:
         dataset[name] = ("diameters", [fact[name] for fact in facts], _FACTS[name].attributes)
     return dataset
@@ -131,7 +131,7 @@ def engine_answer(scene: str, diameters: int) -> Answer:
     return Answer(result.times.astype(np.longdouble), result.kinds, result.final, error=REFERENCE_TOL)
 
 
-def observed_step_limit(diameters: int, resolution: float = 2e-3) -> float:
+def observed_step_limit(diameters: int) -> float:
     """Largest step (s) at which RK4 ends a second of stick-slip without its energy running away, by bisection.
 
     Compare with 2 sqrt(2)/omega_max.
@@ -140,7 +140,7 @@ def observed_step_limit(diameters: int, resolution: float = 2e-3) -> float:
     answer = engine_answer("stick_slip", diameters)
     theory = STABILITY_LIMIT / float(Physics(problem.parameters).omega.max())
     low, high = 0.7 * theory, 1.5 * theory
-    while high / low > 1.0 + resolution:
+    while high / low > 1.0 + RESOLUTION:
         middle = math.sqrt(low * high)
         unstable = errors(problem, answer, method.solve(problem, middle)).verdict is Verdict.UNSTABLE
         low, high = (low, middle) if unstable else (middle, high)

@@ -243,13 +243,13 @@ def _line_order(dataset: xr.Dataset, scene: str, method: str, error: str) -> flo
     return fitted_order(n[usable], line[f"{error}_error"].values[usable])
 
 
-def fitted_order(n: np.ndarray, error: np.ndarray, floor: float = FLOOR) -> float:
+def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
     """Order p of error ~ n^-p by least squares on the asymptotic part; nan if fewer than two points are left.
 
     n, error : (k,), from coarse to fine; n is the number of steps, or what grows like it.  The asymptotic part: errors
-    above ``floor`` (rounding) and below a tenth of the largest, or all above the floor if that leaves fewer than three.
+    above `FLOOR` (rounding) and below a tenth of the largest, or all above the floor if that leaves fewer than three.
     """
-    usable = np.isfinite(n) & np.isfinite(error) & (error > floor) & (n > 0)
+    usable = np.isfinite(n) & np.isfinite(error) & (error > FLOOR) & (n > 0)
     if np.count_nonzero(usable) < 2:
         return math.nan
     below = usable & (error <= 0.1 * np.max(error[usable]))

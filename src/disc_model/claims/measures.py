@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Kind, Motion, irregularity, motion_of
 from disc_model.analysis.poincare import distinct_points
-from disc_model.claims.model import CaseView, Finding, Missing, Range, finding, undecided
+from disc_model.claims.model import STRETCH, CaseView, Finding, Missing, Range, finding, undecided
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.parameters import Parameters
 
@@ -140,28 +140,23 @@ def open_separation(case: CaseView) -> float:
     return kept_span(case).high - float(last["time"].values[0])
 
 
-def phase_share(case: CaseView, phase: str, start: float = -np.inf) -> float:
-    """Share of time spent in a phase after `start`, within the events kept."""
+def phase_share(case: CaseView, phase: str) -> float:
+    """Share of time spent in a phase, within the events kept."""
     events = case.events
-    _, stop = kept_span(case)
-    time = np.append(events["time"].values, stop)
-    kept = time[:-1] >= start
-    if not kept.any():
-        raise Missing(f"case {case.name} keeps no events after {start:g} s")
-    lasting = np.diff(time)[kept]
-    inside = events["phase"].values[kept] == PHASES.index(phase)
-    return float(lasting[inside].sum() / lasting.sum())
+    lasting = np.diff(np.append(events["time"].values, kept_span(case).high))
+    inside = events["phase"].values == PHASES.index(phase)
+    return ratio(float(lasting[inside].sum()), float(lasting.sum()), f"the time that events of case {case.name} cover")
 
 
-def late_range(case: CaseView, name: str, last: float = 20.0) -> Range:
-    """Range over the last seconds of the run."""
+def late_range(case: CaseView, name: str) -> Range:
+    """Range over the last 20 s of the run."""
     end = case["time_reached"]
-    return case.range_of(name, end - last, end)
+    return case.range_of(name, end - STRETCH, end)
 
 
-def early_range(case: CaseView, name: str, first: float = 20.0) -> Range:
-    """Range over the first seconds, the very first one left out."""
-    return case.range_of(name, 1.0, 1.0 + first)
+def early_range(case: CaseView, name: str) -> Range:
+    """Range over the first 20 s, the very first one left out."""
+    return case.range_of(name, 1.0, 1.0 + STRETCH)
 
 
 def stretch(case: CaseView, window: str, start: float = -np.inf, stop: float = np.inf) -> xr.Dataset:
@@ -215,9 +210,9 @@ def trajectory_change(case: CaseView, bound: float) -> tuple[str, bool]:
     return said, abs(wider - 1) > bound or abs(then - stick) > bound * stick
 
 
-def late_points(case: CaseView, last: int = 150) -> int:
-    """Different Poincare points of the disc among the last ones."""
-    samples = case.samples("poincare").isel(time=slice(-last, None))
+def late_points(case: CaseView) -> int:
+    """Different Poincare points of the disc among the last 150."""
+    samples = case.samples("poincare").isel(time=slice(-150, None))
     return distinct_points(np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values]))
 
 

@@ -11,7 +11,7 @@ from disc_model.analysis.classify import stick_disappears
 from disc_model.claims import measures
 from disc_model.claims.cases import asked
 from disc_model.claims.measures import first_separation
-from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, claim, finding
+from disc_model.claims.model import Cases, Claim, Finding, Missing, claim, finding
 
 SHOWN = (("F02", "F04"), ("F07", "F06"), ("F09", "F08"))
 """Pairs of cases with separation and without it that the paper shows."""
@@ -253,15 +253,12 @@ def smaller_range(cases: Cases, claim: Claim) -> Finding:
 def more_frequencies(cases: Cases, claim: Claim) -> Finding:
     said, more = [], []
     for name, ignored in (("F02", "F04"), ("F07", "F06")):
-        lines = [len(_late_lines(cases[each], claim.bound)) for each in (name, ignored)]
+        windows = [cases[each].samples("late") for each in (name, ignored)]
+        found = [(window["time"].values, window["w_point"].values) for window in windows]
+        lines = [len(spectra.lines(*each, above=1.0, floor=claim.bound)) for each in found]
         said.append(f"N = {cases[name]['N']:g} N: {lines[0]} lines against {lines[1]}")
         more.append(lines[0] > lines[1])
     return finding("; ".join(said), all(more), "the paper argues from the number of points: see S41p")
-
-
-def _late_lines(case: CaseView, floor: float) -> list[spectra.Line]:
-    window = case.samples("late")
-    return spectra.lines(window["time"].values, window["w_point"].values, above=1.0, floor=floor)
 
 
 @claim(

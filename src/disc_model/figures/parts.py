@@ -262,14 +262,13 @@ def envelope(
     name: str,
     *,
     scale: float = 1.0,
-    offset: float = 0.0,
     color: str,
     label: str = "",
 ) -> None:
     """The range of a variable against time, as a band that stays visible where it is thin."""
     time = history["time"].values
-    low = (history[f"{name}_min"].values - offset) * scale
-    high = (history[f"{name}_max"].values - offset) * scale
+    low = history[f"{name}_min"].values * scale
+    high = history[f"{name}_max"].values * scale
     ax.fill_between(time, low, high, facecolor=color, edgecolor=color, linewidth=0.5, label=label)
     ax.set_xlim(0, round(time[-1] + (time[-1] - time[-2]) / 2, 2))
 

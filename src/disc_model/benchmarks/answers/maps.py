@@ -46,8 +46,6 @@ def answer_map(
     method: str,
     diameters: Sequence[int] = DIAMETERS,
     values: Sequence[float] | None = None,
-    budget: float = BUDGET,
-    horizon: float = HORIZON,
 ) -> xr.Dataset:
     """Verdicts of a method along (diameters, value), from coarse to fine.
 
@@ -60,7 +58,7 @@ def answer_map(
     values = _thinned(own.map_values) if values is None else values
     shape = (len(diameters), len(values))
     data: dict[str, np.ndarray] = {name: np.full(shape, math.nan) for name in VARIABLES}
-    right = [_right(count, horizon) for count in diameters]
+    right = [_right(count) for count in diameters]
     for row, count in enumerate(diameters):
         late = False
         for column, value in enumerate(values):
@@ -70,7 +68,7 @@ def answer_map(
 
             found = Found(math.nan, math.nan, Status.TOO_SLOW)
             if not late:
-                found = simulated.first_separation(solve, budget, _case(count), horizon)["first_separation"]
+                found = simulated.first_separation(solve, BUDGET, _case(count), HORIZON)["first_separation"]
             late = found.status is Status.TOO_SLOW
             said = verdict("first_separation", found, right[row])
             error = abs(found.value - right[row])
@@ -78,7 +76,7 @@ def answer_map(
                 data[name][row, column] = number
     flags = {name: data[name].astype(np.int8) if about.flags else data[name] for name, about in VARIABLES.items()}
     dataset = map_of(method, diameters, values, {name: (flags[name], about) for name, about in VARIABLES.items()})
-    dataset.attrs |= {"budget": budget, "horizon": horizon, "parameters": CASE.canonical_json}
+    dataset.attrs |= {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
     modes = [real_modes(count, 0) for count in diameters]
     dataset["modes"] = ("diameters", modes, Variable("1", "number of real modes").attributes)
     dataset["right"] = ("diameters", right, Variable("s", "first separation").attributes)
@@ -96,10 +94,10 @@ def _thinned(values: Sequence[float]) -> Sequence[float]:
 
 
 @lru_cache(maxsize=64)
-def _right(diameters: int, horizon: float) -> float:
+def _right(diameters: int) -> float:
     """Time (s), nan if there is none."""
 
     def solve(problem: Problem, seconds: float) -> MethodResult:
         return METHODS["series"].solve(problem, REFERENCE_TOL, seconds)
 
-    return simulated.first_separation(solve, math.inf, _case(diameters), horizon)["first_separation"].value
+    return simulated.first_separation(solve, math.inf, _case(diameters), HORIZON)["first_separation"].value

@@ -84,7 +84,8 @@ class Motion:
 def motion_of(case: xr.DataTree) -> Motion:
     """The motion of disc and slider from the windows `around0`, ...; raises `Missing`."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
-    windows = [dataset.samples(case, f"around{j}", at_least=1) for j in range(len(_names(case)) or 1)]
+    count = sum(str(name).startswith("around") for name in case.children)
+    windows = [dataset.samples(case, f"around{j}", at_least=1) for j in range(count or 1)]
     harmonics = np.arange(p.n_diameters + 1)
     if p.n_circles:
         raise Missing("has modes with nodal circles, which a circle of points does not tell apart")
@@ -101,10 +102,6 @@ def motion_of(case: xr.DataTree) -> Motion:
     time = one["time"].values
     slider = p.Omega * time - one["psi"].values
     return Motion(p, time, found[: len(harmonics)], sines, slider, one["u"].values, one["phase"].values)
-
-
-def _names(case: xr.DataTree) -> list[str]:
-    return [str(name) for name in case.children if str(name).startswith("around")]
 
 
 # ----------------------------------------------------------------------------------------------------

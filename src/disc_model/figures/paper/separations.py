@@ -18,10 +18,10 @@ from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, PAGE, SEPARATED
 SEPARATION = PHASES.index("separation")
 
 
-def shade(ax: Axes, spans: list[tuple[float, float]], label: str) -> None:
-    """Shade stretches of the horizontal axis; the label stands in the legend once."""
+def shade(ax: Axes, spans: list[tuple[float, float]]) -> None:
+    """Shade separations on the horizontal axis; they stand in the legend once."""
     for i, (start, stop) in enumerate(spans):
-        ax.axvspan(start, stop, color=SEPARATED, alpha=0.25, label=label if i == 0 else "_nolegend_")
+        ax.axvspan(start, stop, color=SEPARATED, alpha=0.25, label="separation" if i == 0 else "_nolegend_")
 
 
 def separations(window: xr.Dataset) -> list[tuple[float, float]]:
@@ -78,7 +78,7 @@ def _zoom(ax: Axes, case: xr.DataTree) -> None:
     time = window["time"].values
     start = float(time[0])
     spans = [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(window)]
-    shade(ax, spans, "separation")
+    shade(ax, spans)
     ax.plot((time - start) * 1e3, window["P"].values, color=FORCE)
     _show_zero(ax, case)
     ax.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Contact force (N)")
@@ -113,7 +113,7 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
         time = (part["time"].values - start) * 1e3
         u, w, rest = part["u"].values, part["w"].values, float(case["u_0"])
         for ax in (both, gap):
-            shade(ax, [(0.0, (stop - start) * 1e3)], "separation")
+            shade(ax, [(0.0, (stop - start) * 1e3)])
         both.plot(time, (w - rest) * 1e3, color=DISC, label="disc")
         both.plot(time, (u - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
         gap.plot(time, (u - w) * 1e6, color=BLACK)
@@ -148,7 +148,7 @@ def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
         part = window.sel(time=slice(start, start + SHOWN))
         time = (part["time"].values - start) * 1e3
         rest = float(case["u_0"])
-        shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(part)], "separation")
+        shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(part)])
         ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
         ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
         losses = np.array([a for a, _ in separations(part) if a > start])
