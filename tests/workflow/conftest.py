@@ -60,6 +60,12 @@ class Project:
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout + done.stderr
 
+    def refused(self, *options: str, config: str | None = "config/tiny.yaml") -> str:
+        """Run Snakemake, which must not succeed; what it says."""
+        done = self.snakemake(*options, config=config)
+        assert done.returncode != 0
+        return done.stdout + done.stderr
+
     def command(self, *options: str, config: str | None = "config/tiny.yaml") -> list[str]:
         """The command of such a run."""
         return [sys.executable, "-m", "snakemake", *options, *(["--configfile", config] if config else [])]

@@ -53,6 +53,11 @@ def complete(project: Project, *options: str) -> None:
     project.complete("-j2", *options, config=CONFIG)
 
 
+def refused(project: Project) -> str:
+    """Run, which must end with an error; what it says."""
+    return project.refused("-j2", config=CONFIG)
+
+
 def mend(project: Project) -> str:
     """What is to be typed after a fault; what it says."""
     return project.complete("-j1", "check", config=CONFIG)

@@ -19,9 +19,7 @@ cases:
 
 def test_every_fault_is_shown_and_nothing_runs(project: Project) -> None:
     (project.folder / "config" / "bad.yaml").write_text(BAD)
-    done = project.snakemake("-j2", config="config/bad.yaml")
-    shown = done.stdout + done.stderr
-    assert done.returncode != 0
+    shown = project.refused("-j2", config="config/bad.yaml")
     for fault in (
         "config/bad.yaml: 8 faults",
         "base.m = 0: must be > 0",
@@ -40,16 +38,12 @@ def test_every_fault_is_shown_and_nothing_runs(project: Project) -> None:
 
 def test_keys_given_twice_are_refused(project: Project) -> None:
     project.edit("config/tiny.yaml", "  X:", "  F13:")
-    done = project.snakemake("-j2")
-    assert done.returncode != 0
-    assert "F13: given twice" in done.stdout + done.stderr
+    assert "F13: given twice" in project.refused("-j2")
 
 
 def test_what_is_no_yaml_is_named_with_its_line(project: Project) -> None:
     project.edit("config/paper.yaml", "\ntitle: ", "\ntitle: [")
-    done = project.snakemake("-n", config=None)
-    shown = done.stdout + done.stderr
-    assert done.returncode != 0
+    shown = project.refused("-n", config=None)
     assert "config/paper.yaml: 1 fault" in shown
     assert "line " in shown
     assert "Traceback" not in shown

@@ -138,13 +138,19 @@ def later_periodic(cases: Cases, claim: Claim) -> Finding:
 )
 def falls_then_rises(cases: Cases, claim: Claim) -> Finding:
     """Critical speeds of four preloads against 15 rad/s: above it, below it, above it again."""
-    names = ("F16", "F17", "F11")
-    ours = "; ".join(f"N = {cases[name]['N']:g} N: {first_separation(cases[name])}" for name in names)
+    ours, found = separations_by_load(cases)
     beyond = cases["S43N550"]
     remark = "seen at one speed, where only the preload in between separates; the curve itself is that of Fig. 15"
     if beyond.separates:
         remark += f"; it falls again at larger preloads: N = {beyond['N']:g} N: {first_separation(beyond)}"
-    return finding(f"at 15 rad/s: {ours}", [cases[name].separates for name in names] == [False, True, False], remark)
+    return finding(f"at 15 rad/s: {ours}", found == [False, True, False], remark)
+
+
+def separations_by_load(cases: Cases) -> tuple[str, list[bool]]:
+    """When each of three preloads separates at 15 rad/s, and whether."""
+    shown = [cases[name] for name in ("F16", "F17", "F11")]
+    said = "; ".join(f"N = {case['N']:g} N: {first_separation(case)}" for case in shown)
+    return said, [case.separates for case in shown]
 
 
 @claim(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from disc_model.claims.cases import PARAMETERS, asked
 from disc_model.claims.measures import BETWEEN, first_separation, said_growth
 from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, Needed, claim, finding, undecided
 from disc_model.claims.section41 import RETURNS
-from disc_model.claims.section42 import ELSEWHERE
+from disc_model.claims.section42 import ELSEWHERE, separations_by_load
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
@@ -152,12 +153,7 @@ def more_disc_damping(cases: Cases, claim: Claim) -> Finding:
     needs=asked(steady=True, F16=290),
 )
 def small_periodic(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F16"]
-    intervals = measures.release_intervals(case)
-    spread = measures.irregularity(intervals)
-    ours = f"{first_separation(case)}; {_range(cases, 'F16')}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
-    ours += f"; {said_growth(case)}"
-    return finding(ours, not case.separates and not _grew(cases, "F16") and spread <= claim.bound)
+    return _stays_small(cases, claim, "F16")
 
 
 @claim(
@@ -201,9 +197,8 @@ def complicated(cases: Cases, claim: Claim) -> Finding:
     needs=asked(F16=290, F17=850, F11=190),
 )
 def preload(cases: Cases, claim: Claim) -> Finding:
-    found = {name: cases[name].separates for name in ("F16", "F17", "F11")}
-    ours = "; ".join(f"N = {cases[name]['N']:g} N: {first_separation(cases[name])}" for name in found)
-    return finding(ours, list(found.values()) == [False, True, False], ELSEWHERE)
+    ours, found = separations_by_load(cases)
+    return finding(ours, found == [False, True, False], ELSEWHERE)
 
 
 @claim(
@@ -339,12 +334,8 @@ def disc_repeats(cases: Cases, claim: Claim) -> Finding:
     needs=asked(steady=True, F20=300) | asked(F02=500),
 )
 def normal_damping(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F20"]
-    intervals = measures.release_intervals(case)
-    spread = measures.irregularity(intervals)
-    ours = f"{first_separation(case)}; {_range(cases, 'F20')}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
-    ours += f"; {said_growth(case)}, {said_growth(cases['F02'])} without the damper"
-    return finding(ours, not case.separates and not _grew(cases, "F20") and spread <= claim.bound)
+    found = _stays_small(cases, claim, "F20")
+    return replace(found, ours=f"{found.ours}, {said_growth(cases['F02'])} without the damper")
 
 
 @claim(
@@ -653,6 +644,15 @@ def _rate_or_nan(p: Parameters) -> float:
         return measures.cycle_of(p).growth_rate
     except Missing:
         return math.nan
+
+
+def _stays_small(cases: Cases, claim: Claim, name: str) -> Finding:
+    """Whether a case does not separate, its contact force ranges no wider in the end, and releases are regular."""
+    case, intervals = cases[name], measures.release_intervals(cases[name])
+    spread = measures.irregularity(intervals)
+    ours = f"{first_separation(case)}; {_range(cases, name)}; {1 / intervals.mean():.3f} Hz, spread {spread:.1e}"
+    ours += f"; {said_growth(case)}"
+    return finding(ours, not case.separates and not _grew(cases, name) and spread <= claim.bound)
 
 
 def _grew(cases: Cases, name: str) -> bool:

@@ -60,7 +60,7 @@ def answer_map(
     data: dict[str, np.ndarray] = {name: np.full(shape, math.nan) for name in VARIABLES}
     right = [_right(count) for count in diameters]
     for row, count in enumerate(diameters):
-        late = False
+        case, late = CASE.replace(n_diameters=count), False
         for column, value in enumerate(values):
 
             def solve(problem: Problem, seconds: float, value: float = value) -> MethodResult:
@@ -68,7 +68,7 @@ def answer_map(
 
             found = Found(math.nan, math.nan, Status.TOO_SLOW)
             if not late:
-                found = simulated.first_separation(solve, BUDGET, _case(count), HORIZON)["first_separation"]
+                found = simulated.first_separation(solve, BUDGET, case, HORIZON)["first_separation"]
             late = found.status is Status.TOO_SLOW
             said = verdict("first_separation", found, right[row])
             error = abs(found.value - right[row])
@@ -81,10 +81,6 @@ def answer_map(
     dataset["modes"] = ("diameters", modes, Variable("1", "number of real modes").attributes)
     dataset["right"] = ("diameters", right, Variable("s", "first separation").attributes)
     return dataset
-
-
-def _case(diameters: int) -> Parameters:
-    return CASE.replace(n_diameters=diameters)
 
 
 def _thinned(values: Sequence[float]) -> Sequence[float]:
@@ -100,4 +96,6 @@ def _right(diameters: int) -> float:
     def solve(problem: Problem, seconds: float) -> MethodResult:
         return METHODS["series"].solve(problem, REFERENCE_TOL, seconds)
 
-    return simulated.first_separation(solve, math.inf, _case(diameters), HORIZON)["first_separation"].value
+    return simulated.first_separation(solve, math.inf, CASE.replace(n_diameters=diameters), HORIZON)[
+        "first_separation"
+    ].value
