@@ -33,7 +33,14 @@ TITLES = {
     "many_modes": "Many modes, l up to 12",
     "rigid": r"Rigid disc, $E = 10^{20}$ Pa",
 }
-WORDS = ("converged", "inaccurate (> 1 μs)", "events missed or invented", "unstable", "gave up", "not run")
+WORDS = {
+    "converged": "converged",
+    "inaccurate": "inaccurate (> 1 μs)",
+    "wrong_events": "events missed or invented",
+    "unstable": "unstable",
+    "gave_up": "gave up",
+    "not_run": "not run",
+}
 """What verdicts are called, by number."""
 _HALO = [withStroke(linewidth=1.5, foreground="white")]
 SHADES = ("#08519C", "#9ECAE1", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
@@ -326,7 +333,7 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     used: set[int] = set()
     for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
         used |= _map_panel(ax, dataset, letter)
-    handles: list[Any] = [Patch(facecolor=SHADES[i], edgecolor=GREY, label=WORDS[i]) for i in sorted(used)]
+    handles: list[Any] = [Patch(facecolor=SHADES[i], edgecolor=GREY, label=[*WORDS.values()][i]) for i in sorted(used)]
     handles += [
         Line2D([], [], color=BLACK, linewidth=1.4, label=r"RK4: $h\,\omega_{max} = 2\sqrt{2}$"),
         Line2D([], [], color=BLACK, linestyle=":", linewidth=1.4, label="longest step = shortest phase"),
