@@ -283,6 +283,21 @@ def test_a_stiff_contact_rebounds_where_the_rigid_one_does_not():
     np.testing.assert_allclose(np.divide(losses[:-1], losses[1:]), 10.0, rtol=0.1)
 
 
+def test_a_stiff_contact_does_not_shorten_the_steps_of_a_flight():
+    """They were at most eight radians of the motion on the contact, which a flight has nothing of."""
+    steps = []
+    for give in (1e-7, 1e-9):
+        p = Parameters(N=385.0, Omega=15.1, contact_compliance=give, contact_force="normal")
+        start = published_start(p)
+        # 1.4 of the 1.6 ms that a fall of 5 mm takes: hundreds of radians on the stiffer contact, 6 of the disc
+        high = start.replace(phase="separation", u=start.u + 5e-3, u_velocity=0.0, f=5.0)
+        result = simulate(p, 1.4e-3, initial_state=high)
+        assert result.final_state.phase == "separation"
+        steps.append(result.statistics["steps"])
+    # a radian of the disc a step, and more; 5 and 6 were found
+    assert max(steps) <= 8
+
+
 @pytest.mark.slow
 def test_residual_compliance_is_the_flexibility_left_out():
     p = Parameters(N=385.0, Omega=15.1, normalization="orthonormal", contact_compliance="residual")
