@@ -35,7 +35,7 @@ rule warm_law:
     message:
         "Compiling the stability analysis for another law of contact ({wildcards.law}), once: a minute or so on one core."
     shell:
-        "python workflow/scripts/warm_studies.py --law {wildcards.law} > {output} 2> {log}"
+        "python workflow/scripts/warm_law.py {wildcards.law} > {output} 2> {log}"
 
 
 rule compute_batch:
