@@ -15,7 +15,7 @@ def test_small_pictures_showed_phases_in_other_colours(tmp_path: Path) -> None:
     """128 colours by frequency made the green of stick grey beside a map of many hues."""
     across = np.linspace(0, 255, PAGE).astype(np.uint8)
     picture = np.stack(np.broadcast_arrays(across[None, :], across[:600, None], across[None, ::-1]), axis=-1)
-    kept = [ImageColor.getrgb(colour) for colour in (*PHASE_COLOURS.values(), SLIDER)]
+    kept = [ImageColor.getrgb(colour) for colour in (*PHASE_COLOURS.values(), SLIDER, "#ffffff")]
     picture = picture.copy()
     for i, colour in enumerate(kept):
         picture[20:60, 100 * i : 100 * i + 40] = colour

@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+import numpy as np
 from PIL import Image, ImageColor
+from scipy.spatial import cKDTree
 
 from disc_model.data.dataset import load_cases
 from disc_model.figures import parts
@@ -126,17 +128,22 @@ def shrink(source: Path, target: Path) -> Path:
         scale = WIDTH / PAGE
         size = (round(picture.width * scale), round(picture.height * scale))
         small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
-    small.quantize(palette=_palette(small), dither=Image.Dither.NONE).save(target, optimize=True)
+    _indexed(small).save(target, optimize=True)
     return target
 
 
-def _palette(picture: Image.Image) -> Image.Image:
-    """256 colours: those that have a meaning, which a choice by frequency alone would mix, and the picture's own."""
+def _indexed(picture: Image.Image) -> Image.Image:
+    """In 256 colours: those that have a meaning, which a choice by frequency alone would mix, and the picture's own."""
     rest = 256 - len(KEPT)
     own = (picture.quantize(rest).getpalette() or [])[: 3 * rest]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette([*(part for colour in KEPT for part in colour), *own])
-    return palette
+    colours = np.array([*KEPT, *np.reshape(own, (-1, 3))], dtype=np.uint8)
+    pixels = np.asarray(picture)
+    seen, places = np.unique(pixels.reshape(-1, 3), axis=0, return_inverse=True)
+    # Pillow's own search takes colours that are only near: white would be grey
+    _, nearest = cKDTree(colours).query(seen)
+    found = Image.fromarray(nearest[places].reshape(pixels.shape[:2]).astype(np.uint8))
+    found.putpalette(colours.ravel().tolist())
+    return found
 
 
 if __name__ == "__main__":
