@@ -21,7 +21,7 @@ from disc_model.data.dataset import events_dataset, failed_groups, samples_datas
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
 from disc_model.plate import slider_at_rest_frequencies
-from disc_model.simulation.case import CaseSpec, Window
+from disc_model.simulation.case import CaseSpec, Start, Window
 from disc_model.studies.schema import load_study
 
 PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
@@ -86,6 +86,17 @@ def few(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
 def erratic(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
     """E = 100 GPa: lines that have nothing to do with one another, none of them high."""
     return sum(np.cos(2 * np.pi * f * t) for f in (90.7, 131.9, 210.3, 333.1, 401.9))
+
+
+def driven(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+    """As `coupled`, with as much power in the drive's own line as in the rest."""
+    return coupled(spec, rate, t) + 2 * np.cos(spec.parameters.Omega * t)
+
+
+def one_more(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+    """One further frequency, 126.1 Hz, with its sums and differences with the stick-slip rate and the drive's."""
+    drive = spec.parameters.Omega / (2 * np.pi)
+    return sum(np.cos(2 * np.pi * (126.1 + n * rate + m * drive) * t) for n in (-1, 0, 1) for m in (-1, 1))
 
 
 @dataclass(frozen=True)
@@ -209,6 +220,8 @@ def tell(spec: CaseSpec, story: Story) -> xr.DataTree:
 def _scalars(spec: CaseSpec, story: Story, reached: float) -> xr.Dataset:
     p = spec.parameters
     empty = failed_groups(p, spec.t_end, spec.tol, "")[""]
+    if spec.start != Start():
+        empty.attrs["start"] = spec.start.model_dump_json()
     stuck = story.stick_before * reached
     values = {
         "status": STATUSES.index("stopped" if reached < spec.t_end else "ok"),
@@ -282,7 +295,9 @@ def _events(spec: CaseSpec, story: Story, start: float, stop: float) -> xr.Datas
 GROWING = Story(early=0.01, late=1.0, disc_late=5e-3)
 WILD = GROWING.replace(wanders=0.7)
 STILL = Story()
-BONDED = Story(disc_late=3e-2, signal=few)
+FIVE_POINTS = 21.4 / (2 * math.pi / 20)
+"""Hz; a rate of releases at which a section at 20 rad/s has five points."""
+BONDED = Story(disc_late=3e-2, signal=few, rate=FIVE_POINTS)
 
 
 def _separating(stories: Mapping[str, float]) -> dict[str, Story]:
@@ -312,18 +327,20 @@ def as_told() -> dict[str, Story]:
             {"F18": 263, "S43z4": 800, "F19": 51, "C4cp1": 40, "S43kp2e4": 100, "S43k2e4": 100, "S43k3e4": 200}
         ),
         **_separating({"P03l5": 54.4, "P03l6": 54.4, "P03l8": 54.5, "P03l8c2": 54.5}),
+        **_separating(dict.fromkeys(("S43z4a", "S43z4b", "S43z4c"), 800)),
+        **{name: GROWING.replace(first=0.01, stick=0.0) for name in ("F02free", "F07free", "F17free")},
         **_separating({"S43c126": 700, "S43c14": 700, "S43c145": 700, "S43c124": 1000}),
     }
 
 
 def to_the_contrary() -> dict[str, Story]:
     """The opposite in all that is claimed."""
-    alone = Story(late=0.02, disc_early=5e-2, disc_late=5e-2, contrary=True)
+    alone = Story(late=0.02, disc_early=5e-2, disc_late=5e-2, contrary=True, rate=FIVE_POINTS)
     return {
         **dict.fromkeys(load_study(PAPER).specs, GROWING),
         "F02": alone.replace(first=480.0),
-        "F04": WILD.replace(stick=0.005),
-        "F06": WILD.replace(stick=0.005),
+        "F04": WILD.replace(stick=0.005, rate=FIVE_POINTS),
+        "F06": WILD.replace(stick=0.005, rate=FIVE_POINTS),
         "F07": alone.replace(first=147.0),
         "F08": WILD.replace(stick=0.005),
         "F09": alone.replace(first=117.0),
@@ -351,8 +368,26 @@ def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
     return xr.DataTree.from_dict({f"/{name}": tell(specs[name], story) for name, story in stories.items()})
 
 
-def scan(least: float) -> dict[str, xr.Dataset]:
-    """The grid study of stick without separation, with a least share of stick."""
-    shares = np.full((3, 2), 0.25)
-    shares[0, 1] = least
-    return {"bonded": xr.Dataset({"share_stick": (("Omega", "N"), shares)}, {"Omega": [10, 50, 100], "N": [50, 385]})}
+def scan(least: float, settled: bool = True, softest: str = "unstable") -> dict[str, xr.Dataset]:
+    """Grid studies: stick without separation, and what becomes of the published start on softer and stiffer discs.
+
+    least, settled : share of stick where it is least, and whether the motion there has settled
+    softest : outcome on the softest disc
+    """
+    shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
+    shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
+    bonded = {"share_stick": (("Omega", "N"), shares), "settled": (("Omega", "N"), times)}
+    kinds = ["unknown", "stable", "unstable", "separation"]
+    outcome = np.full((3, 2, 2), kinds.index("separation"), dtype=np.int8)
+    outcome[1] = kinds.index("stable")
+    outcome[0, 1] = kinds.index(softest)
+    outcome[0, 0] = kinds.index("stable")
+    flags = {"flag_values": np.arange(len(kinds), dtype=np.int8), "flag_meanings": " ".join(kinds)}
+    return {
+        "bonded": xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]}),
+        "map_E": xr.Dataset(
+            {"outcome": (("E", "Omega", "normalization"), outcome, flags)},
+            {"E": [8e10, 1e11, 1.5e11], "Omega": [10, 50], "normalization": ["as_published", "orthonormal"]},
+            {"base": '{"N": 200}'},
+        ),
+    }

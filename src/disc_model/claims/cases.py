@@ -35,6 +35,7 @@ PARAMETERS: Mapping[str, Mapping[str, Any]] = {
     "P03l8c2": {"N": 385, "Omega": 15.1, "n_diameters": 8, "n_circles": 2},
     "S43N0": {"N": 1e-6, "Omega": 15},
     "S43N550": {"N": 550, "Omega": 15},
+    "S43N600": {"N": 600, "Omega": 15},
     "S43N3e3": {"N": 3000, "Omega": 15},
     "S43Ninf": {"N": 8e4, "Omega": 15},
     "S43a10": {"N": 200, "Omega": 10, "D_star": 2e-5},
@@ -60,6 +61,11 @@ PARAMETERS: Mapping[str, Mapping[str, Any]] = {
     "T2Om12": {"N": 385, "Omega": 12},
 }
 """Values beside base values, by case."""
+REPEATS = {name: tuple(f"{name}{letter}" for letter in "abc") for name in ("S43N550", "S43z4")}
+"""The same cases with other tolerances: their first separations follow a wandering whose details no method keeps."""
+SEPARATED = {"N": 385, "Omega": 15.1}
+OTHERS = {name: f"{name}free" for name in ("F02", "F07", "F17")}
+"""The same cases begun in the last state of `SEPARATED`, which may lead to another motion."""
 
 
 def asked(*, separates: bool = False, steady: bool = False, **until: float) -> dict[str, Needed]:
@@ -73,3 +79,13 @@ def asked(*, separates: bool = False, steady: bool = False, **until: float) -> d
         name: Needed(own, until[name], separates and own.get("contact") != "bonded", steady)
         for name, own in ((name, PARAMETERS[name]) for name in until)
     }
+
+
+def repeated(name: str) -> dict[str, Needed]:
+    """A case, and those that repeat it."""
+    return {each: Needed(PARAMETERS[name]) for each in (name, *REPEATS[name])}
+
+
+def others(*names: str) -> dict[str, Needed]:
+    """What the same parameters lead to from another start."""
+    return {OTHERS[name]: Needed(PARAMETERS[name], 790, after=SEPARATED) for name in names}

@@ -26,6 +26,10 @@ __all__ = ["irregularity"]  # beside what is defined here
 Array = NDArray[np.float64]
 BETWEEN = "the 0-1 test lies between regular and chaotic motion"
 """Why a motion that does not repeat may be neither quasi-periodic nor irregular."""
+SHOWN = 10.0
+"""s; the longest stretch of which the paper shows a spectrum."""
+FREE = 1e-3
+"""Share of time in stick up to which a motion counts as one without: a stray stick is none."""
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 
 
@@ -36,12 +40,20 @@ def ratio(part: float, whole: float, what: str) -> float:
     return part / whole
 
 
-def first_separation(case: CaseView) -> str:
-    """When a case first separates, in words."""
-    time = case["first_separation"]
-    if math.isnan(time):
+def first_separation(case: CaseView, *repeats: CaseView) -> str:
+    """When a case first separates, in words: to 0.01 s, or between round numbers if others that repeat it differ."""
+    times = [each["first_separation"] for each in (case, *repeats)]
+    if math.isnan(times[0]):
         return f"no separation in {case['time_reached']:g} s"
-    return f"first separation at {time:.2f} s"
+    spread = float(np.ptp(times))
+    if math.isnan(spread):
+        return f"first separation at {times[0]:.2f} s, or none: that depends on the tolerance"
+    if spread < 0.005:
+        return f"first separation at {times[0]:.2f} s"
+    order = math.floor(math.log10(spread))
+    digits, unit = max(0, -order), 10.0**order
+    low, high = unit * math.floor(min(times) / unit), unit * math.ceil(max(times) / unit)
+    return f"first separation at {low:.{digits}f} to {high:.{digits}f} s: that depends on the tolerance"
 
 
 def separates_at(case: CaseView, paper: float, within: float) -> Finding:
@@ -86,7 +98,7 @@ def said_motion(case: CaseView, motion: Motion) -> str:
     if not motion.period:
         test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
         return f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
-    length = float(intervals[: motion.period].sum())
+    length = period_of(case, motion)
     apart = round(rate_of(case, "separation") * length)
     releases = "1 release" if motion.period == 1 else f"{motion.period} releases"
     after = f"{releases} = {apart} separations" if apart else releases
@@ -94,18 +106,65 @@ def said_motion(case: CaseView, motion: Motion) -> str:
     return f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
 
-def is_quasi_periodic(case: CaseView) -> Finding:
-    """Whether the in-plane motion is quasi-periodic, as the paper says of several cases."""
+def is_quasi_periodic(case: CaseView, other: CaseView) -> Finding:
+    """Whether the in-plane motion is quasi-periodic, as the paper says of several cases.
+
+    other : the same parameters from another start
+    """
     motion = late_motion(case)
     ours = said_motion(case, motion)
     if motion.kind is Kind.UNDECIDED:
         return undecided(ours, BETWEEN)
     remark = ""
     if motion.kind is Kind.PERIODIC:
-        remark = "it repeats, but only after a time that is long beside what the paper shows"
+        longer = period_of(case, motion) > SHOWN
+        remark = f"it repeats {'only after longer than' if longer else 'within'} the {SHOWN:g} s of the paper's spectra"
     elif motion.kind is Kind.IRREGULAR:
         remark = "it does not repeat within the record, nor is it quasi-periodic by the 0-1 test"
-    return finding(ours, motion.kind is Kind.QUASI_PERIODIC, remark)
+    return finding(ours, motion.kind is Kind.QUASI_PERIODIC, joined(remark, another_motion((case, other))))
+
+
+def is_intricate(case: CaseView, other: CaseView, bound: float) -> Finding:
+    """Whether the in-plane motion has no period of fewer than `bound` releases; `other` as in `is_quasi_periodic`."""
+    motion = late_motion(case)
+    remark = "periodic all the same" if motion.period else ""
+    holds = motion.period == 0 or motion.period >= bound
+    return finding(said_motion(case, motion), holds, joined(remark, another_motion((case, other))))
+
+
+def another_motion(*pairs: tuple[CaseView, CaseView]) -> str:
+    """Where another start leads to a motion that does not stick although the case does, in words; nothing if nowhere.
+
+    pairs : a case from the published start, and the same parameters begun in a separated motion
+    """
+    said = [
+        f"at {case['N']:g} N, {case['Omega']:g} rad/s {_by_separations(other)}"
+        for case, other in pairs
+        if other.separates and phase_share(case, "stick") > FREE >= phase_share(other, "stick")
+    ]
+    start = "from the published start; begun in the separated motion of 385 N, 15.1 rad/s it does not stick: "
+    return start + ", ".join(said) if said else ""
+
+
+def _by_separations(case: CaseView) -> str:
+    """What a motion without stick is, by the intervals between its separations."""
+    intervals = np.diff(times_of(case.events, "separation"))
+    if intervals.size < FEWEST:
+        raise Missing(f"case {case.name} keeps fewer than {FEWEST} separations")
+    motion = motion_of(intervals)
+    if not motion.period:
+        return str(motion)
+    return f"it repeats after {motion.period} separation{'s' if motion.period > 1 else ''}"
+
+
+def joined(*remarks: str) -> str:
+    """Those remarks that say something."""
+    return "; ".join(remark for remark in remarks if remark)
+
+
+def period_of(case: CaseView, motion: Motion) -> float:
+    """How long a motion takes to repeat, s."""
+    return float(release_intervals(case)[: motion.period].sum())
 
 
 def rate_of(case: CaseView, kind: str) -> float:
@@ -195,24 +254,26 @@ def strongest(case: CaseView, samples: xr.Dataset, name: str, near: float, withi
 def trajectory_change(case: CaseView, bound: float) -> tuple[str, bool]:
     """The section of the in-plane motion before the first separation and long after it, and whether it changes.
 
-    It does if its width, or its share of stick, changes by the share `bound`.
+    It does if its width, or the share of time in stick, changes by the share `bound`.
     """
     samples, first = case.samples("poincare"), case["first_separation"]
-    time, psi, stuck = samples["time"].values, samples["psi"].values, samples["phase"].values == STICK
+    time, psi = samples["time"].values, samples["psi"].values
     stages = time < first, time > (first + case["time_reached"]) / 2
     if min(int(inside.sum()) for inside in stages) < FEWEST:
         raise Missing(f"case {case.name} has no section of {FEWEST} points before or long after its first separation")
     before, after = (float(np.ptp(psi[inside])) for inside in stages)
-    stick, then = (float(np.mean(stuck[inside])) for inside in stages)
-    said = f"{case.name}: ψ spans {before:.3f} rad before, {after:.3f} after; {100 * stick:.1f} % of the points stick "
+    then = phase_share(case, "stick")
+    # of the events only late ones are kept: what the whole run sticks less what it sticks after separation
+    stick = max(0.0, case["time_stick"] - then * (case["time_reached"] - first)) / first
+    said = f"{case.name}: ψ spans {before:.3f} rad before, {after:.3f} after; sticks {100 * stick:.1f} % of the time "
     said += f"before, {100 * then:.1f} % after"
     wider = ratio(after, before, f"the width of the section of case {case.name} before separation")
     return said, abs(wider - 1) > bound or abs(then - stick) > bound * stick
 
 
-def late_points(case: CaseView) -> int:
-    """Different Poincare points of the disc among the last 150."""
-    samples = case.samples("poincare").isel(time=slice(-150, None))
+def late_points(case: CaseView, last: int) -> int:
+    """Different Poincare points of the disc among the last ones."""
+    samples = case.samples("poincare").isel(time=slice(-last, None))
     return distinct_points(np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values]))
 
 

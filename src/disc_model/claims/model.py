@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
@@ -45,12 +46,14 @@ class Needed:
     until : s, how far it must run
     separates : whether the claim is about what separation does: without one it does not hold
     steady : whether the claim is about its steady state: one that has not come to it by its end decides nothing
+    after : parameters of the motion in whose last state it must begin; None for the published start
     """
 
     parameters: Mapping[str, Any]
     until: float = 0.0
     separates: bool = False
     steady: bool = False
+    after: Mapping[str, Any] | None = None
 
 
 class Range(NamedTuple):
@@ -236,7 +239,17 @@ def _require(cases: Cases, name: str, needed: Needed) -> None:
     if wanted != found:
         differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")
-    if "start" in case.node.attrs:
-        raise Missing(f"case {name} does not begin with the published start in this study")
+    if _after(case) != needed.after:
+        start = "published start" if needed.after is None else f"last state of {dict(needed.after)}"
+        raise Missing(f"case {name} does not begin with the {start} in this study")
     if case.status == "ok" and case["time_reached"] < needed.until:
         raise Missing(f"case {name} ends at {case['time_reached']:g} s, {needed.until:g} s are needed")
+
+
+def _after(case: CaseView) -> Mapping[str, Any] | None:
+    """Parameters of the motion that a case begins after, empty if it begins in another way; None: published start."""
+    if "start" not in case.node.attrs:
+        return None
+    start = json.loads(case.node.attrs["start"])
+    prepared = (start["prepare"] or {}).get("parameters", {})
+    return {} if start["kick"] else prepared
