@@ -465,7 +465,7 @@ def lowest_position(cases: Cases, claim: Claim) -> Finding:
             f"contact is lost in {starts.size} of {swings} swings, {100 * above:.0f} % of the whole range above the "
             f"lowest point of all ({1e3 * lowest:.1f} mm)",
         )
-    return finding(ours, found.kind == "at the lowest position" and above <= claim.bound, remark)
+    return finding(ours, found.kind == "at the lowest position" and bool(above <= claim.bound), remark)
 
 
 @claim(
