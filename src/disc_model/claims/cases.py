@@ -66,6 +66,8 @@ REPEATS = {name: tuple(f"{name}{letter}" for letter in "abc") for name in ("S43N
 SEPARATED = {"N": 385, "Omega": 15.1}
 OTHERS = {name: f"{name}free" for name in ("F02", "F07", "F17")}
 """The same cases begun in the last state of `SEPARATED`, which may lead to another motion."""
+AGAIN = {*OTHERS.values(), *(again for names in REPEATS.values() for again in names)}
+"""Parameters of a case of the paper once more."""
 
 
 def asked(*, separates: bool = False, steady: bool = False, **until: float) -> dict[str, Needed]:

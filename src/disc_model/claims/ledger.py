@@ -12,6 +12,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.claims import disc, measures, section41, section42, section43, section44
+from disc_model.claims.cases import AGAIN
 from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Missing
 from disc_model.claims.pages import page, table_html
 from disc_model.data.dataset import markdown_table
@@ -78,7 +79,7 @@ def _views(nodes: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
     """Compare merged cases (see `disc_model.data.dataset`) of the two normalisations."""
     old, new = _views(published.children), _views(orthonormal.children)
-    shared = [name for name in old if name in new]
+    shared = [name for name in old if name in new and name not in AGAIN]
     failed = [name for name in shared if "failed" in (old[name].status, new[name].status)]
     lost = [name for name in shared if name not in failed and old[name].separates and not new[name].separates]
     gained = [name for name in shared if name not in failed and new[name].separates and not old[name].separates]
