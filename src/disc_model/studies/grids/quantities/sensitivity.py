@@ -21,6 +21,7 @@ from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.stability.fate import fate
+from disc_model.studies.grids.draws import CYCLES, DRAWS, OUTCOMES
 from disc_model.studies.grids.run import NUMERICAL, STATUS, Column
 
 if TYPE_CHECKING:
@@ -29,13 +30,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-STABLE = ("stable", "slides", "sticks")
-UNSTABLE = ("unstable", "no_cycle", "separates", "slips")
-CYCLES = ("failed", *STABLE, *UNSTABLE)
-"""What there is near the published start: a stable cycle, stable steady sliding, or rest on the disc; or an unstable
-cycle, none though the slider sticks and slips, loss of contact at once, or unstable sliding."""
-OUTCOMES = ("not_followed", "stable", "unstable", "separation", "undecided", "failed")
-DRAWS = ("A", "B")
 COLUMNS = {
     "status": Column(STATUS),
     "drawn": Column(Variable("", "values of the distributed parameters, SI units"), ("draw", "parameter")),
