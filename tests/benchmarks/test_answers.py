@@ -188,7 +188,7 @@ def test_it_is_written_and_drawn(dataset: xr.Dataset) -> None:
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert labels[:2] == ["late", "series, modes, rigid contact"]
     cells = [text.get_text() for text in figures.prices(dataset).axes[0].texts]
-    assert cells[:3] == ["2 s", "at 1e-2", "wrong: 1, 3e-1"]
+    assert cells[:3] == ["2 s", "tol 1e-2", "wrong at 2"]
 
 
 def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:

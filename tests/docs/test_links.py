@@ -12,6 +12,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "results" / "README.md"]
 PAGES += sorted(path for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts)
 TEXTS = [*PAGES, *sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rglob("*.*"))]
+TEXTS = [path for path in TEXTS if "__pycache__" not in path.parts]
 NO_MODULES = {"yaml", "mplstyle", "post", "egg"}
 """What follows the package's name in names of files."""
 
