@@ -94,8 +94,8 @@ def test_what_is_judged_early_comes_true() -> None:
 def test_what_is_judged_early_comes_true_after_a_long_time(Omega: float) -> None:
     """What is undecided in one of the two says nothing.
 
-    At 11 rad/s disturbances die out or grow by 0.0004/s, and at 9 rad/s one motion of 24 keeps its range for 40 s before
-    it goes on to another vibration: of the small vibrations there the kind is told, not the range.
+    At 11 rad/s disturbances die out or grow by 0.0004/s, and at 9 rad/s one motion of 24 keeps its range for 40 s and
+    goes on to another vibration: of the small vibrations there the kind is told, not the range.
     """
     found = compared(Parameters(N=385, Omega=Omega), range(8), 200.0, 800.0)
     decided = [pair for pair in found if "undecided" not in (pair[0].kind, pair[1].kind)]
