@@ -206,7 +206,7 @@ def fold(found: Evidence, said: Conclusion) -> Finding:
     if min(off) <= said.bound:
         return finding(ours, True)
     beside = [_growth_beside(found.grid("survival_growth"), high - width, high) for high in highs]
-    ours += "; growth there " + ", ".join(f"{low:+.4f} to {high:+.4f}/s" for low, high in beside)
+    ours += "; growth there " + ", ".join(f"{_rate(low)} to {_rate(high)}" for low, high in beside)
     if all(rate > SLOW for rates in beside for rate in rates):
         return finding(ours, False)
     missed = int(found.grid("survival_curves")["n_unfollowed"])
@@ -220,6 +220,10 @@ def _growth_beside(growth: xr.Dataset, low: float, high: float) -> tuple[float, 
     if below < 0 or above >= speed.size:
         raise Missing("study survival_growth does not reach as far as survival_speed")
     return float(rate[below]), float(rate[above])
+
+
+def _rate(growth: float) -> str:
+    return "no cycle" if math.isnan(growth) else f"{growth:+.4f}/s"
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
