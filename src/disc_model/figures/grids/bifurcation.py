@@ -114,7 +114,7 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
             moving = flag_names(lyapunov["converged"].transpose("exponent_number", name)[i]) == "no"
             ax.plot(along[moving], exponent[i][moving], label="_nolegend_", **ring | {"color": color})
             unsure |= bool(moving.any())
-    ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=f"± {ERRORS} standard errors")
+    ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=f"± {ERRORS} errors")
     if unsure:
         ax.plot([], [], label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
