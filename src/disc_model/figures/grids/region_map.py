@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
+from disc_model.figures.grids.branches import branches, name_branches
 from disc_model.figures.grids.cells import (
     OUTCOMES,
     cycle_patches,
@@ -50,10 +51,12 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
     figure = new_figure(PAGE, 5.6)
     axes = figure.subplots(2, len(norms), sharex=True, sharey=True, squeeze=False)
     kinds: set[str] = set()
+    are_named = False
     for column, norm in enumerate(norms):
         one = parts.of(study, norm)
         _outcomes(axes[0, column], one, plot)
         mesh = growth_cells(axes[1, column], one, plot.x, plot.y)
+        are_named |= _branches(axes[1, column], one, plot)
         for row in range(2):
             letter = "abcdef"[row * len(norms) + column]
             axes[row, column].set_title(f"({letter}) {parts.MODES[norm] if row == 0 else ''}", loc="left")
@@ -63,7 +66,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
         if norm == "as_published":
             _marks(ax, plot)
     growth_bar(figure, mesh, list(axes[1]))
-    _legends(figure, study, plot, kinds)
+    _legends(figure, study, plot, kinds, are_named)
     return figure
 
 
@@ -73,6 +76,13 @@ def _outcomes(ax: Axes, data: xr.Dataset, plot: RegionMap) -> None:
     inside = words_of(data, "origin", plot.x, plot.y) == "undivided_cell"
     fill(ax, edges, np.where(inside, "", words), OUTCOMES)
     fill(ax, edges, np.where(inside, words, ""), {name: paler(look, PALER) for name, look in OUTCOMES.items()})
+
+
+def _branches(ax: Axes, data: xr.Dataset, plot: RegionMap) -> bool:
+    """Name the branches of the cycle; whether there are any that are large enough."""
+    followed = words_of(data, "cycle", plot.x, plot.y) == "followed"
+    x, y = (data[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
+    return name_branches(ax, x, y, branches(followed, *_joined(data, plot)))
 
 
 def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> set[str]:
@@ -136,7 +146,7 @@ def _marks(ax: Axes, plot: RegionMap) -> None:
         )
 
 
-def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap, kinds: Collection[str]) -> None:
+def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap, kinds: Collection[str], are_named: bool) -> None:
     """Outcomes and lines above, what stands for no cycle below; and what is to be said of how it was computed."""
     outcomes = set(np.unique(flag_names(study["outcome"])))
     above: list[Artist] = [patch(look) for name, look in OUTCOMES.items() if name in outcomes]
@@ -150,6 +160,7 @@ def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap, kinds: Collecti
     below: list[Artist] = list(cycle_patches(set(flag_names(study["cycle"]).flat)))
     said = _computed(study, plot) + standing_alone(study, plot) + _quiet_unfollowed(study)
     said += contradictions(study, plot)
+    said += ["A, B, ...: branches, on which one cycle goes on from point to point."] * are_named
     below.append(Line2D([], [], linestyle="", label="\n".join(said)))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)
 
