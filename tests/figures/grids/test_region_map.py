@@ -65,7 +65,9 @@ def test_cells_borders_and_marks(x: str, values: list[float], scale: str, tmp_pa
     assert "no cycle found" in below
     said = "Within 900 s of the published start.\n24 of 24 points simulated. F2: in Fig. 2 of the paper."
     alone = "Points unlike all beside them: 2."
-    assert f"{said}\n{alone}\nb: the paper says “separation”, the published start: undecided." in below
+    contradicted = "b: the paper says “separation”, the published start: undecided."
+    branches = "A, B, ...: branches, on which one cycle goes on from point to point."
+    assert f"{said}\n{alone}\n{contradicted}\n{branches}" in below
     save(figure, tmp_path / "map.png")
 
 
