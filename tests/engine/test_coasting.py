@@ -141,6 +141,18 @@ def test_nothing_is_promised_where_nothing_is_sure() -> None:
     assert _coast(model, s, pulled, 0.0) == _coast(model, s, shaken, 0.0) == 0.0
 
 
+def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
+    """At rest under the preload P stays: stick lasts until the spring, now at 0.9 of the limit, is at all of it."""
+    p = Parameters(N=385, Omega=15.1)
+    limit, unit = p.mu_s * p.N / p.r_0, build_model(p).unit
+    # from no pull at all that would take as long as a coast may last
+    model = build_model(p.replace(Omega=limit / (p.k_p * unit * stick_modes.LONGEST_COAST)))
+    s, state = layout.build_series(model, ORDER), layout.build_state(model)
+    state.x[layout.PSI] = 0.9 * limit / p.k_p
+    # 0.1 of it, right to the rounding of forces of which nine tenths cancel
+    assert _coast(model, s, state, 0.0) == pytest.approx(0.1 * stick_modes.LONGEST_COAST, rel=1e-12)
+
+
 def test_events_are_those_of_the_series(follow_stick_by_series: Callable[[], None]) -> None:
     """Slow drive: stick is nearly all of the motion and coasts are long."""
     p = Parameters(N=385, Omega=1.0)
