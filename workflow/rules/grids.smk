@@ -28,7 +28,7 @@ rule warm_law:
     log:
         f"results/compiled/studies-{COMPILED}-{{law}}.log",
     wildcard_constraints:
-        law="|".join(LAWS[1:]),
+        law="|".join(list(LAWS)[1:]),
     priority: 1
     conda:
         "../envs/disc_model.yaml"

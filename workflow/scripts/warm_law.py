@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import argparse
 
-from disc_model.parameters import RESIDUAL, Parameters
+from disc_model.parameters import Parameters
 from disc_model.stability.cycle import floquet
+from disc_model.studies.grids.schema import LAWS
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("law", help="as in disc_model.studies.grids.schema: compliant_normal, for example")
-    contact, force = parser.parse_args().law.split("_")
-    compliance = RESIDUAL if contact == "compliant" else 0.0
-    point = Parameters(N=385, Omega=15, contact_compliance=compliance, contact_force=force)
+    parser.add_argument("law", choices=LAWS)
+    point = Parameters(N=385, Omega=15, **LAWS[parser.parse_args().law])
     print(floquet(point).message or "kernels compiled and cached")
 
 

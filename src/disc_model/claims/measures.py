@@ -12,8 +12,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import FEWEST, Kind, Motion, irregularity, motion_of
+from disc_model.analysis.classify import FEWEST, Kind, Motion, irregularity, motion_of, stick_disappears
 from disc_model.analysis.poincare import distinct_points
+from disc_model.claims.cases import SEPARATED
 from disc_model.claims.model import STRETCH, CaseView, Finding, Missing, Range, finding, undecided
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.parameters import Parameters
@@ -28,8 +29,6 @@ BETWEEN = "the 0-1 test lies between regular and chaotic motion"
 """Why a motion that does not repeat may be neither quasi-periodic nor irregular."""
 SHOWN = 10.0
 """s; the longest stretch of which the paper shows a spectrum."""
-FREE = 1e-3
-"""Share of time in stick up to which a motion counts as one without: a stray stick is none."""
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 
 
@@ -100,7 +99,7 @@ def said_motion(case: CaseView, motion: Motion) -> str:
         return f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
     length = period_of(case, motion)
     apart = round(rate_of(case, "separation") * length)
-    releases = "1 release" if motion.period == 1 else f"{motion.period} releases"
+    releases = counted(motion.period, "release")
     after = f"{releases} = {apart} separations" if apart else releases
     seen = f"to {motion.closure:.0e} s, in the last {intervals.sum():.0f} s"
     return f"periodic: repeats after {after} = {length:.6g} s, {seen}"
@@ -138,11 +137,11 @@ def another_motion(*pairs: tuple[CaseView, CaseView]) -> str:
     pairs : a case from the published start, and the same parameters begun in a separated motion
     """
     said = [
-        f"at {case['N']:g} N, {case['Omega']:g} rad/s {_by_separations(other)}"
+        f"at {place(case['N'], case['Omega'])} {_by_separations(other)}"
         for case, other in pairs
-        if other.separates and phase_share(case, "stick") > FREE >= phase_share(other, "stick")
+        if other.separates and stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
     ]
-    start = "from the published start; begun in the separated motion of 385 N, 15.1 rad/s it does not stick: "
+    start = f"from the published start; begun in the separated motion of {place(**SEPARATED)} it does not stick: "
     return start + ", ".join(said) if said else ""
 
 
@@ -154,7 +153,17 @@ def _by_separations(case: CaseView) -> str:
     motion = motion_of(intervals)
     if not motion.period:
         return str(motion)
-    return f"it repeats after {motion.period} separation{'s' if motion.period > 1 else ''}"
+    return f"it repeats after {counted(motion.period, 'separation')}"
+
+
+def counted(count: int, name: str) -> str:
+    """So many of something."""
+    return f"{count} {name}{'s' if count != 1 else ''}"
+
+
+def place(N: float, Omega: float) -> str:
+    """Where in the plane of preload and speed."""
+    return f"{N:g} N, {Omega:g} rad/s"
 
 
 def joined(*remarks: str) -> str:

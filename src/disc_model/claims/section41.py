@@ -398,7 +398,7 @@ def bonded_always_sticks(cases: Cases, claim: Claim) -> Finding:
 def _least_stick(shares: xr.DataArray) -> str:
     """The least share of stick of some points, and where it is."""
     least = shares[int(np.argmin(shares.values))]
-    return f"{100 * least.item():.2g} % of the time or more, least at {least.N:g} N, {least.Omega:g} rad/s"
+    return f"{100 * least.item():.2g} % of the time or more, least at {measures.place(least.N, least.Omega)}"
 
 
 @claim(

@@ -142,7 +142,8 @@ def conclusion(title: str, text: str, *, rule: str, reason: str, bound: float) -
     bound=SLOW,
 )
 def onset(found: Evidence, said: Conclusion) -> Finding:
-    outcome, growth = _beside(found.grid("survival_outcome"), found.grid("survival_growth"))
+    points = found.grid("survival_outcome")
+    outcome, growth = _beside(points, found.grid("survival_growth"))
     if (outcome == "unknown").any():
         raise Missing("study survival_outcome has points that failed")
     apart = outcome == "separation"
@@ -152,16 +153,15 @@ def onset(found: Evidence, said: Conclusion) -> Finding:
         f"{int(apart.sum())} of {apart.size} points separate: {counts[0]} from an unstable cycle, {counts[1]} where "
         f"none is found, {counts[2]} from a stable one; {int((stable & ~apart).sum())} with a stable cycle do not"
     )
-    where = found.grid("survival_outcome")
-    early = [(float(where["N"][i]), float(where["Omega"][j])) for i, j in np.argwhere(apart & stable)]
+    early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
     if not all(_ends_soon(found, load, speed) for load, speed in early):
         return finding(ours, False)
     if not counts[0] or not stable.any():
         return undecided(ours, "separation and a stable cycle are not both there to compare")
-    places = ", ".join(f"{load:g} N, {speed:g} rad/s" for load, speed in early)
-    return finding(
-        ours, True, f"it separates shortly before the stable cycle ends at a fold, too: {places}" * bool(early)
-    )
+    if not early:
+        return finding(ours, True)
+    places = ", ".join(measures.place(*at) for at in early)
+    return finding(ours, True, f"it separates shortly before the stable cycle ends at a fold, too: {places}")
 
 
 SOON = 0.1
@@ -368,7 +368,7 @@ def inplane_damping(found: Evidence, said: Conclusion) -> Finding:
     higher = both & (damped > 0) & (damped > without + said.bound)
     ended = (without < -said.bound) & np.isin(status, ("no_cycle", "separates"))
     grows = [int((higher & place).sum()) for place in (large, ~large)]
-    ends = _counted(int((ended & large).sum()), "stable cycle")
+    ends = measures.counted(int((ended & large).sum()), "stable cycle")
     ours = (
         f"at {LARGE:g} N or more higher at {grows[0]} of {int((both & large).sum())} points, and {ends} ended; below, "
         f"higher at {grows[1]} of {int((both & ~large).sum())}"
@@ -418,17 +418,13 @@ def _repeats(case: CaseView, tolerance: float) -> tuple[Kind, str]:
             motion = motion_of(intervals, tolerance)
             if motion.period:
                 length = float(intervals[: motion.period].sum())
-                return motion.kind, f"repeats after {_counted(motion.period, name)} = {length:.4g} s"
+                return motion.kind, f"repeats after {measures.counted(motion.period, name)} = {length:.4g} s"
             return motion.kind, f"{motion.kind} by its {name}s"
     return Kind.UNDECIDED, "too few switches"
 
 
-def _counted(count: int, name: str) -> str:
-    return f"{count} {name}{'s' if count != 1 else ''}"
-
-
 def _place(case: CaseView) -> str:
-    return f"{case['N']:g} N, {case['Omega']:g} rad/s"
+    return measures.place(case["N"], case["Omega"])
 
 
 def _listed(values: Array, digits: int) -> str:

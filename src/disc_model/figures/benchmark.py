@@ -20,12 +20,11 @@ from matplotlib.colors import BoundaryNorm, Colormap, ListedColormap, LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
-from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 from disc_model.data.variables import said_values
 from disc_model.figures import parts
-from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, new_figure, styled
+from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, new_figure, styled
 
 TITLES = {
     "stick_slip": "Stick-slip, first second",
@@ -42,7 +41,7 @@ WORDS = {
     "not_run": "not run",
 }
 """What verdicts are called, by number."""
-_HALO = [withStroke(linewidth=1.5, foreground="white")]
+_HALO = halo()
 SHADES = ("#08519C", "#9ECAE1", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
 ANSWER_SHADES = ("#08519C", "#B2182B", "#D9D9D9")
 ANSWER_WORDS = ("right", "wrong, without a warning", "no answer")

@@ -15,6 +15,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -173,6 +174,11 @@ def axis_of(name: str) -> tuple[str, float]:
     """Label of a parameter's axis, and the factor from SI to its unit."""
     label, unit, factor = SYMBOLS[name]
     return (f"{label} ({unit})" if unit else label), factor
+
+
+def halo(width: float = 1.5) -> list[AbstractPathEffect]:
+    """A white edge of text that lies over lines or colours; width in points."""
+    return [withStroke(linewidth=width, foreground="white")]
 
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:

@@ -22,7 +22,7 @@ SWITCHES = {"stick": "at release of stick", "separation": "at loss of contact"}
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
 """Colours of the exponents, the largest first: none that of a phase."""
 ERRORS = 4
-"""Standard errors in half of the band about an exponent."""
+"""Of an exponent, in half of the band about it."""
 
 
 @styled()

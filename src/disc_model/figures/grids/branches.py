@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
+
+from disc_model.figures import parts
 
 LARGE = 0.02
 """Share of a map's points from which on a branch is named."""
@@ -54,6 +55,6 @@ def name_branches(ax: Axes, x: Array, y: Array, labels: NDArray[np.int64]) -> bo
     for name, row, column in found:
         ax.text(
             x[column], y[row], name, ha="center", va="center", fontsize=8, fontweight="bold", zorder=4,
-            path_effects=[withStroke(linewidth=2.0, foreground="white")],
+            path_effects=parts.halo(2.0),
         )  # fmt: skip
     return bool(found)

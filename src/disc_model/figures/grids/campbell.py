@@ -11,7 +11,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
@@ -127,7 +126,7 @@ def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
 # ----------------------------------------------------------------------------------------------------
 # Panels
 
-_HALO = [withStroke(linewidth=1.5, foreground="white")]
+_HALO = parts.halo()
 _TURN = r"$f_\Omega$"
 
 

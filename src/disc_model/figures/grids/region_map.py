@@ -13,7 +13,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
@@ -141,7 +140,7 @@ def _marks(ax: Axes, plot: RegionMap) -> None:
             va="center",
             fontsize=7,
             zorder=5,
-            path_effects=[withStroke(linewidth=2.0, foreground="white")],
+            path_effects=parts.halo(2.0),
             annotation_clip=False,
         )
 

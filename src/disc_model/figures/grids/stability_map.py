@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
+from disc_model.figures.grids.cells import OUTCOMES as FILLED
 from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
 from disc_model.figures.grids.kinds import StabilityMap
 from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure, styled
@@ -33,10 +34,10 @@ class Look(NamedTuple):
 
 
 OUTCOMES = {
-    "stable": Look("stays quiet", "o", "white", 9),
-    "unstable": Look("grows, no separation", "^", "#9a9a9a", 13),
-    "separation": Look("separation", "s", BLACK, 10),
-    "unknown": Look("failed", "x", BLACK, 12),
+    "stable": Look(FILLED["stable"].label, "o", "white", 9),
+    "unstable": Look(FILLED["unstable"].label, "^", "#9a9a9a", 13),
+    "separation": Look(FILLED["separation"].label, "s", BLACK, 10),
+    "unknown": Look(FILLED["unknown"].label, "x", BLACK, 12),
 }
 LARGE = 55.0
 """Size of their marks."""

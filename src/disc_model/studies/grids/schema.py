@@ -24,7 +24,7 @@ from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
-from disc_model.parameters import AUTO, Count, Parameters, Strict, is_number, leaves_modes
+from disc_model.parameters import AUTO, RESIDUAL, Count, Parameters, Strict, is_number, leaves_modes
 from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
 from disc_model.studies.files import (
     Faults,
@@ -212,11 +212,22 @@ class _Header(Strict):
     figures: dict[Name, Any] = Field({})
 
 
-LAWS = ("rigid_vertical", "rigid_normal", "compliant_vertical", "compliant_normal")
-"""Laws of contact, the paper's first."""
+LAWS: dict[str, dict[str, Any]] = {
+    "rigid_vertical": {},
+    "rigid_normal": {"contact_force": "normal"},
+    "compliant_vertical": {"contact_compliance": RESIDUAL},
+    "compliant_normal": {"contact_compliance": RESIDUAL, "contact_force": "normal"},
+}
+"""Laws of contact, the paper's first, each with what makes a case one of it."""
 _OF_LAW: dict[str, Any] = {
     name: Parameters.model_fields[name].default for name in ("contact_compliance", "contact_force")
 }
+
+
+def _kind_of_law(values: Mapping[str, Any]) -> tuple[bool, str]:
+    """Whether the contact has a compliance, and the direction of its force."""
+    compliance, force = ((_OF_LAW | dict(values))[name] for name in _OF_LAW)
+    return bool(compliance), force
 
 
 @dataclass(frozen=True)
@@ -262,11 +273,8 @@ class GridStudy:
             {tuple(item for item in zip(dim.names, value, strict=True) if item[0] in _OF_LAW) for value in dim.values}
             for dim in self.dims
         ]
-        found = set()
-        for chosen in product(*taken):
-            compliance, force = ({**_OF_LAW, **self.base, **dict(chain(*chosen))}[name] for name in _OF_LAW)
-            found.add(f"{'compliant' if compliance else 'rigid'}_{force}")
-        return [law for law in LAWS if law in found]
+        found = {_kind_of_law({**self.base, **dict(chain(*chosen))}) for chosen in product(*taken)}
+        return [law for law, case in LAWS.items() if _kind_of_law(case) in found]
 
     @property
     def n_points(self) -> int:
