@@ -7,6 +7,7 @@ import pytest
 
 from disc_model import Parameters, simulate
 from disc_model.stability.return_map import RETURNED, Flight, ReturnMap, _solve, newton
+from tests.contact_laws import COMPILES
 from tests.engine.test_variational import check_derivatives, differences
 from tests.references.printed import Printed
 
@@ -120,3 +121,10 @@ def test_derivatives_by_parameters_agree_with_central_differences(where):
     else:
         map_, x = after_separation(Parameters(N=385, Omega=15.1, c=0.01, c_p=0.01), 60.0)
     check_derivatives(map_, x, lambda name: 1e-2 if name in ("c", "c_p") else 1e-4)
+
+
+@pytest.mark.parametrize("compliance", [pytest.param(given, marks=COMPILES) for given in (2e-7, "residual")])
+def test_derivatives_by_parameters_on_a_compliant_contact(compliance):
+    """E softens the disc and the residual flexibility with it, but not a compliance that is given."""
+    map_ = ReturnMap(DAMPED.replace(n_diameters=1, contact_compliance=compliance))
+    check_derivatives(map_, map_.static, lambda name: 1e-2 if name in ("c", "c_p", "D_star") else 1e-6)

@@ -11,6 +11,7 @@ from disc_model import Parameters, plate_modes, steady_sliding
 from disc_model.engine import outcomes
 from disc_model.simulation.result import State
 from disc_model.stability.sliding import SlidingStatus
+from tests.contact_laws import COMPILES, LAWS
 from tests.engine.full_system import Full
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
@@ -44,6 +45,12 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     assert steady_sliding(p).status is SlidingStatus.OK
     # roundings of a flight over 1e-3 s
     check_against_flow(p, 1e-10)
+
+
+@pytest.mark.parametrize("law", [pytest.param(law, marks=COMPILES) for law in LAWS])
+def test_steady_sliding_under_every_law_of_contact(law):
+    """Two nodal diameters, and damping that counts beside l Omega and omega."""
+    check_against_flow(P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **LAWS[law]), 1e-10)
 
 
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])

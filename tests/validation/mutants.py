@@ -77,6 +77,9 @@ EQUIVALENT: dict[str, str] = {
     "engine/stick_modes.py:_compliant_eigenmodes: + k -> -": "the scale of u is free",
     "engine/stick_modes.py:_compliant_eigenmodes: 1.0 -> 2.0": "the scale of u is free",
     "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
+    "stability/sliding.py:_jacobian: + p.m * weight * (2 * l * beta - 2 * l ** 2 * p.Omega * a) -> -": (
+        "zero at the equilibrium, where beta = l Omega a"
+    ),
     "engine/stick_modes.py:_decomposed: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
 }
 

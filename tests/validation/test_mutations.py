@@ -59,6 +59,7 @@ NOTICED_BY = {
     "engine/tangent.py": DERIVATIVES,
     "engine/variational.py": DERIVATIVES,
     "stability/return_map.py": ("tests/stability/test_return_map.py", *DERIVATIVES),
+    "stability/sliding.py": ("tests/stability/test_sliding.py",),
     "benchmarks/methods/phases.py": METHODS,
     "benchmarks/methods/kernels.py": METHODS,
     "benchmarks/methods/taylor_heyoka.py": METHODS,

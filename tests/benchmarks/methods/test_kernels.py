@@ -85,6 +85,12 @@ def test_at_rest_the_spring_decides():
     assert switched(start.replace(psi=1.0), 2)[0] == ("slip", 1, [kernels.SLIP_REVERSAL])
 
 
+@pytest.mark.parametrize("direction", [1, -1])
+def test_after_an_impact_slip_goes_on_as_the_slider_did(direction):
+    falling = lively("separation").replace(u_velocity=-1.0, f=30.0 * direction)
+    assert switched(falling, 1)[0] == ("slip", direction, [kernels.REATTACHMENT])
+
+
 def test_contact_that_would_pull_is_lost_at_once():
     """At rest, where stick breaks, and after an impact."""
     shape = Physics(P).shape
