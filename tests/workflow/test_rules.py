@@ -8,11 +8,13 @@ from pathlib import Path
 import pytest
 import yaml
 
-from disc_model.data.provenance import source_files
+from disc_model.benchmarks.register import RIVALS
+from disc_model.data.provenance import PACKAGE, source_files
 from tests.workflow.conftest import ROOT, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 SCRIPTS = ROOT / "workflow" / "scripts"
+METHODS = "disc_model.benchmarks.methods"
 ALONE = {
     "measure_work_precision",
     "measure_answers",
@@ -59,6 +61,17 @@ def test_scripts_import_modules_and_not_the_packages_names() -> None:
             )
 
 
+def test_what_runs_a_rival_is_run_again_when_the_rival_changes() -> None:
+    """The register gives their modules as text, which following the imports of a script does not see."""
+    methods = PACKAGE / "benchmarks" / "methods"
+    named = [f"{METHODS}.{rival.place.partition(':')[0]}" for rival in RIVALS]
+    unseen = set(methods.glob("*.py")) - set(source_files(METHODS, *named))
+    assert not unseen
+    runs = {name for name in ALONE if methods / "__init__.py" in source_files(SCRIPTS / f"{name}.py")}
+    assert runs - {"merge_answers"} == {name for name, text in rules().items() if "*METHODS" in text}
+    assert len(runs) == len(ALONE)
+
+
 def test_jobs_that_use_kernels_find_them_compiled(tmp_path: Path) -> None:
     """The table of claims was once made while other jobs compiled, and compiled as well."""
     project = copy_repository(tmp_path)
@@ -66,7 +79,10 @@ def test_jobs_that_use_kernels_find_them_compiled(tmp_path: Path) -> None:
     other.mkdir(parents=True)
     (other / "cases.nc").touch()
     waits = {}
-    for target, config in (("all", "config/test.yaml"), ("results/paper/normalisation.html", None)):
+    for target, config in (
+        ("all", "config/test.yaml"),
+        ("results/paper/normalisation.html", None),
+    ):
         said = project.complete("-n", "-F", target, config=config)
         found = re.findall(r"^(?:local)?rule (\w+):\n +input: (.*)", said, re.MULTILINE)
         waits |= {rule: "results/compiled/" in files for rule, files in found}

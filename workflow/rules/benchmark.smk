@@ -32,6 +32,10 @@ BENCH_INPUTS = {
     "contact_truncation": f"{BENCH}/contact_truncation.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
 }
+# Methods are loaded by the names that the register gives, which following imports does not see.
+METHODS = sorted(
+    {f"disc_model.benchmarks.methods.{rival.place.partition(':')[0]}" for rival in RIVALS}
+)
 BENCH_DATA = [
     PACKAGE / "benchmarks" / "data" / name
     for name in ("benchmark_reference.json", "separating_start.json", "answers.json")
@@ -63,7 +67,7 @@ rule measure_work_precision:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("measure_work_precision", files=BENCH_DATA),
+        sources=sources_of("measure_work_precision", *METHODS, files=BENCH_DATA),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_work_precision.py {output.nc}"
         " --csv {output.csv} --md {output.md} > {log} 2>&1"
@@ -80,7 +84,7 @@ rule measure_answers:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("measure_answers", files=BENCH_DATA),
+        sources=sources_of("measure_answers", *METHODS, files=BENCH_DATA),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_answers.py {wildcards.part} {output}"
         " > {log} 2>&1"
@@ -114,7 +118,7 @@ rule map_failures:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("map_failures", files=BENCH_DATA),
+        sources=sources_of("map_failures", *METHODS, files=BENCH_DATA),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_failures.py {wildcards.method}"
         " {wildcards.scene} {output} > {log} 2>&1"
@@ -131,7 +135,7 @@ rule map_answers:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("map_answers", files=BENCH_DATA),
+        sources=sources_of("map_answers", *METHODS, files=BENCH_DATA),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_answers.py {wildcards.method} {output}"
         " > {log} 2>&1"
@@ -148,7 +152,7 @@ rule study_truncation:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("study_truncation"),
+        sources=sources_of("study_truncation", *METHODS),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/study_truncation.py"
         " {wildcards.truncation} {output} > {log} 2>&1"
