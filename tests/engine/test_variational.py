@@ -51,7 +51,7 @@ def test_jacobian_of_a_flight(flight: str) -> None:
     how, h = {"may_separate": True}, 1e-6 * np.linalg.norm(x)
     log, _, jacobian, _ = map_.evaluate(x, **how)
     assert log.outcome == outcomes.RETURNED
-    assert (log.separations, log.reversals, log.backward_releases) == FLIGHTS[flight][3]
+    assert (log.counts.separations, log.counts.reversals, log.counts.backward_releases) == FLIGHTS[flight][3]
     # three directions that mix all coordinates: a wrong entry of the matrix shows in each
     for direction in np.random.default_rng(0).normal(size=(3, map_.size)) / np.sqrt(map_.size):
         expected = differences(lambda s, d=direction: map_.evaluate(x + s * d, tangent=False, **how)[1], h)

@@ -53,7 +53,7 @@ def test_jacobian_of_a_flight(law: str, flight: str) -> None:
     how = {"may_separate": True}
     log, _, jacobian, _ = map_.evaluate(x, **how)
     assert log.outcome == outcomes.RETURNED
-    assert (log.separations > 0) == ("separation" in flight)
+    assert (log.counts.separations > 0) == ("separation" in flight)
     for direction in np.random.default_rng(0).normal(size=(2, map_.size)) / np.sqrt(map_.size):
         direction[len(map_.diameters) :] *= 1e-2
         expected = differences(lambda s, d=direction: map_.evaluate(x + s * d, tangent=False, **how)[1], step(map_, x))

@@ -14,7 +14,7 @@ from disc_model.stability import continuation
 from disc_model.stability import cycle as cycle_module
 from disc_model.stability.branch import CycleProblem, Lost
 from disc_model.stability.continuation import (
-    _correct_on_curve,
+    _next_on_border,
     _OnCurve,
     _Ways,
     continue_cycle,
@@ -116,7 +116,7 @@ def test_a_corrector_without_gradient_is_lost(monkeypatch):
     ways = _Ways(along, np.zeros(5), np.zeros(5, complex))
     monkeypatch.setattr(continuation, "_ways", lambda *_: ways)
     with pytest.raises(Lost, match="its matrix is singular"):
-        _correct_on_curve(problem, _OnCurve(point, along, 1j, ways), 1e-3, lambda _, former: (1e-3, former))
+        _next_on_border(problem, lambda _, former: (1e-3, former), _OnCurve(point, along, 1j, ways), 1e-3)
 
 
 def test_the_neutral_curve_is_the_ellipse():
@@ -202,7 +202,8 @@ def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatc
     class Separating(ToyMap):
         def evaluate(self, x, **how):
             flight, *rest = super().evaluate(x, **how)
-            return replace(flight, separations=1 + (self.parameters.Omega > 15.5)), *rest
+            counts = flight.counts._replace(separations=1 + (self.parameters.Omega > 15.5))
+            return replace(flight, counts=counts), *rest
 
         def next_release(self, near):
             return RETURNED, near.a

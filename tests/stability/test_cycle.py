@@ -22,7 +22,7 @@ from disc_model.stability.cycle import (
     growth_rate,
     kind_of,
 )
-from disc_model.stability.return_map import Flight, ReturnMap
+from disc_model.stability.return_map import Counts, Flight, ReturnMap
 from tests.engine.full_system import Full
 from tests.references.divergence import divergence
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
@@ -194,7 +194,7 @@ ENDS = [
 @pytest.mark.parametrize(("outcome", "status", "words"), ENDS)
 def test_what_the_transient_did_is_reported(monkeypatch, outcome, status, words):
     code = next(code for code, name in return_map_module.OUTCOMES.items() if name == outcome)
-    flight = Flight(code, 1.0, 0.0, 1.0, 0.0, 0, 0, 0, 0, 0)
+    flight = Flight(code, 1.0, 0.0, 1.0, 0.0, Counts(0, 0, 0, 0, 0))
 
     def evaluate(self, x, **_):
         return flight, x, np.eye(self.size), np.zeros((self.size, 0))

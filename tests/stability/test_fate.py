@@ -107,7 +107,7 @@ def test_a_start_far_from_a_cycle_follows_it_once_it_has_come_near() -> None:
     assert 1 < near.waited < 20
     # the distance is the one that is left by then
     count = round(near.waited / near.cycle.period)
-    _, later = near.map.iterate(at, count)
+    *_, later = near.map.returns(at, count)
     assert np.linalg.norm(later - near.x - near.distance) < 1e-6 * np.linalg.norm(at)
 
 

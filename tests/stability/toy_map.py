@@ -20,7 +20,7 @@ import pytest
 from disc_model.parameters import Parameters
 from disc_model.stability import branch
 from disc_model.stability import cycle as floquet
-from disc_model.stability.return_map import Flight
+from disc_model.stability.return_map import Counts, Flight
 
 PERIOD, ANGLE = 0.015, 1.2
 ROTATION = np.array([[math.cos(ANGLE), -math.sin(ANGLE)], [math.sin(ANGLE), math.cos(ANGLE)]])
@@ -67,7 +67,7 @@ class ToyMap:
     def evaluate(self, x, *, releases=1, tangent=True, may_separate=False, coarse=False):
         Omega, N = self.parameters.Omega, self.parameters.N
         returned, lost = (
-            Flight(code, PERIOD, 0.3 * PERIOD, 0.7 * PERIOD, 0.0, 1, 0, 0, 0, 1) for code in (RETURNED, LOST)
+            Flight(code, PERIOD, 0.3 * PERIOD, 0.7 * PERIOD, 0.0, Counts(1, 0, 0, 0, 1)) for code in (RETURNED, LOST)
         )
         end, jacobian = np.asarray(x, float), np.eye(3)
         for _ in range(releases):
@@ -89,11 +89,6 @@ class ToyMap:
 
     def point(self, state):
         return np.array(state)
-
-    def iterate(self, x, times, releases=1):
-        for _ in range(times):
-            flight, x, _, _ = self.evaluate(x, releases=releases)
-        return flight, x
 
 
 @pytest.fixture

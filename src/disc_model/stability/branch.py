@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -19,12 +18,13 @@ from numpy.typing import NDArray
 from disc_model.errors import ParameterError, broken, refuse
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
-from disc_model.stability.cycle import FloquetResult, find_cycle, find_cycle_near
+from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
     OUTCOMES,
     PARAMETERS,
     PATIENT,
     RETURNED,
+    Counts,
     Flight,
     ReturnMap,
     kind_of,
@@ -60,29 +60,10 @@ class CyclePoint:
     jacobian: Array
 
 
-class Order(NamedTuple):
-    """How often each switch occurs in a period of a cycle that may separate."""
-
-    releases: int
-    backward_releases: int
-    reversals: int
-    separations: int
-    sticks: int
-
-    @classmethod
-    def of(cls, flight: Flight | FloquetResult) -> Order:
-        return cls(*(getattr(flight, name) for name in cls._fields))
-
-    def changes_to(self, other: Order) -> str:
-        """The counts that differ, in words."""
-        counts = zip(self._fields, self, other, strict=True)
-        return ", ".join(f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)
-
-
 class CycleProblem:
     """F(x, q) in scaled unknowns z = (x / size, q / scales).
 
-    With an `order` cycles may lose contact, and are those with that order of switches: beyond it the map has a corner.
+    With an `order` cycles may lose contact, and are those that switch so often: beyond them the map has a corner.
     """
 
     def __init__(
@@ -91,7 +72,7 @@ class CycleProblem:
         names: tuple[str, ...],
         scales: Mapping[str, float] | None,
         tol: float,
-        order: Order | None = None,
+        order: Counts | None = None,
     ) -> None:
         self.base, self.names, self.tol, self.order = p, names, tol, order
         self._reference = reference = ReturnMap(p, tol)
@@ -128,8 +109,10 @@ class CycleProblem:
         flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=self.order is not None)
         if flight.outcome != RETURNED:
             raise Lost(f"the motion does not return: {OUTCOMES[flight.outcome]}")
-        if self.order and (found := Order.of(flight)) != self.order:
-            raise Lost(f"{REORDERED}: {self.order.changes_to(found)}")
+        if self.order and flight.counts != self.order:
+            counts = zip(Counts._fields, self.order, flight.counts, strict=True)
+            changes = (f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)
+            raise Lost(f"{REORDERED}: {', '.join(changes)}")
         # into the reference's coordinates: they differ where E is free
         turn = self.scale / map_.scale
         jacobian = jacobian * turn[:, None] / turn[None, :]
@@ -186,7 +169,6 @@ def default_scale(p: Parameters, name: str) -> float:
 # The walk
 
 ComplexArray = NDArray[np.complex128]
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,28 +217,11 @@ def check(p: object, names: tuple[str, ...], count: int, more: Sequence[str] = (
     refuse([*wrong, *more])
 
 
-def starting_point(problem: CycleProblem, start: Array | None) -> CyclePoint:
-    """The cycle that Newton's method finds from ``start``; raises `ParameterError` if there is none to follow."""
-    cycle = find_cycle(problem.base, problem.tol, start)
-    if cycle.releases > 1:
-        raise ParameterError("p: must have a cycle with a single release to start from")
-    return _first_point(problem, cycle, "p: must have a cycle to start from")
-
-
-def starting_point_near(
-    p: Parameters, name: str, scale: float | None, tol: float, near: State, releases: int
-) -> tuple[CycleProblem, CyclePoint]:
-    """The problem of following a cycle that may separate, in one parameter, and the cycle near a state.
-
-    Raises `ParameterError` if there is none.
-    """
-    cycle = find_cycle_near(p, near, releases, tol)
-    problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol, Order.of(cycle))
-    return problem, _first_point(problem, cycle, "near: must lie near a cycle that can be followed")
-
-
-def _first_point(problem: CycleProblem, cycle: FloquetResult, rule: str) -> CyclePoint:
+def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
     """A cycle as a point of the curve; raises `ParameterError` if there is none that can be followed."""
+    rule = "near: must lie near a cycle that can be followed" if problem.order else "p: must have a cycle to start from"
+    if cycle.releases > 1 and not problem.order:
+        raise ParameterError("p: must have a cycle with a single release to start from")
     if cycle.state is None:
         raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
     try:
@@ -294,9 +259,9 @@ AnyPlace = TypeVar("AnyPlace", bound=Place)
 
 
 class Stride(NamedTuple):
-    """Arclengths of the first step, the longest and the shortest.
+    """Arclengths of the first step, the longest and the shortest; and cosines of the tangent's turn in a step.
 
-    A step grows by `growth` where the cosine of the tangent's turn in it is above `easy`.
+    A step grows by `growth` where the cosine is above `easy`; where it is below `sharpest`, a shorter one is taken.
     """
 
     first: float
@@ -304,6 +269,7 @@ class Stride(NamedTuple):
     shortest: float
     growth: float
     easy: float
+    sharpest: float
 
 
 def walk(
@@ -319,7 +285,7 @@ def walk(
 
     Parameters
     ----------
-    take : the next place at an arclength; raises `Lost` where a shorter step may do
+    take : the next place at an arclength, its tangent either way; raises `Lost` where a shorter step may do
     meet : is told of each step's two ends; raises `Lost` where the curve has to end at the first
     leaves : why the curve ends at the last of the places, given also the last step's arclength; "" if it goes on
     """
@@ -327,7 +293,7 @@ def walk(
     while len(places) < max_points:
         here = places[-1]
         try:
-            new, ds = shortened(partial(take, here), ds, stride.shortest)
+            new, ds = _step(take, here, ds, stride)
             meet(here, new)
         except Lost as lost:
             return places, str(lost)
@@ -339,12 +305,18 @@ def walk(
     return places, "the number of points allowed is reached"
 
 
-def shortened(take: Callable[[float], T], ds: float, shortest: float) -> tuple[T, float]:
-    """What ``take`` finds at arclength ``ds``, halved as often as it is lost; raises Lost below ``shortest``."""
+def _step(
+    take: Callable[[AnyPlace, float], AnyPlace], here: AnyPlace, ds: float, stride: Stride
+) -> tuple[AnyPlace, float]:
+    """The next place at arclength ``ds``, halved as often as it is lost, and that arclength."""
     while True:
         try:
-            return take(ds), ds
+            new = take(here, ds)
+            cosine = float(new.tangent @ here.tangent)
+            if abs(cosine) < stride.sharpest:
+                raise Lost("the curve bends too sharply")
+            return (new if cosine > 0 else replace(new, tangent=-new.tangent)), ds
         except Lost:
             ds /= 2
-            if ds < shortest:
+            if ds < stride.shortest:
                 raise

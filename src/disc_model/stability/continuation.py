@@ -30,12 +30,11 @@ from disc_model.stability.branch import (
     check,
     newton_step,
     starting_point,
-    starting_point_near,
     walk,
 )
-from disc_model.stability.cycle import faults_near
+from disc_model.stability.cycle import faults_near, find_cycle, find_cycle_near
 from disc_model.stability.grazing import grazing
-from disc_model.stability.return_map import multipliers
+from disc_model.stability.return_map import Counts, multipliers
 
 # ----------------------------------------------------------------------------------------------------
 # One parameter
@@ -87,11 +86,10 @@ def continue_cycle(
     """
     beside = broken((near is None or start is None, "start", start, "must not be given beside near"))
     check(p, (name,), 1, [*faults_near(near, releases), *beside])
-    if near is None:
-        problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol)
-        point = starting_point(problem, start)
-    else:
-        problem, point = starting_point_near(p, name, scale, tol, near, releases)
+    cycle = find_cycle(p, tol, start) if near is None else find_cycle_near(p, near, releases, tol)
+    order = None if near is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
+    problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol, order)
+    point = starting_point(problem, cycle)
     tangent = problem.tangents(point)[0]
     tangent *= direction * (1.0 if tangent[-1] >= 0 else -1.0)
     low, high = (bound / problem.scales[0] for bound in bounds)
@@ -108,7 +106,7 @@ def continue_cycle(
     def leaves(places: list[Place], ds: float) -> str:
         return "" if low <= places[-1].point.z[-1] <= high else f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
 
-    stride = Stride(step, longest, shortest, growth=1.5, easy=0.99)
+    stride = Stride(step, longest, shortest, growth=1.5, easy=0.99, sharpest=0.9)
     places, ended = walk(Place(point, tangent), partial(_next, problem), stride, max_points, meet=meet, leaves=leaves)
     if ended.startswith(REORDERED):
         last = places[-1].point
@@ -120,11 +118,7 @@ def _next(problem: CycleProblem, here: Place, ds: float) -> Place:
     """The place at arclength ds along the tangent."""
     tangent = here.tangent
     new = problem.correct(here.point.z + ds * tangent, tangent[None, :], np.array([tangent @ here.point.z + ds]))
-    turned = problem.tangents(new)[0]
-    turned *= 1.0 if turned @ tangent > 0 else -1.0
-    if turned @ tangent < 0.9:
-        raise Lost("the curve bends too sharply")
-    return Place(new, turned)
+    return Place(new, problem.tangents(new)[0])
 
 
 def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, tangent: Array) -> float:
@@ -230,7 +224,7 @@ def _continue_on_surface(
     names = tuple(names)  # type: ignore[assignment]
     check(p, names, 2)
     problem = CycleProblem(p, names, scales, tol)
-    point = starting_point(problem, start)
+    point = starting_point(problem, find_cycle(p, tol, start))
     mu = former if former is not None else complex(multipliers(point.jacobian)[0])
     try:
         point, mu = _reach(problem, point, test, mu)
@@ -249,21 +243,10 @@ def _continue_on_surface(
             return "the curve is closed"
         return ""
 
-    stride = Stride(step, longest, shortest, growth=1.4, easy=0.98)
-    first = _OnCurve(point, tangent, mu, ways)
-    places, ended = walk(
-        first, partial(_next_on_border, problem, test), stride, max_points, meet=lambda *_: None, leaves=leaves
-    )
+    stride = Stride(step, longest, shortest, growth=1.4, easy=0.98, sharpest=0.8)
+    first, take = _OnCurve(point, tangent, mu, ways), partial(_next_on_border, problem, test)
+    places, ended = walk(first, take, stride, max_points, meet=lambda *_: None, leaves=leaves)
     return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), ended)
-
-
-def _next_on_border(problem: CycleProblem, test: Test, here: _OnCurve, ds: float) -> _OnCurve:
-    """The curve's place at arclength ds along the tangent."""
-    new, mu, ways = _correct_on_curve(problem, here, ds, test)
-    turned = ways.along if ways.along @ here.tangent > 0 else -ways.along
-    if turned @ here.tangent < 0.8:
-        raise Lost("the curve bends too sharply")
-    return _OnCurve(new, turned, mu, ways)
 
 
 _DIFFERENCE = 1e-4
@@ -334,10 +317,8 @@ def _reach(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) ->
     raise Lost("no point of the curve was found near the first cycle")
 
 
-def _correct_on_curve(
-    problem: CycleProblem, here: _OnCurve, ds: float, test: Test
-) -> tuple[CyclePoint, complex, _Ways]:
-    """The curve's point at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
+def _next_on_border(problem: CycleProblem, test: Test, here: _OnCurve, ds: float) -> _OnCurve:
+    """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
     expected = here.ways.predicted(here.mu, ds * here.tangent)
     if abs(expected - here.mu) > 2 * LARGEST_TURN:
         raise Lost("the multiplier turns too fast")
@@ -351,7 +332,8 @@ def _correct_on_curve(
         right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
         error = float(np.linalg.norm(right))
         if error < 1e-10:
-            return point, found, _ways(problem, point, test, found)
+            ways = _ways(problem, point, test, found)
+            return _OnCurve(point, ways.along, found, ways)
         if error > 0.9 * last:
             break
         last = error

@@ -21,6 +21,7 @@ from disc_model.stability.return_map import (
     OUTCOMES,
     PATIENT,
     RETURNED,
+    Counts,
     FixedPoint,
     Flight,
     ReturnMap,
@@ -45,7 +46,7 @@ has to be, since others act at first."""
 SLOWEST = 60.0
 """Time that this may take, s: of a slower approach nothing is said."""
 SAME_POINT = 1e-8
-"""Points of the section nearer than this, relative, are one."""
+"""A motion so near to its cycle, relative, is on it."""
 
 
 class CycleStatus(StatusBase):
@@ -199,15 +200,16 @@ def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-1
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol, patience=PATIENT)
     outcome, x = map_.next_release(near)
-    if outcome == RETURNED:
-        found = newton(map_, x, tol=tol, releases=releases, may_separate=True)
-        if found is not None:
-            return cycle_of(map_, tol, found)
-        return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle of {releases} releases near the given state")
     if OUTCOMES[outcome] == "time_over":
         waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
         return _none(p, tol, CycleStatus.NO_STICK_SLIP, waited)
-    return _none(p, tol, CycleStatus.NO_CYCLE, f"the motion from the given state does not return: {OUTCOMES[outcome]}")
+    if outcome != RETURNED:
+        ended = f"the motion from the given state does not return: {OUTCOMES[outcome]}"
+        return _none(p, tol, CycleStatus.NO_CYCLE, ended)
+    found = newton(map_, x, tol=tol, releases=releases, may_separate=True)
+    if found is None:
+        return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle of {releases} releases near the given state")
+    return cycle_of(map_, tol, found)
 
 
 def cycle_neared(p: Parameters, state: State, releases: int) -> FloquetResult | None:
@@ -231,18 +233,17 @@ def cycle_neared(p: Parameters, state: State, releases: int) -> FloquetResult | 
     flight, later, _, _ = map_.evaluate(x, releases=periods * releases, tangent=False, may_separate=True)
     left, size = (float(np.linalg.norm(at - found.x)) for at in (later, np.zeros_like(x)))
     nearer = left <= max(float(np.linalg.norm(x - found.x)) / NEARER, SAME_POINT * size)
-    return _shortest(map_, tol, found) if flight.outcome == RETURNED and nearer else None
+    return cycle_of(map_, tol, _once(map_, tol, found)) if flight.outcome == RETURNED and nearer else None
 
 
-def _shortest(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
-    """A cycle that may have been run through several times, run through once."""
-    size = float(np.linalg.norm(found.x))
-    for releases in (n for n in range(1, found.flight.releases) if found.flight.releases % n == 0):
-        flight, end, jacobian, _ = map_.evaluate(found.x, releases=releases, may_separate=True)
-        residual = float(np.linalg.norm(end - found.x))
-        if flight.outcome == RETURNED and residual <= SAME_POINT * size:
-            return cycle_of(map_, tol, FixedPoint(found.x, flight, jacobian, residual))
-    return cycle_of(map_, tol, found)
+def _once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
+    """A cycle run through several times, as one that is run through once if it is that."""
+    times = found.flight.counts.releases
+    for releases in (n for n in range(1, times) if times % n == 0):
+        once = newton(map_, found.x, tol=tol, releases=releases, may_separate=found.flight.counts.separations > 0)
+        if once is not None and np.allclose(once.x, found.x, rtol=0, atol=1e-7 * np.linalg.norm(once.x)):
+            return once
+    return found
 
 
 def may_stick_and_slip(p: Parameters) -> bool:
@@ -260,15 +261,21 @@ def _degenerate(p: Parameters, tol: float) -> FloquetResult:
 
 def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
     """Look again from where a simulated transient has come to; else report what the motion does."""
-    p = map_.parameters
-    flight, end = map_.iterate(map_.static, TRANSIENT)
-    if flight.outcome == RETURNED:
-        for releases in RETURNS_TRIED:
-            found = newton(map_, end, tol=tol, releases=releases)
-            if found is not None:
-                return cycle_of(map_, tol, _once(map_, tol, found) if releases > 1 else found)
-        tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
-        return _none(p, tol, CycleStatus.NO_CYCLE, tried)
+    p, x = map_.parameters, map_.static
+    for _ in range(TRANSIENT):
+        flight, x, _, _ = map_.evaluate(x, tangent=False)
+        if flight.outcome != RETURNED:
+            return _none(p, tol, *_said(flight))
+    for releases in RETURNS_TRIED:
+        found = newton(map_, x, tol=tol, releases=releases)
+        if found is not None:
+            return cycle_of(map_, tol, _once(map_, tol, found))
+    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
+    return _none(p, tol, CycleStatus.NO_CYCLE, tried)
+
+
+def _said(flight: Flight) -> tuple[CycleStatus, str]:
+    """What a flight of the transient is called that did not return."""
     lost = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the published start")
     slips = f"the slider slips on for {flight.period:.3g} s without sticking"
     said = {
@@ -279,25 +286,17 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
         "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
         "paradox": (CycleStatus.PARADOX, "the motion from the published start runs into Painleve's paradox"),
     }
-    return _none(p, tol, *said[OUTCOMES[flight.outcome]])
+    return said[OUTCOMES[flight.outcome]]
 
 
-def _once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
-    """A cycle run through several times, as one that is run through once if it is that."""
-    once = newton(map_, found.x, tol=tol)
-    if once is not None and np.allclose(once.x, found.x, rtol=0, atol=1e-7 * np.linalg.norm(once.x)):
-        return once
-    return found
-
-
-def _counted(flight: Flight) -> str:
-    counts = {
-        "release": flight.releases,
-        "backward release": flight.backward_releases,
-        "slip reversal": flight.reversals,
-        "separation": flight.separations,
+def _counted(counts: Counts) -> str:
+    named = {
+        "release": counts.releases,
+        "backward release": counts.backward_releases,
+        "slip reversal": counts.reversals,
+        "separation": counts.separations,
     }
-    return ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for name, count in counts.items() if count)
+    return ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for name, count in named.items() if count)
 
 
 def _none(p: Parameters, tol: float, status: CycleStatus, found: str) -> FloquetResult:
@@ -316,7 +315,7 @@ def cycle_of(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
         parameters=map_.parameters,
         tol=tol,
         status=CycleStatus.OK,
-        message=f"{CycleStatus.OK}: cycle of {flight.period:.9g} s with {_counted(flight)}",
+        message=f"{CycleStatus.OK}: cycle of {flight.period:.9g} s with {_counted(flight.counts)}",
         period=flight.period,
         multipliers=values,
         exponents=exponents,
@@ -324,10 +323,6 @@ def cycle_of(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
         stick_fraction=flight.stick_time / flight.period,
         state=map_.state(found.x),
         kind=kind_of(complex(values[0])),
-        releases=flight.releases,
-        backward_releases=flight.backward_releases,
-        reversals=flight.reversals,
-        separations=flight.separations,
-        sticks=flight.sticks,
+        **flight.counts._asdict(),
         residual=found.residual / max(float(np.linalg.norm(map_.static)), 1e-300),
     )

@@ -9,6 +9,7 @@ disc's energy: omega a, omega b, alpha, beta.  The map's Jacobian comes from the
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -56,20 +57,26 @@ def case_faults(p: object, analysis: str) -> list[str]:
     )
 
 
+class Counts(NamedTuple):
+    """How often each switch occurs in a flight, or in a period of a cycle."""
+
+    releases: int
+    backward_releases: int
+    reversals: int
+    separations: int
+    sticks: int
+
+
 @dataclass(frozen=True)
 class Flight:
-    """What happened between two returns. Times in s; the rest are counts."""
+    """What happened between two returns. Times in s."""
 
     outcome: int
     period: float
     stick_time: float
     slip_time: float
     separation_time: float
-    releases: int
-    backward_releases: int
-    reversals: int
-    separations: int
-    sticks: int
+    counts: Counts
 
 
 class ReturnMap:
@@ -97,6 +104,7 @@ class ReturnMap:
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
         width, n0 = len(model.force), len(model.force0)
+        self._slider = 2 * width + 2 * n0  # where columns hold psi, f, u, u'
         used = np.flatnonzero(model.shift)
         omega, omega0 = np.sqrt(model.stiffness[used]), np.sqrt(model.stiffness0)
         single = np.arange(n0)
@@ -104,10 +112,8 @@ class ReturnMap:
         self.scale = np.concatenate([omega, np.ones(len(used)), omega0, np.ones(n0)])
         l, l0 = np.abs(model.shift[used]).astype(np.int64), np.zeros(n0, np.int64)
         self.diameters = np.concatenate([l, l, l0, l0])
-        self._compliant = len(model.give) == 1
-        if self._compliant:
-            slider = 2 * width + 2 * n0 + np.array([columns.U_ROW, columns.V_ROW])
-            rows = np.concatenate([rows, slider])
+        if len(model.give) == 1:
+            rows = np.append(rows, self._slider + np.array([columns.U_ROW, columns.V_ROW]))
             # the energy of the slider between its spring and the contact
             self.scale = np.append(self.scale, np.sqrt([1 / model.give[0] + model.k, model.m]))
         self.size = n = len(rows)
@@ -121,13 +127,8 @@ class ReturnMap:
         self.static = self._coordinates()
 
     def _coordinates(self) -> Array:
-        s, n = self._state, len(self.diameters)
-        values = np.concatenate([s.disc[self._section.rows[:n]], self._height(s)])
-        return np.asarray(values * self.scale, dtype=float)
-
-    def _height(self, state: layout.State) -> Array:
-        """u, u' where they are coordinates."""
-        return state.x[[layout.U, layout.U_VELOCITY]] if self._compliant else np.zeros(0)
+        column = np.append(self._state.disc[: self._slider], self._state.x[layout.PSI : layout.U_VELOCITY + 1])
+        return np.asarray(column[self._section.rows] * self.scale, dtype=float)
 
     def _set_changes(self) -> None:
         """Columns of the changes of parameters: what a unit of each changes in the equations."""
@@ -155,7 +156,7 @@ class ReturnMap:
                 change[stiffness0:damping0] = model.stiffness0 / p.E
                 # u_0 and the residual flexibility are proportional to 1 / E
                 residual = p.contact_compliance == RESIDUAL
-                given = 0.0 if residual or not self._compliant else model.give[0]
+                given = 0.0 if residual or not model.give else model.give[0]
                 change[v.LOAD] = model.k * (model.u_0 + model.N * given) / p.E
                 change[v.D_GIVE] = -1.0 / p.E if residual else 0.0
             elif name == "D_star":
@@ -188,10 +189,9 @@ class ReturnMap:
             order, tolerance, longest, releases * self.longest, releases, bool(may_separate), bool(tangent)
         )
         code = variational.section_map(self.model, self._series, self._state, t, course, self._section, x)
-        log = t.log
-        times = [float(x) for x in log[variational.DURATION : variational.SEPARATION_TIME + 1]]
-        counts = [int(x) for x in log[variational.RELEASES : variational.STICKS + 1]]
-        flight = Flight(code, times[0], times[1], times[2], times[3], *counts)
+        whole, stick, slip, apart = t.log[variational.DURATION : variational.SEPARATION_TIME + 1].tolist()
+        counts = Counts(*t.log[variational.RELEASES : variational.STICKS + 1].astype(int).tolist())
+        flight = Flight(code, whole, stick, slip, apart, counts)
         n, first = self.size, self._first
         return (
             flight,
@@ -227,25 +227,20 @@ class ReturnMap:
 
     def _place(self, x: Array) -> None:
         """Put the work space's state onto the point `x` of the section."""
-        state, n = self._state, len(self.diameters)
+        state, column = self._state, np.zeros(self._slider + columns.N_SLIDER_ROWS)
+        column[self._section.rows] = x / self.scale
         state.disc[:], state.x[:] = 0.0, 0.0
-        values = x / self.scale
-        state.disc[self._section.rows[:n]] = values[:n]
-        if self._compliant:
-            state.x[layout.U], state.x[layout.U_VELOCITY] = values[n:]
+        state.disc[: self._slider], state.x[layout.PSI : layout.U_VELOCITY + 1] = np.split(column, [self._slider])
         state.x[layout.PHASE] = layout.STICK
         state.x[layout.PSI] = variational.release_angle(self.model, state)
 
-    def iterate(self, x: Array, times: int) -> tuple[Flight, Array]:
-        """Apply the map several times without its Jacobian; stops early if it does not return."""
-        flight = None
-        for _ in range(times):
-            flight, end, _, _ = self.evaluate(x, tangent=False)
+    def returns(self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False) -> Iterator[Array]:
+        """Where the motion from `x` is at its next releases, one by one, as long as it returns."""
+        for _ in range(most):
+            flight, x, _, _ = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
             if flight.outcome != RETURNED:
-                break
-            x = end
-        assert flight is not None
-        return flight, x
+                return
+            yield x
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -294,29 +289,24 @@ def newton(
     if flight.outcome != RETURNED:
         return None
     residual = float(np.linalg.norm(end - x))
-    while True:
+    while not residual <= tol * size:
         if not math.isfinite(residual):
             return None
-        if residual <= tol * size:
-            break
         step = _solve(jacobian - identity, end - x)
-        accepted = False
         for shrink in range(7 if fresh else 1):
             new = x - step * 0.5**shrink
             trial, new_end, _, _ = map_.evaluate(new, releases=releases, tangent=False, may_separate=may_separate)
             new_residual = float(np.linalg.norm(new_end - new))
             if trial.outcome == RETURNED and new_residual < residual * (1 - 0.2 * 0.5**shrink):
-                accepted = True
+                ratio = new_residual / residual
+                x, end, residual, fresh = new, new_end, new_residual, False
                 break
-        if not accepted:
+        else:
+            if fresh and residual <= rounding(tol, 1e3) * size:
+                break
             if fresh:
-                if residual <= rounding(tol, 1e3) * size:
-                    break
                 return None
             ratio = 1.0
-        else:
-            ratio = new_residual / residual
-            x, end, residual, flight, fresh = new, new_end, new_residual, trial, False
         if residual > tol * size and ratio > GOOD_STEP:
             if used >= jacobians:
                 return None
@@ -344,8 +334,6 @@ def _solve(matrix: Array, right: Array) -> Array:
 
 ComplexArray = NDArray[np.complex128]
 
-KINDS = ("fold", "period_doubling", "neimark_sacker")
-
 
 def multipliers(jacobian: NDArray[np.float64]) -> ComplexArray:
     """Eigenvalues of the return map's Jacobian, largest modulus first; of a complex pair the upper one first."""
@@ -361,5 +349,5 @@ def growth_rate(multiplier: complex, period: float) -> float:
 def kind_of(multiplier: complex) -> str:
     """Which bifurcation a multiplier brings when it crosses the unit circle."""
     if multiplier.imag != 0:
-        return KINDS[2]
-    return KINDS[0] if multiplier.real > 0 else KINDS[1]
+        return "neimark_sacker"
+    return "fold" if multiplier.real > 0 else "period_doubling"
