@@ -9,7 +9,7 @@ column is then the motion's own rate, which stays that, and the others are kept 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,16 +18,8 @@ from disc_model.engine import layout, outcomes, saltation, tangent, variational
 from disc_model.errors import StatusBase, broken, refuse
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.result import (
-    Case,
-    State,
-    engine_case,
-    read_state,
-    series_order,
-    series_tolerance,
-    write_state,
-)
-from disc_model.stability.return_map import case_faults
+from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
+from disc_model.stability.return_map import OUTCOMES, case_faults
 
 Array = NDArray[np.float64]
 
@@ -42,12 +34,6 @@ class LyapunovStatus(StatusBase):
     STEP_LIMIT = "step_limit", "The transient took more steps than any motion should: check the magnitudes."
 
 
-_OUTCOMES = {
-    outcomes.TIME_OVER: LyapunovStatus.OK,
-    outcomes.NO_SOLUTION: LyapunovStatus.PARADOX,
-    outcomes.STALLED: LyapunovStatus.STALLED,
-    outcomes.NON_FINITE: LyapunovStatus.NON_FINITE,
-}
 _BLOCKS = 16
 CONVERGED = 0.05, 0.002
 """An exponent has converged if the first half of the time gives the same as the second, to this share or this much in
@@ -143,7 +129,10 @@ def lyapunov_exponents(
     asked, count = count, count + leave_out_trivial
     columns[:, :count] = _first_columns(model, state, metric, count)
     if leave_out_trivial:
-        _set_first_along(model, state, t, columns)
+        saltation.rates(model, state, t.before)
+        along = t.before.reshape(columns.shape)[:, 0]
+        if np.any(along):
+            columns[:, 0] = along
     steps = max(_BLOCKS, math.ceil(duration / interval))
     longest = tangent.longest_step(order, 10 * tolerance)
     course = variational.Course(order, tolerance, longest, duration / steps, 0, may_separate=True, tangent=True)
@@ -154,8 +143,7 @@ def lyapunov_exponents(
             t.log[:] = 0.0
         code = variational.fly(model, series, state, t, course)
         if code != outcomes.TIME_OVER or not np.all(np.isfinite(columns)):
-            status = _OUTCOMES.get(code, LyapunovStatus.NON_FINITE)
-            status = LyapunovStatus.NON_FINITE if status is LyapunovStatus.OK else status
+            status = LyapunovStatus.NON_FINITE if code == outcomes.TIME_OVER else LyapunovStatus(OUTCOMES[code])
             break
         q, r = np.linalg.qr(columns[:, :count] * metric[:, None])
         size = np.abs(np.diag(r))
@@ -164,56 +152,32 @@ def lyapunov_exponents(
             with np.errstate(divide="ignore"):
                 logs[i] = np.log(size)
             done = i + 1
-    found = _summary(case, state, t, status, logs[:done], duration / steps)
-    return _without_trivial(found, t, logs[:done], asked) if leave_out_trivial else found
+    return _summary(status, logs[:done], duration / steps, asked, t.log, read_state(case, state), leave_out_trivial)
 
 
 def _summary(
-    case: Case,
-    state: layout.State,
-    t: tangent.Tangent,
-    status: LyapunovStatus,
-    logs: Array,
-    interval: float,
+    status: LyapunovStatus, logs: Array, interval: float, count: int, log: Array, end: State, leave_out_trivial: bool
 ) -> Lyapunov:
-    count = logs.shape[1]
+    """The `count` largest exponents of logarithms of growth over equal times, shape (n, count or one more)."""
     covered = len(logs) * interval
     if len(logs) < _BLOCKS:
-        return _nothing(status, count, covered, read_state(case, state))
+        return _nothing(status, count, covered, end)
     history = np.array([np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)])
-    exponents = np.sum(logs, axis=0) / covered
-    order = np.argsort(-exponents, kind="stable")
     errors = np.maximum(np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS), _drift(history))
-    separations = int(t.log[variational.SEPARATIONS])
-    return Lyapunov(
-        status, exponents[order], errors[order], covered, separations, history[:, order], read_state(case, state)
-    )
+    exponents, along = np.sum(logs, axis=0) / covered, math.nan
+    order = np.argsort(-exponents, kind="stable")
+    # a motion that has come to rest, or slides, has no trivial one
+    if leave_out_trivial and log[variational.RELEASES] + log[variational.STICKS] + log[variational.SEPARATIONS] > 0:
+        along = float(np.sum(logs[:, 0]) / covered)
+        order = order[order != 0]
+    order, separations = order[:count], int(log[variational.SEPARATIONS])
+    return Lyapunov(status, exponents[order], errors[order], covered, separations, history[:, order], end, along)
 
 
 def _drift(history: Array) -> Array:
     """Difference between the means of the first stretches and of the last: (count,)."""
     one, two = np.split(history, 2)
     return np.asarray(np.abs(np.mean(one, axis=0) - np.mean(two, axis=0)))
-
-
-def _set_first_along(model: layout.Model, state: layout.State, t: tangent.Tangent, columns: Array) -> None:
-    """The motion's own rate as the first column, if it moves."""
-    saltation.rates(model, state, t.before)
-    along = t.before.reshape(columns.shape)[:, 0]
-    if np.any(along):
-        columns[:, 0] = along
-
-
-def _without_trivial(found: Lyapunov, t: tangent.Tangent, logs: Array, count: int) -> Lyapunov:
-    """The exponents but for that of the first column; the largest ones if the motion has come to rest or slides."""
-    exponents, errors, history, along = found.exponents, found.errors, found.history, math.nan
-    switches = t.log[variational.RELEASES] + t.log[variational.STICKS] + t.log[variational.SEPARATIONS]
-    if len(logs) >= _BLOCKS and switches > 0:
-        along = float(np.sum(logs[:, 0]) / found.duration)
-        first = int(np.flatnonzero(np.argsort(-np.sum(logs, axis=0), kind="stable") == 0)[0])
-        exponents, errors = np.delete(exponents, first), np.delete(errors, first)
-        history = np.delete(history, first, axis=1)
-    return replace(found, exponents=exponents[:count], errors=errors[:count], history=history[:, :count], along=along)
 
 
 def _nothing(status: LyapunovStatus, count: int, covered: float, state: State) -> Lyapunov:
