@@ -102,7 +102,7 @@ def test_a_start_far_from_a_cycle_follows_it_once_it_has_come_near() -> None:
     near = published_start_near(p)
     assert isinstance(near, Near)
     at = near.map.static
-    assert not any(module._linear(near.map, near.cycle, near.x, near.jacobian, at - near.x, t) for t in module.TESTS)
+    assert not module.follows(near, at)
     assert near.own
     assert 1 < near.waited < 20
     # the distance is the one that is left by then
@@ -161,10 +161,3 @@ def test_shortcuts_agree_with_brute_force() -> None:
                 assert not whole.settling.growing, at
     assert len(disagree) <= MOST_WRONG * points, disagree
     assert simulated < 0.5 * points * horizon
-
-
-def test_what_grows_is_told_from_what_falls() -> None:
-    assert module._growing([1e-4, 1e-5, 2e-5, 3e-5])
-    assert not module._growing([1e-4, 1e-5, 1.2e-5, 1e-5])
-    assert not module._growing([1e-9, 1e-12, 1e-11, 1e-10])  # noise
-    assert not module._growing([np.nan])

@@ -94,7 +94,9 @@ def test_what_counts_as_settled() -> None:
 
 def test_growth_is_seen_and_noise_is_not() -> None:
     assert made_of([1e-4, 1e-5, 3e-5, 4e-5]).growing
+    assert not made_of([1e-4, 1e-5, 1.2e-5, 1e-5]).growing
     assert not made_of([1e-4, 1e-10, 3e-10, 4e-10]).growing
+    assert not made_of([math.nan]).growing
     assert not made_of([1e-4, 2e-4]).growing
     assert made_of([math.exp(-i) for i in range(6)]).rate == pytest.approx(-0.2)
     assert math.isnan(made_of([1.0, 0.5]).rate)

@@ -21,7 +21,7 @@ import math
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -220,17 +220,15 @@ class Basins:
         tried : distances at which it did not; one that is hardly less is not tried, and one that is is added
         """
         code, x = self.map.next_release(state)
-        for _ in range(near.cycle.releases):
-            if code != RETURNED:
-                return False
-            distance = float(np.linalg.norm(x - near.x))
+        if code != RETURNED:
+            return False
+        for at in chain([x], self.map.returns(x, near.cycle.releases - 1)):
+            distance = float(np.linalg.norm(at - near.x))
             if distance <= NEAR * self.size:
                 if distance > AGAIN * tried[-1]:
                     return False
                 tried.append(distance)
-                return follows(near, x)
-            flight, x, _, _ = self.map.evaluate(x, tangent=False)
-            code = flight.outcome
+                return follows(near, at)
         return False
 
     def _settled(self, signatures: Sequence[Signature]) -> bool:
@@ -270,19 +268,11 @@ class Basins:
 
     def _releases(self, x: Array) -> int:
         """After how many releases the motion returns to where it was, 0 if it does not."""
-        now = x
-        for releases in range(1, LARGEST_PERIOD + 1):
-            flight, now, _, _ = self.map.evaluate(now, tangent=False, may_separate=True)
-            if flight.outcome != RETURNED:
-                return 0
-            if np.linalg.norm(now - x) <= RETURNS * self.size:
-                return releases
-        return 0
+        later = enumerate(self.map.returns(x, LARGEST_PERIOD, may_separate=True), 1)
+        return next((releases for releases, at in later if np.linalg.norm(at - x) <= RETURNS * self.size), 0)
 
     def _periodic(self, kind: str, signature: Signature, cycle: FloquetResult, x: Array) -> Attractor:
-        points = [x]
-        for _ in range(cycle.releases - 1):
-            points.append(self.map.evaluate(points[-1], tangent=False, may_separate=True)[1])
+        points = [x, *self.map.returns(x, cycle.releases - 1, may_separate=True)]
         return Attractor(kind, signature, cycle.period, cycle.releases, cycle.growth_rate, np.array(points))
 
 

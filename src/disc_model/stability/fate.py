@@ -21,8 +21,8 @@ at again: it may have come near another cycle, or to steady sliding.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -32,13 +32,13 @@ from scipy.linalg import expm
 from disc_model.errors import Status
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
+from disc_model.plate import Modes, mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import Result, State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, cycle_of, find_cycle
 from disc_model.stability.return_map import OUTCOMES, RETURNED, ReturnMap, newton
-from disc_model.stability.settling import GROWTH, LARGEST_PERIOD, NOISE
+from disc_model.stability.settling import LARGEST_PERIOD, NOISE, growing
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 
 Array = NDArray[np.float64]
@@ -134,7 +134,7 @@ def published_start_near(p: Parameters) -> Near | FloquetResult:
 
 def follows(near: Near, at: Array) -> bool:
     """Whether the motion at a point of the section departs from a cycle, or nears it, as its multipliers say."""
-    return any(_linear(near.map, near.cycle, near.x, near.jacobian, at - near.x, times) for times in TESTS)
+    return any(_linear(near, at - near.x, times) for times in TESTS)
 
 
 def fate(
@@ -201,7 +201,7 @@ class _Course:
                 if self._depart(near) >= self.horizon:
                     return self._ended("unstable")
             elif self.time >= self.horizon:
-                return self._ended("unstable" if self.left or _growing(self.changes) else "undecided")
+                return self._ended("unstable" if self.left or growing(self.changes) else "undecided")
             result = self._simulated(leg)
             leg *= 2
             if result.status is Status.STOPPED:
@@ -275,6 +275,7 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array) -> Near:
     assert cycle.state is not None
     x = map_.point(cycle.state)
     _, _, jacobian, _ = map_.evaluate(x, releases=cycle.releases)
+    near = Near(cycle, False, map_, x, at - x, jacobian)
     waited, moved = 0.0, at
     for wait in WAITS:
         if wait > waited:
@@ -283,21 +284,21 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array) -> Near:
             if flight.outcome != RETURNED:
                 break
             waited += flight.period
-        if any(_linear(map_, cycle, x, jacobian, moved - x, times) for times in TESTS):
-            return Near(cycle, True, map_, x, moved - x, jacobian, waited)
-    return Near(cycle, False, map_, x, at - x, jacobian)
+        if follows(near, moved):
+            return replace(near, own=True, distance=moved - x, waited=waited)
+    return near
 
 
-def _linear(
-    map_: ReturnMap, cycle: FloquetResult, x: Array, jacobian: Array, distance: Array, times: tuple[float, float]
-) -> bool:
-    """Whether the motion from x + distance departs from the cycle, or nears it, as its multipliers say."""
+def _linear(near: Near, distance: Array, times: tuple[float, float]) -> bool:
+    """Whether the motion at that distance departs from the cycle, or nears it, as its multipliers say."""
+    cycle, jacobian, x = near.cycle, near.jacobian, near.x
     leading = _left_vector(jacobian)
     expected, moved, parts = distance, x + distance, list[float]()
     done = 0
     counts = [max(i, round(time / cycle.period)) for i, time in enumerate(times, 1)]
     for count in counts:
-        flight, moved, _, _ = map_.evaluate(moved, releases=(count - done) * cycle.releases, tangent=False, coarse=True)
+        ahead = (count - done) * cycle.releases
+        flight, moved, _, _ = near.map.evaluate(moved, releases=ahead, tangent=False, coarse=True)
         if flight.outcome != RETURNED:
             return False
         expected = np.linalg.matrix_power(jacobian, count - done) @ expected
@@ -378,12 +379,7 @@ def _faster(near: Near, distance: Array) -> float:
 def _period(map_: ReturnMap, x: Array) -> tuple[float, int]:
     """Least change from a release to a later one, relative to the static deflection, and how many lie between."""
     size = float(np.linalg.norm(map_.static))
-    changes, now = list[float](), x
-    for _ in range(LARGEST_PERIOD):
-        flight, now, _, _ = map_.evaluate(now, tangent=False, coarse=True)
-        if flight.outcome != RETURNED:
-            break
-        changes.append(float(np.linalg.norm(now - x) / size))
+    changes = [float(np.linalg.norm(now - x) / size) for now in map_.returns(x, LARGEST_PERIOD, coarse=True)]
     if not changes:
         return math.nan, 0
     # of those that are about as good the shortest
@@ -391,25 +387,18 @@ def _period(map_: ReturnMap, x: Array) -> tuple[float, int]:
     return changes[releases - 1], releases
 
 
-def _growing(changes: list[float]) -> bool:
-    """Whether the change over a period has risen, over two legs or more."""
-    least = math.inf
-    for before, one, two in zip(changes, changes[1:], changes[2:], strict=False):
-        least = min(least, before)
-        if min(one, two) > max(NOISE, GROWTH * least):
-            return True
-    return False
-
-
 def _nears_sliding(p: Parameters, state: State, tol: float) -> bool:
     """Whether a motion that slides nears stable steady sliding as the eigenvalues there say."""
     sliding = steady_sliding(p)
     if not sliding.stable or contact_give(p):  # a compliant contact has coordinates of its own
         return False
-    scale = _energy_scale(p, sliding)
+    modes = mode_arrays(p)
+    ones = np.ones_like(modes.omega)
+    # with these factors the norm of rows is that of the energy
+    scale = _rows(modes, (modes.omega, ones, modes.omega, ones), (p.r_0 * math.sqrt(p.k_p), p.r_0 * math.sqrt(p.m)))
     jacobian = scale[:, None] * sliding.jacobian / scale
     expected = scale * _from_sliding(p, sliding, state)
-    static = p.N * float(np.linalg.norm(mode_arrays(p).psi / mode_arrays(p).omega))
+    static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
     if not np.linalg.norm(expected) <= NEAR * static:
         return False
     leading, parts, before = _left_vector(jacobian, np.real), list[float](), 0.0
@@ -432,22 +421,12 @@ def _nears_sliding(p: Parameters, state: State, tol: float) -> bool:
 
 def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
     """Distance from steady sliding, in the rows of its Jacobian."""
-    pairs = mode_arrays(p).diameters > 0
-    return np.concatenate(
-        [
-            state.a - sliding.a,
-            state.alpha - sliding.alpha,
-            (state.b - sliding.b)[pairs],
-            (state.beta - sliding.beta)[pairs],
-            [state.psi - sliding.psi, state.f - p.Omega],
-        ]
-    )
+    disc = [getattr(state, name) - getattr(sliding, name) for name in ("a", "alpha", "b", "beta")]
+    return _rows(mode_arrays(p), disc, (state.psi - sliding.psi, state.f - p.Omega))
 
 
-def _energy_scale(p: Parameters, sliding: SteadySliding) -> Array:
-    """Factors to rows of which the norm is that of the energy."""
-    modes = mode_arrays(p)
+def _rows(modes: Modes, disc: Sequence[Array], slider: Sequence[float]) -> Array:
+    """Rows of steady sliding's Jacobian from a, alpha, b, beta of all modes and psi, f."""
+    a, alpha, b, beta = disc
     pairs = modes.diameters > 0
-    ones = np.ones(len(modes.omega))
-    slider = [p.r_0 * math.sqrt(p.k_p), p.r_0 * math.sqrt(p.m)]
-    return np.concatenate([modes.omega, ones, modes.omega[pairs], ones[pairs], slider])
+    return np.concatenate([a, alpha, b[pairs], beta[pairs], slider])

@@ -15,6 +15,7 @@ settled if
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -103,7 +104,7 @@ class Settling:
         if self.cycle is None:
             return fallen
         distance = self.distance
-        if distance <= near and self.cycle.stable and self._decays_like(self.cycle.growth_rate):
+        if distance <= near and self.cycle.stable and RATES[0] <= self.rate / self.cycle.growth_rate <= RATES[1]:
             return True
         return fallen and (self.cycle.stable or distance > SAME)
 
@@ -129,18 +130,10 @@ class Settling:
         """A state on the stable cycle if the motion is near to it."""
         return self.cycle.state if self.cycle is not None and self.cycle.stable and self.distance <= near else None
 
-    def _decays_like(self, rate: float) -> bool:
-        return RATES[0] <= self.rate / rate <= RATES[1]
-
     @property
     def growing(self) -> bool:
-        """Whether the difference has risen, over two probes or more: an instability, even if it is bounded by now."""
-        d = np.array(self.differences)
-        if len(d) < 3:
-            return False
-        least = np.fmin.accumulate(d[:-2])
-        later = np.fmin(d[1:-1], d[2:])
-        return bool(np.any((later > NOISE) & (later > GROWTH * least)))
+        """As of the differences."""
+        return growing(self.differences)
 
     @property
     def rate(self) -> float:
@@ -194,14 +187,7 @@ def follow(
     settling = Settling(p)
     state = initial_state
     for start, stop in _probes(horizon, late):
-        if start > (0.0 if state is None else state.time):
-            result = simulate(p, start, tol=tol, initial_state=state, record=_NOTHING, stop_at="first_separation")
-            if result.status is not Status.OK:
-                break
-            state = result.final_state
-        result = simulate(
-            p, stop, tol=tol, initial_state=state, record=_watching(start, stop), stop_at="first_separation"
-        )
+        result = _watched(p, state, start, stop, tol, "first_separation")
         if result.status is not Status.OK:
             break
         state = result.final_state
@@ -228,15 +214,8 @@ def late_stretch(
 
     The summary is None if the simulation did not get there.
     """
-    begin = 0.0 if state is None else state.time
-    stop = begin + duration
-    start = stop - late
-    if start > begin:
-        result = simulate(p, start, tol=tol, initial_state=state, record=_NOTHING)
-        if result.status is not Status.OK:
-            return result, None
-        state = result.final_state
-    result = simulate(p, stop, tol=tol, initial_state=state, record=_watching(start, stop))
+    stop = (0.0 if state is None else state.time) + duration
+    result = _watched(p, state, stop - late, stop, tol)
     return result, summary(result) if result.status is Status.OK else None
 
 
@@ -294,13 +273,32 @@ def _scaled(p: Parameters, slider: Array) -> Array:
     modes = mode_arrays(p)
     rest = engine_case(p).model.u_0
     slowest = float(modes.omega.min(initial=math.inf))
-    sizes = [_angle_at_release(p), abs(rest) or 1.0, abs(rest) * slowest if 0 < abs(rest) * slowest < math.inf else 1.0]
+    # psi when friction lets go under the preload
+    release = p.mu_s * p.N / (p.k_p * p.r_0) if p.k_p > 0 and p.mu_s > 0 else 1.0
+    sizes = [release, abs(rest) or 1.0, abs(rest) * slowest if 0 < abs(rest) * slowest < math.inf else 1.0]
     return (slider - np.array([0.0, rest, 0.0])) / np.array(sizes)
 
 
-def _angle_at_release(p: Parameters) -> float:
-    """Angle at which friction lets go under the preload, rad."""
-    return p.mu_s * p.N / (p.k_p * p.r_0) if p.k_p > 0 and p.mu_s > 0 else 1.0
+def growing(differences: Sequence[float]) -> bool:
+    """Whether differences have risen, over two or more: an instability, even if it is bounded by now."""
+    d = np.array(differences)
+    if len(d) < 3:
+        return False
+    least = np.fmin.accumulate(d[:-2])
+    later = np.fmin(d[1:-1], d[2:])
+    return bool(np.any((later > NOISE) & (later > GROWTH * least)))
+
+
+def _watched(
+    p: Parameters, state: State | None, start: float, stop: float, tol: float, stop_at: str | None = None
+) -> Result:
+    """Go on to a time `stop` with samples from `start` on, s, or to where that ends."""
+    if start > (0.0 if state is None else state.time):
+        result = simulate(p, start, tol=tol, initial_state=state, record=_NOTHING, stop_at=stop_at)
+        if result.status is not Status.OK:
+            return result
+        state = result.final_state
+    return simulate(p, stop, tol=tol, initial_state=state, record=_watching(start, stop), stop_at=stop_at)
 
 
 def _watching(start: float, stop: float) -> Record:
