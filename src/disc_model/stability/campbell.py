@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,15 +60,14 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
     found = np.full((3, len(modes.frequency)), math.nan)
     if cycle.status is CycleStatus.OK and len(modes.frequency):
         found[:, modes.diameters >= 0] = _of_cycle(p, cycle, modes, tol)
-    return Frequencies(cycle, modes.frequency, modes.growth_rate, modes.diameters, modes.forward, *found)
+    return Frequencies(cycle, *modes[:4], *found)
 
 
 # ----------------------------------------------------------------------------------------------------
 # Steady sliding
 
 
-@dataclass(frozen=True, eq=False)
-class _Sliding:
+class _Sliding(NamedTuple):
     """As of `Frequencies`; shapes : rows of a, alpha, b, beta of all modes of the disc, u, u', shape (m, n)."""
 
     frequency: Array
@@ -88,11 +88,9 @@ def _sliding_modes(p: Parameters, sliding: SteadySliding) -> _Sliding:
     l, omega, n = modes.diameters, modes.omega[:, None], len(modes.omega)
     pairs = np.flatnonzero(l > 0)
     m = len(pairs)
-    a, alpha, b, beta = (np.zeros((n, len(order)), complex) for _ in range(4))
-    a[:], alpha[:] = vectors[:n], vectors[n : 2 * n]
-    b[pairs], beta[pairs] = vectors[2 * n : 2 * n + m], vectors[2 * n + m : 2 * n + 2 * m]
-    psi, f = vectors[2 * n + 2 * m : 2 * n + 2 * m + 2]
-    u = vectors[2 * n + 2 * m + 2 :] if len(vectors) > 2 * n + 2 * m + 2 else np.zeros((2, len(order)), complex)
+    a, alpha, b_pairs, beta_pairs, (psi, f), height = np.split(vectors, np.cumsum([n, n, m, m, 2]))
+    b, beta, u = (np.zeros((rows, len(order)), complex) for rows in (n, n, 2))
+    b[pairs], beta[pairs], u[: len(height)] = b_pairs, beta_pairs, height
     energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
     by_l = np.array([energy[l == one].sum(axis=0) for one in range(int(l.max(initial=0)) + 1)])
     diameters = by_l.argmax(axis=0)

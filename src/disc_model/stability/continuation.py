@@ -185,7 +185,7 @@ def continue_neutral(
     p : a case near the curve, whose leading multiplier is the one followed
     names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
     bounds : of both; the curve is followed until it leaves them, closes or ends
-    how : direction (1 or -1), step, longest, shortest, max_points, scales, start, tol as in `continue_cycle`
+    how : direction (1 or -1), step, longest, shortest, max_points, start, tol as in `continue_cycle`
 
     Raises
     ------
@@ -217,13 +217,12 @@ def _continue_on_surface(
     longest: float = 0.05,
     shortest: float = 1e-6,
     max_points: int = 400,
-    scales: Mapping[str, float] | None = None,
     start: Array | None = None,
     tol: float = 1e-12,
 ) -> Branch:
     names = tuple(names)  # type: ignore[assignment]
     check(p, names, 2)
-    problem = CycleProblem(p, names, scales, tol)
+    problem = CycleProblem(p, names, None, tol)
     point = starting_point(problem, find_cycle(p, tol, start))
     mu = former if former is not None else complex(multipliers(point.jacobian)[0])
     try:

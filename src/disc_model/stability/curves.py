@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.stability.branch import Branch, default_scale
 from disc_model.stability.continuation import UNLOCATED, continue_cycle, continue_fold, continue_neutral
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Tongue, nearest_tongue
@@ -91,6 +90,7 @@ def stability_curves(
     -------
     The curves, and what could not be followed, in words.
     """
+    how = {"max_points": max_points, "longest": longest, "shortest": SHORTEST, "tol": tol}
     found: list[StabilityCurve] = []
     notes: list[str] = []
     span = np.array([bounds[name][1] - bounds[name][0] for name in names])
@@ -101,7 +101,7 @@ def stability_curves(
             if _known(found, seed.kind, place, seed.period, span):
                 continue
             try:
-                curve = _trace(seed, names, bounds, max_points, longest, tol)
+                curve = _trace(seed, names, bounds, how)
             except ParameterError as error:
                 where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, place, strict=True))
                 notes.append(f"{seed.kind} near {where}: {error}")
@@ -177,37 +177,14 @@ def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: flo
 
 
 def _trace(
-    seed: _Seed,
-    names: tuple[str, str],
-    bounds: Mapping[str, tuple[float, float]],
-    max_points: int,
-    longest: float,
-    tol: float,
+    seed: _Seed, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], how: Mapping[str, object]
 ) -> StabilityCurve:
-    """The curve through a seed, both ways."""
+    """The curve through a seed, both ways; `how` as in `continue_neutral`."""
     follow = continue_neutral if seed.kind == "neutral" else continue_fold
-    scales = {name: default_scale(seed.case, name) for name in names}
-    ways = []
-    for direction in (-1, 1):
-        way = follow(
-            seed.case,
-            names,
-            bounds,
-            direction=direction,
-            longest=longest,
-            shortest=SHORTEST,
-            max_points=max_points,
-            start=seed.point,
-            scales=scales,
-            tol=tol,
-        )
-        ways.append(way)
-        if way.ended == "the curve is closed":
-            break
-    return _curve(seed, names, *ways)
+    back = follow(seed.case, names, bounds, direction=-1, start=seed.point, **how)
+    closed = back.ended == "the curve is closed"
+    on = None if closed else follow(seed.case, names, bounds, direction=1, start=seed.point, **how)
 
-
-def _curve(seed: _Seed, names: tuple[str, str], back: Branch, on: Branch | None = None) -> StabilityCurve:
     def joined(name: str) -> NDArray[np.generic]:
         one = getattr(back, name)
         return one if on is None else np.concatenate([one[:0:-1], getattr(on, name)])

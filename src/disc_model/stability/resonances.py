@@ -55,27 +55,19 @@ def nearest_tongue(p: Parameters, period: float, multiplier: complex, diameters:
     rate = 1 / float(period)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)
     half = 0.5 if multiplier.imag == 0 and multiplier.real < 0 else 0.0
-    best: tuple[float, Tongue] | None = None
+    found: list[tuple[float, Tongue]] = []
     for frequency, l, bound in modes_at_rest(p):
         if diameters is not None and l != diameters:
             continue
-        for sign in _signs(l, bound):
+        standing = (0,) if bound else ()
+        for sign in (*standing, -1, 1) if l else (0,):
             seen = (frequency + sign * l * p.Omega / (2 * math.pi)) / rate
             miss = min(abs((seen - s * angle + 0.5) % 1 - 0.5) for s in (-1, 1))
             harmonic = round(seen - half) + half
-            tongue = Tongue(harmonic, frequency, l, sign, float((harmonic - seen) * rate))
-            if best is None or miss < best[0]:
-                best = (miss, tongue)
-    if best is None:
+            found.append((miss, Tongue(harmonic, frequency, l, sign, float((harmonic - seen) * rate))))
+    if not found:
         raise ParameterError(f"diameters={diameters!r}: must be those of a mode")
-    return best[1]
-
-
-def _signs(l: int, bound: bool) -> tuple[int, ...]:
-    """Shifts by the rotation that a mode may have."""
-    if l == 0:
-        return (0,)
-    return (0, -1, 1) if bound else (-1, 1)
+    return min(found, key=lambda one: one[0])[1]
 
 
 def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
