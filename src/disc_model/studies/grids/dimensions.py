@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from itertools import chain, product
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, create_model, model_validator
 
 from disc_model.data.variables import KICKS
-from disc_model.errors import Fault, ParameterError, shown, suggestion
-from disc_model.parameters import AUTO, RELATED, RESIDUAL, Count, Finite, Parameters, Real, Strict, cross_faults, number
+from disc_model.errors import Fault, ParameterError, suggestion
+from disc_model.parameters import AUTO, RELATED, RESIDUAL, Count, Finite, Parameters, Real, Strict, cross_faults
 from disc_model.simulation.case import START, SomeParameters
 from disc_model.studies.files import Faults, add_parameter_faults, mapping, validated
 
@@ -144,6 +144,8 @@ PUBLISHED = "published"
 """The start that needs not be said."""
 VARIED = (*Parameters.model_fields, START, *KICKS)
 """What a grid may vary, in the order of its dimensions: every parameter, and the start."""
+_KICKS: dict[str, Any] = dict.fromkeys(KICKS, (Finite, 0.0))
+_Varied = create_model("_Varied", __base__=SomeParameters, **_KICKS)
 MOST_POINTS = 1_000_000
 """Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
 
@@ -192,15 +194,8 @@ def parse_dimensions(
 ) -> tuple[Dimension, ...]:
     """The dimensions that a file gives rightly, in the order of `VARIED`."""
     dims: list[Dimension] = []
-    for name, given in mapping(raw.get("axes")).items():
-        path = ("axes", str(name))
-        if name not in VARIED:
-            faults.add(path, "", f"cannot be an axis{suggestion(str(name), VARIED, all_of_them=False)}")
-            continue
-        blocks = parse_blocks(given, path, faults, resolution)
-        checked = None if blocks is None else _checked(str(name), blocks, starts, path, faults)
-        if checked is not None:
-            dims.append(Dimension((str(name),), without_repeats([[(v,) for v in block] for block in checked])))
+    for name, blocks in _columns(mapping(raw.get("axes")), ("axes",), starts, faults, resolution).items():
+        dims.append(Dimension((name,), without_repeats([[(value,) for value in block] for block in blocks])))
     for i, group in enumerate(_zips(raw)):
         where = ("zip",) if isinstance(raw["zip"], Mapping) else ("zip", str(i))
         dim = _zipped(mapping(group), where, starts, faults)
@@ -223,34 +218,34 @@ def asked(raw: Mapping[str, Any]) -> set[str]:
 def _zipped(
     group: Mapping[Any, Any], path: tuple[str, ...], starts: Collection[str], faults: Faults
 ) -> Dimension | None:
-    columns: dict[str, list[Value]] = {}
-    for name, given in group.items():
-        if name not in VARIED:
-            faults.add((*path, str(name)), "", f"cannot be an axis{suggestion(str(name), VARIED, all_of_them=False)}")
-            continue
-        blocks = parse_blocks(given, (*path, name), faults)
-        checked = None if blocks is None else _checked(name, blocks, starts, (*path, name), faults)
-        if checked is not None:
-            columns[name] = [value for block in checked for value in block]
+    columns = {name: [*chain(*blocks)] for name, blocks in _columns(group, path, starts, faults).items()}
     if not columns or len(columns) < len(group):
         return None
-    lengths = {name: len(column) for name, column in columns.items()}
-    if len(set(lengths.values())) > 1:
-        faults.add(
-            path, "", f"must have columns of equal length, not {', '.join(f'{n}: {k}' for n, k in lengths.items())}"
-        )
+    if len({len(column) for column in columns.values()}) > 1:
+        lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
+        faults.add(path, "", f"must have columns of equal length, not {lengths}")
         return None
     names = tuple(sorted(columns, key=VARIED.index))
     return Dimension(names, without_repeats([list(zip(*[columns[name] for name in names], strict=True))]))
 
 
-def _checked(
-    name: str, blocks: Blocks, starts: Collection[str], path: tuple[str, ...], faults: Faults
-) -> Blocks | None:
-    """Values as they are understood: floats, whole numbers, words. Each for itself; see `check_points`."""
-    before = len(faults)
-    found = tuple(tuple(_value(name, value, starts, path, faults) for value in block) for block in blocks)
-    return found if len(faults) == before else None
+def _columns(
+    given: Mapping[Any, Any], path: tuple[str, ...], starts: Collection[str], faults: Faults, resolution: int = 1
+) -> dict[str, Blocks]:
+    """Blocks of values by name, of what may vary and is right.
+
+    Values are as they are understood: floats, whole numbers, words. Each for itself; see `check_points`.
+    """
+    found = {}
+    for name, raw in given.items():
+        place, before = (*path, str(name)), len(faults)
+        if name not in VARIED:
+            faults.add(place, "", f"cannot be an axis{suggestion(str(name), VARIED, all_of_them=False)}")
+        elif (blocks := parse_blocks(raw, place, faults, resolution)) is not None:
+            checked = tuple(tuple(_value(name, value, starts, place, faults) for value in block) for block in blocks)
+            if len(faults) == before:
+                found[str(name)] = checked
+    return found
 
 
 def _value(name: str, value: Value, starts: Collection[str], path: tuple[str, ...], faults: Faults) -> Value:
@@ -262,20 +257,10 @@ def _value(name: str, value: Value, starts: Collection[str], path: tuple[str, ..
         faults.add(path, value, "must be a number along an axis: give it in base, for all points")
     elif name != START:
         try:
-            return _kick(value) if name in KICKS else getattr(SomeParameters(**{name: value}), name)
+            return getattr(_Varied(**{name: value}), name)
         except ParameterError as error:
             add_parameter_faults(error.faults, lambda _: path, faults)
     return value
-
-
-def _kick(value: Value) -> float:
-    try:
-        found = float(number(value))
-    except ValueError:
-        raise ParameterError(Fault(("kick",), shown(value), "must be a number")) from None
-    if not math.isfinite(found):
-        raise ParameterError(Fault(("kick",), shown(found), "must be finite"))
-    return found
 
 
 def check_points(dims: Sequence[Dimension], base: Mapping[str, Any], faults: Faults) -> None:

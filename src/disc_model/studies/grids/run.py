@@ -7,7 +7,7 @@ import json
 import logging
 import math
 import time
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, cast
 
 import numpy as np
@@ -49,25 +49,29 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     """As `run_batch`, with another quantity computed at the points, from the options of the batch's own."""
     data = json.loads(text)
     names, points = data["names"], data["points"]
-    schema = importlib.import_module(SCHEMA)
-    options = schema.QUANTITIES[data["quantity"]].options.model_validate(data["options"])
+    options = importlib.import_module(SCHEMA).QUANTITIES[data["quantity"]].options.model_validate(data["options"])
     varied = [dict(zip(names, point, strict=True)) for point in points]
-    parameters = [_made(data["base"] | _only(Parameters.model_fields, values)) for values in varied]
-    each = [_started(options, values, data.get("starts", {})) for values in varied]
+    parameters = [_made(data["base"], values) for values in varied]
     began = time.process_time()
     if "tile" in data:
-        table = _over_tile(cast("Tiled", quantity), data, options)
+        found = list(_over_tile(cast("Tiled", quantity), data, options))
     else:
-        table = compute(quantity, parameters, options, each)
+        each = [_started(options, values, data.get("starts", {})) for values in varied]
+        found = [_at(quantity, *point) for point in zip(parameters, each, strict=True)]
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
-    for point, message in zip(points, table.messages, strict=True):
+    table = table_of(quantity, found, options)
+    for values, message in zip(varied, table.messages, strict=True):
         if message:
-            log.warning("%s: %s", dict(zip(names, point, strict=True)), message)
-    variables = {name: _variable(column, table.arrays[name]) for name, column in quantity.COLUMNS.items()}
+            log.warning("%s: %s", values, message)
+    variables = {
+        name: xr.Variable((POINT, *column.dims), table.arrays[name], column.variable.attributes)
+        for name, column in quantity.COLUMNS.items()
+    }
     if data["base"].get("n_diameters") == AUTO:
-        variables |= {name: _chosen(name, parameters) for name in ("n_diameters", "n_circles")}
+        for name in ("n_diameters", "n_circles"):  # -1 where nothing could be chosen
+            variables[name] = xr.Variable(POINT, [getattr(p, name, -1) for p in parameters], attributes(name))
     variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
-    coords = {name: _coordinate(name, [point[i] for point in points]) for i, name in enumerate(names)}
+    coords = {name: xr.Variable(POINT, [point[i] for point in points], describe(name)) for i, name in enumerate(names)}
     attrs = {
         "Conventions": CONVENTIONS,
         "specification": text,
@@ -77,31 +81,21 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     return xr.Dataset(variables, coords | own_coordinates(quantity, options), attrs)
 
 
-def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Table:
+def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Iterator[tuple[Row, str]]:
     """Of a tile with its margin, which belongs to the next tiles: only its own points are kept, in the text's order.
 
     What else varies among the points makes tiles of its own.
     """
-    tile, names = data["tile"], data["names"]
-    (first, second), (rows, columns) = tile["names"], tile["along"]
-    sides = names.index(first), names.index(second)
+    (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
     tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
-    own: list[tuple[Row, str]] = []
     for point in data["points"]:
-        others = {name: value for name, value in zip(names, point, strict=True) if name not in (first, second)}
+        others = dict(zip(data["names"], point, strict=True))
+        i, j = rows.index(others.pop(first)), columns.index(others.pop(second))
         key = tuple(others.values())
         if key not in tiles:
-            made = [
-                [_made(data["base"] | _only(Parameters.model_fields, others | {first: y, second: x})) for x in columns]
-                for y in rows
-            ]
-            tiles[key] = quantity.over(made, options, [(i, j) for i, j in tile["sampled"]])
-        own.append(tiles[key][rows.index(point[sides[0]])][columns.index(point[sides[1]])])
-    return table_of(quantity, [row for row, _ in own], [message for _, message in own], options)
-
-
-def _only(names: Collection[str], values: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in values.items() if name in names}
+            made = [[_made(data["base"], others | {first: y, second: x}) for x in columns] for y in rows]
+            tiles[key] = quantity.over(made, options, [(a, b) for a, b in data["tile"]["sampled"]])
+        yield tiles[key][i][j]
 
 
 def _started(options: Any, values: Mapping[str, Any], starts: Mapping[str, Any]) -> Any:
@@ -111,12 +105,13 @@ def _started(options: Any, values: Mapping[str, Any], starts: Mapping[str, Any])
     if START in values:
         start = Start.model_validate(starts[values[START]])
         options = options.model_copy(update={"prepare": start.prepare, "kick": start.kick})
-    kicks = {name.removeprefix("kick_"): value for name, value in _only(KICKS, values).items()}
+    kicks = {name.removeprefix("kick_"): value for name, value in values.items() if name in KICKS}
     return options.kicked(kicks) if kicks else options
 
 
-def _made(values: Mapping[str, Any]) -> Parameters | DiscModelError:
+def _made(base: Mapping[str, Any], varied: Mapping[str, Any]) -> Point:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
+    values = {**base, **{name: value for name, value in varied.items() if name in Parameters.model_fields}}
     try:
         if not leaves_modes(values):
             return Parameters.model_validate(values)
@@ -124,11 +119,6 @@ def _made(values: Mapping[str, Any]) -> Parameters | DiscModelError:
         return p if asked is None else chosen(p, asked).parameters
     except DiscModelError as error:
         return error
-
-
-def _chosen(name: str, parameters: Sequence[Parameters | DiscModelError]) -> xr.Variable:
-    """What was chosen for each point, -1 where nothing could be."""
-    return xr.Variable(POINT, np.array([getattr(p, name, -1) for p in parameters]), attributes(name))
 
 
 def describe(name: str) -> dict[str, Any]:
@@ -141,25 +131,12 @@ def describe(name: str) -> dict[str, Any]:
     return {"long_name": described["long_name"]} if name in CHOICES else described
 
 
-def _variable(column: Column, values: np.ndarray) -> xr.Variable:
-    return xr.Variable((POINT, *column.dims), values, column.variable.attributes)
-
-
-def _coordinate(name: str, values: Sequence[Any]) -> xr.Variable:
-    return xr.Variable(POINT, np.array(values), describe(name))
-
-
 # ----------------------------------------------------------------------------------------------------
 # Quantities: rows of results, one for each point, as arrays
 
-STATUSES = (
-    "ok",
-    *(status.value for status in Status if not status.complete),
-    "failed",
-)
+STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
 """What became of a point. `failed`: it raised an error, or was not reached."""
 STATUS = Variable("1", "what became of the computation", STATUSES)
-
 
 Row = Mapping[str, Any]
 Point = Parameters | DiscModelError
@@ -234,44 +211,36 @@ class Table(NamedTuple):
     messages: list[str]
 
 
-def compute(
-    quantity: Quantity,
-    points: Sequence[Parameters | DiscModelError],
-    options: Any,
-    each: Sequence[Any] | None = None,
-) -> Table:
+def compute(quantity: Quantity, points: Sequence[Point], options: Any) -> Table:
     """A quantity at each point; one that fails (see `NUMERICAL`) gets the status `failed` and a message.
 
     Parameters
     ----------
     points : parameters; an error stands for a point that could not be made, and is its message
     options : as `schema` says for this quantity
-    each : options of each point, where they differ in its start
     """
-    rows: list[Row] = []
-    messages: list[str] = []
-    for point, own in zip(points, each or [options] * len(points), strict=True):
-        try:
-            if isinstance(point, DiscModelError):
-                raise point
-            row, message = quantity.at(point, own)
-        except NUMERICAL as error:
-            row, message = {"status": "failed"}, f"{type(error).__name__}: {error}"
-        rows.append(row)
-        messages.append(message)
-    return table_of(quantity, rows, messages, options)
+    return table_of(quantity, [_at(quantity, point, options) for point in points], options)
 
 
-def table_of(quantity: Described, rows: Sequence[Row], messages: Sequence[str], options: Any) -> Table:
+def _at(quantity: Quantity, point: Point, options: Any) -> tuple[Row, str]:
+    try:
+        if isinstance(point, DiscModelError):
+            raise point
+        return quantity.at(point, options)
+    except NUMERICAL as error:
+        return {"status": "failed"}, f"{type(error).__name__}: {error}"
+
+
+def table_of(quantity: Described, found: Sequence[tuple[Row, str]], options: Any) -> Table:
     """Rows and messages as a table."""
     own = own_coordinates(quantity, options)
     arrays = {}
     for name, column in quantity.COLUMNS.items():
-        arrays[name] = column.empty((len(rows), *(own[dim].size for dim in column.dims)))
-        for i, row in enumerate(rows):
+        arrays[name] = column.empty((len(found), *(own[dim].size for dim in column.dims)))
+        for i, (row, _) in enumerate(found):
             if name in row:
                 _store(row[name], arrays[name], (i,), column)
-    return Table(arrays, list(messages))
+    return Table(arrays, [message for _, message in found])
 
 
 def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Column) -> None:

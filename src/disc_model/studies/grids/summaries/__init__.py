@@ -9,9 +9,9 @@ quantity's entry in `disc_model.studies.grids.quantities.schema`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import product
 from typing import Any, Protocol
 
+import numpy as np
 import xarray as xr
 
 from disc_model.studies.grids.quantities.schema import QUANTITIES
@@ -52,14 +52,11 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
     entry = QUANTITIES[quantity]
     checked = entry.options.model_validate(options)
     others = [dim for dim in map(str, study["status"].dims) if dim != entry.over]
-    places = [dict(zip(others, place, strict=True)) for place in product(*(range(study.sizes[dim]) for dim in others))]
-    rows = [summary.of(study.isel(place), checked) for place in places]
-    arrays = table_of(summary, rows, [""] * len(rows), checked).arrays
     sizes = [study.sizes[dim] for dim in others]
-    variables = {
-        name: xr.Variable(
-            (*others, *column.dims), arrays[name].reshape((*sizes, *arrays[name].shape[1:])), column.variable.attributes
-        )
-        for name, column in summary.COLUMNS.items()
-    }
+    cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*sizes)]
+    arrays = table_of(summary, [(summary.of(cell, checked), "") for cell in cells], checked).arrays
+    variables = {}
+    for name, column in summary.COLUMNS.items():
+        values = arrays[name].reshape((*sizes, *arrays[name].shape[1:]))
+        variables[name] = xr.Variable((*others, *column.dims), values, column.variable.attributes)
     return study.assign_coords(own_coordinates(summary, checked)).assign(variables)
