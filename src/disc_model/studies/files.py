@@ -38,7 +38,12 @@ class Faults(list[str]):
     """Faults in the order found; what several cases inherit is listed once."""
 
     def add(self, path: tuple[str, ...], value: Any, rule: str) -> None:
-        self.add_text(f"{dotted(path)}{'' if value == '' else f' = {shown(value)}'}: {rule}")
+        self.add_shown(path, "" if value == "" else shown(value), rule)
+
+    def add_shown(self, path: tuple[str, ...], value: str, rule: str) -> None:
+        """As `add`, of a value as messages show it."""
+        place = ".".join(path) if path else "study"
+        self.add_text(f"{place}{f' = {value}' if value else ''}: {rule}")
 
     def add_text(self, text: str) -> None:
         if text not in self:
@@ -73,23 +78,26 @@ def validated(model: type[M], raw: Any, path: tuple[str, ...], faults: Faults, p
     except ValidationError as error:
         for fault in faults_of(error, raw, model):
             where = place.of(fault.path) if place and fault.path else (*path, *fault.path)
-            faults.add_text(_said(where, fault))
+            faults.add_shown(where, fault.value, fault.rule)
         return None
 
 
 def add_parameter_faults(found: Iterable[str], place: Callable[[str], tuple[str, ...]], faults: Faults) -> None:
     """Take over the faults of a `ParameterError`; `place` tells where the file gives a parameter."""
     for fault in found:
-        faults.add_text(_said(place(fault.path[0]), fault) if isinstance(fault, Fault) and fault.path else fault)
+        if isinstance(fault, Fault) and fault.path:
+            faults.add_shown(place(fault.path[0]), fault.value, fault.rule)
+        else:
+            faults.add_text(fault)
 
 
-def _said(where: tuple[str, ...], fault: Fault) -> str:
-    return f"{dotted(where)}{f' = {fault.value}' if fault.value else ''}: {fault.rule}"
-
-
-def dotted(path: tuple[str, ...]) -> str:
-    """A path as messages show it."""
-    return ".".join(path) if path else "study"
+def first_of_each(found: Iterable[str]) -> list[Fault]:
+    """Of each parameter the first fault."""
+    first: dict[str, Fault] = {}
+    for fault in found:
+        if isinstance(fault, Fault):
+            first.setdefault(fault.path[0], fault)
+    return list(first.values())
 
 
 def is_name(text: str) -> bool:

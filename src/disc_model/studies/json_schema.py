@@ -41,8 +41,9 @@ def study_schema() -> Schema:
     properties["figures"] = _figures(defs)
     properties["quantity"] = {"enum": list(QUANTITIES)}
     properties["options"] = {"type": "object"}
-    properties["axes"] = {**_by_name(VARIED, {"$ref": "#/$defs/Axis"}), "minProperties": 1}
-    columns = _by_name(VARIED, {"$ref": "#/$defs/Axis"})
+    axis = {"$ref": "#/$defs/Axis"}
+    columns = {"type": "object", "properties": dict.fromkeys(VARIED, axis), "additionalProperties": False}
+    properties["axes"] = {**columns, "minProperties": 1}
     properties["zip"] = {"anyOf": [columns, {"type": "array", "items": columns}]}
     properties["batch"] = _of(BatchSpec, defs)
     properties["starts"] = {"type": "object", "additionalProperties": _start(defs)}
@@ -101,16 +102,12 @@ def _partial(schema: Schema, defs: Schema) -> Schema:
     if "$ref" in schema:
         return _partial(_plain(defs[schema["$ref"].rpartition("/")[2]]), defs)
     schema = {key: value for key, value in schema.items() if key != "required"}
-    for key in ("anyOf", "oneOf"):
-        if key in schema:
-            schema[key] = [_partial(part, defs) for part in schema[key]]
-    if "properties" in schema:
-        schema["properties"] = {name: _or_null(_partial(part, defs)) for name, part in schema["properties"].items()}
-    for key in ("additionalProperties", "patternProperties"):
-        inner = schema.get(key)
-        if key == "patternProperties" and inner:
+    for key, inner in schema.items():
+        if key in ("anyOf", "oneOf"):
+            schema[key] = [_partial(part, defs) for part in inner]
+        elif key in ("properties", "patternProperties"):
             schema[key] = {name: _or_null(_partial(part, defs)) for name, part in inner.items()}
-        elif isinstance(inner, Mapping):
+        elif key == "additionalProperties" and isinstance(inner, Mapping):
             schema[key] = _or_null(_partial(dict(inner), defs))
     return schema
 
@@ -147,10 +144,6 @@ def _axis(defs: Schema) -> Schema:
         "additionalProperties": False,
     }
     return {"anyOf": [values, range_, blocks]}
-
-
-def _by_name(names: tuple[str, ...], schema: Schema) -> Schema:
-    return {"type": "object", "properties": dict.fromkeys(names, schema), "additionalProperties": False}
 
 
 def _figures(defs: Schema) -> Schema:

@@ -35,13 +35,8 @@ def to_text(asked: Asked) -> str:
     return json.dumps({**asked._asdict(), "sources": source_hash(CHOOSER)}, sort_keys=True)
 
 
-def from_text(text: str) -> Asked:
-    """What a case's text asks for."""
-    data: dict[str, Any] = json.loads(text)
-    return Asked(data["quantity"], data["tolerance"])
-
-
 def choose(p: Parameters, text: str) -> tuple[Parameters, str]:
     """A case with the modes that its text asks for, and how they were chosen, as JSON; raises as `chosen`."""
-    choice = chosen(p, from_text(text))
+    asked: dict[str, Any] = json.loads(text)
+    choice = chosen(p, Asked(asked["quantity"], asked["tolerance"]))
     return choice.parameters, choice.to_json()

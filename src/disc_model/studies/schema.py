@@ -8,7 +8,7 @@ values and what is recorded by default, and may override any of it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from glob import glob
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -175,8 +175,8 @@ class Study:
     claims: bool
     grid: GridStudy | None
     studies: tuple[str, ...]
-    overrides: Mapping[str, Any] = field(default_factory=dict)
-    resolution: Any = 1
+    overrides: Mapping[str, Any]
+    resolution: Any
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -231,13 +231,14 @@ def parse_study(raw: Any) -> Study:
         faults.add(("study",), header.study, "is the name of another folder of results")
     if not raw.keys() & {"cases", "studies", *GRID_KEYS}:
         faults.add((), "", "must say what to compute: cases, or quantity and axes, or studies")
-    cases, specs = _parse_cases(raw, faults)
+    parsed = {str(name): _parse_case(raw, str(name), own, faults) for name, own in mapping(raw.get("cases")).items()}
+    right = {name: case for name, case in parsed.items() if case is not None}
+    specs = {name: spec for name, (_, spec) in right.items()}
     listed, plots, of_grid = _figures(raw, specs, faults)
-    grid = None
-    if raw.keys() & GRID_KEYS:
-        grid = _grid(raw, of_grid, faults)
+    grid = _grid(raw, of_grid, faults) if raw.keys() & GRID_KEYS else None
     if faults or header is None:
         raise StudyError(*faults)
+    cases = {name: case for name, (case, _) in right.items()}
     return Study(
         header.study, header.title, cases, specs, listed, plots, header.claims, grid, header.studies,
         header.overrides, header.resolution,
@@ -247,21 +248,9 @@ def parse_study(raw: Any) -> Study:
 # ----------------------------------------------------------------------------------------------------
 # Cases
 
-_KEYS = frozenset(Case.model_fields)
 
-
-def _parse_cases(raw: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Case], dict[str, CaseSpec]]:
-    """The cases of a study that are right, and what each amounts to; adds to `faults` what is wrong with the others."""
-    cases: dict[str, Case] = {}
-    specs: dict[str, CaseSpec] = {}
-    for name, own in mapping(raw.get("cases")).items():
-        case, spec = _parse_case(raw, str(name), own, faults)
-        if case is not None and spec is not None:
-            cases[str(name)], specs[str(name)] = case, spec
-    return cases, specs
-
-
-def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> tuple[Case | None, CaseSpec | None]:
+def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> tuple[Case, CaseSpec] | None:
+    """A case and what it amounts to, if all of it is right."""
     path = ("cases", name)
     if not is_name(name):
         faults.add(path, "", "a case's name must be letters, digits and _, starting with a letter")
@@ -269,7 +258,7 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
         faults.add(path, "", "a case must not be called so, the name is taken by a variable")
     if not isinstance(own, Mapping):
         faults.add(path, own, "must be a mapping")
-        return None, None
+        return None
     said = {"parameters": raw.get("base"), "record": raw.get("record"), "tol": raw.get("tol")}
     inherited = {key: value for key, value in said.items() if value is not None}
     whole = inherit(inherited, own)
@@ -277,19 +266,19 @@ def _parse_case(raw: Mapping[str, Any], name: str, own: Any, faults: Faults) -> 
     case = validated(Case, whole, path, faults, place)
     read = _parse_parameters(whole.get("parameters", {}), place, faults)
     if case is None:
-        return None, None
+        return None
     windows = _resolve_windows(case, place, faults)
     events = _resolve_events(case, place, faults)
     if read is None or windows is None:
-        return case, None
+        return None
     parameters, truncation, modes = read
     if case.ramps:
         wrong = ramp_faults(parameters, case.ramps, poincare=case.record.poincare is not None)
-        add_parameter_faults(wrong, lambda name: place.of((name,) if name in _KEYS else ("parameters", name)), faults)
+        keys = Case.model_fields
+        add_parameter_faults(wrong, lambda name: place.of((name,) if name in keys else ("parameters", name)), faults)
     kept = {"windows": windows, "poincare": case.record.poincare, "events": events, "energy": case.record.energy}
     how = {name: getattr(case, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
-    spec = CaseSpec(parameters=parameters, truncation=truncation, modes=modes, **kept, **how)
-    return case, spec
+    return case, CaseSpec(parameters=parameters, truncation=truncation, modes=modes, **kept, **how)
 
 
 def _parse_parameters(values: Any, place: Origin, faults: Faults) -> tuple[Parameters, str, str] | None:
@@ -360,17 +349,17 @@ def _figures(
         plots, of_grid = {}, {}
         for name, said in given.items():
             kind = mapping(said).get("kind")
-            if isinstance(kind, str) and kind in CASE_PLOTS:
+            if not isinstance(kind, str) or kind not in {*CASE_PLOTS, *PLOTS}:
+                rule = f"unknown kind of figure (known: {', '.join((*CASE_PLOTS, *PLOTS))})"
+                faults.add(("figures", str(name), "kind"), kind, rule)
+            elif kind in CASE_PLOTS:
                 plot = _case_plot(str(name), kind, said, raw, specs, faults)
                 if plot is not None:
                     plots[str(name)] = plot
-            elif isinstance(kind, str) and kind in PLOTS and raw.keys() & GRID_KEYS:
+            elif raw.keys() & GRID_KEYS:
                 of_grid[name] = said
-            elif isinstance(kind, str) and kind in PLOTS:
-                faults.add(("figures", str(name), "kind"), kind, "shows a grid, and this study has none")
             else:
-                rule = f"unknown kind of figure (known: {', '.join((*CASE_PLOTS, *PLOTS))})"
-                faults.add(("figures", str(name), "kind"), kind, rule)
+                faults.add(("figures", str(name), "kind"), kind, "shows a grid, and this study has none")
         return (), plots, of_grid
     if isinstance(given, str) or not isinstance(given, Iterable):
         faults.add(("figures",), given, "must be a mapping of names to {kind: ...}, or a list of the paper's figures")
@@ -383,7 +372,7 @@ def _case_plot(
     name: str, kind: str, said: Any, raw: Mapping[str, Any], specs: Mapping[str, CaseSpec], faults: Faults
 ) -> CasePlot | None:
     path = ("figures", name)
-    if not isinstance(name, str) or not name.isidentifier() or name in CATALOGUE:
+    if not name.isidentifier() or name in CATALOGUE:
         faults.add(path, "", "a figure's name must be letters, digits and _, and not that of one of the paper's")
     plot = validated(CASE_PLOTS[kind], said, path, faults)
     if plot is None:

@@ -11,10 +11,10 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, create_model, model_validator
 
 from disc_model.data.variables import KICKS
-from disc_model.errors import Fault, ParameterError, suggestion
+from disc_model.errors import ParameterError, suggestion
 from disc_model.parameters import AUTO, RELATED, RESIDUAL, Count, Finite, Parameters, Real, Strict, cross_faults
 from disc_model.simulation.case import START, SomeParameters
-from disc_model.studies.files import Faults, add_parameter_faults, mapping, validated
+from disc_model.studies.files import Faults, add_parameter_faults, first_of_each, mapping, validated
 
 # ----------------------------------------------------------------------------------------------------
 # Values along one axis: lists, linear and logarithmic ranges, and blocks of them
@@ -267,13 +267,8 @@ def check_points(dims: Sequence[Dimension], base: Mapping[str, Any], faults: Fau
     """Faults for rules between parameters of which some vary, each where it is broken first."""
     related = [dim for dim in dims if not set(RELATED).isdisjoint(dim.names)]
     varied = [name for dim in related for name in dim.names]
-    broken: set[str] = set()
-    for point in points(related):
-        for fault in cross_faults(Parameters, {**base, **point}):
-            name = fault.path[0] if isinstance(fault, Fault) else ""
-            if name not in broken:
-                broken.add(name)
-                add_parameter_faults([fault], lambda name: ("axes" if name in varied else "base", name), faults)
+    broken = first_of_each(fault for point in points(related) for fault in cross_faults(Parameters, {**base, **point}))
+    add_parameter_faults(broken, lambda name: ("axes" if name in varied else "base", name), faults)
 
 
 def check_size(dims: Sequence[Dimension], faults: Faults) -> None:

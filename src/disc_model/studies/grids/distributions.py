@@ -11,10 +11,10 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, model_validator
 
-from disc_model.errors import Fault, ParameterError, shown
+from disc_model.errors import ParameterError, shown
 from disc_model.parameters import RELATED, Count, Finite, Parameters, Positive, Strict, cross_faults, is_number
 from disc_model.simulation.case import SomeParameters
-from disc_model.studies.files import Faults, add_parameter_faults
+from disc_model.studies.files import Faults, first_of_each
 from disc_model.studies.grids.dimensions import Dimension, points
 
 # ----------------------------------------------------------------------------------------------------
@@ -31,10 +31,6 @@ class _Distribution(Strict):
     """
 
     relative: bool = False
-
-    def ends(self) -> tuple[float, float]:
-        """Least and greatest value that is drawn."""
-        raise NotImplementedError
 
 
 class _Bounded(_Distribution):
@@ -148,18 +144,13 @@ def check_distributions(options: Sampled, base: Mapping[str, Any], dims: Sequenc
             faults.add((*PLACE, name), "", f"must not be relative to {shown(value)}")
     if len(faults) > before:
         return
-    broken: set[str] = set()
-    for fault in _broken(options, base, dims):
+    for fault in first_of_each(_broken(options, base, dims)):
         name = fault.path[0]
-        if name not in broken:
-            broken.add(name)
-            fault = Fault(fault.path, fault.value, f"{fault.rule}; distributions reach that far")
-            add_parameter_faults(
-                [fault], lambda name: (*(PLACE if name in options.distributions else ("base",)), name), faults
-            )
+        place = (*PLACE, name) if name in options.distributions else ("base", name)
+        faults.add_shown(place, fault.value, f"{fault.rule}; distributions reach that far")
 
 
-def _broken(options: Sampled, base: Mapping[str, Any], dims: Sequence[Dimension]) -> Iterator[Fault]:
+def _broken(options: Sampled, base: Mapping[str, Any], dims: Sequence[Dimension]) -> Iterator[str]:
     """Rules that ends of the distributions break, at any point; those between parameters hold if their corners do."""
     related = [name for name in options.names if name in RELATED]
     wanted = [dim for dim in dims if not {*options.names, *RELATED}.isdisjoint(dim.names)]
@@ -171,7 +162,7 @@ def _broken(options: Sampled, base: Mapping[str, Any], dims: Sequence[Dimension]
                 yield from _refused(name, end)
         for corner in product(*(ends[name] for name in related)):
             values = {**here, **dict(zip(related, corner, strict=True))}
-            yield from (fault for fault in cross_faults(Parameters, values) if isinstance(fault, Fault))
+            yield from cross_faults(Parameters, values)
 
 
 def drawn_ends(given: Uniform | Normal | TruncatedNormal, own: float) -> tuple[float, float]:
@@ -185,10 +176,9 @@ def _own(name: str, values: Mapping[str, Any]) -> Any:
     return values.get(name, Parameters.model_fields[name].default)
 
 
-def _refused(name: str, value: float) -> Iterator[Fault]:
+def _refused(name: str, value: float) -> Sequence[str]:
     try:
         SomeParameters(**{name: value})
     except ParameterError as error:
-        for fault in error.faults:
-            if isinstance(fault, Fault):
-                yield fault
+        return error.faults
+    return ()

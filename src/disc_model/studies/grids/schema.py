@@ -48,6 +48,7 @@ from disc_model.studies.grids.dimensions import (
     check_size,
     n_points,
     parse_dimensions,
+    points,
     thinned,
 )
 from disc_model.studies.grids.distributions import Sampled, check_distributions
@@ -102,13 +103,12 @@ def batch_texts(
         "names": [name for dim in dims for name in dim.names],
         "sources": source_hash(module_of(quantity), runner, *_chooser(base)),
     }
+    parts: Iterator[dict[str, Any]]
     if QUANTITIES[quantity].tiled and runner == RUNNER:
-        texts = [canonical_json({**shared, **tile}) for tile in _tiles(dims, batch, sampled)]
-        return {content_key(text): text for text in texts}
-    texts = [
-        canonical_json({**shared, **_used(starts, shared["names"], points), "points": points})
-        for points in _chunks(dims, batch)
-    ]
+        parts = _tiles(dims, batch, sampled)
+    else:
+        parts = ({**_used(starts, shared["names"], points), "points": points} for points in _chunks(dims, batch))
+    texts = [canonical_json({**shared, **part}) for part in parts]
     return {content_key(text): text for text in texts}
 
 
@@ -269,11 +269,8 @@ class GridStudy:
     @property
     def laws(self) -> list[str]:
         """Laws of contact of its points, in `LAWS`: each has kernels of its own."""
-        taken = [
-            {tuple(item for item in zip(dim.names, value, strict=True) if item[0] in _OF_LAW) for value in dim.values}
-            for dim in self.dims
-        ]
-        found = {_kind_of_law({**self.base, **dict(chain(*chosen))}) for chosen in product(*taken)}
+        deciding = [dim for dim in self.dims if not _OF_LAW.keys().isdisjoint(dim.names)]
+        found = {_kind_of_law({**self.base, **point}) for point in points(deciding)}
         return [law for law, case in LAWS.items() if _kind_of_law(case) in found]
 
     @property
@@ -360,8 +357,8 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
     base, automatic = _base(mapping(raw.get("base")), faults)
     starts = _starts(mapping(raw.get("starts")), faults)
     dims = (*parse_dimensions(raw, fineness, starts, faults), *_samples(options))
-    varied = [name for dim in dims for name in dim.names]
-    _check_names(raw, dims, varied, () if quantity is None else quantity.scanned(options), quantity, faults)
+    scanned = () if quantity is None else quantity.scanned(options)
+    _check_names(raw, dims, scanned, quantity, faults)
     _check_starts(raw, quantity, faults)
     _check_truncation(raw, automatic, faults)
     if not faults:
@@ -370,14 +367,14 @@ def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
         check_distributions(options, base, dims[:-1], faults)
     check_size(dims, faults)
     # what is only meant to be a dimension, and has faults, counts as one without values
-    values: Values = dict.fromkeys(sorted(asked(raw) - set(varied)), ()) | {dim.name: dim.values for dim in dims}
+    meant = sorted(asked(raw).difference(*(dim.names for dim in dims)))
+    values: Values = dict.fromkeys(meant, ()) | {dim.name: dim.values for dim in dims}
     plots = _plots(mapping(raw.get("figures")), raw.get("quantity"), options, values, faults)
     if faults or header is None or quantity is None or options is None:
         raise StudyError(*faults)
-    varied_first = {name: value for dim in dims for name, value in zip(dim.names, dim.values[0], strict=True)}
-    first = {name: value for name, value in varied_first.items() if name in Parameters.model_fields}
-    scanned = {name: 0.0 for name in quantity.scanned(options) if name in REQUIRED}  # not used
-    complete = Parameters(**{**scanned, **base, **first}).canonical
+    first = {name: value for name, value in next(points(dims)).items() if name in Parameters.model_fields}
+    unused = {name: 0.0 for name in scanned if name in REQUIRED}
+    complete = Parameters(**{**unused, **base, **first}).canonical
     if automatic:
         complete |= automatic
         del complete["n_circles"]
@@ -484,11 +481,11 @@ def _check_truncation(raw: Mapping[str, Any], automatic: Mapping[str, Any], faul
 def _check_names(
     raw: Mapping[str, Any],
     dims: Sequence[Dimension],
-    varied: Sequence[str],
     scanned: Sequence[str],
     quantity: Quantity | None,
     faults: Faults,
 ) -> None:
+    varied = [name for dim in dims for name in dim.names]
     for name in sorted({name for name in varied if varied.count(name) > 1}):
         faults.add(("axes", name), "", "varies along two dimensions")
     if not dims and not faults:
