@@ -67,18 +67,15 @@ def merge_batches(
 def failures(study: xr.Dataset) -> Iterator[str]:
     """A line for each point without the result asked for: where it lies, its status, what happened; errors first."""
     status = flag_names(study["status"])
+    varied = [name for name in study.coords if set(study[name].dims) <= set(study["status"].dims)]
     failed = np.isin(status, STATUSES[1:])
     others = ~failed & ((status != "ok") | (study["message"].values != ""))
     for index in (*np.argwhere(failed), *np.argwhere(others)):
         place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
         point = study.isel(place)
-        where = ", ".join(f"{name} = {point[name].item()}" for name in _varied(study))
+        where = ", ".join(f"{name} = {point[name].item()}" for name in varied)
         what, message = str(status[tuple(index)]), str(point["message"].item())
         yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"
-
-
-def _varied(study: xr.Dataset) -> list[str]:
-    return [str(name) for name in study.coords if set(study[name].dims) <= set(study["status"].dims)]
 
 
 def _places(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]], names: Sequence[str]) -> np.ndarray:

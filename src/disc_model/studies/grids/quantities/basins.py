@@ -73,7 +73,7 @@ def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
 def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     """Starts that fail have a status of their own share; the point fails if all do."""
     sample = _Sample(p, options)
-    found = [[sample.done[j, i] for i in range(options.starts)] for j in range(len(options.energies))]
+    found = sample.found
     rows = [reached for row in found for reached in row]
     attractors = _by_starts(rows)
     failed = [reached for reached in rows if reached.kind == "failed"]
@@ -84,34 +84,34 @@ def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
         "simulated": [[reached.simulated for reached in row] for row in found],
         "separated": [["yes" if reached.separated else "no" for reached in row] for row in found],
     }
-    values |= _shares("energy_share", found, options.confidence) | _shares("share", [rows], options.confidence, 0)
-    values |= sample.least_kick(found) | _described(attractors, rows)
+    values |= _shares("energy_share", found, options.confidence)
+    values |= {name: one for name, (one,) in _shares("share", [rows], options.confidence).items()}
+    values |= sample.least_kick() | _described(attractors, rows)
     message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
     return values, message
 
 
 class _Sample:
-    """The starts of a point, by the number of their energy and their own."""
+    """The starts of a point; what they come to is found by the number of their energy, and then their own."""
 
     def __init__(self, p: Parameters, options: BasinsOptions) -> None:
         self.p, self.options = p, options
         self.start: State = prepared(p, options, options.tol) or published_start(p)
         self.basins = Basins(p, options.horizon, near=options.near, tol=options.tol)
-        self.done: dict[tuple[int, int], Reached] = {}
-        for i in range(options.starts):
-            for j, energy in enumerate(options.energies):
-                self.done[j, i] = self.kicked(energy, j, i)
+        energies = list(enumerate(options.energies))
+        all_of = [[self.kicked(energy, j, i) for j, energy in energies] for i in range(options.starts)]
+        self.found = list(zip(*all_of, strict=True))
 
     def kicked(self, energy: float, j: int, i: int) -> Reached:
         """What a kick of any energy in the direction of a start comes to."""
         return self.basins.reached(random_kick(self.p, self.start, energy, (self.options.seed, j, i)))
 
-    def least_kick(self, found: Sequence[Sequence[Reached]]) -> dict[str, float]:
+    def least_kick(self) -> dict[str, float]:
         """By bisection of the energy's logarithm, in the directions of the starts that separate at the least energy."""
         energies = self.options.energies
         separating = sorted(
             (energies[j], i, j)
-            for j, row in enumerate(found)
+            for j, row in enumerate(self.found)
             for i, reached in enumerate(row)
             if reached.kind == "separating"
         )
@@ -141,16 +141,13 @@ class _Sample:
         return low, high
 
 
-def _shares(
-    name: str, found: Sequence[Sequence[Reached]], confidence: float, only: int | None = None
-) -> dict[str, Any]:
-    """Shares of what each row comes to, with Wilson's intervals; of a single row if `only` says which."""
-    shares = np.empty((3, len(found), len(FATES)))
-    for j, row in enumerate(found):
-        for k, fate in enumerate(FATES):
-            shares[:, j, k] = share(sum(reached.kind == fate for reached in row), len(row), confidence=confidence)
-    kept = shares if only is None else shares[:, only]
-    return dict(zip((name, f"{name}_low", f"{name}_high"), kept, strict=True))
+def _shares(name: str, found: Sequence[Sequence[Reached]], confidence: float) -> dict[str, Any]:
+    """Shares of what each row comes to, with Wilson's intervals: shape (rows, fates)."""
+    shares = [
+        [share(sum(reached.kind == fate for reached in row), len(row), confidence=confidence) for fate in FATES]
+        for row in found
+    ]
+    return dict(zip((name, f"{name}_low", f"{name}_high"), np.moveaxis(np.array(shares), -1, 0), strict=True))
 
 
 def _by_starts(rows: Sequence[Reached]) -> list[Attractor]:

@@ -90,11 +90,10 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
     first, separations, stick = math.nan, 0, 0.0
     while True:
         stretches: list[Any] = []
-        for end in (transient, math.nan, math.nan):
-            recorded = math.isnan(end)
-            if not recorded and end <= begin:
+        for recorded in (False, True, True):
+            stop = begin + STRETCH if recorded else transient
+            if stop <= begin:
                 continue
-            stop = begin + STRETCH if recorded else end
             run = simulate(p, stop, tol=options.tol, initial_state=state, record=Record(events=recorded))
             first = run.first_separation if math.isnan(first) else first
             separations += int(run.statistics["separations"])

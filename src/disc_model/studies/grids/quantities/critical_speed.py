@@ -77,41 +77,34 @@ def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]
 
 def at(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
     """Scan and bisect; the point's own Omega is not used."""
-    horizons = options.horizons
     step, scale = _lattice(options)
+    motions: dict[int, Motion] = {}
     known: dict[int, float] = {}
-    statuses: dict[int, str] = {}
-    messages: list[str] = []
     total = 0.0
 
-    def first_separation(i: int) -> float:
-        """At the i-th speed of the lattice, s; infinite if there is none within the longest horizon, nan if unknown."""
+    def look(i: int) -> None:
+        """The motion at the i-th speed of the lattice, at which none has been followed."""
         nonlocal total
-        if i not in known:
-            case = p.replace(Omega=scale(i))
-            found = motion(case, options)
-            total += found.simulated
-            statuses[i] = found.status
-            if found.status != "ok":
-                messages.append(f"Omega={case.Omega:g}: {found.message}")
-            none = math.isnan(found.first_separation) and found.status == "ok"
-            known[i] = math.inf if none else found.first_separation
-        return known[i]
+        found = motions[i] = motion(p.replace(Omega=scale(i)), options)
+        total += found.simulated
+        none = math.isnan(found.first_separation) and found.status == "ok"
+        known[i] = math.inf if none else found.first_separation
 
     scan = [i * step for i in range(options.scan.intervals + 1)]
     for i in scan:
-        first_separation(i)
-    for horizon in horizons:
-        _bisect(known, first_separation, horizon)
+        look(i)
+    for horizon in options.horizons:
+        _bisect(known, look, horizon)
+    failed = {i: found for i, found in motions.items() if found.status != "ok"}
     values: dict[str, Any] = {
-        "status": next((status for status in statuses.values() if status != "ok"), "ok"),
-        "scan_first_separation": [known[i] if math.isfinite(known[i]) else math.nan for i in scan],
-        "scan_status": [statuses[i] for i in scan],
-        "simulations": len(known),
+        "status": next((found.status for found in failed.values()), "ok"),
+        "scan_first_separation": [motions[i].first_separation for i in scan],
+        "scan_status": [motions[i].status for i in scan],
+        "simulations": len(motions),
         "simulated_time": total,
     }
-    values |= listed([_crossings(known, horizon, scale) for horizon in horizons])
-    return values, "; ".join(messages)
+    values |= listed([_crossings(known, horizon, scale) for horizon in options.horizons])
+    return values, "; ".join(f"Omega={scale(i):g}: {found.message}" for i, found in failed.items())
 
 
 class Motion(NamedTuple):
@@ -152,14 +145,15 @@ def _lattice(options: CriticalSpeedOptions) -> tuple[int, Callable[[int], float]
     return step, lambda i: float(f"{scan.start + i * options.precision:.12g}")
 
 
-def _bisect(known: dict[int, float], first_separation: Callable[[int], float], horizon: float) -> None:
-    """Halve every interval over which separation within the horizon begins or ends, down to the lattice."""
-    while True:
-        wide = [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]
-        if not wide:
-            return
+def _bisect(known: dict[int, float], look: Callable[[int], None], horizon: float) -> None:
+    """Halve every interval over which separation within the horizon begins or ends, down to the lattice.
+
+    known : first separations by place on the lattice, s; infinite if there is none within the longest horizon, nan if
+        that is not known
+    """
+    while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
         for i in wide:
-            first_separation(i)
+            look(i)
 
 
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:

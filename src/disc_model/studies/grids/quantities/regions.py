@@ -30,14 +30,13 @@ from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.fate import CYCLE_TOL, Fate, Near, departs_after, fate, published_start_near
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import ReturnMap, newton
-from disc_model.studies.grids.run import NUMERICAL, STATUS, Column, Row
+from disc_model.studies.grids.run import NUMERICAL, STATUS, Column, Point, Row
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import RegionsOptions
 
 Array = NDArray[np.float64]
 Place = tuple[int, int]
-Point = Parameters | DiscModelError
 
 OUTCOMES = ("unknown", "stable", "unstable", "separation", "undecided")
 ORIGINS = ("none", "multipliers", "simulation", "undivided_cell")
@@ -83,6 +82,8 @@ SEPARATING = 5.0
 """How long a motion is followed for its history, beyond where its fate was known, s."""
 MOST_CYCLES = 4
 """Cycles carried from point to point, at most."""
+TOLD = {"quiet": "stable", "slow": "unstable"}
+"""Outcomes that multipliers tell."""
 
 
 def over(
@@ -123,12 +124,11 @@ class _Tile:
     def __init__(self, points: Sequence[Sequence[Point]], options: RegionsOptions, sampled: Collection[Place]) -> None:
         self.points, self.options = points, options
         self.shape = len(points), len(points[0])
-        self.starts: dict[Place, Near | FloquetResult | Exception] = {}
+        places = product(range(self.shape[0]), range(self.shape[1]))
+        self.starts = {place: self._start(place) for place in places}
         self.fates: dict[Place, Fate | Exception] = {}
         self.filled: dict[Place, str] = {}
         self.presumed: dict[Place, str] = {}
-        for i, j in product(range(self.shape[0]), range(self.shape[1])):
-            self.starts[i, j] = self._start((i, j))
         self.trends = {place: self._trend(place) for place in self.starts}
         for place in sampled:
             self.outcome(place)
@@ -238,13 +238,13 @@ class _Tile:
     def _said(self, place: Place) -> str:
         """The outcome at a corner, worked out or presumed."""
         if self.trends[place] != "open":
-            return {"quiet": "stable", "slow": "unstable"}[self.trends[place]]
+            return TOLD[self.trends[place]]
         return self.presumed[place] if place not in self.fates else self.outcome(place)
 
     def rows(self) -> list[list[tuple[Row, str]]]:
         others = self._others()
         self.followed = {place: followed for place in self.starts if (followed := self._follow(place)) is not None}
-        return [[self._row((i, j), int(others[i, j])) for j in range(self.shape[1])] for i in range(self.shape[0])]
+        return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
     def _follow(self, place: Place) -> _Followed | None:
         """The cycle that the published start follows at a point, if that is known.
@@ -293,7 +293,7 @@ class _Tile:
         elif self.trends[place] == "open":
             row |= {"outcome": self.filled.get(place, self.presumed.get(place)), "origin": "undivided_cell"}
         else:
-            row |= {"outcome": {"quiet": "stable", "slow": "unstable"}[self.trends[place]], "origin": "multipliers"}
+            row |= {"outcome": TOLD[self.trends[place]], "origin": "multipliers"}
         row["joined_first"] = self._joined(place, (place[0] + 1, place[1]))
         row["joined_second"] = self._joined(place, (place[0], place[1] + 1))
         followed = self.followed.get(place)
@@ -311,7 +311,7 @@ class _Tile:
             row["cycle"] = _without(start, found)
         return row, message
 
-    def _others(self) -> NDArray[np.int64]:
+    def _others(self) -> dict[Place, int]:
         """How many cycles are known at each point besides the one nearest to the start.
 
         Along each row, both ways, a cycle that does not go on into the next point's own is looked for there.
@@ -322,10 +322,7 @@ class _Tile:
             for way in (ways, ways[::-1]):
                 for before, here in pairwise(way):
                     self._carry(known, (i, before), (i, here))
-        counts = np.zeros(self.shape, dtype=np.int64)
-        for place, cycles in known.items():
-            counts[place] = max(0, len(cycles) - 1)
-        return counts
+        return {place: max(0, len(cycles) - 1) for place, cycles in known.items()}
 
     def _carry(self, known: dict[Place, list[Array]], before: Place, here: Place) -> None:
         start, there = self.starts[here], self.starts[before]

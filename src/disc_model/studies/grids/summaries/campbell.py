@@ -136,7 +136,7 @@ def effect_of(
     """
     inside = np.abs(one.detuning) <= window
     first, last = one.place, one.place + 1
-    while first >= 0 and (inside[first] or first == one.place + 1):
+    while first >= 0 and inside[first]:
         first -= 1
     while last < len(inside) and inside[last]:
         last += 1
@@ -144,9 +144,7 @@ def effect_of(
     if first < 0 or last >= len(inside) or last - first - 1 < FEWEST:
         return "unresolved", math.nan, math.nan, 0
     highest = float(np.nanmax(leading[within])) if np.isfinite(leading[within]).any() else math.nan
-    if not np.isfinite(leading[within]).all():
-        return "no_cycle", highest, math.nan, 0
-    if not np.isfinite(leading[[first, last]]).all():
+    if not np.isfinite(leading[first : last + 1]).all():
         return "no_cycle", highest, math.nan, 0
     ends = np.array([growth[first], growth[last]])
     rises = growth[within].max(axis=0) - ends.max(axis=0)
