@@ -9,7 +9,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
@@ -22,7 +21,7 @@ P = Parameters(N=1, Omega=1)
 
 def quantity(at: Callable[..., object]) -> SimpleNamespace:
     """A quantity that stands for a module."""
-    columns = {"status": Column(STATUS), "value": Column(Variable("1", "a number"))}
+    columns = {"status": Column(*STATUS), "value": Column("1", "a number")}
     return SimpleNamespace(COLUMNS=columns, coordinates=lambda options: {}, at=at)
 
 
@@ -81,7 +80,7 @@ def test_of_a_failed_point_nothing_is_known(quantity, options, statuses, fake_mo
     )
     assert table.messages == ["Unmade: no modes"]
     for name, array in table.arrays.items():
-        flags = quantity.COLUMNS[name].variable.flags
+        flags = quantity.COLUMNS[name].flags
         if flags:
             assert {flags[i] for i in array.ravel()} == {"failed" if name in statuses else flags[0]}
         elif array.dtype.kind == "f":

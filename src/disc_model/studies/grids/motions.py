@@ -37,10 +37,10 @@ class Motions:
     """The histories in place of what the quantity itself computes; a `Quantity` as that of `run`."""
 
     COLUMNS: Mapping[str, Column] = {
-        "status": Column(STATUS),
-        "length": Column(Variable("s", "length of the history")),
-        **{name: Column(SERIES[name], _ALONG) for name in SHOWN},
-        "phase": Column(Variable("1", "phase of the motion", ("none", *PHASES)), _ALONG),
+        "status": Column(*STATUS),
+        "length": Column("s", "length of the history"),
+        **{name: Column(*SERIES[name], dims=_ALONG) for name in SHOWN},
+        "phase": Column("1", "phase of the motion", ("none", *PHASES), dims=_ALONG),
     }
 
     def __init__(self, quantity: Any) -> None:

@@ -18,7 +18,7 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Variable, attributes
 from disc_model.errors import DiscModelError, Status
-from disc_model.parameters import AUTO, Parameters, leaves_modes
+from disc_model.parameters import AUTO, Parameters
 from disc_model.simulation.case import START, Start
 from disc_model.studies.modes import chosen
 from disc_model.truncation import read_asked
@@ -113,8 +113,6 @@ def _made(base: Mapping[str, Any], varied: Mapping[str, Any]) -> Point:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
     values = {**base, **{name: value for name, value in varied.items() if name in Parameters.model_fields}}
     try:
-        if not leaves_modes(values):
-            return Parameters.model_validate(values)
         p, asked = read_asked(values)
         return p if asked is None else chosen(p, asked).parameters
     except DiscModelError as error:
@@ -146,24 +144,30 @@ NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
 
 
 class Column(NamedTuple):
-    """A variable of a quantity, and its dimensions beyond the grid's."""
+    """A variable of a quantity, see `disc_model.data.variables.Variable`, and its dimensions beyond the grid's."""
 
-    variable: Variable
+    units: str
+    long_name: str
+    flags: tuple[str, ...] = ()
     dims: tuple[str, ...] = ()
     whole: bool = False
 
     @property
+    def variable(self) -> Variable:
+        return Variable(self.units, self.long_name, self.flags)
+
+    @property
     def dtype(self) -> type[np.generic]:
-        if self.variable.flags:
+        if self.flags:
             return np.int8
         return np.int64 if self.whole else np.float64
 
     @property
     def missing(self) -> float:
         """What stands where nothing is known: of a status `failed`, of other flags their first."""
-        if "failed" in self.variable.flags:
-            return self.variable.flags.index("failed")
-        return 0 if self.variable.flags or self.whole else math.nan
+        if "failed" in self.flags:
+            return self.flags.index("failed")
+        return 0 if self.flags or self.whole else math.nan
 
     def empty(self, shape: Sequence[int]) -> NDArray[Any]:
         """An array of nothing but `missing`."""
@@ -253,7 +257,7 @@ def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Colu
         kept = value[tuple(map(slice, room))]
         array[place][tuple(map(slice, kept.shape))] = kept
     elif value is not None:
-        array[place] = column.variable.flags.index(value) if isinstance(value, str) else value
+        array[place] = column.flags.index(value) if isinstance(value, str) else value
 
 
 def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:

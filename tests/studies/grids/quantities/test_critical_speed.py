@@ -76,7 +76,7 @@ def test_385_N_turns_between_15_08_and_15_09() -> None:
     found = speeds(385, [200], 15, 15.2, 0.05, 0.01)
     assert found["critical_speed"][0, 0] == 15.09
     assert found["crossing"][0, 0, 0] == 15.09
-    kinds = critical_speed.COLUMNS["crossing_kind"].variable.flags
+    kinds = critical_speed.COLUMNS["crossing_kind"].flags
     assert [kinds[i] for i in found["crossing_kind"][0, 0, :2]] == ["begins", "none"]
 
 

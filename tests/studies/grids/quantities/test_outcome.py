@@ -26,7 +26,7 @@ __all__ = ["impatient"]
 
 def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.ndarray], list[str]]:
     table = compute(outcome, cases, OutcomeOptions(**{"horizon": 1000, **options}))
-    words = outcome.COLUMNS["outcome"].variable.flags
+    words = outcome.COLUMNS["outcome"].flags
     return table.arrays, [words[i] for i in table.arrays["outcome"]]
 
 

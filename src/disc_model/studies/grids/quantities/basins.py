@@ -34,29 +34,29 @@ _EACH, _SHARES, _POOLED, _KNOWN = ("energy", "start"), ("energy", "fate"), ("fat
 
 def _share(what: str, dims: tuple[str, ...]) -> dict[str, Column]:
     bounds = {"": "", "_low": ", lower end of its confidence interval", "_high": ", upper end of it"}
-    return {f"{what}{end}": Column(Variable("1", f"share of the starts{more}"), dims) for end, more in bounds.items()}
+    return {f"{what}{end}": Column("1", f"share of the starts{more}", dims=dims) for end, more in bounds.items()}
 
 
 COLUMNS = {
-    "status": Column(STATUS),
-    "kind": Column(Variable("1", "what the start comes to", KINDS), _EACH),
-    "reached": Column(Variable("1", "number of the attractor reached, from 1"), _EACH, whole=True),
-    "simulated": Column(Variable("s", "simulated time until that was known"), _EACH),
-    "separated": Column(Variable("1", "whether contact was lost on the way", ("no", "yes")), _EACH),
+    "status": Column(*STATUS),
+    "kind": Column("1", "what the start comes to", KINDS, dims=_EACH),
+    "reached": Column("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
+    "simulated": Column("s", "simulated time until that was known", dims=_EACH),
+    "separated": Column("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
     **_share("energy_share", _SHARES),
     **_share("share", _POOLED),
-    "least_kick": Column(Variable("J", "least energy found that leads to lasting separation, by bisection")),
-    "least_kick_not": Column(Variable("J", "greatest energy below it, in the same direction, that does not")),
-    "least_kick_sample": Column(Variable("J", "least energy among the starts that come to lasting separation")),
-    "attractor_kind": Column(Variable("1", "what the attractor is", KINDS), _KNOWN),
-    "attractor_starts": Column(Variable("1", "number of starts that reach it"), _KNOWN, whole=True),
-    "attractor_range": Column(Variable("m", "range of the slider's height on it"), _KNOWN),
-    "attractor_separation_rate": Column(Variable("s-1", "separations per second on it"), _KNOWN),
-    "attractor_share_stick": Column(Variable("1", "share of the time spent sticking on it"), _KNOWN),
-    "attractor_share_separation": Column(Variable("1", "share of the time spent separated on it"), _KNOWN),
-    "attractor_releases": Column(Variable("1", "stick releases in its period, 0 if not periodic"), _KNOWN, whole=True),
-    "attractor_period": Column(Variable("s", "its period, nan if not periodic"), _KNOWN),
-    "attractor_growth_rate": Column(Variable("s-1", "growth rate of disturbances of it, if periodic"), _KNOWN),
+    "least_kick": Column("J", "least energy found that leads to lasting separation, by bisection"),
+    "least_kick_not": Column("J", "greatest energy below it, in the same direction, that does not"),
+    "least_kick_sample": Column("J", "least energy among the starts that come to lasting separation"),
+    "attractor_kind": Column("1", "what the attractor is", KINDS, dims=_KNOWN),
+    "attractor_starts": Column("1", "number of starts that reach it", dims=_KNOWN, whole=True),
+    "attractor_range": Column("m", "range of the slider's height on it", dims=_KNOWN),
+    "attractor_separation_rate": Column("s-1", "separations per second on it", dims=_KNOWN),
+    "attractor_share_stick": Column("1", "share of the time spent sticking on it", dims=_KNOWN),
+    "attractor_share_separation": Column("1", "share of the time spent separated on it", dims=_KNOWN),
+    "attractor_releases": Column("1", "stick releases in its period, 0 if not periodic", dims=_KNOWN, whole=True),
+    "attractor_period": Column("s", "its period, nan if not periodic", dims=_KNOWN),
+    "attractor_growth_rate": Column("s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN),
 }
 
 

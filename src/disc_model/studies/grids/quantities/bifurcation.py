@@ -39,20 +39,18 @@ TRIED = 3
 """Numbers of switches for which a cycle is looked for, at most."""
 STEADY = ("unknown", "no", "yes")
 COLUMNS = {
-    "status": Column(STATUS),
-    **{name: Column(SERIES[name], ("sample",)) for name in SAMPLED},
-    "phase": Column(Variable("1", "phase of the motion at the sample", ("none", *PHASES)), ("sample",)),
-    "first_separation": Column(SCALARS["first_separation"]),
-    "separations": Column(Variable("1", "number of separations, transient included"), whole=True),
-    "transient": Column(Variable("s", "time left out before the samples")),
-    "steady": Column(Variable("1", "whether two stretches of samples, at switches, were alike", STEADY)),
-    "period": Column(
-        Variable("1", "number of switches after which the motion repeats, 0 if that is not shown"), whole=True
-    ),
+    "status": Column(*STATUS),
+    **{name: Column(*SERIES[name], dims=("sample",)) for name in SAMPLED},
+    "phase": Column("1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)),
+    "first_separation": Column(*SCALARS["first_separation"]),
+    "separations": Column("1", "number of separations, transient included", whole=True),
+    "transient": Column("s", "time left out before the samples"),
+    "steady": Column("1", "whether two stretches of samples, at switches, were alike", STEADY),
+    "period": Column("1", "number of switches after which the motion repeats, 0 if that is not shown", whole=True),
     "closure": Column(
-        Variable("s", "largest difference between an interval and the one a period later: what is left of the approach")
+        "s", "largest difference between an interval and the one a period later: what is left of the approach"
     ),
-    "stick_fraction": Column(Variable("1", "share of the time spent sticking, transient included")),
+    "stick_fraction": Column("1", "share of the time spent sticking, transient included"),
 }
 
 

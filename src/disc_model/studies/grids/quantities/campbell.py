@@ -20,18 +20,18 @@ if TYPE_CHECKING:
 KINDS = ("none", "disc", "slider")
 _EACH = ("mode",)
 COLUMNS = {
-    "status": Column(Variable("1", "what was found near the published start", STATUSES)),
-    "growth_rate": Column(Variable("s-1", "growth rate of disturbances of the stick-slip cycle")),
-    "stick_slip_frequency": Column(Variable("Hz", "releases of stick per second on the stick-slip cycle, f_s")),
-    "rotation_frequency": Column(Variable("Hz", "turns of the drive per second, f_Omega")),
-    "mode_kind": Column(Variable("1", "what moves most: the disc, or the slider in the disc's plane", KINDS), _EACH),
-    "diameters": Column(Variable("1", "nodal diameters of the modes with most of the energy"), _EACH, whole=True),
-    "forward": Column(Variable("1", "share of their energy in waves that travel with the slider"), _EACH),
-    "sliding_frequency": Column(Variable("Hz", "frequency of steady sliding, in the slider's frame"), _EACH),
-    "sliding_growth_rate": Column(Variable("s-1", "growth rate of that mode of steady sliding"), _EACH),
-    "cycle_frequency": Column(Variable("Hz", "frequency of the cycle's multiplier that goes to the mode"), _EACH),
-    "cycle_growth_rate": Column(Variable("s-1", "growth rate of the cycle's multipliers that go to the mode"), _EACH),
-    "likeness": Column(Variable("1", "how like the shapes of mode and multiplier are: squared cosine"), _EACH),
+    "status": Column("1", "what was found near the published start", STATUSES),
+    "growth_rate": Column("s-1", "growth rate of disturbances of the stick-slip cycle"),
+    "stick_slip_frequency": Column("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
+    "rotation_frequency": Column("Hz", "turns of the drive per second, f_Omega"),
+    "mode_kind": Column("1", "what moves most: the disc, or the slider in the disc's plane", KINDS, dims=_EACH),
+    "diameters": Column("1", "nodal diameters of the modes with most of the energy", dims=_EACH, whole=True),
+    "forward": Column("1", "share of their energy in waves that travel with the slider", dims=_EACH),
+    "sliding_frequency": Column("Hz", "frequency of steady sliding, in the slider's frame", dims=_EACH),
+    "sliding_growth_rate": Column("s-1", "growth rate of that mode of steady sliding", dims=_EACH),
+    "cycle_frequency": Column("Hz", "frequency of the cycle's multiplier that goes to the mode", dims=_EACH),
+    "cycle_growth_rate": Column("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
+    "likeness": Column("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
 }
 
 

@@ -33,30 +33,30 @@ DOUBT = 0.05
 points over speed and preload."""
 KINDS = ("none", "begins", "ends")
 COLUMNS = {
-    "status": Column(STATUS),
+    "status": Column(*STATUS),
     "critical_speed": Column(
-        Variable(
-            "rad s-1",
-            "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
-        ),
-        ("horizon",),
+        "rad s-1",
+        "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
+        dims=("horizon",),
     ),
     "n_crossings": Column(
-        Variable("1", "number of speeds found at which separation within the horizon begins or ends"),
-        ("horizon",),
+        "1",
+        "number of speeds found at which separation within the horizon begins or ends",
+        dims=("horizon",),
         whole=True,
     ),
     "crossing": Column(
-        Variable("rad s-1", "a speed at which separation begins or ends, upper end of the last interval"),
-        ("horizon", "crossing_number"),
+        "rad s-1",
+        "a speed at which separation begins or ends, upper end of the last interval",
+        dims=("horizon", "crossing_number"),
     ),
     "crossing_kind": Column(
-        Variable("1", "whether separation begins or ends as the speed rises", KINDS), ("horizon", "crossing_number")
+        "1", "whether separation begins or ends as the speed rises", KINDS, dims=("horizon", "crossing_number")
     ),
-    "scan_first_separation": Column(SCALARS["first_separation"], ("scan_Omega",)),
-    "scan_status": Column(STATUS, ("scan_Omega",)),
-    "simulations": Column(Variable("1", "number of simulations"), whole=True),
-    "simulated_time": Column(Variable("s", "simulated time of all of them")),
+    "scan_first_separation": Column(*SCALARS["first_separation"], dims=("scan_Omega",)),
+    "scan_status": Column(*STATUS, dims=("scan_Omega",)),
+    "simulations": Column("1", "number of simulations", whole=True),
+    "simulated_time": Column("s", "simulated time of all of them"),
 }
 
 

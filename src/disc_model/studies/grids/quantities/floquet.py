@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, floquet
@@ -16,13 +15,13 @@ if TYPE_CHECKING:
 
 STATUSES = (*(status.value for status in CycleStatus), "failed")
 COLUMNS = {
-    "status": Column(Variable("1", "what was found near the published start", STATUSES)),
-    "growth_rate": Column(Variable("s-1", "growth rate of disturbances of the stick-slip cycle")),
-    "period": Column(Variable("s", "period of the stick-slip cycle")),
-    "stick_fraction": Column(Variable("1", "share of the period spent sticking")),
-    "multiplier_re": Column(Variable("1", "real part of the leading multiplier")),
-    "multiplier_im": Column(Variable("1", "imaginary part of the leading multiplier")),
-    "sliding_growth_rate": Column(Variable("s-1", "growth rate of disturbances of steady sliding")),
+    "status": Column("1", "what was found near the published start", STATUSES),
+    "growth_rate": Column("s-1", "growth rate of disturbances of the stick-slip cycle"),
+    "period": Column("s", "period of the stick-slip cycle"),
+    "stick_fraction": Column("1", "share of the period spent sticking"),
+    "multiplier_re": Column("1", "real part of the leading multiplier"),
+    "multiplier_im": Column("1", "imaginary part of the leading multiplier"),
+    "sliding_growth_rate": Column("s-1", "growth rate of disturbances of steady sliding"),
 }
 
 

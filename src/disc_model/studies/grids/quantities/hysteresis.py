@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 DIRECTIONS = ("up", "down")
 _DIMS = ("direction", "sweep_Omega")
 COLUMNS = {
-    "status": Column(STATUS),
-    "sweep_status": Column(STATUS, _DIMS),
-    "separation_rate": Column(Variable("s-1", "separations per second at the end of the stay at a speed"), _DIMS),
-    "P_min": Column(Variable("N", "least contact force at the end of the stay at a speed"), _DIMS),
-    "P_max": Column(Variable("N", "greatest contact force at the end of the stay at a speed"), _DIMS),
-    "share_stick": Column(Variable("1", "share of the time spent sticking"), _DIMS),
-    "share_slip": Column(Variable("1", "share of the time spent slipping"), _DIMS),
-    "share_separation": Column(Variable("1", "share of the time spent separated"), _DIMS),
-    "onset": Column(Variable("rad s-1", "speed at which separation first is found on the way up")),
-    "persists_to": Column(Variable("rad s-1", "lowest speed to which it persists without a gap on the way down")),
+    "status": Column(*STATUS),
+    "sweep_status": Column(*STATUS, dims=_DIMS),
+    "separation_rate": Column("s-1", "separations per second at the end of the stay at a speed", dims=_DIMS),
+    "P_min": Column("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
+    "P_max": Column("N", "greatest contact force at the end of the stay at a speed", dims=_DIMS),
+    "share_stick": Column("1", "share of the time spent sticking", dims=_DIMS),
+    "share_slip": Column("1", "share of the time spent slipping", dims=_DIMS),
+    "share_separation": Column("1", "share of the time spent separated", dims=_DIMS),
+    "onset": Column("rad s-1", "speed at which separation first is found on the way up"),
+    "persists_to": Column("rad s-1", "lowest speed to which it persists without a gap on the way down"),
 }
 
 

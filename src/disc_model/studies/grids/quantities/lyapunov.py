@@ -18,19 +18,17 @@ if TYPE_CHECKING:
 
 CONVERGED = ("unknown", "no", "yes")
 COLUMNS = {
-    "status": Column(STATUS),
-    "exponent": Column(Variable("s-1", "Lyapunov exponent, the one along the motion left out"), ("exponent_number",)),
+    "status": Column(*STATUS),
+    "exponent": Column("s-1", "Lyapunov exponent, the one along the motion left out", dims=("exponent_number",)),
     "exponent_error": Column(
-        Variable("s-1", "the larger of its standard error and the difference between both halves"),
-        ("exponent_number",),
+        "s-1", "the larger of its standard error and the difference between both halves", dims=("exponent_number",)
     ),
     "converged": Column(
-        Variable("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED),
-        ("exponent_number",),
+        "1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=("exponent_number",)
     ),
-    "along": Column(Variable("s-1", "exponent along the motion: 0 but for what the time is too short for")),
-    "covered": Column(Variable("s", "time over which the rates are averaged")),
-    "separations": Column(Variable("1", "number of separations in that time"), whole=True),
+    "along": Column("s-1", "exponent along the motion: 0 but for what the time is too short for"),
+    "covered": Column("s", "time over which the rates are averaged"),
+    "separations": Column("1", "number of separations in that time", whole=True),
 }
 
 

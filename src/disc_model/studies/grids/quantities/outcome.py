@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from disc_model.data.variables import SCALARS, Variable
+from disc_model.data.variables import SCALARS
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared
 from disc_model.simulation.result import Result, State
@@ -17,24 +17,22 @@ if TYPE_CHECKING:
 
 OUTCOMES = ("unknown", "stable", "unstable", "separation")
 COLUMNS = {
-    "status": Column(STATUS),
-    "outcome": Column(
-        Variable("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES)
-    ),
-    "first_separation": Column(SCALARS["first_separation"]),
-    "settled": Column(Variable("s", "time at which the motion was left because it had settled, nan if it was not")),
-    "time_reached": Column(SCALARS["time_reached"]),
-    "distance": Column(Variable("1", "relative distance from the stick-slip cycle where the motion was left for it")),
-    "difference": Column(Variable("1", "relative difference of successive cycles at the last probe")),
-    "difference_rate": Column(Variable("s-1", "growth rate of that difference over the last probes")),
-    "P_min": Column(Variable("N", "least contact force over the late stretch")),
-    "P_max": Column(Variable("N", "greatest contact force over the late stretch")),
-    "u_min": Column(Variable("m", "lowest position of the slider over the late stretch, from static equilibrium")),
-    "u_max": Column(Variable("m", "highest position of the slider over the late stretch, from static equilibrium")),
-    "share_stick": Column(Variable("1", "share of the late stretch spent sticking")),
-    "share_slip": Column(Variable("1", "share of the late stretch spent slipping")),
-    "share_separation": Column(Variable("1", "share of the late stretch spent separated")),
-    "separation_rate": Column(Variable("s-1", "separations per second over the late stretch")),
+    "status": Column(*STATUS),
+    "outcome": Column("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES),
+    "first_separation": Column(*SCALARS["first_separation"]),
+    "settled": Column("s", "time at which the motion was left because it had settled, nan if it was not"),
+    "time_reached": Column(*SCALARS["time_reached"]),
+    "distance": Column("1", "relative distance from the stick-slip cycle where the motion was left for it"),
+    "difference": Column("1", "relative difference of successive cycles at the last probe"),
+    "difference_rate": Column("s-1", "growth rate of that difference over the last probes"),
+    "P_min": Column("N", "least contact force over the late stretch"),
+    "P_max": Column("N", "greatest contact force over the late stretch"),
+    "u_min": Column("m", "lowest position of the slider over the late stretch, from static equilibrium"),
+    "u_max": Column("m", "highest position of the slider over the late stretch, from static equilibrium"),
+    "share_stick": Column("1", "share of the late stretch spent sticking"),
+    "share_slip": Column("1", "share of the late stretch spent slipping"),
+    "share_separation": Column("1", "share of the late stretch spent separated"),
+    "separation_rate": Column("s-1", "separations per second over the late stretch"),
 }
 
 

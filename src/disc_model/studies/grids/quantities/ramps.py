@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 
 _DIMS = ("rate",)
 COLUMNS = {
-    "status": Column(STATUS),
-    "rate_status": Column(STATUS, _DIMS),
-    "onset": Column(Variable("rad s-1", "speed at the first separation on the way up, nan if there is none"), _DIMS),
-    "top_separation_rate": Column(Variable("s-1", "separations per second over the stay at the highest speed"), _DIMS),
+    "status": Column(*STATUS),
+    "rate_status": Column(*STATUS, dims=_DIMS),
+    "onset": Column("rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS),
+    "top_separation_rate": Column("s-1", "separations per second over the stay at the highest speed", dims=_DIMS),
     "persists_to": Column(
-        Variable("rad s-1", "speed at the last separation on the way down, nan if there is none, or it goes on"), _DIMS
+        "rad s-1", "speed at the last separation on the way down, nan if there is none, or it goes on", dims=_DIMS
     ),
 }
 STRETCH = 100.0

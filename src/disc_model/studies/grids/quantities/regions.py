@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.data.variables import SCALARS, Variable
+from disc_model.data.variables import SCALARS
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -43,29 +43,23 @@ ORIGINS = ("none", "multipliers", "simulation", "undivided_cell")
 JOINED = ("no", "yes")
 CYCLES = ("none_found", "followed", "only_near", "slides", "sticks")
 COLUMNS = {
-    "status": Column(STATUS),
-    "outcome": Column(
-        Variable("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES)
-    ),
-    "origin": Column(Variable("1", "how the outcome is known; undivided_cell: like that cell's corners", ORIGINS)),
-    "first_separation": Column(SCALARS["first_separation"]),
-    "simulated": Column(Variable("s", "simulated time")),
-    "cycle": Column(
-        Variable("1", "whether the published start follows the cycle found; without one, what it does", CYCLES)
-    ),
-    "growth_rate": Column(Variable("s-1", "growth rate of disturbances of the cycle that the published start follows")),
-    "period": Column(Variable("s", "period of the cycle")),
-    "releases": Column(Variable("1", "number of stick releases in its period"), whole=True),
-    "oscillations": Column(
-        Variable("1", "period of the cycle over that of the lowest mode of disc and slider at rest")
-    ),
+    "status": Column(*STATUS),
+    "outcome": Column("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES),
+    "origin": Column("1", "how the outcome is known; undivided_cell: like that cell's corners", ORIGINS),
+    "first_separation": Column(*SCALARS["first_separation"]),
+    "simulated": Column("s", "simulated time"),
+    "cycle": Column("1", "whether the published start follows the cycle found; without one, what it does", CYCLES),
+    "growth_rate": Column("s-1", "growth rate of disturbances of the cycle that the published start follows"),
+    "period": Column("s", "period of the cycle"),
+    "releases": Column("1", "number of stick releases in its period", whole=True),
+    "oscillations": Column("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
     "joined_first": Column(
-        Variable("1", "whether the cycle goes on into the next point's along the plane's first dimension", JOINED)
+        "1", "whether the cycle goes on into the next point's along the plane's first dimension", JOINED
     ),
     "joined_second": Column(
-        Variable("1", "whether the cycle goes on into the next point's along the plane's second dimension", JOINED)
+        "1", "whether the cycle goes on into the next point's along the plane's second dimension", JOINED
     ),
-    "other_cycles": Column(Variable("1", "number of other cycles known, followed from neighbours"), whole=True),
+    "other_cycles": Column("1", "number of other cycles known, followed from neighbours", whole=True),
 }
 
 FINE = 2

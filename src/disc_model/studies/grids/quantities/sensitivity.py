@@ -31,14 +31,14 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 COLUMNS = {
-    "status": Column(STATUS),
-    "drawn": Column(Variable("", "values of the distributed parameters, SI units"), ("draw", "parameter")),
-    "cycle": Column(Variable("1", "what there is near the published start", CYCLES), ("variant",)),
+    "status": Column(*STATUS),
+    "drawn": Column("", "values of the distributed parameters, SI units", dims=("draw", "parameter")),
+    "cycle": Column("1", "what there is near the published start", CYCLES, dims=("variant",)),
     "growth_rate": Column(
-        Variable("s-1", "growth rate of disturbances of the stick-slip cycle, nan without one"), ("variant",)
+        "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one", dims=("variant",)
     ),
-    "outcome": Column(Variable("1", "what becomes of the published start of A within the horizon", OUTCOMES)),
-    "first_separation": Column(SCALARS["first_separation"]),
+    "outcome": Column("1", "what becomes of the published start of A within the horizon", OUTCOMES),
+    "first_separation": Column(*SCALARS["first_separation"]),
 }
 
 

@@ -20,23 +20,21 @@ KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
 _ONE, _EACH = ("curve",), ("curve", "curve_point")
 COLUMNS = {
-    "status": Column(STATUS),
-    "n_curves": Column(Variable("1", "number of curves found"), whole=True),
-    "n_unfollowed": Column(Variable("1", "number of places at which a curve could not be followed"), whole=True),
-    "kind": Column(
-        Variable("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS), _ONE
-    ),
-    "x": Column(Variable("", "first parameter along the curve, SI units"), _EACH),
-    "y": Column(Variable("", "second parameter along the curve, SI units"), _EACH),
-    "border": Column(Variable("1", "whether the cycle is stable on one side", SIDES), _EACH),
-    "period": Column(Variable("s", "period of the cycle on the curve"), _EACH),
-    "multiplier_re": Column(Variable("1", "real part of the leading multiplier"), _EACH),
-    "multiplier_im": Column(Variable("1", "imaginary part of the leading multiplier"), _EACH),
-    "tongue_harmonic": Column(Variable("1", "n of the resonance n f_s = f + s l Omega / 2 pi"), _ONE),
-    "tongue_frequency": Column(Variable("Hz", "f of that resonance, of a mode at rest"), _ONE),
-    "tongue_diameters": Column(Variable("1", "l of that resonance"), _ONE, whole=True),
-    "tongue_sign": Column(Variable("1", "s of that resonance, -1, 0 or 1"), _ONE, whole=True),
-    "tongue_detuning": Column(Variable("Hz", "how far the cycle at the curve's middle is from that resonance"), _ONE),
+    "status": Column(*STATUS),
+    "n_curves": Column("1", "number of curves found", whole=True),
+    "n_unfollowed": Column("1", "number of places at which a curve could not be followed", whole=True),
+    "kind": Column("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS, dims=_ONE),
+    "x": Column("", "first parameter along the curve, SI units", dims=_EACH),
+    "y": Column("", "second parameter along the curve, SI units", dims=_EACH),
+    "border": Column("1", "whether the cycle is stable on one side", SIDES, dims=_EACH),
+    "period": Column("s", "period of the cycle on the curve", dims=_EACH),
+    "multiplier_re": Column("1", "real part of the leading multiplier", dims=_EACH),
+    "multiplier_im": Column("1", "imaginary part of the leading multiplier", dims=_EACH),
+    "tongue_harmonic": Column("1", "n of the resonance n f_s = f + s l Omega / 2 pi", dims=_ONE),
+    "tongue_frequency": Column("Hz", "f of that resonance, of a mode at rest", dims=_ONE),
+    "tongue_diameters": Column("1", "l of that resonance", dims=_ONE, whole=True),
+    "tongue_sign": Column("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
+    "tongue_detuning": Column("Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE),
 }
 
 

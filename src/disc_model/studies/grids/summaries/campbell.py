@@ -35,20 +35,18 @@ LIKE = 0.75
 that it has 0.5 at most."""
 _EACH = ("crossing",)
 COLUMNS: Mapping[str, Column] = {
-    "n_crossings": Column(Variable("1", "number of crossings found"), whole=True),
-    "crossing_Omega": Column(Variable("rad s-1", "speed of the crossing"), _EACH),
-    "crossing_frequency": Column(Variable("Hz", "frequency of the crossing"), _EACH),
-    "crossing_mode": Column(Variable("1", "number of the mode"), _EACH, whole=True),
-    "crossing_line": Column(Variable("1", "what the line is a multiple of", LINES), _EACH),
-    "crossing_multiple": Column(Variable("1", "which multiple; half-integer where a period may double"), _EACH),
-    "crossing_growth_rate": Column(Variable("s-1", "largest growth rate of the cycle within the window"), _EACH),
+    "n_crossings": Column("1", "number of crossings found", whole=True),
+    "crossing_Omega": Column("rad s-1", "speed of the crossing", dims=_EACH),
+    "crossing_frequency": Column("Hz", "frequency of the crossing", dims=_EACH),
+    "crossing_mode": Column("1", "number of the mode", dims=_EACH, whole=True),
+    "crossing_line": Column("1", "what the line is a multiple of", LINES, dims=_EACH),
+    "crossing_multiple": Column("1", "which multiple; half-integer where a period may double", dims=_EACH),
+    "crossing_growth_rate": Column("s-1", "largest growth rate of the cycle within the window", dims=_EACH),
     "crossing_rise": Column(
-        Variable("s-1", "largest rise of a mode's growth rate within the window over that at its ends"), _EACH
+        "s-1", "largest rise of a mode's growth rate within the window over that at its ends", dims=_EACH
     ),
-    "crossing_growing_mode": Column(
-        Variable("1", "number of the mode whose growth rate rises most"), _EACH, whole=True
-    ),
-    "crossing_effect": Column(Variable("1", "what the growth rates do at the crossing", EFFECTS), _EACH),
+    "crossing_growing_mode": Column("1", "number of the mode whose growth rate rises most", dims=_EACH, whole=True),
+    "crossing_effect": Column("1", "what the growth rates do at the crossing", EFFECTS, dims=_EACH),
 }
 
 

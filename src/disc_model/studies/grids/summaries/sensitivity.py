@@ -35,19 +35,19 @@ _INDEX = ("output", "parameter")
 
 def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[str, Column]:
     said = {name: words, f"{name}_low": f"{words}, lower end", f"{name}_high": f"{words}, upper end"}
-    return {key: Column(Variable("1", value), dims) for key, value in said.items()}
+    return {key: Column("1", value, dims=dims) for key, value in said.items()}
 
 
 COLUMNS: Mapping[str, Column] = {
-    "n_draws": Column(Variable("1", "number of draws, A and B, whose cycle is known"), whole=True),
-    "n_followed": Column(Variable("1", "number of draws whose outcome is known"), whole=True),
+    "n_draws": Column("1", "number of draws, A and B, whose cycle is known", whole=True),
+    "n_followed": Column("1", "number of draws whose outcome is known", whole=True),
     **_with_interval("probability_unstable", "probability that the published start is near no stable motion"),
     **_with_interval("probability_separation", "probability of separation within the horizon"),
     **_with_interval("cycle_share", "share of the draws near whose published start there is this", ("cycle_class",)),
     **_with_interval("outcome_share", "share of the followed draws that have this outcome", ("outcome_class",)),
     **_with_interval("first_index", "first-order Sobol index", _INDEX),
     **_with_interval("total_index", "total Sobol index", _INDEX),
-    "left_out": Column(Variable("1", "share of samples that the indices leave out: an output is missing"), ("output",)),
+    "left_out": Column("1", "share of samples that the indices leave out: an output is missing", dims=("output",)),
 }
 
 
