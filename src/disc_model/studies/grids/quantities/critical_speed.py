@@ -32,27 +32,21 @@ DOUBT = 0.05
 """How well the first separation is known then, over the time in which the departure grows by e: 0.014 at most at 60
 points over speed and preload."""
 KINDS = ("none", "begins", "ends")
+_EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")
 COLUMNS = {
     "status": Column(*STATUS),
     "critical_speed": Column(
         "rad s-1",
         "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
-        dims=("horizon",),
+        dims=_EACH,
     ),
     "n_crossings": Column(
-        "1",
-        "number of speeds found at which separation within the horizon begins or ends",
-        dims=("horizon",),
-        whole=True,
+        "1", "number of speeds found at which separation within the horizon begins or ends", dims=_EACH, whole=True
     ),
     "crossing": Column(
-        "rad s-1",
-        "a speed at which separation begins or ends, upper end of the last interval",
-        dims=("horizon", "crossing_number"),
+        "rad s-1", "a speed at which separation begins or ends, upper end of the last interval", dims=_CROSSINGS
     ),
-    "crossing_kind": Column(
-        "1", "whether separation begins or ends as the speed rises", KINDS, dims=("horizon", "crossing_number")
-    ),
+    "crossing_kind": Column("1", "whether separation begins or ends as the speed rises", KINDS, dims=_CROSSINGS),
     "scan_first_separation": Column(*SCALARS["first_separation"], dims=("scan_Omega",)),
     "scan_status": Column(*STATUS, dims=("scan_Omega",)),
     "simulations": Column("1", "number of simulations", whole=True),

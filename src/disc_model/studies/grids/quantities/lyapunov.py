@@ -17,15 +17,14 @@ if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import LyapunovOptions
 
 CONVERGED = ("unknown", "no", "yes")
+_EACH = ("exponent_number",)
 COLUMNS = {
     "status": Column(*STATUS),
-    "exponent": Column("s-1", "Lyapunov exponent, the one along the motion left out", dims=("exponent_number",)),
+    "exponent": Column("s-1", "Lyapunov exponent, the one along the motion left out", dims=_EACH),
     "exponent_error": Column(
-        "s-1", "the larger of its standard error and the difference between both halves", dims=("exponent_number",)
+        "s-1", "the larger of its standard error and the difference between both halves", dims=_EACH
     ),
-    "converged": Column(
-        "1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=("exponent_number",)
-    ),
+    "converged": Column("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=_EACH),
     "along": Column("s-1", "exponent along the motion: 0 but for what the time is too short for"),
     "covered": Column("s", "time over which the rates are averaged"),
     "separations": Column("1", "number of separations in that time", whole=True),
