@@ -52,7 +52,7 @@ def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
 )
 def test_values_of_an_axis(given: Any, values: list[float]) -> None:
     grid = parse_grid(study(axes={"N": [100], "Omega": [10], "c": given}))
-    assert [value for (value,) in grid.dims[-1].values] == values
+    assert grid.values["c"] == tuple((value,) for value in values)
 
 
 def test_zipped_pairs_are_one_dimension() -> None:
@@ -63,9 +63,8 @@ def test_zipped_pairs_are_one_dimension() -> None:
 
 
 def test_all_kinds_of_parameters_can_vary() -> None:
-    grid = parse_grid(
-        study(axes={"N": [1], "Omega": [1], "n_diameters": ["4", 3.0], "contact": ["bonded"]}, batch={"over": ["N"]})
-    )
+    axes = ONE | {"n_diameters": ["4", 3.0], "contact": ["bonded"]}
+    grid = parse_grid(study(axes=axes, batch={"over": ["N"]}))
     assert points(grid) == [[[1.0, 1.0, 3, "bonded"]], [[1.0, 1.0, 4, "bonded"]]]
 
 
@@ -119,13 +118,7 @@ def test_every_fault_is_reported_with_its_path() -> None:
     raw = study(
         options={"horizon": 0, "late": 0.2, "speed": 1},
         base={"m": -1, "Omega": "fast", "mu": 0.3},
-        axes={
-            "N": [-5, 10],
-            "E": {"start": 2, "stop": 1, "count": 5},
-            "phi": [1],
-            "k": [],
-            "c": {"start": 0, "stop": 1},
-        },
+        axes={"N": [-5, 10], "E": span(2, 1, 5), "phi": [1], "k": [], "c": {"start": 0, "stop": 1}},
         zip={"D_star": [0, 1e-5], "c_p": [0]},
         batch={"size": 0},
         figures={"map": {"kind": "chart"}},
@@ -151,6 +144,15 @@ def test_every_fault_is_reported_with_its_path() -> None:
         assert fault in found
 
 
+def span(start: float, stop: float, count: int, **more: Any) -> dict[str, Any]:
+    return {"start": start, "stop": stop, "count": count, **more}
+
+
+HUGE = span(1, 2, 10**9)
+ONE = {"N": [1], "Omega": [1]}
+AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
+
+
 @pytest.mark.parametrize(
     ("changes", "fault"),
     [
@@ -158,48 +160,68 @@ def test_every_fault_is_reported_with_its_path() -> None:
             {"quantity": "noise"},
             "quantity = 'noise': unknown quantity (known: outcome, regions, critical_speed, floquet, hysteresis, ",
         ),
-        ({"axes": {"N": [1]}}, "axes.Omega: is required, here, in a zip or in base"),
-        ({"axes": {"N": [1], "Omega": [1]}, "zip": {"N": [2], "c": [0]}}, "axes.N: varies along two dimensions"),
-        ({"batch": {"over": ["c"]}}, "batch.over = 'c': must name dimensions (known: N, Omega)"),
         ({"quantity": "critical_speed"}, "axes.Omega: is varied by the quantity critical_speed"),
+        ({"batch": {"over": ["c"]}}, "batch.over = 'c': must name dimensions (known: N, Omega)"),
+        ({"options": {"horizon": 2, "late": 3}}, "late must be <= after_separation and <= horizon"),
+        # axes
+        ({"axes": {}}, "axes: is required: at least one axis or zip"),
+        ({"axes": {"N": [1]}}, "axes.Omega: is required, here, in a zip or in base"),
         (
-            {"figures": {"f": {"kind": "stability_map", "x": "N", "y": "E"}}},
-            "figures.f.y = 'E': is no dimension of this study (known: N, Omega)",
-        ),
-        (
-            {"axes": {"N": [1], "Omega": {"start": 0, "stop": 1, "step": 0.3}}},
+            {"axes": ONE | {"Omega": {"start": 0, "stop": 1, "step": 0.3}}},
             "axes.Omega: stop - start must be a multiple",
         ),
-    ],
-)
-def test_rules_between_parts(changes: dict[str, Any], fault: str) -> None:
-    assert fault in "\n".join(faults_of(parse_grid, study(**changes)))
-
-
-HUGE = {"start": 1, "stop": 2, "count": 10**9}
-
-
-@pytest.mark.parametrize(
-    ("changes", "fault"),
-    [
-        ({"axes": {"N": [1], "Omega": HUGE}}, "axes.Omega: must be at most 100000 values"),
-        (
-            {"axes": {"N": [1], "Omega": {"start": 1, "stop": 1e300, "step": 1e-300}}},
-            "axes.Omega: must be at most 100000",
-        ),
-        ({"axes": {"N": [1], "Omega": {"start": -1e308, "stop": 1e308, "count": 2}}}, "stop - start must be finite"),
-        ({"axes": {"N": [1], "Omega": {"blocks": [[1], HUGE]}}}, "axes.Omega.blocks.1: must be at most 100000 values"),
+        ({"axes": {"N": {"start": 1, "stop": 9, "step": 1, "scale": "log"}}}, "a logarithmic range must give count"),
+        ({"axes": {"N": span(0, 9, 3, scale="log")}}, "a logarithmic range must give count"),
+        ({"axes": {"N": {"blocks": [[1]], "step": 2}}}, "axes.N.step = 2: unknown key"),
+        ({"axes": {"N": {"blocks": 3}}}, "axes.N.blocks = 3: must be a list of lists or ranges"),
+        ({"axes": ONE, "zip": {"N": [2], "c": [0]}}, "axes.N: varies along two dimensions"),
+        ({"zip": {"phi": [1]}}, "zip.phi: cannot be an axis"),
+        ({"zip": {"c": "x"}}, "zip.c = 'x': must be a list of values"),
+        ({"zip": {"c": [-1]}}, "zip.c = -1: must be >= 0"),
+        # too large, and refused before it is made
+        ({"axes": ONE | {"Omega": HUGE}}, "axes.Omega: must be at most 100000 values"),
+        ({"axes": ONE | {"Omega": {"start": 1, "stop": 1e300, "step": 1e-300}}}, "axes.Omega: must be at most 100000"),
+        ({"axes": ONE | {"Omega": span(-1e308, 1e308, 2)}}, "stop - start must be finite"),
+        ({"axes": ONE | {"Omega": {"blocks": [[1], HUGE]}}}, "axes.Omega.blocks.1: must be at most 100000 values"),
         (
             {"quantity": "hysteresis", "options": {"scan": HUGE, "dwell": 9}},
             "options.scan: must be at most 100000 values",
         ),
         (
-            {"axes": {name: {"start": 1, "stop": 2, "count": 1001} for name in ("N", "Omega")}, "batch": {}},
+            {"axes": dict.fromkeys(ONE, span(1, 2, 1001)), "batch": {}},
             "axes: must make at most 1000000 points, and not 1002001",
+        ),
+        # figures
+        (
+            {"figures": {"f": {"kind": "stability_map", "x": "N", "y": "E"}}},
+            "figures.f.y = 'E': is no dimension of this study (known: N, Omega)",
+        ),
+        ({"figures": {"f": {"kind": "critical_speed"}}}, "figures.f.kind = 'critical_speed': needs the quantity"),
+        ({"figures": {"f": {"kind": "stability_map", "y": "N"}}}, "figures.f.x"),
+        # the number of modes
+        ({"axes": ONE | {"n_diameters": [4, "auto"]}}, "axes.n_diameters = 'auto': cannot be varied: give it in base"),
+        ({"base": AUTOMATIC, "axes": ONE | {"n_circles": [0, 1]}}, "axes.n_circles: is chosen for each point"),
+        ({"base": AUTOMATIC | {"n_circles": 1}}, "base.n_circles: is chosen for each point"),
+        ({"base": AUTOMATIC | {"truncation_tolerance": "x"}}, "base.truncation_tolerance = 'x': must be a number"),
+        (
+            {"base": AUTOMATIC | {"truncation_tolerance": 1e-9}},
+            "base.truncation_tolerance = 1e-09: must be finite and >= 0.0001",
+        ),
+        (
+            {"base": {"truncation_tolerance": 1e-3}},
+            "base.truncation_tolerance = 0.001: is used with n_diameters='auto' only",
+        ),
+        (
+            {"base": {"truncation_quantity": "growth"}},
+            "base.truncation_quantity = 'growth': is used with n_diameters='auto'",
+        ),
+        (
+            {"base": AUTOMATIC | {"truncation_quantity": "range"}},
+            "base.truncation_quantity = 'range': must be one of frequencies, growth, first_separation, separation_rate",
         ),
     ],
 )
-def test_what_is_too_large_is_refused_before_it_is_made(changes: dict[str, Any], fault: str) -> None:
+def test_rules(changes: dict[str, Any], fault: str) -> None:
     assert fault in "\n".join(faults_of(parse_grid, study(**changes)))
 
 
@@ -216,19 +238,14 @@ def test_resolution_divides_the_ranges_in_blocks_too() -> None:
     assert coarse.batches.keys() < fine.batches.keys()
 
 
-AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
-
-
 @pytest.mark.compiled
 def test_the_modes_are_chosen_for_each_point() -> None:
     axes = {"normalization": ["as_published", "orthonormal"]}
-    grid = parse_grid(
-        study(quantity="floquet", options={}, base={"N": 300, "Omega": 20, **AUTOMATIC}, axes=axes, batch={})
-    )
-    [text] = grid.batches.values()
-    done = run_batch(text)
+    base = {"N": 300, "Omega": 20, **AUTOMATIC}
+    grid = parse_grid(study(quantity="floquet", options={}, base=base, axes=axes, batch={}))
+    [done] = map(run_batch, grid.batches.values())
     for i, normalization in enumerate(axes["normalization"]):
-        own, _ = read_parameters({"N": 300, "Omega": 20, "normalization": normalization, **AUTOMATIC})
+        own, _ = read_parameters({**base, "normalization": normalization})
         assert (done["n_diameters"][i], done["n_circles"][i]) == (own.n_diameters, own.n_circles)
         assert done["growth_rate"][i] == pytest.approx(floquet(own).growth_rate, abs=1e-9)
     assert done["n_diameters"][0] < done["n_diameters"][1]
@@ -249,38 +266,11 @@ def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pyte
     monkeypatch.setattr(modes, "by_frequencies", not_on_a_wall)
     base = {"N": 300, "Omega": 20, **AUTOMATIC}
     grid = parse_grid(study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={}))
-    [text] = grid.batches.values()
-    done = run_batch(text)
+    [done] = map(run_batch, grid.batches.values())
     assert flag_names(done["status"]).tolist() == ["ok", "failed"]
     assert done["n_diameters"].values.tolist() == [3, -1]
     assert "no model up to" in str(done["message"].values[1])
     assert np.isnan(done["growth_rate"].values[1])
-
-
-@pytest.mark.parametrize(
-    ("base", "axes", "fault"),
-    [
-        ({}, {"n_diameters": [4, "auto"]}, "axes.n_diameters = 'auto': cannot be varied: give it in base"),
-        (AUTOMATIC, {"n_circles": [0, 1]}, "axes.n_circles: is chosen for each point"),
-        ({**AUTOMATIC, "n_circles": 1}, {}, "base.n_circles: is chosen for each point"),
-        ({**AUTOMATIC, "truncation_tolerance": "fine"}, {}, "base.truncation_tolerance = 'fine': must be a number"),
-        (
-            {**AUTOMATIC, "truncation_tolerance": 1e-9},
-            {},
-            "base.truncation_tolerance = 1e-09: must be finite and >= 0.0001",
-        ),
-        ({"truncation_tolerance": 1e-3}, {}, "base.truncation_tolerance = 0.001: is used with n_diameters='auto' only"),
-        ({"truncation_quantity": "growth"}, {}, "base.truncation_quantity = 'growth': is used with n_diameters='auto'"),
-        (
-            {**AUTOMATIC, "truncation_quantity": "range"},
-            {},
-            "base.truncation_quantity = 'range': must be one of frequencies, growth, first_separation, separation_rate",
-        ),
-    ],
-)
-def test_contradictions_about_the_modes_are_faults(base: dict[str, Any], axes: dict[str, Any], fault: str) -> None:
-    raw = study(base={"m": 0.2, **base}, axes={"N": [1], "Omega": [1], **axes}, batch={})
-    assert fault in "\n".join(faults_of(parse_grid, raw))
 
 
 def test_what_modes_are_chosen_by_makes_other_batches() -> None:
@@ -315,8 +305,7 @@ def test_modes_chosen_by_a_motion_are_chosen_for_each_point(monkeypatch: pytest.
     )
     base = {"N": 300, "Omega": 0, "n_diameters": "auto", "truncation_quantity": "growth"}
     raw = study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={})
-    [text] = parse_grid(raw).batches.values()
-    done = run_batch(text)
+    [done] = map(run_batch, parse_grid(raw).batches.values())
     assert done["n_diameters"].values.tolist() == [2, -1]
     assert "n_diameters: undecided: growth still changes by 0.5 of itself" in str(done["message"].values[1])
 
@@ -397,34 +386,6 @@ def test_the_studies_of_the_repository_are_right() -> None:
         assert any("normalization" in dim.names for dim in grid.dims) or name in SCANS  # a claim is about one
 
 
-def grid(**changes: Any) -> dict[str, Any]:
-    return {"study": "x", "quantity": "outcome", "options": {"horizon": 2}, "axes": {"N": [1], "Omega": [1]}} | changes
-
-
-@pytest.mark.parametrize(
-    ("changes", "fault"),
-    [
-        ({"axes": {"N": {"start": 1, "stop": 9, "step": 1, "scale": "log"}}}, "a logarithmic range must give count"),
-        ({"axes": {"N": {"start": 0, "stop": 9, "count": 3, "scale": "log"}}}, "a logarithmic range must give count"),
-        ({"axes": {"N": {"blocks": [[1]], "step": 2}}}, "axes.N.step = 2: unknown key"),
-        ({"axes": {"N": {"blocks": 3}}}, "axes.N.blocks = 3: must be a list of lists or ranges"),
-        ({"axes": {}}, "axes: is required: at least one axis or zip"),
-        ({"zip": {"phi": [1]}}, "zip.phi: cannot be an axis"),
-        ({"zip": {"c": "x"}}, "zip.c = 'x': must be a list of values"),
-        ({"zip": {"c": [-1]}}, "zip.c = -1: must be >= 0"),
-        ({"figures": {"f": {"kind": "critical_speed"}}}, "figures.f.kind = 'critical_speed': needs the quantity"),
-        ({"figures": {"f": {"kind": "stability_map", "y": "N"}}}, "figures.f.x"),
-        ({"options": {"horizon": 2, "late": 3}}, "late must be <= after_separation and <= horizon"),
-    ],
-)  # fmt: skip
-def test_rules_of_grids(changes: dict[str, Any], fault: str) -> None:
-    assert fault in "\n".join(faults_of(parse_grid, grid(**changes)))
-
-
-def span(start: float, stop: float, count: int, **more: Any) -> dict[str, Any]:
-    return {"start": start, "stop": stop, "count": count, **more}
-
-
 @pytest.mark.parametrize(
     ("quantity", "options", "fault"),
     [
@@ -438,23 +399,22 @@ def span(start: float, stop: float, count: int, **more: Any) -> dict[str, Any]:
 )
 def test_rules_of_options(quantity: str, options: dict[str, Any], fault: str) -> None:
     axes = {"c": [0]} if quantity == "stability_curves" else {"N": [1]}
-    assert fault in "\n".join(faults_of(parse_grid, grid(quantity=quantity, options=options, axes=axes)))
+    assert fault in "\n".join(faults_of(parse_grid, study(quantity=quantity, options=options, axes=axes, batch={})))
 
 
 @pytest.mark.parametrize("resolution", ["fine", 0, -2, 1.5])
 def test_a_resolution_is_a_whole_number(resolution: Any) -> None:
-    assert faults_of(parse_grid, grid(), resolution) == [f"resolution = {resolution!r}: must be a whole number >= 1"]
+    assert faults_of(parse_grid, study(), resolution) == [f"resolution = {resolution!r}: must be a whole number >= 1"]
 
 
 def test_a_value_belongs_to_the_first_block_that_has_it() -> None:
-    repeated = parse_grid(grid(axes={"N": {"blocks": [[1, 2], [2, 1], [3]]}, "Omega": [1]}))
-    (dim,) = (dim for dim in repeated.dims if dim.names == ("N",))
-    assert [value for (value,) in dim.values] == [1.0, 2.0, 3.0]
+    repeated = parse_grid(study(axes=ONE | {"N": {"blocks": [[1, 2], [2, 1], [3]]}}))
+    assert repeated.values["N"] == ((1.0,), (2.0,), (3.0,))
 
 
 def test_names_of_files_and_of_studies_agree(tmp_path: Path) -> None:
     plot = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growth": "elsewhere"}}
-    for name, raw in (("one", grid(study="two")), ("three", grid(study="three", figures={"f": plot}))):
+    for name, raw in (("one", study(study="two")), ("three", study(study="three", figures={"f": plot}))):
         (tmp_path / f"{name}.yaml").write_text(json.dumps(raw))
     found = "\n".join(faults_of(load_grids, [tmp_path / "one.yaml", tmp_path / "three.yaml"], None, 1, ["three"]))
     assert "study = 'two': must be the name of the file" in found
