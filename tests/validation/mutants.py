@@ -59,10 +59,10 @@ FUNCTIONS = {
     "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),
     "benchmarks/methods/physics.py": (
         *("Physics.__init__", "Physics.disc_point", "Physics.pull", "Physics.gap"),
-        *("Physics._contact", "Physics.rate", "Physics.impact"),
+        *("Physics._contact", "Physics.rate"),
     ),
     "benchmarks/methods/kernels.py": (
-        *("contact", "rate", "switch_values", "switch"),
+        *("contact", "rate", "rk4_step", "switch_values", "violated", "switch"),
         *("smooth_friction", "smooth_force", "smooth_rate"),
     ),
     "benchmarks/methods/phases.py": ("switches",),

@@ -11,8 +11,8 @@ import pytest
 from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.methods import regularised as regularised_module
 from disc_model.benchmarks.methods import solve_ivp as solve_ivp_module
-from disc_model.benchmarks.methods.base import Meter
-from disc_model.benchmarks.methods.phases import Ended, IntegrationFailed, run_phases
+from disc_model.benchmarks.methods.base import GaveUp, Meter
+from disc_model.benchmarks.methods.phases import Ended, run_phases
 from disc_model.benchmarks.methods.physics import Physics
 from tests.benchmarks.methods.problems import task
 from tests.references.printed import P
@@ -29,14 +29,14 @@ from tests.references.printed import P
 def test_what_ends_a_run_of_phases(what, outcome, words):
     problem = task()
 
-    def advance(phase, t, y, t_end):
+    def advance(phase, t, y, t_end, *, watched):
         if what == "fails":
-            raise IntegrationFailed("gave up")
+            raise GaveUp("gave up")
         if what == "overflows":
             return Ended(None, t, y * math.nan)
         return Ended(1 if phase.name == "slip" else 0, t, y)  # one switch after the other, at once
 
-    result = run_phases(problem, Physics(P), advance, Meter(math.inf))
+    result = run_phases(problem, Physics(P), advance, Meter(problem, Physics(P), math.inf), guard=0.0)
     assert result.outcome is outcome
     assert words in result.message
 

@@ -1,24 +1,5 @@
 """The contract of a method: what it is given, what it gives back.
 
-A method is an object with
-
-``name``, ``requires``
-    as registered in `disc_model.benchmarks.register`: short and unique; the packages that it needs
-``label``, ``look``
-    its name in words; colour, marker and line style in charts
-``setting``
-    what its one number means: "tol" (relative tolerance), "step" (s) or "epsilon" (rad/s)
-``order``
-    theoretical order of the global error against the step (nan if it has none)
-``settings``, ``map_values``, ``map_budget``
-    by scene, the settings from coarse to fine that are measured; those of its failure map, and the seconds that it may
-    take there for a point
-``unavailable()``
-    "" if it can be used, else the sentence that says which package is missing
-``solve(problem, value, budget)``
-    advances ``problem`` with its setting equal to ``value``; gives up after ``budget`` seconds.  Never raises for
-    what happens on the way: the result's status says it.
-
 What is timed is the integration alone: modes, compiling and setting up are left out for every method.  Times are the
 processor's: on a core of its own those of the wall clock, and elsewhere not blurred by what else runs.
 """
@@ -30,20 +11,17 @@ import importlib.util
 import math
 import time as clock
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from disc_model.benchmarks.methods.heights import Heights
-from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
-
-Array = NDArray[np.float64]
 
 
 class MethodUnavailable(DiscModelError, ImportError):
@@ -127,7 +105,16 @@ MAP_TOLERANCES = decades(*range(-2, -12, -1))
 
 
 class Method(ABC):
-    """Base class of all methods; see the module's text for the contract."""
+    """What integrates a problem; `disc_model.benchmarks.register` gives it its name and the packages that it needs.
+
+    Attributes
+    ----------
+    label, look : its name in words; colour, marker and line style in charts
+    setting : what its one number means: "tol" (relative tolerance), "step" (s) or "epsilon" (rad/s)
+    order : theoretical order of the global error against the step (nan if it has none)
+    settings : by scene, the settings from coarse to fine that are measured
+    map_values, map_budget : the settings of its failure map, and the seconds that it may take there for a point
+    """
 
     name: str = ""
     label: str
@@ -153,6 +140,8 @@ class Method(ABC):
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
         """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds.
 
+        What happens on the way is not raised: the result's status says it.
+
         Raises
         ------
         MethodUnavailable
@@ -166,52 +155,57 @@ class Method(ABC):
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult: ...
 
 
-class BudgetExceeded(Exception):
-    """Raised inside a right-hand side to leave an integrator that offers no other way out."""
+class GaveUp(Exception):
+    """Raised inside a run that cannot go on."""
+
+    def __init__(self, message: str, outcome: Outcome = Outcome.FAILED) -> None:
+        super().__init__(message)
+        self.outcome = outcome
 
 
-@dataclass
 class Meter:
     """Counts right-hand sides, watches the clock and, if it is asked for, the disc's range."""
 
-    budget: float
-    work: int = 0
-    longest_step: float = math.nan
-    heights: Heights | None = None
-    began: float = field(default_factory=clock.thread_time)
+    def __init__(self, problem: Problem, physics: Physics, budget: float) -> None:
+        self.problem, self.physics, self.budget = problem, physics, budget
+        self.work, self.longest_step, self.low, self.high = 0, math.nan, math.nan, math.nan
+        self.outcome, self.message = Outcome.FINISHED, ""
 
-    @classmethod
-    def of(cls, problem: Problem, physics: Physics, budget: float) -> Meter:
-        """For a problem."""
-        return cls(budget, heights=Heights(physics) if problem.watched else None)
-
-    def start(self) -> None:
-        """Set the clock to zero: everything before was preparation."""
+    @contextmanager
+    def running(self) -> Iterator[None]:
+        """While the integration runs: everything before was preparation."""
         self.began = clock.thread_time()
+        try:
+            yield
+        except GaveUp as reason:
+            self.outcome, self.message = reason.outcome, str(reason)
+        self.seconds = clock.thread_time() - self.began
 
-    @property
-    def seconds(self) -> float:
-        """Processor time since the start."""
-        return clock.thread_time() - self.began
+    def result(self, times: Sequence[float] | Array, kinds: Sequence[str], final: State) -> MethodResult:
+        """What a method found, with what was counted meanwhile; times from the start on."""
+        seconds, work, heights = self.seconds, self.work, (self.low, self.high)
+        found = self.problem.start.time + np.array(times), tuple(kinds), final
+        return MethodResult(*found, seconds, work, self.outcome, self.message, self.longest_step, heights)
 
     def steps(self, times: Array, states: Array) -> None:
-        """Note the steps between successive ``times`` (s, shape (k,)) and the states there (k, size)."""
+        """Note the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size)."""
         if len(times) > 1:
             self.longest_step = float(np.fmax(self.longest_step, np.max(np.diff(times))))
-        if self.heights is not None:
-            self.heights.path(times, states)
+        if self.problem.watched:
+            self.path(times, states)
 
-    def result(
-        self, seconds: float, times: Array, kinds: tuple[str, ...], final: State, outcome: Outcome, message: str
-    ) -> MethodResult:
-        """What a method found, with what was counted meanwhile."""
-        heights = (math.nan, math.nan) if self.heights is None else (self.heights.low, self.heights.high)
-        return MethodResult(times, kinds, final, seconds, self.work, outcome, message, self.longest_step, heights)
+    def path(self, times: Array, states: Array) -> None:
+        """Take in the range of w (m) over such steps: between two it is the cubic with its value and rate at both."""
+        q = self.physics
+        w = states[:, q.a] @ q.shape
+        rate = states[:, q.alpha] @ q.shape + states[:, q.f] * (states[:, q.b] @ q.slope)
+        w = np.concatenate([w, _turns(np.diff(times), w, rate)])
+        self.low, self.high = float(np.fmin(self.low, w.min())), float(np.fmax(self.high, w.max()))
 
     def check(self) -> None:
-        """Raise `BudgetExceeded` if the time is used up."""
-        if self.seconds > self.budget:
-            raise BudgetExceeded
+        """Raise `GaveUp` if the time is used up."""
+        if clock.thread_time() - self.began > self.budget:
+            raise GaveUp(f"not finished after {self.budget:g} s", Outcome.TOO_SLOW)
 
     def counted(self, function: Callable[[float, Array], Array]) -> Callable[[float, Array], Array]:
         """``function``, counting its calls and looking at the clock every 64 of them."""
@@ -223,3 +217,18 @@ class Meter:
             return function(t, y)
 
         return wrapped
+
+
+def _turns(h: Array, w: Array, rate: Array) -> Array:
+    """Values of the cubics at their turning points inside their steps."""
+    rise, first, last = np.diff(w), h * rate[:-1], h * rate[1:]
+    square, cube = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
+    with np.errstate(invalid="ignore", divide="ignore"):
+        # roots of first + 2 square s + 3 cube s^2, in the form that does not cancel
+        half = -(square + np.copysign(np.sqrt(square**2 - 3.0 * cube * first), square))
+        s = np.concatenate([half / (3.0 * cube), first / half])
+    start, first, square, cube = (np.concatenate([x, x]) for x in (w[:-1], first, square, cube))
+    inside = (s > 0.0) & (s < 1.0)
+    value = start + s * (first + s * (square + s * cube))
+    turns: Array = value[inside]
+    return turns

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import Meter, Method, MethodResult, Problem, decades
-from disc_model.benchmarks.methods.phases import GUARD, Ended, IntegrationFailed, Phase, run_phases, switch_kinds
+from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem, decades
+from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
-from disc_model.data.variables import PHASES
+from disc_model.benchmarks.register import SCENES
 from disc_model.figures.parts import GREY
 
 MAX_STEPS = 10_000_000
@@ -29,8 +30,7 @@ class Cvode(Method):
             self.look, self.settings = (GREY, ">", "--"), {"rigid": decades(-4, -6, -8, -10)}
             return
         self.look = (GREY, "<", "-")
-        shared = dict.fromkeys(("stick_slip", "separating", "many_modes"), decades(-4, -6, -8, -10))
-        self.settings = shared | {"rigid": decades(-4)}
+        self.settings = dict.fromkeys(SCENES, decades(-4, -6, -8, -10)) | {"rigid": decades(-4)}
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         from sksundae.cvode import CVODE
@@ -38,15 +38,11 @@ class Cvode(Method):
         physics = Physics(problem.parameters)
         modes, c = kernels.tables(physics)
         scale = absolute_scale(physics)
-        warm = physics.pack(problem.start)
-        kernels.rate(modes, c, 1, 1, warm, warm.copy())  # compiles
-        kernels.switch_values(modes, c, 1, 1, warm, np.empty(3))
-        meter = Meter.of(problem, physics, budget)
-        solvers: dict[Phase, Any] = {}
+        meter = Meter(problem, physics, budget)
 
-        def solver(phase: Phase, watched: bool = True) -> Any:
-            code, direction = PHASES.index(phase.name), phase.direction
-            count = len(switch_kinds(phase, problem.parameters.contact == "bonded"))
+        @cache
+        def solver(phase: Phase, watched: bool) -> Any:
+            code, direction, count = phase.code, phase.direction, ENDS[phase.name]
 
             def rhs(_t: float, y: Array, dy: Array) -> None:
                 meter.work += 1
@@ -62,32 +58,25 @@ class Cvode(Method):
             events.terminal = [True] * count  # type: ignore[attr-defined]
             return CVODE(rhs, eventsfn=events, num_events=count, **options)
 
-        quiet = solver(Phase("separation", 0), watched=False)
+        solver(Phase("separation", 0), watched=False)
 
-        def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
-            if phase not in solvers:
-                solvers[phase] = solver(phase)
-            if phase.name == "separation":
-                until = min(t + GUARD, t_end)
-                quiet.init_step(t, y)
-                t, y = until, np.array(quiet.step(until, tstop=until).y)
-                if until >= t_end:
-                    return Ended(None, t_end, y)
-            cvode = solvers[phase]
+        def advance(phase: Phase, t: float, y: Array, t_end: float, *, watched: bool) -> Ended:
+            cvode = solver(phase, watched=watched)
             cvode.init_step(t, y)
+            if not watched:
+                return Ended(None, t_end, np.array(cvode.step(t_end, tstop=t_end).y))
             while True:
                 meter.check()
-                before = (t, y)
                 found = cvode.step(t_end, method="onestep", tstop=t_end)
                 if not found.success:
-                    raise IntegrationFailed(str(found.message))
-                if meter.heights is not None:
-                    t, y = float(found.t), np.array(found.y)
-                    meter.heights.path(np.array([before[0], t]), np.array([before[1], y]))
-                if found.status == ROOT_FOUND:  # earlier roots stay listed: the last row is this one's
-                    cause = int(np.flatnonzero(np.atleast_2d(found.i_events)[-1])[0])
+                    raise GaveUp(str(found.message))
+                if problem.watched:
+                    before, t, y = (t, y), float(found.t), np.array(found.y)
+                    meter.path(np.array([before[0], t]), np.array([before[1], y]))
+                rooted = found.status == ROOT_FOUND
+                if rooted or found.t >= t_end:
+                    # earlier roots stay listed: the last row is this one's
+                    cause = int(np.flatnonzero(np.atleast_2d(found.i_events)[-1])[0]) if rooted else None
                     return Ended(cause, float(found.t), np.array(found.y))
-                if found.t >= t_end:
-                    return Ended(None, t_end, np.array(found.y))
 
         return run_phases(problem, physics, advance, meter)

@@ -82,15 +82,13 @@ def rate(modes, c, phase, direction, y, dy):
         dy[3 * n + i] = -modes[3, i] * beta - modes[2, i] * b - turn * alpha
 
 
-SMOOTH = ("eps", "excess", "stiffness", "damping")
-"""Constants of the regularised model, see `regularised.Law`."""
 STRIBECK = 30.0
 """f/eps at which static friction has fallen to kinetic."""
 
 
 @_kernel
 def smooth_friction(c, law, f):
-    """Coefficient of friction with the sign of f."""
+    """Coefficient of friction with the sign of f; ``law`` is `regularised.Law.constants`."""
     x = f / law[0]
     return math.tanh(x) * (c[_MUK] + law[1] * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
 
@@ -131,35 +129,29 @@ def rk4_step(modes, c, phase, direction, y, h, out, k, z):
 
 
 @_kernel
-def violated(modes, c, phase, direction, y):
-    """0 if the phase's conditions hold at ``y``, else 1: contact lost or regained, 2: stick broken or f at rest."""
+def switch_values(modes, c, phase, direction, y, out):
+    """Fill ``out`` with what falls through zero at the phase's end, see `phases.ENDS`; returns how many there are."""
     n = modes.shape[1]
     P, F, w, _ = contact(modes, c, direction, y)
     if phase == SEPARATION:
-        return 1 if y[4 * n + 2] - w < 0.0 else 0
-    if P < 0.0 and c[_BONDED] == 0.0:
+        out[0] = y[4 * n + 2] - w
         return 1
-    if phase == STICK:
-        return 2 if c[_R0] * abs(F) > c[_MUS] * P else 0
-    return 2 if direction * y[4 * n + 1] < 0.0 else 0
+    out[0] = P if c[_BONDED] == 0.0 else 1.0
+    if phase == SLIP:
+        out[1] = direction * y[4 * n + 1]
+        return 2
+    out[1] = c[_MUS] * P - c[_R0] * F
+    out[2] = c[_MUS] * P + c[_R0] * F
+    return 3
 
 
 @_kernel
-def switch_values(modes, c, phase, direction, y, out):
-    """Fill ``out`` with the functions of `phases.switches`, in their order; a zero from above ends the phase."""
-    n, i = modes.shape[1], 0
-    P, F, w, _ = contact(modes, c, direction, y)
-    if phase == SEPARATION:
-        out[0] = y[4 * n + 2] - w
-        return
-    if c[_BONDED] == 0.0:
-        out[0] = P
-        i = 1
-    if phase == SLIP:
-        out[i] = direction * y[4 * n + 1]
-    else:
-        out[i] = c[_MUS] * P - c[_R0] * F
-        out[i + 1] = c[_MUS] * P + c[_R0] * F
+def violated(modes, c, phase, direction, y, values):
+    """Place of the first of the `switch_values` that is negative at ``y``, or -1; ``values`` (3,) is work."""
+    for place in range(switch_values(modes, c, phase, direction, y, values)):
+        if values[place] < 0.0:
+            return place
+    return -1
 
 
 @_kernel
@@ -170,7 +162,10 @@ def _leave(modes, c, y):
 
 @_kernel
 def switch(modes, c, phase, cause, y, kinds):
-    """Carry out a switch in place.  Returns (phase, direction, number of events written to ``kinds``)."""
+    """Carry out a switch in place, ``cause`` being the place of its function in `switch_values`.
+
+    Returns (phase, direction, number of events written to ``kinds``).
+    """
     n = modes.shape[1]
     if phase == SEPARATION:
         _, _, _, velocity = contact(modes, c, 0, y)
@@ -179,7 +174,7 @@ def switch(modes, c, phase, cause, y, kinds):
             y[2 * n + i] -= modes[1, i] * impulse
         kinds[0] = REATTACHMENT
         direction = 1 if y[4 * n + 1] > 0.0 else -1
-    elif cause == 1:
+    elif cause == 0:
         _leave(modes, c, y)
         kinds[0] = LOSS_OF_CONTACT
         return SEPARATION, 0, 1
@@ -213,7 +208,7 @@ def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kin
     overwritten, ``times`` and ``kinds`` are filled, and ``heights`` with the least and greatest w at step ends.
     """
     size, n = len(y), modes.shape[1]
-    k, z = np.empty((4, size)), np.empty(size)
+    k, z, values = np.empty((4, size)), np.empty(size), np.empty(3)
     new, found = np.empty(2, np.int64), np.empty(size)
     origin, count, local, events, steps = 0.0, 0, 0.0, 0, 0
     while local < t_end:
@@ -229,12 +224,12 @@ def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kin
         for j in range(2 * n):
             if not abs(found[j]) < HUGE:
                 return NON_FINITE, local, phase, direction, events, steps
-        cause = violated(modes, c, phase, direction, found)
+        cause = violated(modes, c, phase, direction, found, values)
         w = 0.0
         for j in range(n):
             w += modes[1, j] * found[j]
         heights[0], heights[1] = min(heights[0], w), max(heights[1], w)
-        if cause == 0:
+        if cause < 0:
             y[:] = found
             local = following
             count += 1
@@ -246,8 +241,8 @@ def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kin
                 break
             rk4_step(modes, c, phase, direction, y, middle, found, k, z)
             steps += 1
-            here = violated(modes, c, phase, direction, found)
-            if here == 0:
+            here = violated(modes, c, phase, direction, found, values)
+            if here < 0:
                 low = middle
             else:
                 high, cause = middle, here

@@ -49,19 +49,8 @@ class Physics:
     def unpack(self, time: float, phase: str, direction: int, y: Array) -> State:
         """A vector as `State`, u and u' being the disc's in contact."""
         u, v = (y[self.u], y[self.v]) if phase == "separation" else self.disc_point(y)
-        return State(
-            time=time,
-            phase=phase,
-            direction=direction,
-            psi=float(y[self.psi]),
-            f=float(y[self.f]),
-            u=float(u),
-            u_velocity=float(v),
-            a=y[self.a].copy(),
-            b=y[self.b].copy(),
-            alpha=y[self.alpha].copy(),
-            beta=y[self.beta].copy(),
-        )
+        modal = {name: y[getattr(self, name)].copy() for name in ("a", "b", "alpha", "beta")}
+        return State(time, phase, direction, float(y[self.psi]), float(y[self.f]), float(u), float(v), **modal)
 
     # ---- formulas at an instant
     def disc_point(self, y: Array) -> tuple[float, float]:
@@ -118,16 +107,6 @@ class Physics:
             dy[self.f] = F / p.m - direction * p.mu_k * P / (p.m * p.r_0)
         return dy
 
-    # ---- impact
-    def impact(self, y: Array) -> Array:
-        """The state after the plastic impact of Eqs. (29)-(37)."""
-        _, velocity = self.disc_point(y)
-        impulse = (velocity - y[self.v]) / (self.compliance + 1.0 / self.p.m)
-        after = y.copy()
-        after[self.alpha] -= self.shape * impulse
-        after[self.u], after[self.v] = self.disc_point(after)
-        return after
-
     # ---- how far two states are apart
     def distance(self, one: State, other: State) -> float:
         """Energy norm of the difference of two states over that of ``other``, without dimension.
@@ -135,16 +114,12 @@ class Physics:
         Displacement and velocity of every mode, of the in-plane motion and, where either is separated, of the
         slider's height, each weighted as it stands in the energy.
         """
-        return float(np.sqrt(self._energy(one, other) / self._energy(other, None)))
+        right = self.pack(other)
+        return float(np.sqrt(self._energy(self.pack(one) - right) / self._energy(right)))
 
-    def _energy(self, one: State, other: State | None) -> float:
-        p = self.p
-
-        def part(name: str) -> Array:
-            value = np.asarray(getattr(one, name), dtype=float)
-            return value if other is None else value - np.asarray(getattr(other, name), dtype=float)
-
-        disc = np.sum(part("alpha") ** 2 + part("beta") ** 2 + self.stiffness * (part("a") ** 2 + part("b") ** 2))
-        plane = p.r_0**2 * (p.m * part("f") ** 2 + p.k_p * part("psi") ** 2)
-        height = p.m * part("u_velocity") ** 2 + p.k * part("u") ** 2
+    def _energy(self, y: Array) -> float:
+        p, squares = self.p, y**2
+        disc = np.sum(squares[self.alpha] + squares[self.beta] + self.stiffness * (squares[self.a] + squares[self.b]))
+        plane = p.r_0**2 * (p.m * squares[self.f] + p.k_p * squares[self.psi])
+        height = p.m * squares[self.v] + p.k * squares[self.u]
         return 0.5 * float(disc + plane + height)

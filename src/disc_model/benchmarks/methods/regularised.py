@@ -15,15 +15,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import BudgetExceeded, Meter, Method, MethodResult, Outcome, Problem, decades
+from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Outcome, Problem, decades
 from disc_model.benchmarks.methods.physics import Array, Physics
-from disc_model.benchmarks.methods.solve_ivp import absolute_scale
+from disc_model.benchmarks.methods.solve_ivp import absolute_scale, crossing
 from disc_model.figures.parts import ORANGE
 from disc_model.simulation.result import State
 
@@ -40,10 +39,9 @@ class Law:
     def __init__(self, physics: Physics, eps: float) -> None:
         self.physics, self.eps = physics, eps
         self.K = PENALTY / eps
-        self.excess = _excess(physics.p.mu_s, physics.p.mu_k)
-        self.C = 2.0 * math.sqrt(self.K / (1.0 / physics.p.m + physics.compliance))
+        C = 2.0 * math.sqrt(self.K / (1.0 / physics.p.m + physics.compliance))
         self.modes, self.c = kernels.tables(physics)
-        self.constants = np.array([eps, self.excess, self.K, self.C])  # kernels.SMOOTH
+        self.constants = np.array([eps, _excess(physics.p.mu_s, physics.p.mu_k), self.K, C])
 
     def force(self, y: Array) -> float:
         """Signed penalty force; contact where it is positive."""
@@ -54,6 +52,24 @@ class Law:
         dy = np.empty_like(y)
         kernels.smooth_rate(self.modes, self.c, self.constants, y, dy)
         return dy
+
+    def start(self, start: State) -> Array:
+        """A state with the penetration that carries the contact force, the slider moving with the disc's point."""
+        physics = self.physics
+        y = physics.pack(start)
+        if start.phase != "separation":
+            y[physics.u], y[physics.v] = physics.disc_point(y)
+            y[physics.u] -= physics.force(y, start.direction) / self.K
+        return y
+
+    def state(self, time: float, y: Array) -> State:
+        """The state that a vector stands for."""
+        f = float(y[self.physics.f])
+        if self.force(y) <= 0:
+            return self.physics.unpack(time, "separation", 0, y)
+        if abs(f) < CREEP * self.eps:
+            return self.physics.unpack(time, "stick", 0, y)
+        return self.physics.unpack(time, "slip", 1 if f > 0 else -1, y)
 
 
 def _excess(mu_s: float, mu_k: float) -> float:
@@ -79,58 +95,39 @@ class Regularised(Method):
     }
     map_values = decades(1, 0, -1, -2)
     map_budget = 6.0
-
-    def __init__(self, algorithm: str = "LSODA") -> None:
-        self.algorithm = algorithm
+    algorithm = "LSODA"
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         physics = Physics(problem.parameters)
         law = Law(physics, value)
-        y = self._start(problem, physics, law)
+        y = law.start(problem.start)
         law.rate(y)  # compiles
-        meter = Meter.of(problem, physics, budget)
-        events = [_event(lambda z: abs(z[physics.f]) - CREEP * value, 0), _event(law.force, 0)]
-        events += [_event(law.force, -1, last=True)] if problem.stop else []
-        origin, outcome, message = problem.start.time, Outcome.FINISHED, ""
-        times, t, span = np.empty(0), 0.0, problem.span
-        kinds: tuple[str, ...] = ()
-        try:
-            with np.errstate(over="ignore", invalid="ignore"):
-                found = solve_ivp(
-                    meter.counted(lambda _t, z: law.rate(z)), (0.0, span), y,
-                    method=self.algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
-                )  # fmt: skip
+        meter = Meter(problem, physics, budget)
+        events = [
+            crossing(lambda _t, z: abs(z[physics.f]) - CREEP * value, 0, last=False),
+            crossing(lambda _t, z: law.force(z), 0, last=False),
+        ]
+        if problem.stop:
+            events.append(crossing(lambda _t, z: law.force(z), -1, last=True))
+        switches: list[tuple[float, str]] = []
+        t = 0.0
+        with meter.running(), np.errstate(over="ignore", invalid="ignore"):
+            found = solve_ivp(
+                meter.counted(lambda _t, z: law.rate(z)), (t, problem.span), y,
+                method=self.algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
+            )  # fmt: skip
             meter.steps(found.t, found.y.T)
             t, y = float(found.t[-1]), found.y[:, -1]
-            times, kinds = _read_off(law, found.t_events, found.y_events)
+            switches = _read_off(law, found.t_events, found.y_events)
             if found.status < 0:
-                outcome, message = Outcome.FAILED, found.message
-        except BudgetExceeded:
-            outcome, message = Outcome.TOO_SLOW, f"not finished after {budget:g} s"
+                raise GaveUp(found.message)
         if not np.all(np.isfinite(y)):
-            outcome = Outcome.NON_FINITE
-        return meter.result(meter.seconds, origin + times, kinds, _state(law, origin + t, y), outcome, message)
-
-    @staticmethod
-    def _start(problem: Problem, physics: Physics, law: Law) -> Array:
-        """The start with the penetration that carries the contact force, the slider moving with the disc's point."""
-        start = problem.start
-        y = physics.pack(start)
-        if start.phase != "separation":
-            y[physics.u], y[physics.v] = physics.disc_point(y)
-            y[physics.u] -= physics.force(y, start.direction) / law.K
-        return y
+            meter.outcome = Outcome.NON_FINITE
+        times, kinds = [time for time, _ in switches], [kind for _, kind in switches]
+        return meter.result(times, kinds, law.state(problem.start.time + t, y))
 
 
-def _event(function: Any, direction: int, last: bool = False) -> Any:
-    def g(_t: float, z: Array) -> float:
-        return float(function(z))
-
-    g.terminal, g.direction = last, direction  # type: ignore[attr-defined]
-    return g
-
-
-def _read_off(law: Law, times: list[Array], states: list[Array]) -> tuple[Array, tuple[str, ...]]:
+def _read_off(law: Law, times: list[Array], states: list[Array]) -> list[tuple[float, str]]:
     """Switches in order of time: which way each crossing goes is read from the rates there."""
     found: list[tuple[float, str]] = []
     f = law.physics.f
@@ -139,13 +136,10 @@ def _read_off(law: Law, times: list[Array], states: list[Array]) -> tuple[Array,
             continue  # in flight f may pass zero: no switch
         leaving = float(np.sign(y[f]) * law.rate(y)[f]) > 0
         found.append((float(t), "stick_to_slip" if leaving else "slip_to_stick"))
-    crossings = zip(times[1], states[1], strict=True)
-    for t, y in crossings:
+    for t, y in zip(times[1], states[1], strict=True):
         rising = law.force(y + 1e-9 * law.rate(y)) > law.force(y)
         found.append((float(t), "reattachment" if rising else "separation"))
-    found.sort()
-    found = _without_reversals(found)
-    return np.array([t for t, _ in found]), tuple(kind for _, kind in found)
+    return _without_reversals(sorted(found))
 
 
 def _without_reversals(found: list[tuple[float, str]]) -> list[tuple[float, str]]:
@@ -157,12 +151,3 @@ def _without_reversals(found: list[tuple[float, str]]) -> list[tuple[float, str]
         else:
             kept.append((t, kind))
     return kept
-
-
-def _state(law: Law, time: float, y: Array) -> State:
-    f = float(y[law.physics.f])
-    if law.force(y) <= 0:
-        return law.physics.unpack(time, "separation", 0, y)
-    if abs(f) < CREEP * law.eps:
-        return law.physics.unpack(time, "stick", 0, y)
-    return law.physics.unpack(time, "slip", 1 if f > 0 else -1, y)

@@ -96,8 +96,8 @@ def _watching(problem: Problem) -> Record:
 
 
 def _range(result: Result) -> tuple[float, float]:
-    """Least and greatest w (m) of the window, if there is one."""
-    if not result.samples:
+    """Least and greatest w (m) of the window, if there is one and the run got to its first sample."""
+    window = result.samples[0] if result.samples else {}
+    if not len(window.get("w_min", ())):
         return (math.nan, math.nan)
-    window = result.samples[0]
     return float(window["w_min"].min()), float(window["w_max"].max())

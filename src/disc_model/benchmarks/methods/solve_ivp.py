@@ -3,57 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import MAP_TOLERANCES, Meter, Method, MethodResult, Problem, decades
-from disc_model.benchmarks.methods.phases import (
-    GUARD,
-    Ended,
-    IntegrationFailed,
-    Phase,
-    run_phases,
-    switch_kinds,
-    switches,
-)
+from disc_model.benchmarks.methods.base import MAP_TOLERANCES, GaveUp, Meter, Method, MethodResult, Problem, decades
+from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases, switches
 from disc_model.benchmarks.methods.physics import Array, Physics
-from disc_model.data.variables import PHASES
+from disc_model.benchmarks.register import SCENES
 from disc_model.figures.parts import BLUE, GREEN, PURPLE, SKY
 
 FLOOR = 2.3e-14
 """Least relative tolerance that scipy takes."""
 Function = Callable[[float, Array], Any]
 
-
-class Choice(NamedTuple):
-    """How one of scipy's algorithms is shown, and the settings at which it is measured, by scene and for maps."""
-
-    look: tuple[str, str, str]
-    stick_slip: tuple[float, ...]
-    separating: tuple[float, ...]
-    many_modes: tuple[float, ...]
-    rigid: tuple[float, ...]
-    map_values: tuple[float, ...] = MAP_TOLERANCES
-
-
 _TO_9, _TO_11 = decades(-3, -5, -7, -9), decades(-3, -5, -7, -9, -11)
-CHOICES = {
-    "RK45": Choice((SKY, "v", "-"), _TO_9, _TO_9, _TO_9[:3], _TO_9[:1]),
-    "DOP853": Choice((BLUE, "^", "-"), _TO_11, _TO_11, _TO_9, _TO_9[:1]),
-    "LSODA": Choice((GREEN, "D", "-"), _TO_9, _TO_9, _TO_9[:3], _TO_9, MAP_TOLERANCES[::2]),
-    "Radau": Choice(
+CHOICES: dict[str, tuple[tuple[str, str, str], tuple[Sequence[float], ...], Sequence[float]]] = {
+    "RK45": ((SKY, "v", "-"), (_TO_9, _TO_9, _TO_9[:3], _TO_9[:1]), MAP_TOLERANCES),
+    "DOP853": ((BLUE, "^", "-"), (_TO_11, _TO_11, _TO_9, _TO_9[:1]), MAP_TOLERANCES),
+    "LSODA": ((GREEN, "D", "-"), (_TO_9, _TO_9, _TO_9[:3], _TO_9), MAP_TOLERANCES[::2]),
+    "Radau": (
         (PURPLE, "p", "-"),
-        decades(-2, -3, -4, -5),
-        decades(-2, -3, -4),
-        decades(-2, -3, -4),
-        decades(-2, -4, -6, -8),
+        (decades(-2, -3, -4, -5), decades(-2, -3, -4), decades(-2, -3, -4), decades(-2, -4, -6, -8)),
         MAP_TOLERANCES[:8:2],
     ),
 }
+"""How each of scipy's algorithms is shown, and the settings at which it is measured: by scene, and for maps."""
 
 
 class SolveIvp(Method):
@@ -62,17 +40,16 @@ class SolveIvp(Method):
     def __init__(self, algorithm: str, order: float = math.nan, max_step: float = np.inf) -> None:
         self.algorithm, self.order, self.max_step = algorithm, order, max_step
         self.label = f"scipy {algorithm}"
-        choice = CHOICES[algorithm]
-        self.look, self.map_values = choice.look, choice.map_values
-        self.settings = {scene: getattr(choice, scene) for scene in Choice._fields[1:-1]}
+        self.look, settings, self.map_values = CHOICES[algorithm]
+        self.settings = dict(zip(SCENES, settings, strict=True))
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         physics = Physics(problem.parameters)
         scale = absolute_scale(physics)
-        meter = Meter.of(problem, physics, budget)
+        meter = Meter(problem, physics, budget)
         parts = self._functions(physics)
 
-        def integrate(phase: Phase, t: float, y: Array, t_end: float, *, watched: bool) -> Any:
+        def advance(phase: Phase, t: float, y: Array, t_end: float, *, watched: bool) -> Ended:
             rate, events = parts(phase)
             with np.errstate(over="ignore", invalid="ignore"):
                 found = solve_ivp(
@@ -82,19 +59,8 @@ class SolveIvp(Method):
                 )  # fmt: skip
             meter.steps(found.t, found.y.T)
             if found.status == -1:
-                raise IntegrationFailed(found.message)
-            return found
-
-        def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
-            if phase.name == "separation":
-                until = min(t + GUARD, t_end)
-                t, y = until, integrate(phase, t, y, until, watched=False).y[:, -1]
-                if until >= t_end:
-                    return Ended(None, t_end, y)
-            found = integrate(phase, t, y, t_end, watched=True)
-            if found.status == 0:
-                return Ended(None, t_end, found.y[:, -1])
-            cause = next(i for i, times in enumerate(found.t_events) if len(times))
+                raise GaveUp(found.message)
+            cause = next((i for i, times in enumerate(found.t_events) if len(times)), None)
             return Ended(cause, float(found.t[-1]), found.y[:, -1])
 
         return run_phases(problem, physics, advance, meter)
@@ -102,13 +68,10 @@ class SolveIvp(Method):
     def _functions(self, physics: Physics) -> Callable[[Phase], tuple[Function, list[Function]]]:
         """For a phase, its right-hand side and what falls through zero at its end."""
         modes, c = kernels.tables(physics)
-        bonded = physics.p.contact == "bonded"
-        size, values = 4 * physics.n + 4, np.empty(3)
-        kernels.rate(modes, c, 1, 1, np.zeros(size), np.empty(size))  # compiles
-        kernels.switch_values(modes, c, 1, 1, np.zeros(size), values)
+        values = np.empty(3)
 
         def parts(phase: Phase) -> tuple[Function, list[Function]]:
-            code, direction = PHASES.index(phase.name), phase.direction
+            code, direction = phase.code, phase.direction
 
             def rate(_t: float, y: Array) -> Array:
                 dy = np.empty_like(y)
@@ -120,9 +83,9 @@ class SolveIvp(Method):
                     kernels.switch_values(modes, c, code, direction, y, values)
                     return float(values[place])
 
-                return _falling(value)
+                return crossing(value, -1, last=True)
 
-            return rate, [event(place) for place in range(len(switch_kinds(phase, bonded)))]
+            return rate, [event(place) for place in range(ENDS[phase.name])]
 
         return parts
 
@@ -137,14 +100,15 @@ class InNumpy(SolveIvp):
 
     def _functions(self, physics: Physics) -> Callable[[Phase], tuple[Function, list[Function]]]:
         def parts(phase: Phase) -> tuple[Function, list[Function]]:
-            events = [_falling(lambda _t, y, switch=switch: switch.value(y)) for switch in switches(physics, phase)]
-            return lambda _t, y: physics.rate(phase.name, phase.direction, y), events
+            ends = [crossing(lambda _t, y, end=end: end(y), -1, last=True) for end in switches(physics, phase)]
+            return lambda _t, y: physics.rate(phase.name, phase.direction, y), ends
 
         return parts
 
 
-def _falling(function: Any) -> Function:
-    function.terminal, function.direction = True, -1
+def crossing(function: Any, direction: int, *, last: bool) -> Function:
+    """An event as scipy wants it: the sign of the change of ``function`` (0: either), and whether it is the end."""
+    function.terminal, function.direction = last, direction
     return function  # type: ignore[no-any-return]
 
 

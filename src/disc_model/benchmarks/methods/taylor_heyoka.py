@@ -13,9 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import MAP_TOLERANCES, Meter, Method, MethodResult, Problem, decades
-from disc_model.benchmarks.methods.heights import Heights
-from disc_model.benchmarks.methods.phases import GUARD, Ended, IntegrationFailed, Phase, run_phases, switch_kinds
+from disc_model.benchmarks.methods.base import MAP_TOLERANCES, GaveUp, Meter, Method, MethodResult, Problem, decades
+from disc_model.benchmarks.methods.phases import GUARD, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.figures.parts import BROWN
 from disc_model.parameters import Parameters
@@ -53,61 +52,40 @@ class Heyoka(Method):
         integrators = _integrators(p.replace(N=1.0, Omega=1.0), value, self.compact)
         given = (p.N, p.Omega, physics.u_0)  # in the order of `_system`
         places = _places(physics)
-        meter = Meter.of(problem, physics, budget)
-        limit = hy.taylor_outcome.time_limit
-
-        def go(integrator: Any, t: float, state: Array, t_end: float) -> int | None:
-            integrator.time, integrator.state[:], integrator.pars[:] = t, state, given
-            if integrator.with_events:
-                integrator.reset_cooldowns()
-            outcome = hy.taylor_outcome.step_limit
-            while outcome == hy.taylor_outcome.step_limit:
-                meter.check()
-                outcome, _, _, steps, _, _ = integrator.propagate_until(t_end, max_steps=STEPS_PER_LOOK, **seen)
-                meter.work += int(steps)
-            if outcome == limit:
-                return None
-            if int(outcome) >= 0 or outcome == hy.taylor_outcome.err_nf_state:
-                raise IntegrationFailed(str(outcome))
-            return -int(outcome) - 1
-
+        meter = Meter(problem, physics, budget)
         path: list[tuple[float, Array]] = []
 
         def note(integrator: Any) -> bool:
-            path.append((integrator.time, integrator.state.copy()))
+            path.append((float(integrator.time), integrator.state.copy()))
             return True
 
         # called at every step, which takes longer than some of these do
         seen = {"callback": note} if problem.watched else {}
 
-        def watch(heights: Heights, place: Array, t: float, y: Array) -> None:
-            states = np.tile(y, (len(path) + 1, 1))
-            states[1:, place] = [state for _, state in path]
-            heights.path(np.array([t, *(time for time, _ in path)]), states)
-
-        def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
-            meter.check()
-            place = places[phase.name]
-            state, y = y[place], y.copy()
-            if phase.name == "separation" and self.guard > 0.0:
-                until = min(t + self.guard, t_end)
-                quiet = integrators["quiet"]
-                go(quiet, t, state, until)
-                state, t = quiet.state.copy(), until
-                if until >= t_end:
-                    y[place] = state
-                    return Ended(None, t_end, y)
-            integrator = integrators[phase]
+        def advance(phase: Phase, t: float, y: Array, t_end: float, *, watched: bool) -> Ended:
+            integrator, place = integrators[phase, watched], places[phase.name]
+            integrator.time, integrator.state[:], integrator.pars[:] = t, y[place], given
+            if integrator.with_events:
+                integrator.reset_cooldowns()
             path.clear()
-            y[place], began = state, t
-            cause = go(integrator, t, state, t_end)
-            if meter.heights is not None:
-                path.append((float(integrator.time), integrator.state.copy()))
-                watch(meter.heights, place, began, y)
-            y[place] = integrator.state
-            return Ended(cause, float(integrator.time), y)
+            outcome = hy.taylor_outcome.step_limit
+            while outcome == hy.taylor_outcome.step_limit:
+                meter.check()
+                outcome, _, _, steps, _, _ = integrator.propagate_until(t_end, max_steps=STEPS_PER_LOOK, **seen)
+                meter.work += int(steps)
+            reached = outcome == hy.taylor_outcome.time_limit
+            if not reached and (int(outcome) >= 0 or outcome == hy.taylor_outcome.err_nf_state):
+                raise GaveUp(str(outcome))
+            if watched and problem.watched:
+                note(integrator)
+                states = np.tile(y, (len(path) + 1, 1))
+                states[1:, place] = [state for _, state in path]
+                meter.path(np.array([t, *(time for time, _ in path)]), states)
+            end = y.copy()
+            end[place] = integrator.state
+            return Ended(None if reached else -int(outcome) - 1, float(integrator.time), end)
 
-        return run_phases(problem, physics, advance, meter)
+        return run_phases(problem, physics, advance, meter, self.guard)
 
 
 class Unguarded(Heyoka):
@@ -124,16 +102,12 @@ def _places(physics: Physics) -> dict[str, Array]:
     n = physics.n
     turning = np.flatnonzero(physics.l > 0)
     modal = np.concatenate([np.arange(n), 2 * n + np.arange(n), n + turning, 3 * n + turning, [physics.psi, physics.f]])
-    return {
-        "stick": modal,
-        "slip": modal,
-        "separation": np.concatenate([modal, [physics.u, physics.v]]),
-    }
+    return {"stick": modal, "slip": modal, "separation": np.concatenate([modal, [physics.u, physics.v]])}
 
 
 @lru_cache(maxsize=32)
 def _integrators(p: Parameters, tol: float, compact: bool) -> dict[Any, Any]:
-    """Compiled integrators by phase; "quiet" is separation without its event.
+    """Compiled integrators by phase, and by whether its end is watched for, which it need not be in separation only.
 
     Load, speed of the drive and height at rest are given at run time, so that cases that differ in these share them.
     """
@@ -145,23 +119,20 @@ def _integrators(p: Parameters, tol: float, compact: bool) -> dict[Any, Any]:
     for phase in (Phase("stick", 0), Phase("slip", 1), Phase("slip", -1), Phase("separation", 0)):
         rows, functions = _system(physics, phase)
         falling = [hy.t_event(g, direction=hy.event_direction.negative) for g in functions]
-        integrators[phase] = hy.taylor_adaptive(rows, np.zeros(len(rows)), t_events=falling, **options)
+        integrators[phase, True] = hy.taylor_adaptive(rows, np.zeros(len(rows)), t_events=falling, **options)
         if phase.name == "separation":
-            integrators["quiet"] = hy.taylor_adaptive(rows, np.zeros(len(rows)), **options)
+            integrators[phase, False] = hy.taylor_adaptive(rows, np.zeros(len(rows)), **options)
     return integrators
 
 
 def _system(physics: Physics, phase: Phase) -> tuple[list[Any], list[Any]]:
-    """Equations of a phase as heyoka expressions, ordered as in `_places`; its switches, as in `switch_kinds`."""
+    """Equations of a phase as heyoka expressions, ordered as in `_places`; its switches, as in `phases.ENDS`."""
     import heyoka as hy
 
     p, n, l, s = physics.p, physics.n, physics.l, physics.shape
     load, drive, rest = (hy.par[i] for i in range(3))
     turning = [i for i in range(n) if l[i] > 0]
-    a, alpha = (
-        hy.make_vars(*[f"a{i}" for i in range(n)], "_")[:-1],
-        hy.make_vars(*[f"p{i}" for i in range(n)], "_")[:-1],
-    )
+    a, alpha = ([hy.make_vars(f"{letter}{i}") for i in range(n)] for letter in "ap")
     b, beta = {i: hy.make_vars(f"b{i}") for i in turning}, {i: hy.make_vars(f"q{i}") for i in turning}
     psi, f, u, v = hy.make_vars("psi", "f", "u", "v")
     rate = f if phase.name != "stick" else hy.expression(0.0)
@@ -194,8 +165,7 @@ def _system(physics: Physics, phase: Phase) -> tuple[list[Any], list[Any]]:
     if phase.name == "separation":
         rows += [(u, v), (v, -(load + p.k * (u - rest) + p.c * v) / p.m)]
         return rows, [u - w]
+    contact = 1.0 + f * f if p.contact == "bonded" else P  # never zero, and no constant, which heyoka refuses
     if phase.name == "slip":
-        functions = {"separation": P, "rest": phase.direction * f}
-    else:
-        functions = {"separation": P, "forward": p.mu_s * P - p.r_0 * F, "backward": p.mu_s * P + p.r_0 * F}
-    return rows, [functions[kind] for kind in switch_kinds(phase, p.contact == "bonded")]
+        return rows, [contact, phase.direction * f]
+    return rows, [contact, p.mu_s * P - p.r_0 * F, p.mu_s * P + p.r_0 * F]
