@@ -152,7 +152,7 @@ def dataset(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
         modelled, "growth_rate", lambda p, tol: Found(math.nan, 1e-4 / tol**0.1, Status.NONE, "no cycle")
     )
     monkeypatch.setattr(modelled, "RICHEST", {"n_diameters": 8})
-    monkeypatch.setattr(modelled, "CONTACTS", {"rigid": {}})
+    monkeypatch.setattr(measure, "CONTACTS", {"rigid": {}})
     late = measure.measure("late", (1.0, 0.3, 1e-2, 1e-4, 1e-6), asked=("first_separation",))
     return measure.merged([late, measure.measure("cycle"), measure.measure("models", models=(0, 4, 8))])
 

@@ -7,19 +7,20 @@ right answer comes from the series engine at `REFERENCE_TOL`, which the stored r
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
 import xarray as xr
 
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.grid import measured
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT, FixedStep
-from disc_model.benchmarks.scenes import Answer, Verdict, errors, separating_start, shortest_phase, static_start
-from disc_model.benchmarks.work_precision import VERDICT
+from disc_model.benchmarks.scenes import VERDICT, Answer, Verdict, separating_start, static_start
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 
@@ -31,69 +32,12 @@ REFERENCE_TOL = 1e-14
 RESOLUTION = 2e-3
 """Relative, of the largest step that is observed not to blow up."""
 
-
-@one_core()
-def failure_map(
-    method: str,
-    scene: str = "separating",
-    truncations: Sequence[int] = TRUNCATIONS,
-    values: Sequence[float] | None = None,
-) -> xr.Dataset:
-    """Verdicts of a method along (diameters, value), with what explains them.
-
-    Returns
-    -------
-    Dataset: ``verdict`` (flag), ``event_error`` (s), ``longest_step`` (s) along (diameters, value); along diameters
-    ``modes`` (real modes), ``omega_max`` (rad/s), ``step_limit`` = 2 sqrt(2)/omega_max (s), the linear stability limit
-    of RK4, ``shortest_phase`` (s), which no step must jump over, ``stiff_epsilon`` (rad/s), below which the
-    regularised friction law is stiffer than the disc; for RK4 in ``stick_slip`` also ``observed_limit`` (s), see
-    `observed_step_limit`.
-    """
-    own = METHODS[method].economical()
-    values = own.map_values if values is None else values
-    shape = (len(truncations), len(values))
-    verdict = np.full(shape, int(Verdict.NOT_RUN), dtype=np.int8)
-    event_error, longest = np.full(shape, math.nan), np.full(shape, math.nan)
-    facts: list[dict[str, float]] = []
-    for row, diameters in enumerate(truncations):
-        problem = short_problem(scene, diameters)
-        answer = engine_answer(scene, diameters)
-        for column, value in enumerate(values):
-            result = own.solve(problem, value, own.map_budget)
-            found = errors(problem, answer, result)
-            verdict[row, column] = int(found.verdict)
-            event_error[row, column], longest[row, column] = found.event_time, result.longest_step
-        facts.append(_facts(problem, answer))
-        if method == "RK4" and scene == "stick_slip":
-            facts[-1]["observed_limit"] = observed_step_limit(diameters)
-    variables = {
-        "verdict": (verdict, VERDICT),
-        "event_error": (event_error, Variable("s", "largest error of an event time")),
-        "longest_step": (longest, Variable("s", "longest step")),
-    }
-    dataset = map_of(method, truncations, values, variables)
-    dataset.attrs |= {"scene": scene, "budget": own.map_budget, "span": SPANS[scene]}
-    for name in facts[0]:
-        dataset[name] = ("diameters", [fact[name] for fact in facts], _FACTS[name].attributes)
-    return dataset
-
-
-def map_of(
-    method: str, diameters: Sequence[int], values: Sequence[float], found: Mapping[str, tuple[np.ndarray, Variable]]
-) -> xr.Dataset:
-    """Variables of a method's map along (diameters, value), and what the map is of."""
-    own = METHODS[method]
-    return xr.Dataset(
-        {name: (("diameters", "value"), array, about.attributes) for name, (array, about) in found.items()},
-        coords={
-            "diameters": ("diameters", list(diameters), Variable("1", "highest nodal diameter").attributes),
-            "value": ("value", list(values), {"long_name": f"setting: {own.setting}"}),
-        },
-        attrs={"method": method, "label": own.label, "setting": own.setting, "machine": machine()},
-    )
-
-
-_FACTS = {
+VARIABLES = {
+    "verdict": VERDICT,
+    "event_error": Variable("s", "largest error of an event time"),
+    "longest_step": Variable("s", "longest step"),
+}
+FACTS = {
     "modes": Variable("1", "number of real modes"),
     "omega_max": Variable("rad s-1", "highest natural frequency of the disc"),
     "step_limit": Variable("s", "linear stability limit of RK4, 2 sqrt(2)/omega_max"),
@@ -103,15 +47,62 @@ _FACTS = {
 }
 
 
-def _facts(problem: Problem, answer: Answer) -> dict[str, float]:
+@one_core()
+def failure_map(
+    method: str,
+    scene: str = "separating",
+    truncations: Sequence[int] = TRUNCATIONS,
+    values: Sequence[float] | None = None,
+) -> xr.Dataset:
+    """Verdicts of a method, with what explains them.
+
+    Returns
+    -------
+    Dataset: `VARIABLES` along (diameters, value) and `FACTS` along diameters; ``observed_limit`` is there for RK4 in
+    ``stick_slip`` only, see `observed_step_limit`.
+    """
+    own = METHODS[method].economical()
+
+    def measure(diameters: int, value: float) -> dict[str, float]:
+        problem = short_problem(scene, diameters)
+        result = own.solve(problem, value, own.map_budget)
+        found = scenes.errors(problem, engine_answer(scene, diameters), result)
+        return {"verdict": found.verdict, "event_error": found.event_time, "longest_step": result.longest_step}
+
+    dataset = map_of(method, truncations, own.map_values if values is None else values, VARIABLES, measure)
+    dataset.attrs |= {"scene": scene, "budget": own.map_budget, "span": SPANS[scene]}
+    facts = [_facts(scene, diameters, observed=method == "RK4") for diameters in truncations]
+    for name in facts[0]:
+        dataset[name] = ("diameters", [fact[name] for fact in facts], FACTS[name].attributes)
+    return dataset
+
+
+def map_of(
+    method: str,
+    diameters: Sequence[int],
+    values: Sequence[float],
+    variables: Mapping[str, Variable],
+    measure: Callable[[int, float], Mapping[str, float]],
+) -> xr.Dataset:
+    """What ``measure`` finds of a method along (diameters, value), and what the map is of."""
+    own = METHODS[method]
+    found = measured({"diameters": diameters, "value": values}, variables, measure)
+    found["diameters"].attrs = Variable("1", "highest nodal diameter").attributes
+    found["value"].attrs = {"long_name": f"setting: {own.setting}"}
+    return found.assign_attrs(method=method, label=own.label, setting=own.setting, machine=machine())
+
+
+def _facts(scene: str, diameters: int, *, observed: bool) -> dict[str, float]:
+    problem = short_problem(scene, diameters)
     p = problem.parameters
     physics = Physics(p)
     top = float(physics.omega.max())
-    return {
+    limit = {"observed_limit": observed_step_limit(diameters)} if observed and scene == "stick_slip" else {}
+    return limit | {
         "modes": float(physics.n + np.count_nonzero(physics.l > 0)),
         "omega_max": top,
         "step_limit": STABILITY_LIMIT / top,
-        "shortest_phase": shortest_phase(answer),
+        "shortest_phase": scenes.shortest_phase(engine_answer(scene, diameters)),
         "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
     }
 
@@ -142,9 +133,6 @@ def observed_step_limit(diameters: int) -> float:
     low, high = 0.7 * theory, 1.5 * theory
     while high / low > 1.0 + RESOLUTION:
         middle = math.sqrt(low * high)
-        unstable = errors(problem, answer, method.solve(problem, middle)).verdict is Verdict.UNSTABLE
+        unstable = scenes.errors(problem, answer, method.solve(problem, middle)).verdict is Verdict.UNSTABLE
         low, high = (low, middle) if unstable else (middle, high)
     return low
-
-
-__all__ = ["SPANS", "TRUNCATIONS", "engine_answer", "failure_map", "observed_step_limit"]

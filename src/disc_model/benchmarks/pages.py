@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
+import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks.answers import words
@@ -19,7 +19,7 @@ from disc_model.benchmarks.answers.questions import QUESTIONS, Verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED
 from disc_model.benchmarks.scenes import Verdict as EventVerdict
-from disc_model.benchmarks.table import DEFAULT, costs, headline, right
+from disc_model.benchmarks.table import DEFAULT, headline, measured_points
 from disc_model.data.dataset import markdown_table
 from disc_model.errors import DiscModelError
 
@@ -43,20 +43,16 @@ def summary(work_precision: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
         raise DiscModelError(
             f"the datasets are of one machine each, {' and '.join(sorted(machines))}: measure both anew"
         )
-    own = {}
-    for scene in JUDGED:
-        line = work_precision.sel(scene=scene, solver="series")
-        at = np.flatnonzero(line["value"].values == DEFAULT)
-        if at.size:
-            own[scene] = {"cost": float(costs(line)[at[0]]), "error": float(line["event_error"][at[0]])}
+    points = measured_points(work_precision)
+    default = points[(points["solver"] == "series") & (points["value"] == DEFAULT) & points["scene"].isin(JUDGED)]
     asked = [name for name in QUESTIONS if name in answers["answer"].values]
     return {
         "machine": machines.pop(),
         "versions": json.loads(work_precision.attrs["versions"]),
-        "own": own,
-        "times_slower": headline(work_precision),
-        "whole_call": _whole_call(work_precision),
-        "stiff": _stiff(work_precision),
+        "own": {p.scene: {"cost": p.further, "error": p.event_error} for p in default.itertuples()},
+        "times_slower": headline(points),
+        "whole_call": _whole_call(points),
+        "stiff": _stiff(points),
         "sentences": {name: words.sentences(answers, name) for name in asked},
         "prices": {name: _prices(words.points(answers, name)) for name in asked},
     }
@@ -73,34 +69,24 @@ def _prices(found: list[words.Point]) -> dict[str, dict[str, Any]]:
     return table
 
 
-def _whole_call(dataset: xr.Dataset) -> dict[str, float]:
+def _whole_call(points: pd.DataFrame) -> dict[str, float]:
     """Of the first scene's second: seconds of a whole call of `simulate`, and how many times that heyoka integrates.
 
     heyoka's is the least time of its integration alone, with events as right as in `headline`.
     """
-    if JUDGED[0] not in dataset["scene"].values:
+    part = points[points["scene"] == JUDGED[0]]
+    if part.empty:
         return {}
-    part = dataset.sel(scene=JUDGED[0])
-    seconds = float(part["whole_call"])
-    found = {"seconds": seconds}
-    if "heyoka" in part["solver"].values and right(part.sel(solver="heyoka")).any():
-        rival = part.sel(solver="heyoka")
-        found["heyoka"] = float(rival["seconds"].values[right(rival)].min()) / seconds
-    return found
+    found = {"seconds": float(part["whole_call"].iloc[0])}
+    rival = part["seconds"][part["right"] & (part["solver"] == "heyoka")]
+    return found | ({"heyoka": float(rival.min()) / found["seconds"]} if len(rival) else {})
 
 
-def _stiff(dataset: xr.Dataset) -> dict[str, float]:
+def _stiff(points: pd.DataFrame) -> dict[str, float]:
     """On the all but rigid disc: by method, seconds a simulated second at its cheapest point with converged events."""
-    if "rigid" not in dataset["scene"].values:
-        return {}
-    part = dataset.sel(scene="rigid")
-    found = {}
-    for method in map(str, part["solver"].values):
-        line = part.sel(solver=method)
-        good = line["verdict"].values == int(EventVerdict.CONVERGED)
-        if good.any():
-            found[method] = float(line["cost"].values[good].min())
-    return dict(sorted(found.items(), key=lambda item: item[1]))
+    good = points[(points["scene"] == "rigid") & (points["verdict"] == EventVerdict.CONVERGED)]
+    costs = good.groupby("solver")["cost"].min().sort_values()
+    return {str(method): cost for method, cost in costs.items()}
 
 
 # ----------------------------------------------------------------------------------------------------

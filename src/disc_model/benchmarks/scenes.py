@@ -19,8 +19,10 @@ from __future__ import annotations
 import enum
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import accumulate, chain, cycle, islice, takewhile
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +30,7 @@ import numpy as np
 
 from disc_model.benchmarks.methods.base import MethodResult, Outcome, Problem
 from disc_model.benchmarks.methods.physics import Physics
+from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
@@ -61,6 +64,7 @@ class Verdict(enum.IntEnum):
 
 
 VERDICT_WORDS = ("converged", "inaccurate", "wrong_events", "unstable", "gave_up", "not_run")
+VERDICT = Variable("1", "what became of the method", VERDICT_WORDS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,19 +97,22 @@ def static_start(p: Parameters) -> State:
 def separating_start(p: Parameters) -> State:
     """The state at 54.4 s of N = 385 N, Omega = 15.1 rad/s, the modes of ``p`` that it lacks at static deflection."""
     stored = json.loads((DATA / "separating_start.json").read_text(encoding="utf-8"))
-    diameters = stored.pop("diameters")
-    start = static_start(p)
-    arrays: dict[str, Any] = {name: np.array(getattr(start, name)) for name in ("a", "b", "alpha", "beta")}
     physics = Physics(p)
+    y = physics.pack(static_start(p))
     for i in range(physics.n):
         l = int(physics.l[i])
-        if i <= p.n_diameters and l in diameters:
-            for name, array in arrays.items():
-                array[i] = stored[name][diameters.index(l)] * math.copysign(1.0, physics.shape[i])
-    scalars = {name: stored[name] for name in ("time", "phase", "direction", "psi", "f")}
-    state = State(**scalars, u=0.0, u_velocity=0.0, **arrays)
-    u, v = physics.disc_point(physics.pack(state))
-    return state.replace(u=u, u_velocity=v)
+        if i <= p.n_diameters and l in stored["diameters"]:
+            for name in ("a", "b", "alpha", "beta"):
+                value = stored[name][stored["diameters"].index(l)]
+                y[getattr(physics, name)][i] = value * math.copysign(1.0, physics.shape[i])
+    y[physics.psi], y[physics.f] = stored["psi"], stored["f"]
+    return physics.unpack(stored["time"], stored["phase"], stored["direction"], y)
+
+
+def read_state(stored: Mapping[str, Any]) -> State:
+    """A state as JSON has it."""
+    values: dict[str, Any] = {name: np.array(x) if isinstance(x, list) else x for name, x in stored.items()}
+    return State(**values)
 
 
 @lru_cache(maxsize=8)
@@ -133,13 +140,10 @@ def answer(name: str) -> Answer:
     stored = json.loads((DATA / "benchmark_reference.json").read_text(encoding="utf-8"))[name]
     if stored["parameters"] != problem(name).parameters.key:
         raise DiscModelError(f"the stored reference of {name} is of other parameters: make it anew")
-    final: dict[str, Any] = {
-        key: np.array(value) if isinstance(value, list) else value for key, value in stored["final"].items()
-    }
     return Answer(
         times=np.array([np.longdouble(t) for t in stored["times"]]),
         kinds=tuple(stored["kinds"]),
-        final=State(**final),
+        final=read_state(stored["final"]),
         error=stored["largest_difference_to_check_run"],
     )
 
@@ -155,22 +159,14 @@ def rigid_cycle(problem: Problem) -> Answer:
     held, slipping = p.mu_s * p.N / (p.k_p * p.r_0), p.mu_k * p.N / (p.k_p * p.r_0)
     d, Omega = held - slipping, p.Omega
     slip = 2.0 / w * (math.pi - math.atan(d * w / Omega))
-    times: list[float] = []
-    kinds: list[str] = []
-    t, phase, since, psi = 0.0, "stick", 0.0, 0.0
-    while True:
-        length = (held - psi) / Omega if phase == "stick" else slip
-        if since + length >= problem.t_end:
-            break
-        t = since = since + length
-        psi = held if phase == "stick" else slipping - d
-        kinds.append("stick_to_slip" if phase == "stick" else "slip_to_stick")
-        phase = "slip" if phase == "stick" else "stick"
-        times.append(t)
+    lengths = chain([held / Omega], cycle([slip, (held - (slipping - d)) / Omega]))
+    times = [*takewhile(lambda t: t < problem.t_end, accumulate(lengths))]
+    kinds = [*islice(cycle(["stick_to_slip", "slip_to_stick"]), len(times))]
+    since, phase = times[-1] if times else 0.0, "slip" if len(times) % 2 else "stick"
     tau = problem.t_end - since
     start = problem.start
     if phase == "stick":
-        psi, f = psi + Omega * tau, 0.0
+        psi, f = (slipping - d if times else 0.0) + Omega * tau, 0.0
     else:
         psi = slipping + d * math.cos(w * tau) + Omega / w * math.sin(w * tau)
         f = Omega + d * w * math.sin(w * tau) - Omega * math.cos(w * tau)

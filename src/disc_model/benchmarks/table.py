@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,42 +20,37 @@ DEFAULT = 1e-10
 HEAD = ("method", "setting", "verdict", "cost", "event-time error (s)", "state error", "events", "order", "x series")
 
 
-def headline(dataset: xr.Dataset) -> dict[str, dict[str, float]]:
+def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
+    """A row for each measured point, with what it holds, and what follows:
+
+    further : cost of a further simulated second, setting up left out; where that was not measured, that of the whole
+        run, which was so long that it has next to no setting up
+    right : whether all events are within ``DEFAULT`` s
+    """
+    frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
+    frame = frame[frame["verdict"] != Verdict.NOT_RUN].reset_index(drop=True)
+    return frame.assign(
+        further=frame["marginal_cost"].fillna(frame["cost"]),
+        right=(frame["verdict"] == Verdict.CONVERGED) & (frame["event_error"] <= DEFAULT),
+    )
+
+
+def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
     """By scene and method: least cost with events right to ``DEFAULT`` s, over the series engine's at its default.
 
-    Costs are those of a further second (`costs`).
+    points : `measured_points`; costs are those of a further second
     """
     found: dict[str, dict[str, float]] = {}
-    for scene in (str(name) for name in dataset["scene"].values if str(name) in JUDGED):
-        part = dataset.sel(scene=scene)
-        own = right(part.sel(solver="series")) & (part.sel(solver="series")["value"].values == DEFAULT)
-        if not own.any():
-            continue
-        cost = float(costs(part.sel(solver="series"))[own][0])
-        found[scene] = {}
-        for method in map(str, part["solver"].values):
-            line = part.sel(solver=method)
-            if right(line).any():
-                found[scene][method] = float(costs(line)[right(line)].min()) / cost
+    good = points[points["right"] & points["scene"].isin(JUDGED)]
+    for scene, part in good.groupby("scene", sort=False):
+        own = part["further"][(part["solver"] == "series") & (part["value"] == DEFAULT)]
+        if len(own):
+            found[str(scene)] = (part.groupby("solver", sort=False)["further"].min() / own.iloc[0]).to_dict()
     return found
 
 
-def costs(line: xr.Dataset) -> np.ndarray:
-    """Cost of a further simulated second, setting up left out; where that was not measured, that of the whole run.
-
-    Shape as the line's.  A run so long that only its whole was measured has next to no setting up.
-    """
-    further = line["marginal_cost"].values
-    return np.where(np.isfinite(further), further, line["cost"].values)
-
-
-def right(line: xr.Dataset) -> np.ndarray:
-    """Which points of a line have all events within ``DEFAULT`` s."""
-    return (line["verdict"].values == int(Verdict.CONVERGED)) & (line["event_error"].values <= DEFAULT)
-
-
-def _headline_text(dataset: xr.Dataset) -> Iterator[str]:
-    for scene, ratios in headline(dataset).items():
+def _headline_text(points: pd.DataFrame) -> Iterator[str]:
+    for scene, ratios in headline(points).items():
         others = sorted((ratio, METHODS[name].label) for name, ratio in ratios.items() if name != "series")
         if others:
             listed = ", ".join(f"{label} {ratio:.3g}" for ratio, label in others)
@@ -79,57 +74,42 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
     ``times_series`` is cost over the cost at which the series engine (interpolated in log-log between its points, or
     its finest point if it is more accurate than asked) reaches the same or a smaller event-time error.
     """
-    rows = [row for scene in dataset["scene"].values for row in _scene_rows(dataset, str(scene))]
-    return pd.DataFrame(rows)
+    points = measured_points(dataset)
+    series = points[points["solver"] == "series"]
+    yardsticks = [_cost_at(series[series["scene"] == p.scene], p.event_error) for p in points.itertuples()]
+    columns = {
+        "scene": points["scene"],
+        "method": points["solver"],
+        "setting": [f"{METHODS[name].setting}={x:.3g}" for name, x in points[["solver", "value"]].to_numpy()],
+        "verdict": [VERDICT_WORDS[verdict] for verdict in points["verdict"]],
+        "seconds_per_simulated_second": points["cost"],
+        "event_time_error": points["event_error"],
+        "state_error": points["state_error"],
+        "events": points["events"].astype(int),
+        "separations": points["separations"].astype(int),
+        "order_event": points["order_event"],
+        "order_state": points["order_state"],
+        "order_theory": points["order_theory"],
+        "times_series": points["cost"] / yardsticks,
+        "repeats": points["repeats"].astype(int),
+    }
+    return pd.DataFrame(columns)
 
 
-def _scene_rows(dataset: xr.Dataset, scene: str) -> Iterator[dict[str, Any]]:
-    part = dataset.sel(scene=scene)
-    yardstick = _cost_at(part.sel(solver="series")) if "series" in part["solver"].values else None
-    for method in part["solver"].values:
-        line = part.sel(solver=method)
-        for i in range(line.sizes["point"]):
-            point = line.isel(point=i)
-            if int(point["verdict"]) == Verdict.NOT_RUN:
-                continue
-            error = float(point["event_error"])
-            yield {
-                "scene": scene,
-                "method": str(method),
-                "setting": f"{METHODS[str(method)].setting}={float(point['value']):.3g}",
-                "verdict": VERDICT_WORDS[int(point["verdict"])],
-                "seconds_per_simulated_second": float(point["cost"]),
-                "event_time_error": error,
-                "state_error": float(point["state_error"]),
-                "events": int(point["events"]),
-                "separations": int(point["separations"]),
-                "order_event": float(line["order_event"]),
-                "order_state": float(line["order_state"]),
-                "order_theory": float(line["order_theory"]),
-                "times_series": float(point["cost"]) / yardstick(error) if yardstick else math.nan,
-                "repeats": int(point["repeats"]),
-            }
-
-
-def _cost_at(line: xr.Dataset) -> Callable[[float], float]:
-    """Cost of the cheapest point of a line whose event-time error is at most the one asked for."""
-    good = np.isfinite(line["event_error"].values)
-    error, cost = line["event_error"].values[good], line["cost"].values[good]
-
-    def cost_at(wanted: float) -> float:
-        if not math.isfinite(wanted) or error.size == 0:
-            return math.nan
-        reached = cost[error <= wanted]
-        return float(reached.min()) if reached.size else float(cost[np.argmin(error)])
-
-    return cost_at
+def _cost_at(line: pd.DataFrame, wanted: Any) -> float:
+    """Cost of the cheapest point of a line whose event-time error is at most the one asked for, or of the finest."""
+    known = line[np.isfinite(line["event_error"])]
+    if not math.isfinite(wanted) or known.empty:
+        return math.nan
+    reached = known["cost"][known["event_error"] <= wanted]
+    return float(reached.min() if len(reached) else known["cost"][known["event_error"].idxmin()])
 
 
 def to_markdown(dataset: xr.Dataset) -> str:
     """The table as Markdown, a section a scene, with the machine above and the orders beside each method."""
     frame = table(dataset)
     text = ["# Speed against accuracy", "", f"Machine: {dataset.attrs['machine']}, one core. Medians of repeats.", ""]
-    text += [*_headline_text(dataset), *_arithmetic_text(dataset)]
+    text += [*_headline_text(measured_points(dataset)), *_arithmetic_text(dataset)]
     text += [
         "Cost is seconds of wall time per simulated second; `x series` is cost over that of the series engine at the",
         "same or a smaller event-time error, in the same run. A dash: events are missing or invented.",

@@ -12,12 +12,13 @@ from __future__ import annotations
 import json
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from disc_model.benchmarks.grid import measured
 from disc_model.benchmarks.machine import machine
 from disc_model.data.variables import Variable
 from disc_model.flexibility import contact_give
@@ -25,24 +26,16 @@ from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
-from disc_model.simulation.result import State
+from disc_model.simulation.result import Result, State
 from disc_model.stability.cycle import floquet
 from disc_model.truncation import BAND, RICH, frequency_error, real_modes
 
 DIAMETERS = (1, 2, 3, 4, 6, 8, 12)
 CIRCLES = (0, 1, 2)
-NORMALIZATIONS = ("as_published", "orthonormal")
-CASES: dict[str, dict[str, dict[str, Any]]] = {
-    "as_published": {
-        "growth": {"N": 300.0, "Omega": 20.0},
-        "range": {"N": 385.0, "Omega": 15.0},
-        "separation": {"N": 385.0, "Omega": 15.1},
-    },
-    "orthonormal": {
-        "growth": {"N": 300.0, "Omega": 20.0},
-        "range": {"N": 385.0, "Omega": 15.0},
-        "separation": {"N": 600.0, "Omega": 30.0},
-    },
+_IN_CONTACT: dict[str, dict[str, Any]] = {"growth": {"N": 300.0, "Omega": 20.0}, "range": {"N": 385.0, "Omega": 15.0}}
+CASES = {
+    "as_published": _IN_CONTACT | {"separation": {"N": 385.0, "Omega": 15.1}},
+    "orthonormal": _IN_CONTACT | {"separation": {"N": 600.0, "Omega": 30.0}},
 }
 """Cases by normalisation: an unstable cycle, a motion in contact, and one that separates within a minute."""
 HORIZON = 120.0
@@ -77,33 +70,20 @@ VARIABLES = SHARED | {
 def truncation_study(
     diameters: Sequence[int] = DIAMETERS,
     circles: Sequence[int] = CIRCLES,
-    normalizations: Sequence[str] = NORMALIZATIONS,
+    normalizations: Sequence[str] = tuple(CASES),
     *,
     horizon: float = HORIZON,
     growth: bool = True,
 ) -> xr.Dataset:
     """Measure everything of `VARIABLES` along (normalization, circles, diameters); nan where there is none."""
     coords = {"normalization": normalizations, "circles": circles, "diameters": diameters}
-    study = _measured(coords, VARIABLES, lambda norm, c, d: _measure(norm, d, c, horizon, growth))
+    study = measured(coords, VARIABLES, lambda norm, c, d: _measure(norm, d, c, horizon, growth))
     cases = json.dumps({name: CASES[name] for name in normalizations}, sort_keys=True)
-    return study.assign_attrs(title="What a study needs of the modes", cases=cases)
+    return study.assign_attrs(_compared(), title="What a study needs of the modes", cases=cases)
 
 
-def _measured(
-    coords: Mapping[str, Sequence[Any]], variables: Mapping[str, Variable], measure: Callable[..., Mapping[str, float]]
-) -> xr.Dataset:
-    """What is measured at each point of a grid, given its values; nan where there is none."""
-    shape = tuple(len(values) for values in coords.values())
-    data = {name: np.full(shape, math.nan) for name in variables}
-    for place in np.ndindex(shape):
-        point = (values[i] for values, i in zip(coords.values(), place, strict=True))
-        for name, value in measure(*point).items():
-            data[name][place] = value
-    return xr.Dataset(
-        {name: ([*coords], data[name], own.attributes) for name, own in variables.items()},
-        coords={name: list(values) for name, values in coords.items()},
-        attrs={"Conventions": "CF-1.11", "compared_with": json.dumps(RICH), "band": BAND},
-    )
+def _compared() -> dict[str, Any]:
+    return {"Conventions": "CF-1.11", "compared_with": json.dumps(RICH), "band": BAND}
 
 
 MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
@@ -149,7 +129,8 @@ def contact_study(
 
     sizes = {f"{diameters},{circles}": (diameters, circles) for diameters, circles in models}
     coords = {"case": [*named], "contact": [*CONTACTS], "model": [*sizes]}
-    return _measured(coords, CONTACT_VARIABLES, measure).assign_attrs(
+    return measured(coords, CONTACT_VARIABLES, measure).assign_attrs(
+        _compared(),
         title="What residual flexibility changes",
         cases=json.dumps(dict(named), sort_keys=True),
         late=json.dumps(LATE),
@@ -161,15 +142,8 @@ def contact_study(
 
 def _through_separation(p: Parameters, horizon: float) -> dict[str, float]:
     """A row of `contact_study`."""
-    modes, give = mode_arrays(p), contact_give(p)
-    count = real_modes(p.n_diameters, p.n_circles)
-    row = {
-        "modes": float(count),
-        "contact_compliance": give,
-        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k, give)[0]),
-        "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
-        "growth_rate": _growth_rate(p) if count <= MOST_GROWTH else math.nan,
-    }
+    row = _of_the_modes(p) | {"contact_compliance": contact_give(p)}
+    row["growth_rate"] = float(floquet(p).growth_rate) if row["modes"] <= MOST_GROWTH else math.nan
     quiet = Record(events=False)
     simulate(p, 1e-3, record=quiet)  # compiles
     began = time.process_time()
@@ -178,11 +152,7 @@ def _through_separation(p: Parameters, horizon: float) -> dict[str, float]:
     if not math.isfinite(first.first_separation):
         return row
     row["first_separation"] = first.first_separation
-    for tol in TOLERANCES:
-        late = _late(p, first.final_state, tol)
-        if late:
-            return row | late
-    return row
+    return row | next(filter(None, (_late(p, first.final_state, tol) for tol in TOLERANCES)), {})
 
 
 def _late(p: Parameters, first: State, tol: float) -> dict[str, float]:
@@ -192,10 +162,7 @@ def _late(p: Parameters, first: State, tol: float) -> dict[str, float]:
     cost = (time.process_time() - began) / LATE[0]
     if not run.status.complete:
         return {}
-    start = run.final_state
-    window = Window(start=start.time, stop=start.time + LATE[1], rate=20_000.0, envelope=100)
-    record = Record(events=False, windows=(window,))
-    late = simulate(p, start.time + LATE[1], tol=tol, initial_state=start, record=record)
+    late = _watched(p, run.final_state, LATE[1], tol)
     if not late.status.complete:
         return {}
     seen = late.samples[0]
@@ -209,27 +176,36 @@ def _late(p: Parameters, first: State, tol: float) -> dict[str, float]:
     }
 
 
+def _watched(p: Parameters, start: State, length: float, tol: float = TOLERANCES[0]) -> Result:
+    """A motion for ``length`` s from a state on, with its range."""
+    window = Window(start=start.time, stop=start.time + length, rate=20_000.0, envelope=100)
+    record = Record(events=False, windows=(window,))
+    return simulate(p, window.stop, tol=tol, initial_state=start, record=record)
+
+
 def _measure(normalization: str, diameters: int, circles: int, horizon: float, growth: bool) -> dict[str, float]:
     size: dict[str, Any] = {"n_diameters": diameters, "n_circles": circles, "normalization": normalization}
     cases = {name: Parameters(**case, **size) for name, case in CASES[normalization].items()}
     p = cases["separation"]
     modes = mode_arrays(p)
     compliance = float(np.sum(modes.psi**2))
-    row = {
-        "modes": float(real_modes(diameters, circles)),
+    row = _of_the_modes(p) | {
         "omega_max": float(modes.omega.max()),
         "compliance": compliance,
-        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k)[0]),
-        "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
         "impact_share": 1.0 / (1.0 + p.m * compliance),
-        "growth_rate": _growth_rate(cases["growth"]) if growth else math.nan,
+        "growth_rate": float(floquet(cases["growth"]).growth_rate) if growth else math.nan,
     }
     return row | _contact_range(cases["range"]) | _separating(p, horizon)
 
 
-def _growth_rate(p: Parameters) -> float:
-    """Growth rate of the stick-slip cycle, 1/s; nan if there is no cycle."""
-    return float(floquet(p).growth_rate)
+def _of_the_modes(p: Parameters) -> dict[str, float]:
+    """What follows from the modes alone."""
+    modes = mode_arrays(p)
+    return {
+        "modes": float(real_modes(p.n_diameters, p.n_circles)),
+        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_give(p))[0]),
+        "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
+    }
 
 
 def _contact_range(p: Parameters) -> dict[str, float]:
@@ -245,9 +221,7 @@ def _separating(p: Parameters, horizon: float) -> dict[str, float]:
     first = simulate(p, horizon, stop_at="first_separation")
     if not math.isfinite(first.first_separation):
         return {}
-    start = first.final_state
-    record = Record(windows=(Window(start=start.time, stop=start.time + AFTER, rate=20_000.0, envelope=100),))
-    after = simulate(p, start.time + AFTER, initial_state=start, record=record)
+    after = _watched(p, first.final_state, AFTER)
     return {
         "first_separation": first.first_separation,
         "separations": (1 + after.statistics["separations"]) / AFTER,

@@ -6,8 +6,10 @@ is the median over the rounds.  Points that take long are measured less often (`
 
 from __future__ import annotations
 
+import importlib.metadata
 import math
 import time as clock
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -16,12 +18,13 @@ import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks import scenes
+from disc_model.benchmarks.grid import measured
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.register import SCENES
-from disc_model.benchmarks.scenes import JUDGED, VERDICT_WORDS, Verdict
+from disc_model.benchmarks.scenes import JUDGED, VERDICT, Verdict
 from disc_model.data.dataset import json_attribute
-from disc_model.data.provenance import VERSIONS_OF, versions
+from disc_model.data.provenance import versions
 from disc_model.data.variables import Variable
 from disc_model.simulation.api import simulate
 
@@ -62,10 +65,9 @@ VARIABLES: Mapping[str, Variable] = {
     "events": Variable("1", "number of events found"),
     "separations": Variable("1", "number of separations found"),
     "repeats": Variable("1", "number of times measured"),
+    "verdict": VERDICT,
 }
-VERDICT = Variable("1", "what became of the method", VERDICT_WORDS)
 LOOK = {"colour": "colour in charts", "marker": "marker in charts", "dash": "line style in charts"}
-COUNTS = ("work", "events", "separations", "repeats")
 
 
 class Point(NamedTuple):
@@ -107,22 +109,20 @@ def work_precision(
 
     Returns
     -------
-    Dataset along (scene, solver, point), unused points nan; the variables of `VARIABLES`, the flag ``verdict``, and
+    Dataset along (scene, solver, point), unused points nan; the variables of `VARIABLES`, and
     along (scene, solver) the fitted ``order_event`` and ``order_state``, see `fitted_order`.
     """
     settings = all_settings() if settings is None else settings
     todo = points(settings)
-    walls: dict[Point, list[float]] = {}
-    more: dict[Point, list[float]] = {}
-    calls: dict[str, list[float]] = {}
+    walls: dict[Point, list[float]] = defaultdict(list)
+    more: dict[Point, list[float]] = defaultdict(list)
+    calls: dict[str, list[float]] = defaultdict(list)
     rows: dict[Point, dict[str, float]] = {}
     hopeless: set[tuple[str, str]] = set()
     for turn in range(rounds):
         for point in todo:
             lane = (point.scene, point.method)
-            if turn and (point not in walls or not _again(walls[point], turn)):
-                continue
-            if not turn and lane in hopeless:
+            if lane in hopeless if not turn else not _again(walls[point], turn):
                 continue
             problem, limit = scenes.problem(point.scene), min(budget, BUDGETS.get(point.scene, budget))
             result = METHODS[point.method].solve(problem, point.value, limit)
@@ -130,12 +130,13 @@ def work_precision(
                 result = METHODS[point.method].solve(problem, point.value, limit)
             if result.outcome is Outcome.TOO_SLOW:
                 hopeless.add(lane)
-            walls.setdefault(point, []).append(result.seconds)
+            walls[point].append(result.seconds)
             if point.scene in JUDGED and result.outcome is Outcome.FINISHED and _quick(walls[point]):
-                more.setdefault(point, []).append(_further(point, limit) - result.seconds)
+                more[point].append(_further(point, limit) - result.seconds)
             if not turn:
                 found = scenes.errors(problem, scenes.answer(point.scene), result)
                 rows[point] = {
+                    "value": point.value,
                     "event_error": found.event_time,
                     "state_error": found.state,
                     "verdict": found.verdict,
@@ -146,8 +147,21 @@ def work_precision(
             if progress is not None:
                 progress(point, result.seconds)
         for scene in set(JUDGED) & set(settings):
-            calls.setdefault(scene, []).append(_whole_call(scene))
-    return _dataset(settings, walls, rows, more, calls)
+            calls[scene].append(_whole_call(scene))
+    for point, row in rows.items():
+        seconds, span = float(np.median(walls[point])), scenes.problem(point.scene).span
+        row |= {
+            "seconds": seconds,
+            "seconds_spread": max(walls[point]) - min(walls[point]),
+            "cost": seconds / span,
+            "marginal_cost": _median(more[point]) / (FURTHER * span),
+            "repeats": len(walls[point]),
+        }
+    return _dataset(settings, rows, {name: _median(calls[name]) for name in settings})
+
+
+def _median(values: Sequence[float]) -> float:
+    return float(np.median(values)) if values else math.nan
 
 
 def _further(point: Point, limit: float) -> float:
@@ -177,58 +191,35 @@ def _quick(walls: Sequence[float]) -> bool:
 
 def _again(walls: Sequence[float], turn: int) -> bool:
     """Whether to measure a point in a later round: always if it is quick, twice more at most if it is not."""
-    typical = float(np.median(walls))
-    return _quick(walls) or (typical < LONG and turn < 3)
+    return bool(walls) and (_quick(walls) or (float(np.median(walls)) < LONG and turn < 3))
 
 
 def _dataset(
-    settings: Settings,
-    walls: Mapping[Point, Sequence[float]],
-    rows: Mapping[Point, Mapping[str, float]],
-    more: Mapping[Point, Sequence[float]],
-    calls: Mapping[str, Sequence[float]],
+    settings: Settings, rows: Mapping[Point, Mapping[str, float]], whole_calls: Mapping[str, float]
 ) -> xr.Dataset:
-    names = list(settings)
     methods = [name for name in METHODS if any(name in by_method for by_method in settings.values())]
     most = max(len(values) for by_method in settings.values() for values in by_method.values())
-    shape = (len(names), len(methods), most)
-    data = {name: np.full(shape, math.nan) for name in VARIABLES}
-    verdict = np.full(shape, int(Verdict.NOT_RUN), dtype=np.int8)
-    for point, row in rows.items():
-        place = (names.index(point.scene), methods.index(point.method), point.place)
-        seconds, span = float(np.median(walls[point])), scenes.problem(point.scene).span
-        values = dict(row) | {
-            "value": point.value,
-            "seconds": seconds,
-            "seconds_spread": max(walls[point]) - min(walls[point]),
-            "cost": seconds / span,
-            "marginal_cost": float(np.median(more.get(point, (math.nan,)))) / (FURTHER * span),
-            "repeats": len(walls[point]),
-        }
-        verdict[place] = int(row["verdict"])
-        for name in VARIABLES:
-            data[name][place] = values[name]
-    dims = ("scene", "solver", "point")
-    dataset = xr.Dataset(
-        {name: (dims, data[name], own.attributes) for name, own in VARIABLES.items()},
-        coords={"scene": names, "solver": methods},
-        attrs={"Conventions": "CF-1.11", "machine": machine(), "title": "Speed against accuracy"}
-        | {"versions": json_attribute(versions() | _extra_versions())}
-        | {f"scene_{name}": json_attribute(scenes.describe(name)) for name in names},
-    )
-    dataset["verdict"] = (dims, verdict, VERDICT.attributes)
+    found = {(point.scene, point.method, point.place): row for point, row in rows.items()}
+    dataset = measured(
+        {"scene": [*settings], "solver": methods, "point": range(most)},
+        VARIABLES,
+        lambda *place: found.get(place, {"verdict": Verdict.NOT_RUN}),
+    ).drop_vars("point")
+    extra = {name: _version(name) for name in ("heyoka", "scikit-sundae")}
+    dataset.attrs |= {"Conventions": "CF-1.11", "machine": machine(), "title": "Speed against accuracy"}
+    dataset.attrs |= {"versions": json_attribute(versions() | extra)}
+    dataset.attrs |= {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
     dataset["label"] = ("solver", [METHODS[name].label for name in methods], {"long_name": "name in words"})
-    whole = [float(np.median(calls.get(name, (math.nan,)))) for name in names]
     about = "processor time of one whole call of simulate at its default, median of the rounds"
-    dataset["whole_call"] = ("scene", whole, {"units": "s", "long_name": about})
+    dataset["whole_call"] = ("scene", [*whole_calls.values()], {"units": "s", "long_name": about})
     for i, (name, text) in enumerate(LOOK.items()):
         dataset[name] = ("solver", [METHODS[method].look[i] for method in methods], {"long_name": text})
     theory = [METHODS[name].order for name in methods]
     dataset["order_theory"] = ("solver", theory, {"units": "1", "long_name": "theoretical order, nan if variable"})
     for error in ("event", "state"):
-        orders = [[_line_order(dataset, scene, method, error) for method in methods] for scene in names]
+        orders = [[_line_order(dataset, scene, method, error) for method in methods] for scene in settings]
         text = f"fitted order of the error of the {error} in the step; in the tolerance, if the order is variable"
-        dataset[f"order_{error}"] = (dims[:2], np.array(orders), {"units": "1", "long_name": text})
+        dataset[f"order_{error}"] = (("scene", "solver"), np.array(orders), {"units": "1", "long_name": text})
     return dataset
 
 
@@ -261,14 +252,8 @@ def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
     return float(-np.polyfit(x, y, 1)[0])
 
 
-def _extra_versions() -> dict[str, str]:
-    import importlib.metadata
-
-    found = {}
-    for name in ("heyoka", "scikit-sundae"):
-        if name not in VERSIONS_OF:
-            try:
-                found[name] = importlib.metadata.version(name)
-            except importlib.metadata.PackageNotFoundError:
-                found[name] = "not installed"
-    return found
+def _version(package: str) -> str:
+    try:
+        return importlib.metadata.version(package)
+    except importlib.metadata.PackageNotFoundError:
+        return "not installed"

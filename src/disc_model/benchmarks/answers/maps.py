@@ -18,7 +18,6 @@ from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS,
 from disc_model.benchmarks.failure_maps import map_of
 from disc_model.benchmarks.machine import one_core
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import MethodResult, Problem
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.truncation import real_modes
@@ -55,31 +54,28 @@ def answer_map(
     (s, nan where contact is not lost).
     """
     own = METHODS[method].economical()
-    values = _thinned(own.map_values) if values is None else values
-    shape = (len(diameters), len(values))
-    data: dict[str, np.ndarray] = {name: np.full(shape, math.nan) for name in VARIABLES}
-    right = [_right(count) for count in diameters]
-    for row, count in enumerate(diameters):
-        case, late = CASE.replace(n_diameters=count), False
-        for column, value in enumerate(values):
+    right = {count: _right(count) for count in diameters}
+    late: set[int] = set()
 
-            def solve(problem: Problem, seconds: float, value: float = value) -> MethodResult:
-                return own.solve(problem, value, seconds)
+    def measure(count: int, value: float) -> dict[str, float]:
+        found = Found(math.nan, math.nan, Status.TOO_SLOW)
+        if count not in late:
+            found = _first_separation(simulated.by(own, value), BUDGET, count)
+        if found.status is Status.TOO_SLOW:
+            late.add(count)
+        return {
+            "verdict": verdict("first_separation", found, right[count]),
+            "status": found.status,
+            "found": found.value,
+            "error": abs(found.value - right[count]),
+            "seconds": found.seconds,
+        }
 
-            found = Found(math.nan, math.nan, Status.TOO_SLOW)
-            if not late:
-                found = simulated.first_separation(solve, BUDGET, case, HORIZON)["first_separation"]
-            late = found.status is Status.TOO_SLOW
-            said = verdict("first_separation", found, right[row])
-            error = abs(found.value - right[row])
-            for name, number in zip(VARIABLES, (said, found.status, found.value, error, found.seconds), strict=True):
-                data[name][row, column] = number
-    flags = {name: data[name].astype(np.int8) if about.flags else data[name] for name, about in VARIABLES.items()}
-    dataset = map_of(method, diameters, values, {name: (flags[name], about) for name, about in VARIABLES.items()})
+    dataset = map_of(method, diameters, _thinned(own.map_values) if values is None else values, VARIABLES, measure)
     dataset.attrs |= {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
     modes = [real_modes(count, 0) for count in diameters]
     dataset["modes"] = ("diameters", modes, Variable("1", "number of real modes").attributes)
-    dataset["right"] = ("diameters", right, Variable("s", "first separation").attributes)
+    dataset["right"] = ("diameters", [*right.values()], Variable("s", "first separation").attributes)
     return dataset
 
 
@@ -92,10 +88,9 @@ def _thinned(values: Sequence[float]) -> Sequence[float]:
 @lru_cache(maxsize=64)
 def _right(diameters: int) -> float:
     """Time (s), nan if there is none."""
+    return _first_separation(simulated.by(METHODS["series"], REFERENCE_TOL), math.inf, diameters).value
 
-    def solve(problem: Problem, seconds: float) -> MethodResult:
-        return METHODS["series"].solve(problem, REFERENCE_TOL, seconds)
 
-    return simulated.first_separation(solve, math.inf, CASE.replace(n_diameters=diameters), HORIZON)[
-        "first_separation"
-    ].value
+def _first_separation(solve: simulated.Solve, budget: float, diameters: int) -> Found:
+    case = CASE.replace(n_diameters=diameters)
+    return simulated.first_separation(solve, budget, case, HORIZON)["first_separation"]

@@ -22,7 +22,7 @@ from disc_model.benchmarks.answers import modelled, questions, simulated
 from disc_model.benchmarks.answers.questions import QUESTIONS, STATUS_WORDS, VERDICT_WORDS, Found, Status, verdict
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import MethodResult, Problem
+from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.benchmarks.work_precision import LOOK
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
@@ -103,14 +103,10 @@ def _of_method(name: str, values: Sequence[float], asked: Sequence[str]) -> Iter
     """A method that is too slow for a question is not asked it at finer settings."""
     hopeless: set[str] = set()
     for value in values:
-
-        def solve(problem: Problem, budget: float, value: float = value) -> MethodResult:
-            return METHODS[name].solve(problem, value, budget)
-
         for question in asked:
             if question in hopeless:
                 continue
-            for answer, found in simulated.ask(solve, (question,)):
+            for answer, found in simulated.ask(simulated.by(METHODS[name], value), (question,)):
                 yield Row(answer, name, value, questions.reference(answer).value, found)
                 if found.status is Status.TOO_SLOW:
                     hopeless.add(question)
@@ -118,15 +114,16 @@ def _of_method(name: str, values: Sequence[float], asked: Sequence[str]) -> Iter
 
 def _of_the_cycle() -> Iterator[Row]:
     for tol in TOLERANCES:
-        onset = modelled.onset(questions.SEPARATING, tol)
-        yield Row("onset", "cycle", tol, questions.reference("fold").value, onset)
-        growth = modelled.growth_rate(questions.GROWING, tol)
-        yield Row("growth_rate", "cycle", tol, questions.reference("growth_rate").value, growth)
+        for answer, right, found in (
+            ("onset", "fold", modelled.onset(questions.SEPARATING, tol)),
+            ("growth_rate", "growth_rate", modelled.growth_rate(questions.GROWING, tol)),
+        ):
+            yield Row(answer, "cycle", tol, questions.reference(right).value, found)
 
 
 def _of_models(models: Sequence[int]) -> Iterator[Row]:
     right = {answer: found.value for answer, found in modelled.ask(modelled.RICHEST)}
-    for contact, fields in modelled.CONTACTS.items():
+    for contact, fields in CONTACTS.items():
         for count in models:
             for answer, found in modelled.ask({"n_diameters": count} | fields):
                 yield Row(answer, contact, count, right[answer], found)
@@ -150,19 +147,16 @@ VARIABLES: Mapping[str, Variable] = {
 
 
 def _dataset(rows: Sequence[Row]) -> xr.Dataset:
-    columns: dict[str, list[Any]] = {
-        "answer": [row.answer for row in rows],
-        "line": [row.line for row in rows],
-        "setting": [row.setting for row in rows],
-        "found": [row.found.value for row in rows],
-        "right": [row.right for row in rows],
-        "error": [row.error for row in rows],
-        "status": [np.int8(row.found.status) for row in rows],
-        "verdict": [np.int8(verdict(row.answer, row.found, row.right)) for row in rows],
-    }
-    columns |= {name: [getattr(row.found, name) for row in rows] for name in ("low", "high", "cells", "seconds")}
-    columns["message"] = [row.found.message for row in rows]
-    dataset = xr.Dataset({name: ("row", np.array(columns[name]), own.attributes) for name, own in VARIABLES.items()})
+    records: list[dict[str, Any]] = [
+        row._asdict()
+        | row.found._asdict()
+        | {"found": row.found.value, "error": row.error, "verdict": verdict(row.answer, row.found, row.right)}
+        for row in rows
+    ]
+    dataset = xr.Dataset()
+    for name, own in VARIABLES.items():
+        values = np.array([record[name] for record in records], np.int8 if own.flags else None)
+        dataset[name] = ("row", values, own.attributes)
     known = {name: (METHODS[name].label, METHODS[name].setting, METHODS[name].look) for name in METHODS} | dict(LINES)
     dataset["label"] = ("row", [known[row.line][0] for row in rows], {"long_name": "line in words"})
     dataset["varies"] = ("row", [known[row.line][1] for row in rows], {"long_name": "what the setting is"})

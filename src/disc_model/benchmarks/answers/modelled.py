@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from disc_model.benchmarks.answers import questions, simulated
 from disc_model.benchmarks.answers.questions import SIDE, Found, Status
+from disc_model.benchmarks.answers.simulated import found
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import MethodResult, Problem
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -28,7 +28,6 @@ from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import CycleStatus, floquet
 
 DEFAULT = 1e-10
-CONTACTS: Mapping[str, dict[str, Any]] = {"rigid": {}, "residual": {"contact_compliance": "residual"}}
 DIAMETERS = (0, 1, 2, 3, 4, 6, 8)
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64
@@ -39,11 +38,7 @@ NEVER = 1e6
 """s; a budget that is not used up: models take their time."""
 
 Model = Mapping[str, Any]
-
-
-def solve(problem: Problem, budget: float = NEVER) -> MethodResult:
-    """The engine at its default tolerance."""
-    return METHODS["series"].solve(problem, DEFAULT, budget)
+solve = simulated.by(METHODS["series"], DEFAULT)
 
 
 def ask(model: Model) -> Iterator[tuple[str, Found]]:
@@ -72,10 +67,8 @@ def onset(p: Parameters, tol: float) -> Found:
         try:
             folds = continue_cycle(p.replace(Omega=14.8), "Omega", (low, high), tol=tol).folds
         except ParameterError as error:
-            return Found(math.nan, 0.0, Status.NONE, f"no cycle to follow: {error}")
-        if not len(folds):
-            return Found(math.nan, 0.0, Status.NONE, f"no fold from {low:g} to {high:g} rad/s")
-        return Found(float(folds[0, 0]), 0.0, Status.FOUND)
+            return found(math.nan, 0.0, f"no cycle to follow: {error}")
+        return found(folds[0, 0] if len(folds) else math.nan, 0.0, f"no fold from {low:g} to {high:g} rad/s")
 
     return _timed(speed)
 
@@ -84,32 +77,28 @@ def growth_rate(p: Parameters, tol: float) -> Found:
     """Growth rate (1/s) of the stick-slip cycle, from its multipliers."""
 
     def rate() -> Found:
-        found = floquet(p, tol=tol)
-        if found.status is not CycleStatus.OK:
-            return Found(math.nan, 0.0, Status.NONE, found.message)
-        return Found(float(found.growth_rate), 0.0, Status.FOUND)
+        cycle = floquet(p, tol=tol)
+        return found(cycle.growth_rate if cycle.status is CycleStatus.OK else math.nan, 0.0, cycle.message)
 
     return _timed(rate)
 
 
 def region(model: Model) -> Found:
     """Share of the drawn cells that are judged otherwise than by the richest model."""
-    right = np.zeros(SIDE * SIDE, bool)
-    right[_drawn()] = _richest_region()
-    return simulated.judged(partial(_cell, model), right, NEVER, CELLS)
+    return simulated.judged(partial(_cell, model), _richest_region(), NEVER, CELLS)
 
 
 def _cell(model: Model, place: int) -> tuple[bool, float]:
     return simulated.cell(solve, questions.cell(place).replace(**model), NEVER)
 
 
-def _drawn() -> NDArray[np.int64]:
-    return simulated.drawn()[:CELLS]
-
-
 @lru_cache(maxsize=1)
 def _richest_region() -> NDArray[np.bool_]:
-    return np.array([_cell(RICHEST, int(place))[0] for place in _drawn()])
+    """Of the drawn cells; all others are False."""
+    found = np.zeros(SIDE * SIDE, bool)
+    for place in simulated.drawn()[:CELLS]:
+        found[place], _ = _cell(RICHEST, int(place))
+    return found
 
 
 @lru_cache(maxsize=32)
@@ -124,11 +113,11 @@ def _settled(p: Parameters) -> State | None:
 
 def _timed(find: Callable[[], Found]) -> Found:
     """An answer and the least wall time (s); the first time may have compiled."""
-    seconds, found = math.inf, find()
+    seconds, answer = math.inf, find()
     for _ in range(simulated.REPEATS):
         began = clock.thread_time()
-        found = find()
+        answer = find()
         seconds = min(seconds, clock.thread_time() - began)
         if seconds > simulated.QUICK:
             break
-    return found._replace(seconds=seconds)
+    return answer._replace(seconds=seconds)

@@ -31,6 +31,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.benchmarks.scenes import read_state
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 
@@ -87,7 +88,7 @@ class Status(enum.IntEnum):
     FAILED = 5
 
 
-STATUS_WORDS = ("found", "none", "too_slow", "unstable", "stalled", "failed")
+STATUS_WORDS = tuple(status.name.lower() for status in Status)
 
 
 class Verdict(enum.IntEnum):
@@ -98,7 +99,7 @@ class Verdict(enum.IntEnum):
     NO_ANSWER = 2
 
 
-VERDICT_WORDS = ("right", "wrong", "no_answer")
+VERDICT_WORDS = tuple(verdict.name.lower() for verdict in Verdict)
 
 
 class Found(NamedTuple):
@@ -150,8 +151,7 @@ def reference(name: str) -> Reference:
 
 def start(name: str) -> State:
     """``settled`` or ``growing``: a state of the motion, by the engine at its tightest tolerance."""
-    values: dict[str, Any] = {k: np.array(v) if isinstance(v, list) else v for k, v in stored()["starts"][name].items()}
-    return State(**values)
+    return read_state(stored()["starts"][name])
 
 
 def region() -> NDArray[np.bool_]:

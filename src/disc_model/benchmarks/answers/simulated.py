@@ -16,7 +16,7 @@ from scipy.optimize import curve_fit
 from disc_model.analysis.sobol import share
 from disc_model.benchmarks.answers import questions
 from disc_model.benchmarks.answers.questions import SIDE, Found, Status
-from disc_model.benchmarks.methods.base import MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import published_start
 from disc_model.simulation.result import State
@@ -24,6 +24,12 @@ from disc_model.simulation.result import State
 Array = NDArray[np.float64]
 Solve = Callable[[Problem, float], MethodResult]
 Answers = Mapping[str, Found]
+
+
+def by(method: Method, value: float) -> Solve:
+    """A method at one setting."""
+    return lambda problem, budget: method.solve(problem, value, budget)
+
 
 REPEATS = 3
 """Runs of what is quick; the fastest counts, since disturbances only add."""
@@ -71,7 +77,7 @@ def first_separation(
         time = _separation(result)
     except Broken as broken:
         return {"first_separation": broken.found(seconds)}
-    return {"first_separation": _found(time, seconds, f"no separation within {horizon:g} s")}
+    return {"first_separation": found(time, seconds, f"no separation within {horizon:g} s")}
 
 
 def after_separation(
@@ -92,10 +98,8 @@ def after_separation(
         return dict.fromkeys(names, Broken(result).found(seconds))
     low, high = result.heights
     values = (result.separations / problem.span, high - low, period(_times(result, "stick_to_slip")))
-    return {
-        name: _found(value, seconds, "the motion does not repeat")
-        for name, value in zip(names, values, strict=True)
-    }  # fmt: skip
+    missing = "the motion does not repeat"
+    return {name: found(value, seconds, missing) for name, value in zip(names, values, strict=True)}
 
 
 def period(releases: Array) -> float:
@@ -145,8 +149,8 @@ def growth_rate(solve: Solve, budget: float) -> Answers:
     result, seconds = _timed(solve, problem, budget)
     if result.outcome is not Outcome.FINISHED:
         return {"growth_rate": Broken(result).found(seconds)}
-    found = growth(_times(result, "stick_to_slip"))
-    return {"growth_rate": _found(found, seconds, "no oscillation that grows or dies out steadily")}
+    rate = growth(_times(result, "stick_to_slip"))
+    return {"growth_rate": found(rate, seconds, "no oscillation that grows or dies out steadily")}
 
 
 def growth(releases: Array) -> float:
@@ -251,7 +255,8 @@ def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult,
     return results[0], min(result.seconds for result in results)
 
 
-def _found(value: float, seconds: float, missing: str) -> Found:
+def found(value: float, seconds: float, missing: str) -> Found:
+    """An answer; where it is nan, ``missing`` says why."""
     if math.isfinite(value):
         return Found(float(value), seconds, Status.FOUND)
     return Found(math.nan, seconds, Status.NONE, missing)

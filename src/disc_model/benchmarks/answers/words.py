@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
-import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks.answers.questions import Status, Verdict
@@ -41,32 +40,30 @@ class Point(NamedTuple):
         return f"{self.varies}={self.setting:g}"
 
     @property
+    def became(self) -> str:
+        """Its status in words."""
+        return self.status.name.lower().replace("_", " ")
+
+    @property
     def says(self) -> str:
         """The answer in words."""
-        return f"{self.found:.6g}" if self.status is Status.FOUND else self.status.name.lower().replace("_", " ")
+        return f"{self.found:.6g}" if self.status is Status.FOUND else self.became
 
 
 def points(dataset: xr.Dataset, question: str) -> list[Point]:
     """The rows of a question, in the order in which they were measured."""
-    part = dataset.isel(row=dataset["answer"].values == question)
-    columns = {name: part[name].values for name in Point._fields}
-    kinds: dict[str, Any] = {"status": Status, "verdict": Verdict, "cells": int, "setting": float} | dict.fromkeys(
-        ("line", "label", "varies", "message"), str
-    )
-    return [
-        Point(**{name: kinds.get(name, float)(values[i]) for name, values in columns.items()})
-        for i in range(part.sizes["row"])
-    ]
+    part = dataset[[*Point._fields]].isel(row=dataset["answer"].values == question)
+    rows = [Point(*row) for row in part.to_dataframe().itertuples(index=False)]
+    return [row._replace(status=Status(row.status), verdict=Verdict(row.verdict)) for row in rows]
 
 
 def cheapest_right(found: Sequence[Point]) -> list[Point]:
     """Of every line the point that is right and costs least, cheapest line first; models are left out."""
+    right = [p for p in found if p.verdict is Verdict.RIGHT and p.line not in MODELS]
     best: dict[str, Point] = {}
-    for point in found:
-        known = best.get(point.line)
-        if point.verdict is Verdict.RIGHT and (known is None or point.seconds < known.seconds):
-            best[point.line] = point
-    return sorted((p for p in best.values() if p.line not in MODELS), key=lambda p: p.seconds)
+    for point in sorted(right, key=lambda p: p.seconds):
+        best.setdefault(point.line, point)
+    return [*best.values()]
 
 
 def sentences(dataset: xr.Dataset, question: str) -> str:
@@ -113,19 +110,18 @@ def to_markdown(dataset: xr.Dataset) -> str:
     return "\n".join(text)
 
 
-def _row(p: Point) -> Iterator[str]:
+def _row(p: Point) -> tuple[str, ...]:
     value = _short(p.found)
     if math.isfinite(p.low) and math.isfinite(p.found) and p.low < p.high:
         value += f" ({_short(p.low)} to {_short(p.high)})"
     if p.cells:
         value += f", {p.cells} cells"
-    why = f"{p.status.name.lower().replace('_', ' ')}{': ' + p.message if p.message else ''}"
-    yield from (p.label, p.at, value, _short(p.error, 3), _short(p.seconds, 3))
-    yield from (p.verdict.name.lower().replace("_", " "), why)
+    verdict, why = p.verdict.name.lower().replace("_", " "), f"{p.became}{': ' + p.message if p.message else ''}"
+    return p.label, p.at, value, _short(p.error, 3), _short(p.seconds, 3), verdict, why
 
 
 def _short(number: float, digits: int = 8) -> str:
-    return f"{number:.{digits}g}" if np.isfinite(number) else "-"
+    return f"{number:.{digits}g}" if math.isfinite(number) else "-"
 
 
 def _time(p: Point) -> str:
@@ -138,5 +134,5 @@ def _unit(units: str) -> str:
     return units.replace("rad s-1", "rad/s").replace("s-1", "1/s")
 
 
-def _listed(parts: Any) -> str:
+def _listed(parts: Iterable[str]) -> str:
     return "; ".join(parts) or "none"

@@ -1,0 +1,29 @@
+"""Datasets of what is measured at each point of a grid."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.variables import Variable
+
+
+def measured(
+    coords: Mapping[str, Sequence[Any]], variables: Mapping[str, Variable], measure: Callable[..., Mapping[str, float]]
+) -> xr.Dataset:
+    """What ``measure`` gives for the values of each point; nan where that is nothing, of a flag never."""
+    shape = tuple(len(values) for values in coords.values())
+    data = {name: np.full(shape, math.nan) for name in variables}
+    for place in np.ndindex(shape):
+        point = (values[i] for values, i in zip(coords.values(), place, strict=True))
+        for name, value in measure(*point).items():
+            data[name][place] = value
+    flags = {name: data[name].astype(np.int8) for name, own in variables.items() if own.flags}
+    return xr.Dataset(
+        {name: ([*coords], (data | flags)[name], own.attributes) for name, own in variables.items()},
+        coords={name: list(values) for name, values in coords.items()},
+    )
