@@ -50,6 +50,10 @@ class Fault(str):
     def __getnewargs__(self) -> tuple[tuple[str, ...], str, str]:  # type: ignore[override]
         return (self.path, self.value, self.rule)
 
+    def inside(self, place: tuple[str, ...]) -> Fault:
+        """The same fault, of a part that lies at a place in the whole."""
+        return Fault((*place, *self.path), self.value, self.rule)
+
 
 class ParameterError(DiscModelError, ValueError):
     """Input that breaks a rule. One error lists every fault, each as ``name=value: rule``.
@@ -61,7 +65,7 @@ class ParameterError(DiscModelError, ValueError):
     """
 
     def __init__(self, *faults: str) -> None:
-        self.faults = faults
+        self.faults = tuple(fault if isinstance(fault, Fault) else Fault((), "", fault) for fault in faults)
         super().__init__("; ".join(faults))
 
     def __reduce__(self) -> tuple[type[ParameterError], tuple[str, ...]]:
@@ -118,43 +122,40 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel], word: st
     """
     for item in error.errors(include_url=False):
         path, kind, value = _path(item, raw), item["type"], item["input"]
-        reason = item.get("ctx", {}).get("error")
+        context = item.get("ctx", {})
+        reason = context.get("error")
         if isinstance(reason, ParameterError):  # of a `Checked` inside
-            for fault in reason.faults:
-                inner = fault if isinstance(fault, Fault) else Fault((), "", fault)
-                yield Fault((*path, *inner.path), inner.value, inner.rule)
+            yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":
             yield Fault(path, "", "is required")
         elif kind == "extra_forbidden":
             known = _fields_at(model, item["loc"][:-1])
             yield Fault(path, shown(value), f"unknown {word}{suggestion(path[-1], known, all_of_them=word == 'key')}")
         else:
-            yield Fault(path, _shown_faulty(kind, value), _rule(item))
+            known_rule = _RULES.get(kind)
+            rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
+            yield Fault(path, _shown_faulty(kind, value), rule)
 
 
-_BOUNDS: dict[str, Callable[[dict[str, Any]], str]] = {
-    "greater_than_equal": lambda ctx: f"must be >= {ctx['ge']:g}",
-    "greater_than": lambda ctx: f"must be > {ctx['gt']:g}",
-    "less_than": lambda ctx: f"must be < {ctx['lt']:g}",
-    "less_than_equal": lambda ctx: f"must be <= {ctx['le']:g}",
-    "finite_number": lambda ctx: "must be finite",
+_BOUNDS = {
+    "greater_than_equal": "must be >= {ge:g}",
+    "greater_than": "must be > {gt:g}",
+    "less_than": "must be < {lt:g}",
+    "less_than_equal": "must be <= {le:g}",
+    "finite_number": "must be finite",
 }
-_RULES: dict[str, Callable[[dict[str, Any]], str]] = _BOUNDS | {
-    "literal_error": lambda ctx: f"must be {ctx['expected']}",
-    "value_error": lambda ctx: str(ctx["error"]),
-    "string_pattern_mismatch": lambda ctx: f"must match {ctx['pattern']}",
-    "too_short": lambda ctx: f"must have {ctx['min_length']} or more",
-    **dict.fromkeys(("bool_type", "bool_parsing"), lambda ctx: "must be true or false"),
-    **dict.fromkeys(("dict_type", "mapping_type", "model_type"), lambda ctx: "must be a mapping"),
-    **dict.fromkeys(("list_type", "tuple_type"), lambda ctx: "must be a list"),
-    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), lambda ctx: "must be a whole number"),
-    "string_type": lambda ctx: "must be text",
+_RULES = _BOUNDS | {
+    "literal_error": "must be {expected}",
+    "value_error": "{error}",
+    "string_pattern_mismatch": "must match {pattern}",
+    "too_short": "must have {min_length} or more",
+    **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
+    **dict.fromkeys(("dict_type", "mapping_type", "model_type"), "must be a mapping"),
+    **dict.fromkeys(("list_type", "tuple_type"), "must be a list"),
+    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
+    "string_type": "must be text",
 }
-
-
-def _rule(item: Any) -> str:
-    say = _RULES.get(item["type"])
-    return say(item.get("ctx", {})) if say else item["msg"].replace("Input should be", "must be")
+"""What pydantic's kinds of fault break, in this package's words, filled in from what pydantic says of the fault."""
 
 
 def _shown_faulty(kind: str, value: Any) -> str:

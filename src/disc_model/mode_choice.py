@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from disc_model.errors import DiscModelError, broken, refuse
 from disc_model.parameters import Parameters, is_number
@@ -28,6 +28,9 @@ from disc_model.truncation import (
     read_asked,
     real_modes,
 )
+
+if TYPE_CHECKING:
+    from disc_model.simulation.result import Result
 
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 """Diameters and circles of what may be chosen by a quantity of the motion: the last is compared with 99 modes."""
@@ -168,27 +171,26 @@ def growth(p: Parameters) -> float:
 
 def first_separation(p: Parameters) -> float:
     """Time of the first loss of contact, s; nan if there is none within `HORIZON`."""
-    from disc_model.simulation.api import simulate
-    from disc_model.simulation.case import Record
-
-    run = simulate(p, HORIZON, stop_at="first_separation", record=Record(events=False))
-    return run.raise_for_status().first_separation
+    return _run(p, HORIZON, stop_at="first_separation").first_separation
 
 
 def separation_rate(p: Parameters) -> float:
     """Separations per second after the first one, over `LATE`; nan if there is none within `HORIZON`."""
-    from disc_model.simulation.api import simulate
-    from disc_model.simulation.case import Record
-
-    quiet = Record(events=False)
-    first = simulate(p, HORIZON, stop_at="first_separation", record=quiet).raise_for_status()
+    first = _run(p, HORIZON, stop_at="first_separation")
     if not math.isfinite(first.first_separation):
         return math.nan
     wait, length = LATE
     start = first.first_separation + wait
-    late = simulate(p, start, initial_state=first.final_state, record=quiet).raise_for_status().final_state
-    run = simulate(p, start + length, initial_state=late, record=quiet).raise_for_status()
-    return float(run.statistics["separations"]) / length
+    late = _run(p, start, initial_state=first.final_state).final_state
+    return float(_run(p, start + length, initial_state=late).statistics["separations"]) / length
+
+
+def _run(p: Parameters, t_end: float, **how: Any) -> Result:
+    """A simulation that has to come to its end, of which no events are kept."""
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.case import Record
+
+    return simulate(p, t_end, record=Record(events=False), **how).raise_for_status()
 
 
 MEASURES: dict[str, Callable[[Parameters], float]] = {

@@ -6,7 +6,8 @@ import hashlib
 import json
 import math
 import numbers
-from collections.abc import Callable, Mapping
+import operator
+from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
@@ -180,16 +181,12 @@ def _give(value: Any) -> Any:
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
-    """A finite number with a unit; pydantic's rule keywords (`ge`, `gt`, `lt`, `le`) pass through."""
-    return Field(default, description=description, json_schema_extra={"unit": unit}, allow_inf_nan=False, **rules)
+    """A field with a unit, "" for a choice; pydantic's rule keywords (`ge`, `gt`, `lt`, `le`) pass through."""
+    return Field(default, description=description, json_schema_extra={"unit": unit}, **rules)
 
 
-def _count(default: int, lowest: int, highest: int, description: str) -> Any:
-    return Field(default, description=description, json_schema_extra={"unit": "1"}, ge=lowest, le=highest)
-
-
-def _choice(default: str, description: str) -> Any:
-    return Field(default, description=description, json_schema_extra={"unit": ""})
+def _number(default: Any, unit: str, description: str, **rules: Any) -> Any:
+    return _field(default, unit, description, allow_inf_nan=False, **rules)
 
 
 class Parameters(Checked):
@@ -205,38 +202,36 @@ class Parameters(Checked):
 
     _word: ClassVar[str] = "parameter"
 
-    N: Real = _field(..., "N", "preload pressing the slider onto the disc", ge=0)
-    Omega: Real = _field(..., "rad/s", "speed of the drive point", ge=0)
-    D_star: Real = _field(1e-5, "N m s", "Kelvin-Voigt damping of the disc", ge=0)
-    c: Real = _field(0.0, "N s/m", "damper of the slider, normal to the disc", ge=0)
-    c_p: Real = _field(0.0, "N s/m", "damper of the slider, in the disc's plane", ge=0)
-    k: Real = _field(5e4, "N/m", "spring of the slider, normal to the disc", ge=0)
-    k_p: Real = _field(2e4, "N/m", "spring of the slider, in the disc's plane", ge=0)
-    E: Real = _field(150e9, "Pa", "Young's modulus of the disc", gt=0)
-    m: Real = _field(0.1, "kg", "mass of the slider", gt=0)
-    mu_s: Real = _field(0.4, "1", "coefficient of static friction", ge=0)
-    mu_k: Real = _field(0.24, "1", "coefficient of kinetic friction", ge=0)
-    a: Real = _field(0.044, "m", "inner radius of the disc, clamped", gt=0)
-    b: Real = _field(0.12, "m", "outer radius of the disc, free", gt=0)
-    r_0: Real = _field(0.1, "m", "radius at which the slider runs", gt=0)
-    h: Real = _field(0.002, "m", "thickness of the disc", gt=0)
-    nu: Real = _field(0.211, "1", "Poisson's ratio of the disc", gt=-1, lt=0.5)
-    rho: Real = _field(7200.0, "kg/m^3", "density of the disc", gt=0)
-    n_diameters: Annotated[Count, BeforeValidator(_diameters)] = _count(
-        4, -1, 60, "highest number of nodal diameters, -1 for a rigid disc"
+    N: Real = _number(..., "N", "preload pressing the slider onto the disc", ge=0)
+    Omega: Real = _number(..., "rad/s", "speed of the drive point", ge=0)
+    D_star: Real = _number(1e-5, "N m s", "Kelvin-Voigt damping of the disc", ge=0)
+    c: Real = _number(0.0, "N s/m", "damper of the slider, normal to the disc", ge=0)
+    c_p: Real = _number(0.0, "N s/m", "damper of the slider, in the disc's plane", ge=0)
+    k: Real = _number(5e4, "N/m", "spring of the slider, normal to the disc", ge=0)
+    k_p: Real = _number(2e4, "N/m", "spring of the slider, in the disc's plane", ge=0)
+    E: Real = _number(150e9, "Pa", "Young's modulus of the disc", gt=0)
+    m: Real = _number(0.1, "kg", "mass of the slider", gt=0)
+    mu_s: Real = _number(0.4, "1", "coefficient of static friction", ge=0)
+    mu_k: Real = _number(0.24, "1", "coefficient of kinetic friction", ge=0)
+    a: Real = _number(0.044, "m", "inner radius of the disc, clamped", gt=0)
+    b: Real = _number(0.12, "m", "outer radius of the disc, free", gt=0)
+    r_0: Real = _number(0.1, "m", "radius at which the slider runs", gt=0)
+    h: Real = _number(0.002, "m", "thickness of the disc", gt=0)
+    nu: Real = _number(0.211, "1", "Poisson's ratio of the disc", gt=-1, lt=0.5)
+    rho: Real = _number(7200.0, "kg/m^3", "density of the disc", gt=0)
+    n_diameters: Annotated[Count, BeforeValidator(_diameters)] = _field(
+        4, "1", "highest number of nodal diameters, -1 for a rigid disc", ge=-1, le=60
     )
-    n_circles: Count = _count(0, 0, 20, "highest number of nodal circles")
-    normalization: Literal["as_published", "orthonormal"] = _choice(
-        "as_published", "scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17)"
+    n_circles: Count = _field(0, "1", "highest number of nodal circles", ge=0, le=20)
+    normalization: Literal["as_published", "orthonormal"] = _field(
+        "as_published", "", "scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17)"
     )
-    contact: Literal["separable", "bonded"] = _choice("separable", "whether the slider may leave the disc")
-    contact_compliance: Annotated[float | Literal["residual"], BeforeValidator(_give)] = Field(
-        0.0,
-        description="compliance of the contact, 0 if it is rigid; residual: the give of the modes left out",
-        json_schema_extra={"unit": "m/N"},
+    contact: Literal["separable", "bonded"] = _field("separable", "", "whether the slider may leave the disc")
+    contact_compliance: Annotated[float | Literal["residual"], BeforeValidator(_give)] = _field(
+        0.0, "m/N", "compliance of the contact, 0 if it is rigid; residual: the give of the modes left out"
     )
-    contact_force: Literal["vertical", "normal"] = _choice(
-        "vertical", "direction of the contact force: vertical as in the paper, or normal to the bent disc"
+    contact_force: Literal["vertical", "normal"] = _field(
+        "vertical", "", "direction of the contact force: vertical as in the paper, or normal to the bent disc"
     )
 
     @classmethod
@@ -276,6 +271,9 @@ def _rigidity(E: float, h: float, nu: float) -> float:
     return E * h**3 / 12 / (1 - nu**2)
 
 
+_ORDER = (("mu_k", "<=", operator.le, "mu_s"), ("a", "<", operator.lt, "r_0"), ("r_0", "<=", operator.le, "b"))
+
+
 def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     """Rules between parameters, checked where both sides are finite numbers: no fault hides another."""
     values: dict[str, float] = {}
@@ -287,14 +285,9 @@ def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
         if math.isfinite(value):
             values[name] = value
     faults: list[str] = []
-
-    def require(low: str, high: str, holds: Callable[[float, float], bool], rule: str) -> None:
+    for low, sign, holds, high in _ORDER:
         if low in values and high in values and not holds(values[low], values[high]):
-            faults.append(Fault((low,), shown(values[low]), f"must be {rule} {high}={shown(values[high])}"))
-
-    require("mu_k", "mu_s", lambda x, y: x <= y, "<=")
-    require("a", "r_0", lambda x, y: x < y, "<")
-    require("r_0", "b", lambda x, y: x <= y, "<=")
+            faults.append(Fault((low,), shown(values[low]), f"must be {sign} {high}={shown(values[high])}"))
     if values.keys() >= {"E", "h", "nu"} and values["E"] > 0 and values["h"] > 0 and abs(values["nu"]) < 1:
         try:
             rigidity = _rigidity(values["E"], values["h"], values["nu"])

@@ -72,7 +72,7 @@ class Modes:
     psi: Array
 
     def __post_init__(self) -> None:
-        for column in (self.circles, self.diameters, self.omega, self.psi):
+        for column in vars(self).values():
             column.setflags(write=False)
 
 
@@ -95,8 +95,7 @@ def _frame(modes: Modes) -> pd.DataFrame:
     """The table of `plate_modes`, kept because pandas takes long to build it."""
     import pandas as pd
 
-    columns = ("circles", "diameters", "omega", "psi")
-    return pd.DataFrame({name: getattr(modes, name).copy() for name in columns})
+    return pd.DataFrame(vars(modes))
 
 
 def slider_at_rest_frequencies(p: Parameters) -> Array:
@@ -236,7 +235,9 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     matrix = np.moveaxis(matrix, -1, 0)
     rows = np.max(np.abs(matrix), axis=2, keepdims=True)
     coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
-    nodes, weights = _gauss(_node_count(lam[-1], inner, n_diameters), inner)
+    # they integrate R^2 r to rounding: several a half wave, more for edge layers of many diameters
+    count = 8 * (int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters) // 8)
+    nodes, weights = _gauss(count, inner)
     values = _evaluate(l, lam, coefficients, exponents, nodes)
     _check_circles(values, l, np.repeat(np.arange(n_circles + 1), n_diameters + 1), inner, nu)
     norm = 2 * np.pi * values**2 @ (weights * nodes)
@@ -265,7 +266,7 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
     """The lowest zeros lambda of the frequency determinant for each l, (n_circles + 1, n_diameters + 1)."""
     step = np.pi / (1 - inner) / POINTS_PER_ROOT
     l = np.arange(n_diameters + 1)
-    start = _lower_bound(l)
+    start = 0.02 + 0.3 * np.maximum(l - 1.0, 0.0)  # below the first roots, where the determinant is well conditioned
     found: list[list[tuple[float, float]]] = [[] for _ in l]
     chunk = POINTS_PER_ROOT * (n_circles + 1) + 8
     missing = l
@@ -313,11 +314,6 @@ def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
         t = np.where(quadratic & np.isfinite(t), np.clip(t, edge, 1 - edge), 0.5)
         t = np.where(np.isfinite(t), t, 0.5)
     return best
-
-
-def _lower_bound(l: NDArray[np.int64]) -> Array:
-    """Positive lambdas below the first roots where the determinant is well conditioned; shape of `l`."""
-    return 0.02 + 0.3 * np.maximum(l - 1.0, 0.0)
 
 
 def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> Array:
@@ -399,11 +395,6 @@ def _bessel_small(l: int, x: Array) -> tuple[Array, Array]:
             before, now, log = before / size, now / size, log + np.log(size)
         value[row], exponent[row] = now, log
     return value, exponent
-
-
-def _node_count(lam: float, inner: float, l: int) -> int:
-    """Gauss nodes that integrate R^2 r to rounding: several a half wave, more for edge layers of large l."""
-    return 8 * (int(40 + lam * (1 - inner) + 1.2 * l) // 8)
 
 
 @lru_cache(maxsize=256)

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.errors import DiscModelError, Fault, ParameterError, shown
+from disc_model.errors import DiscModelError, Fault, ParameterError, broken, refuse, shown
 from disc_model.flexibility import contact_give
 from disc_model.parameters import AUTO, CHOOSING, Parameters, number
 from disc_model.plate import coupled_frequencies, mode_arrays
@@ -117,8 +117,14 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
         Listing every fault.
     """
     rest, asked, faults = asked_modes(values)
-    automatic = values.get("n_diameters") == AUTO
-    return _with_faults({**rest, "n_circles": 0} if automatic else rest, faults), asked
+    if values.get("n_diameters") == AUTO:
+        rest["n_circles"] = 0
+    try:
+        p = Parameters.model_validate(rest)
+    except ParameterError as error:
+        raise ParameterError(*error.faults, *faults) from None
+    refuse(faults)
+    return p, asked
 
 
 def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None, list[str]]:
@@ -131,28 +137,21 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None
     faults : in what asks for a choice
     """
     rest = {name: value for name, value in values.items() if name not in CHOOSING}
-    faults: list[str]
     if rest.get("n_diameters") != AUTO:
-        faults = [
-            Fault((name,), shown(values[name]), f"is used with n_diameters={AUTO!r} only")
-            for name in CHOOSING
-            if name in values
-        ]
-        return rest, None, faults
+        rule = f"is used with n_diameters={AUTO!r} only"
+        return rest, None, [Fault((name,), shown(values[name]), rule) for name in CHOOSING if name in values]
     del rest["n_diameters"]
     quantity, faults = checked_quantity("truncation_quantity", values.get("truncation_quantity", FREQUENCIES))
-    given = values.get("truncation_tolerance", QUANTITIES.get(quantity, math.inf))
-    if quantity in QUANTITIES or "truncation_tolerance" in values:
-        tolerance, more = checked_tolerance("truncation_tolerance", given)
-        faults += more
+    given = values.get("truncation_tolerance", QUANTITIES.get(quantity, 1.0))
+    tolerance, more = checked_tolerance("truncation_tolerance", given)
+    faults += more
     return rest, None if faults else Asked(quantity, tolerance), faults
 
 
 def checked_quantity(name: str, value: Any) -> tuple[str, list[str]]:
     """A quantity to choose modes by, "" if there is no such, and what is wrong with it."""
-    if isinstance(value, str) and value in QUANTITIES:
-        return value, []
-    return "", [Fault((name,), shown(value), f"must be one of {', '.join(QUANTITIES)}")]
+    known = isinstance(value, str) and value in QUANTITIES
+    return value if known else "", broken((known, name, value, f"must be one of {', '.join(QUANTITIES)}"))
 
 
 def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:
@@ -161,20 +160,8 @@ def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:
         tolerance = float(number(value))
     except ValueError:
         return math.nan, [Fault((name,), shown(value), "must be a number")]
-    if not TRUSTED <= tolerance < math.inf:
-        return math.nan, [Fault((name,), shown(tolerance), f"must be finite and >= {TRUSTED:g}")]
-    return tolerance, []
-
-
-def _with_faults(values: Mapping[str, Any], faults: list[str]) -> Parameters:
-    """Parameters, unless there are faults, found before or now."""
-    try:
-        p = Parameters.model_validate(values)
-    except ParameterError as error:
-        raise ParameterError(*error.faults, *faults) from None
-    if faults:
-        raise ParameterError(*faults)
-    return p
+    rule = f"must be finite and >= {TRUSTED:g}"
+    return tolerance, broken((TRUSTED <= tolerance < math.inf, name, tolerance, rule))
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:

@@ -6,9 +6,10 @@ everywhere else.
 
 from __future__ import annotations
 
+import functools
 import inspect
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -20,47 +21,38 @@ from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters
 from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED
 
+ANY = "VALUE"
+"""How help texts call what an option can be, where that is no list of words."""
+
 
 def option_name(field: str) -> str:
     """Command-line option of a field of `Parameters`: D_star -> --D-star."""
     return "--" + field.replace("_", "-")
 
 
-def _case_options(placeholders: dict[str, str] | None = None) -> list[inspect.Parameter]:
-    """One keyword option for each field of `Parameters`; `placeholders` are values for required fields."""
-    options = []
+def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
+    """An option for each field of `Parameters`, and for what to choose modes by where ``--n-diameters auto`` asks so.
+
+    `placeholders` are values for required fields.
+    """
     for name, field in Parameters.model_fields.items():
-        given = (placeholders or {}).get(name)
-        unit = Parameters.unit(name)
+        given, unit = placeholders.get(name), Parameters.unit(name)
         default = "required" if field.is_required() and given is None else f"default: {_text(given or field.default)}"
-        choices = _choices(field.annotation)
-        metavar = "|".join(choices if get_origin(field.annotation) is Literal else ("VALUE", *choices))
         told = f"{field.description}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]"
-        options.append(_case_option(name, given, metavar, choices, told))
-    return options
-
-
-def _choice_options() -> list[inspect.Parameter]:
-    """Options that say by what modes are chosen where ``--n-diameters auto`` leaves that open."""
-    tolerances = ", ".join(f"{default:g} for {name}" for name, default in QUANTITIES.items())
+        yield _case_option(name, given, _words(field.annotation), told)
     quantity, tolerance = CHOOSING
-    words = tuple(QUANTITIES)
-    return [
-        _case_option(quantity, None, "|".join(words), words, f"what {AUTO} is to get right [default: {FREQUENCIES}]"),
-        _case_option(
-            tolerance, None, "VALUE", (), f"and how right, relative, at least {TRUSTED:g} [default: {tolerances}]"
-        ),
-    ]
+    yield _case_option(quantity, None, tuple(QUANTITIES), f"what {AUTO} is to get right [default: {FREQUENCIES}]")
+    usual = ", ".join(f"{default:g} for {name}" for name, default in QUANTITIES.items())
+    told = f"and how right, relative, at least {TRUSTED:g} [default: {usual}]"
+    yield _case_option(tolerance, None, (ANY,), told)
 
 
-def _case_option(
-    name: str, default: str | None, metavar: str, choices: tuple[str, ...], told: str
-) -> inspect.Parameter:
-    """A keyword option of the case, spelt with and without underscores; `choices` are what a shell completes."""
+def _case_option(name: str, default: str | None, words: tuple[str, ...], told: str) -> inspect.Parameter:
+    """A keyword option of the case, spelt with and without underscores; `words` are what it can be."""
     option = typer.Option(
         *dict.fromkeys([option_name(name), f"--{name}"]),
-        metavar=metavar,
-        autocompletion=_completing(choices),
+        metavar="|".join(words),
+        autocompletion=lambda: [word for word in words if word != ANY],
         help=told.replace("[", r"\["),
         show_default=False,
         rich_help_panel="Parameters of the case",
@@ -70,15 +62,11 @@ def _case_option(
     )
 
 
-def _choices(annotation: Any) -> tuple[str, ...]:
-    """The words that a parameter can be, if it is one of some."""
+def _words(annotation: Any) -> tuple[str, ...]:
+    """What a parameter can be: the words that its type lists, and any value if it may be something else as well."""
     if get_origin(annotation) is Literal:
-        return tuple(map(str, get_args(annotation)))
-    return tuple(dict.fromkeys(word for part in get_args(annotation) for word in _choices(part)))
-
-
-def _completing(choices: tuple[str, ...]) -> Callable[[], list[str]]:
-    return lambda: list(choices)
+        return get_args(annotation)
+    return (ANY, *(word for part in get_args(annotation) if get_origin(part) is Literal for word in get_args(part)))
 
 
 def _text(value: Any) -> str:
@@ -90,15 +78,14 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
 
     def decorate(command: Callable[..., None]) -> Callable[..., None]:
         own = [p for p in inspect.signature(command, eval_str=True).parameters.values() if p.name != "case"]
-        case_options = [*_case_options(placeholders), *_choice_options()]
+        case_options = list(_case_options(placeholders))
 
+        @functools.wraps(command)
         def wrapped(**values: Any) -> None:
             case = {option.name: values.pop(option.name) for option in case_options}
             command(case={name: value for name, value in case.items() if value is not None}, **values)
 
         wrapped.__signature__ = inspect.Signature(own + case_options)  # type: ignore[attr-defined]
-        wrapped.__annotations__ = {p.name: p.annotation for p in own + case_options}
-        wrapped.__doc__, wrapped.__name__ = command.__doc__, command.__name__
         return wrapped
 
     return decorate

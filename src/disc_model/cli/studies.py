@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     Grids = dict[str, GridStudy]
 
 PACKAGE = Path(__file__).resolve().parents[1]
+PAPER = Path("config/paper.yaml")
+"""The study that is listed if none is given: of the working folder, or else the one that comes with the package."""
 KINDS = ("studies", "figures", "cases", "stale")
 FILES = typer.Argument(help="study files, later ones laid over earlier ones; the paper's if none is given")
 
@@ -85,12 +87,13 @@ def list_(
     """List the grid studies, figures or cases of a study, or what of its results is stale."""
     if what not in KINDS:
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
-    chosen, grids = _read(files or [_shipped("config/paper.yaml")])
+    chosen, grids = _read(files or [PAPER if PAPER.exists() else PACKAGE / PAPER])
     if what == "stale":
         _list_stale(files, directory)
         return
-    heads, rows = {"studies": _studies, "figures": _figures, "cases": _cases}[what](chosen, grids, directory)
-    Console().print(table(f"{what} of {chosen.name}", heads, rows, overflow="fold"))
+    rows, heads = LISTS[what]
+    listed = table(f"{what} of {chosen.name}", heads, rows(chosen, grids, directory / "results"), overflow="fold")
+    Console().print(listed)
 
 
 def init(
@@ -119,11 +122,6 @@ def init(
 # Parts
 
 
-def _shipped(name: str) -> Path:
-    """A file of the working folder, or else the one that comes with the package."""
-    return Path(name) if Path(name).exists() else PACKAGE / name
-
-
 def _command(files: Sequence[Path] | None, options: Sequence[str]) -> list[str]:
     """The command that has Snakemake compute a study."""
     if find_spec("snakemake") is None:
@@ -149,50 +147,43 @@ def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
     return chosen, {name: grids[name] for name in asked}
 
 
-Rows = tuple[tuple[str, ...], Iterator[tuple[str, ...]]]
+Rows = Iterator[tuple[str, ...]]
 
 
 def _made(path: Path) -> str:
     return "there" if path.exists() else "not computed"
 
 
-def _studies(chosen: Study, grids: Grids, directory: Path) -> Rows:
-    results = directory / "results"
-    rows = (
-        (name, grid.quantity, " x ".join(grid.values), str(grid.n_points), grid.title,
-         _made(results / name / f"{name}.nc"))
-        for name, grid in grids.items()
-    )  # fmt: skip
-    return ("study", "quantity", "dimensions", "points", "title", "results"), rows
+def _studies(chosen: Study, grids: Grids, results: Path) -> Rows:
+    for name, grid in grids.items():
+        made = _made(results / name / f"{name}.nc")
+        yield name, grid.quantity, " x ".join(grid.values), str(grid.n_points), grid.title, made
 
 
-def _figures(chosen: Study, grids: Grids, directory: Path) -> Rows:
+def _figures(chosen: Study, grids: Grids, results: Path) -> Rows:
     from disc_model.figures.paper.catalogue import CATALOGUE
 
-    def rows() -> Iterator[tuple[str, ...]]:
-        results = directory / "results"
-        for name in chosen.figures:
-            yield name, "paper", CATALOGUE[name].title, _made(results / chosen.name / "figures" / f"{name}.png")
-        for name, plot in chosen.plots.items():
-            yield name, plot.kind, plot.title or plot.case, _made(results / chosen.name / "figures" / f"{name}.png")
-        for study_name, grid in grids.items():
-            for name, shown in grid.plots.items():
-                title = shown.title or grid.title
-                yield name, shown.kind, title, _made(results / study_name / "figures" / f"{name}.png")
-
-    return ("figure", "kind", "title", "results"), rows()
+    found = [(chosen.name, name, "paper", CATALOGUE[name].title) for name in chosen.figures]
+    found += [(chosen.name, name, plot.kind, plot.title or plot.case) for name, plot in chosen.plots.items()]
+    for study_name, grid in grids.items():
+        found += [(study_name, name, shown.kind, shown.title or grid.title) for name, shown in grid.plots.items()]
+    for study_name, name, kind, title in found:
+        yield name, kind, title, _made(results / study_name / "figures" / f"{name}.png")
 
 
-def _cases(chosen: Study, grids: Grids, directory: Path) -> Rows:
+def _cases(chosen: Study, grids: Grids, results: Path) -> Rows:
     from disc_model.figures.paper.catalogue import said_parameters
 
-    results = directory / "results" / chosen.name / "cases"
-    said = {name: said_parameters(spec.parameters) for name, spec in chosen.specs.items()}
-    rows = (
-        (name, case.title, said[name], f"{case.t_end:g}", _made(results / f"{name}.nc"))
-        for name, case in chosen.cases.items()
-    )
-    return ("case", "title", "parameters", "t_end (s)", "results"), rows
+    for name, case in chosen.cases.items():
+        made = _made(results / chosen.name / "cases" / f"{name}.nc")
+        yield name, case.title, said_parameters(chosen.specs[name].parameters), f"{case.t_end:g}", made
+
+
+LISTS = {
+    "studies": (_studies, ("study", "quantity", "dimensions", "points", "title", "results")),
+    "figures": (_figures, ("figure", "kind", "title", "results")),
+    "cases": (_cases, ("case", "title", "parameters", "t_end (s)", "results")),
+}
 
 
 def _list_stale(files: Sequence[Path] | None, directory: Path) -> None:

@@ -46,7 +46,7 @@ OVERHEAD = 1 << 18
 
 def events_dataset(events: Any) -> xr.Dataset:
     """Switches, from a frame like `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
-    data = {name: ("event", _column(events, name), attributes(name)) for name in events.columns}
+    data = {name: ("event", _column(column, SERIES[name].flags), attributes(name)) for name, column in events.items()}
     return xr.Dataset(data).set_coords("time")
 
 
@@ -55,7 +55,10 @@ def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
 
     theta : rad, where ``w_point`` was taken
     """
-    data = {name: ("time", _narrow(name, values), attributes(name)) for name, values in samples.items()}
+    data = {
+        name: ("time", np.asarray(values, dtype=np.int8 if name == "phase" else float), attributes(name))
+        for name, values in samples.items()
+    }
     return xr.Dataset(data, attrs={"theta": theta})
 
 
@@ -104,16 +107,10 @@ def _compliance(p: Parameters) -> float:
         return math.nan
 
 
-def _column(events: Any, name: str) -> np.ndarray:
-    column = events[name]
-    flags = SERIES[name].flags
-    if not flags:
-        return np.asarray(column, dtype=float)
-    return pd.Categorical(column, categories=flags).codes.astype(np.int8)
-
-
-def _narrow(name: str, values: Any) -> np.ndarray:
-    return np.asarray(values, dtype=np.int8 if name == "phase" else float)
+def _column(column: Any, flags: tuple[str, ...]) -> np.ndarray:
+    if flags:
+        return pd.Categorical(column, categories=flags).codes.astype(np.int8)
+    return np.asarray(column, dtype=float)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -163,8 +160,10 @@ def agreed(values: Iterable[str]) -> str:
 
 
 def _encoding(tree: xr.DataTree) -> dict[str, dict[str, Any]]:
-    own = {node.path: node.to_dataset(inherit=False).variables for node in tree.subtree}
-    return {path: {str(name): _encode(var) for name, var in variables.items()} for path, variables in own.items()}
+    return {
+        node.path: {str(name): _encode(var) for name, var in node.to_dataset(inherit=False).variables.items()}
+        for node in tree.subtree
+    }
 
 
 def _encode(variable: xr.Variable) -> dict[str, Any]:

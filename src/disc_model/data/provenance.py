@@ -17,6 +17,7 @@ import platform
 import subprocess
 from base64 import urlsafe_b64encode
 from collections.abc import Iterable
+from importlib.util import resolve_name
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -48,20 +49,18 @@ def source_files(*roots: str | Path) -> tuple[Path, ...]:
     What is imported for type checkers only is left out, since it is not run; and so is the package's own ``__init__``:
     it only names what is imported on first use, and neither modules inside the package nor scripts use those names.
     """
-    found: dict[str, Path] = {}
+    found = {root.stem: root for root in roots if isinstance(root, Path)}
     waiting = [str(root) for root in roots if not isinstance(root, Path)]
-    scripts = [root for root in roots if isinstance(root, Path)]
-    for script in scripts:
-        waiting += _imported(script, script.stem)
+    for name, script in found.items():
+        waiting += _imported(script, name)
     while waiting:
         name = waiting.pop()
         path = _module_path(name)
         if path is None or name in found or name == PACKAGE.name:
             continue
         found[name] = path
-        waiting += _imported(path, name)
-        waiting.append(name.rpartition(".")[0])
-    return tuple(sorted({*scripts, *found.values()}))
+        waiting += [*_imported(path, name), name.rpartition(".")[0]]
+    return tuple(sorted(set(found.values())))
 
 
 def versions() -> dict[str, str]:
@@ -99,42 +98,35 @@ def _add(digest: hashlib._Hash, name: str, content: bytes) -> None:
 def _module_path(name: str) -> Path | None:
     """File of a module of this package, None for anything else."""
     first, *rest = name.split(".")
-    if first != PACKAGE.name:
-        return None
     path = PACKAGE.joinpath(*rest)
-    if path.is_dir():
-        init = path / "__init__.py"
-        return init if init.is_file() else None
-    module = path.with_suffix(".py")
-    return module if module.is_file() else None
+    file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    return file if first == PACKAGE.name and file.is_file() else None
 
 
 def _imported(path: Path, name: str) -> list[str]:
     """Names a source file imports; ``from x import y`` gives x and x.y, since y may be a module."""
     package = name if path.name == "__init__.py" else name.rpartition(".")[0]
     names = []
-    for level, module, imported in _read(path.read_bytes()).imports:
-        parts = package.split(".")
-        base = ".".join([*parts[: len(parts) - level + 1], *([module] if module else [])]) if level else module
+    for module, imported in _read(path.read_bytes()).imports:
+        base = resolve_name(module, package)
         names += [base, *(f"{base}.{name}" for name in imported)]
     return names
 
 
 class _Source(NamedTuple):
-    """What there is to know of a source file: its code as text, and imports as level, module and names."""
+    """What there is to know of a source file: its code as text, and imports as module and names."""
 
     code: str
-    imports: tuple[tuple[int, str, tuple[str, ...]], ...]
+    imports: list[tuple[str, list[str]]]
 
 
 @functools.cache
 def _read(source: bytes) -> _Source:
-    imports: list[tuple[int, str, tuple[str, ...]]] = []
-    code = _text(ast.parse(source), imports)
-    return _Source(code, tuple(imports))
+    imports: list[tuple[str, list[str]]] = []
+    return _Source(_text(ast.parse(source), imports), imports)
 
 
-def _text(node: ast.AST, imports: list[tuple[int, str, tuple[str, ...]]]) -> str:
+def _text(node: ast.AST, imports: list[tuple[str, list[str]]]) -> str:
     """A syntax tree as text, without docstrings and what is there for type checkers; adds what it imports to a list.
 
     The same in all versions of Python, unlike that of `ast.dump`: what is empty is left out.
@@ -145,9 +137,9 @@ def _text(node: ast.AST, imports: list[tuple[int, str, tuple[str, ...]]]) -> str
         case ast.If(test=ast.Name(id="TYPE_CHECKING")):
             return ",".join(_text(statement, imports) for statement in node.orelse)
         case ast.Import():
-            imports += [(0, alias.name, ()) for alias in node.names]
+            imports += [(alias.name, []) for alias in node.names]
         case ast.ImportFrom():
-            imports.append((node.level, node.module or "", tuple(alias.name for alias in node.names)))
+            imports.append(("." * node.level + (node.module or ""), [alias.name for alias in node.names]))
     said = [type(node).__name__]
     for name in node._fields:
         value = getattr(node, name, None)
