@@ -31,7 +31,7 @@ from disc_model.simulation import kept
 from disc_model.simulation.api import run_case, simulate
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.result import Result, State
-from tests.workflow.conftest import Project, copy_repository
+from tests.workflow.conftest import copy_repository
 
 ROOT = Path(__file__).parents[2]
 SIMULATE = importlib.import_module("disc_model.simulation.api")
@@ -505,14 +505,12 @@ cases: {A: {title: a long one, parameters: {N: 385, Omega: 15.1}, t_end: 12000}}
 @pytest.mark.workflow
 def test_a_workflow_that_is_killed(tmp_path: Path) -> None:
     """Snakemake and its job vanish together, as with the machine; the job goes on when Snakemake runs again."""
-    interrupted, undisturbed = projects = [Project(tmp_path / name) for name in ("interrupted", "undisturbed")]
-    for project in projects:
-        project.folder.mkdir()
-        copy_repository(project.folder)
-        (project.folder / "config/long.yaml").write_text(STUDY)
+    interrupted, undisturbed = projects = [
+        copy_repository(tmp_path / name, {"config/long.yaml": STUDY}) for name in ("interrupted", "undisturbed")
+    ]
     cases = interrupted.folder / "results/long/cases"
     file = cases / ".A.checkpoint"
-    command = interrupted.command("-j1", "results/long/cases/A.nc", config="config/long.yaml")
+    command = interrupted.command("-j1", "results/long/cases/A.nc")
     options: dict[str, Any] = {"cwd": interrupted.folder, "env": interrupted.environment, "start_new_session": True}
     with subprocess.Popen(command, **options, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         sizes = [0, 0]
@@ -522,10 +520,9 @@ def test_a_workflow_that_is_killed(tmp_path: Path) -> None:
             sizes.append(file.stat().st_size if file.exists() else 0)
         os.killpg(process.pid, signal.SIGKILL)
     assert os.listdir(cases) == [".A.checkpoint"]
-    interrupted.snakemake("--unlock", config="config/long.yaml")
+    interrupted.snakemake("--unlock")
     for project in projects:
-        done = project.snakemake("-j1", "results/long/cases/A.nc", config="config/long.yaml")
-        assert done.returncode == 0, done.stdout + done.stderr
+        project.complete("-j1", "results/long/cases/A.nc")
     assert "goes on at t = " in (interrupted.folder / "results/long/logs/simulate_case/A.log").read_text()
     assert os.listdir(cases) == ["A.nc"]
     assert (cases / "A.nc").read_bytes() == (undisturbed.folder / "results/long/cases/A.nc").read_bytes()

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import pytest
@@ -19,6 +19,7 @@ PARTS = ("Snakefile", "workflow", "profiles", "config", "src")
 
 SAID = {"warm_cache": "Compiling the solver, once", "warm_studies": "Compiling the stability analysis, once"}
 """What rules with a message show, which is not their name."""
+TINY = "config/tiny.yaml"
 STUDY = """\
 study: tiny
 claims: true
@@ -35,42 +36,52 @@ figures: [fig11, fig13]
 
 @dataclass(frozen=True)
 class Project:
-    """A copy of the repository in which Snakemake runs."""
+    """A copy of the repository in which Snakemake runs.
+
+    Attributes
+    ----------
+    folder : where it is
+    config : the study file that is run; None for what is run if none is named
+    variables : of the environment, beyond those of the tests
+    """
 
     folder: Path
+    config: str | None = None
     variables: Mapping[str, str] = field(default_factory=dict)
-    """Of the environment, beyond those of the tests."""
 
-    def snakemake(
-        self, *options: str, config: str | None = "config/tiny.yaml", prepare: Callable[[], object] | None = None
-    ) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake as a user would, with the copy's own sources; its process does what ``prepare`` says first."""
+    def snakemake(self, *options: str, prepare: Callable[[], object] | None = None) -> subprocess.CompletedProcess[str]:
+        """Run Snakemake as a user would, with the copy's own sources; its process does what ``prepare`` says first.
+
+        All that it says is in ``stdout``.
+        """
         return subprocess.run(
-            self.command(*options, config=config),
+            self.command(*options),
             cwd=self.folder,
             env=self.environment,
-            capture_output=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
             text=True,
             check=False,
             timeout=900,
             preexec_fn=prepare,
         )
 
-    def complete(self, *options: str, config: str | None = "config/tiny.yaml") -> str:
+    def complete(self, *options: str) -> str:
         """Run Snakemake, which must succeed; what it says."""
-        done = self.snakemake(*options, config=config)
-        assert done.returncode == 0, done.stdout + done.stderr
-        return done.stdout + done.stderr
+        done = self.snakemake(*options)
+        assert done.returncode == 0, done.stdout
+        return done.stdout
 
-    def refused(self, *options: str, config: str | None = "config/tiny.yaml") -> str:
+    def refused(self, *options: str) -> str:
         """Run Snakemake, which must not succeed; what it says."""
-        done = self.snakemake(*options, config=config)
+        done = self.snakemake(*options)
         assert done.returncode != 0
-        return done.stdout + done.stderr
+        return done.stdout
 
-    def command(self, *options: str, config: str | None = "config/tiny.yaml") -> list[str]:
+    def command(self, *options: str) -> list[str]:
         """The command of such a run."""
-        return [sys.executable, "-m", "snakemake", *options, *(["--configfile", config] if config else [])]
+        named = ["--configfile", self.config] if self.config else []
+        return [sys.executable, "-m", "snakemake", *options, *named]
 
     @property
     def environment(self) -> dict[str, str]:
@@ -81,7 +92,6 @@ class Project:
     def start(
         self,
         *options: str,
-        config: str,
         log: str = "run.log",
         wrapper: Sequence[str] = (),
         prepare: Callable[[], object] | None = None,
@@ -99,7 +109,7 @@ class Project:
 
         with (self.folder / log).open("ab") as file:
             return subprocess.Popen(
-                [*wrapper, *self.command(*options, config=config)],
+                [*wrapper, *self.command(*options)],
                 cwd=self.folder,
                 env=self.environment,
                 stdout=file,
@@ -107,6 +117,13 @@ class Project:
                 start_new_session=True,
                 preexec_fn=child,
             )
+
+    def python(self, code: str) -> str:
+        """What a piece of code prints that is run with the copy's own sources."""
+        command = [sys.executable, "-c", code]
+        return subprocess.run(
+            command, cwd=self.folder, env=self.environment, capture_output=True, text=True, check=True
+        ).stdout
 
     def processes(self) -> dict[int, list[str]]:
         """Commands of the processes that work in the project's folder."""
@@ -122,9 +139,9 @@ class Project:
                 continue
         return dict(sorted(found.items()))
 
-    def jobs(self, *options: str, config: str | None) -> Iterator[tuple[str, dict[str, str]]]:
+    def jobs(self, *options: str) -> Iterator[tuple[str, dict[str, str]]]:
         """Jobs that a run would do: rule and wildcards."""
-        shown = self.complete("-n", *options, config=config)
+        shown = self.complete("-n", *options)
         yield from ((rule, {}) for rule, said in SAID.items() if said in shown)
         for block in re.split(r"\n(?=(?:local)?rule \w+:)", shown)[1:]:
             rule = re.match(r"(?:local)?rule (\w+):", block)
@@ -132,10 +149,9 @@ class Project:
             assert rule is not None
             yield rule[1], dict(re.findall(r"(\w+)=([^\s,]+)", wildcards[1] if wildcards else ""))
 
-    def planned(self, *options: str, config: str | None = "config/tiny.yaml") -> set[str]:
+    def planned(self, *options: str) -> set[str]:
         """The same as rule or rule:wildcard, without the target `all`."""
-        jobs = {":".join((rule, *wildcards.values())) for rule, wildcards in self.jobs(*options, config=config)}
-        return jobs - {"all"}
+        return {":".join((rule, *wildcards.values())) for rule, wildcards in self.jobs(*options)} - {"all"}
 
     def edit(self, path: str, old: str, new: str) -> None:
         """Replace a text in a file; it must be there."""
@@ -147,7 +163,7 @@ class Project:
     def copy(self, folder: Path) -> Project:
         """A copy to change, times of files included."""
         shutil.copytree(self.folder, folder, symlinks=True)
-        return Project(folder)
+        return replace(self, folder=folder)
 
     def change(self, path: str) -> None:
         """Change what a source does, as far as anyone can tell without running it: a comment would not count."""
@@ -155,8 +171,9 @@ class Project:
             file.write("\n_CHANGED = True\n" if path.endswith(".py") else "\n# changed\n")
 
 
-def copy_repository(folder: Path) -> Project:
-    """What a run needs of the repository, in a folder of its own."""
+def copy_repository(folder: Path, studies: Mapping[str, str] | None = None, **variables: str) -> Project:
+    """What a run needs of the repository, in a folder of its own, with study files by path: the first is run."""
+    folder.mkdir(exist_ok=True)
     for part in PARTS:
         source, target = ROOT / part, folder / part
         if source.is_symlink():
@@ -166,14 +183,15 @@ def copy_repository(folder: Path) -> Project:
             shutil.copytree(source, target, symlinks=True, ignore=ignored)
         else:
             shutil.copy2(source, target)
-    return Project(folder)
+    for path, text in (studies or {}).items():
+        (folder / path).write_text(text)
+    return Project(folder, next(iter(studies or ()), None), variables)
 
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """The small study, computed."""
-    project = copy_repository(tmp_path_factory.mktemp("project"))
-    (project.folder / "config" / "tiny.yaml").write_text(STUDY)
+    project = copy_repository(tmp_path_factory.mktemp("project"), {TINY: STUDY})
     project.complete("-j2")
     return project
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import signal
-import subprocess
 import time
 from collections.abc import Callable
 
@@ -39,32 +38,7 @@ PARTS = ("workflow/scripts/", "disc_model")
 """In the command of every job."""
 
 
-def write_study(project: Project) -> None:
-    (project.folder / CONFIG).write_text(MAIN)
-    (project.folder / "config" / "faulty_map.yaml").write_text(MAP)
-
-
-def run(project: Project, *options: str) -> subprocess.CompletedProcess[str]:
-    return project.snakemake("-j2", *options, config=CONFIG)
-
-
-def complete(project: Project, *options: str) -> None:
-    """Run, successfully."""
-    project.complete("-j2", *options, config=CONFIG)
-
-
-def refused(project: Project) -> str:
-    """Run, which must end with an error; what it says."""
-    return project.refused("-j2", config=CONFIG)
-
-
-def mend(project: Project) -> str:
-    """What is to be typed after a fault; what it says."""
-    return project.complete("-j1", "check", config=CONFIG)
-
-
-def said(done: subprocess.CompletedProcess[str]) -> str:
-    return done.stdout + done.stderr
+STUDY = {CONFIG: MAIN, "config/faulty_map.yaml": MAP}
 
 
 def products(project: Project) -> dict[str, bytes]:
@@ -83,13 +57,6 @@ def check_same(project: Project, undisturbed: dict[str, bytes]) -> None:
     assert set(found) <= set(undisturbed)
     assert {name for name in set(undisturbed) - set(found) if not INPUT.search(name)} == set()
     assert [name for name in found if found[name] != undisturbed[name]] == []
-
-
-def start(
-    project: Project, *options: str, log: str = "run.log", wrapper: tuple[str, ...] = ()
-) -> subprocess.Popen[bytes]:
-    """Run in the background, in a process group of its own."""
-    return project.start("-j2", *options, config=CONFIG, log=log, wrapper=wrapper)
 
 
 def jobs(project: Project) -> list[int]:

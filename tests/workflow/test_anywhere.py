@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import subprocess
 import sys
@@ -16,11 +15,12 @@ from tests.workflow.conftest import ROOT, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
+SNAKEFILE = ROOT / "workflow" / "Snakefile"
 MODULE = f"""\
 configfile: "config.yaml"
 
 module vibration:
-    snakefile: "{ROOT}/workflow/Snakefile"
+    snakefile: "{SNAKEFILE}"
     config: config["vibration"]
 
 use rule * from vibration as vibration_*
@@ -31,15 +31,14 @@ rule all:
 """
 
 
-def snakemake(folder: Path, *options: str | Path, **environment: str) -> subprocess.CompletedProcess[str]:
+def snakemake(folder: Path, *options: str | Path, fails: bool = False) -> str:
+    """What Snakemake says in a folder, where it has to succeed, or to fail."""
     command = [sys.executable, "-m", "snakemake", *map(str, options)]
-    return subprocess.run(
-        command, cwd=folder, env=os.environ | environment, capture_output=True, text=True, check=False, timeout=900
+    done = subprocess.run(
+        command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=900
     )
-
-
-def said(done: subprocess.CompletedProcess[str]) -> str:
-    return done.stdout + done.stderr
+    assert (done.returncode != 0) == fails, done.stdout
+    return done.stdout
 
 
 @pytest.fixture(scope="module")
@@ -47,9 +46,7 @@ def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a study of both kinds, its name with what a shell would take apart, computed there."""
     folder = tmp_path_factory.mktemp("else where & {more}")
     (folder / "mine.yaml").write_text(STUDY)
-    done = snakemake(ROOT, "-j2", "-s", ROOT / "workflow" / "Snakefile", "--directory", folder,
-                     "--configfile", folder / "mine.yaml")  # fmt: skip
-    assert done.returncode == 0, said(done)
+    snakemake(ROOT, "-j2", "-s", SNAKEFILE, "--directory", folder, "--configfile", folder / "mine.yaml")
     return folder
 
 
@@ -62,31 +59,27 @@ def test_a_study_is_computed_in_another_folder(elsewhere: Path) -> None:
 def test_from_the_root_or_not_the_workflow_is_the_same(elsewhere: Path) -> None:
     """Neither the place of the Snakefile nor that of its scripts is among what results depend on."""
     for place in (ROOT / "Snakefile", ROOT / "src" / "disc_model" / "workflow" / "Snakefile"):
-        done = snakemake(elsewhere, "-n", "-s", place, "--configfile", "mine.yaml")
-        assert "Nothing to be done" in said(done), said(done)
-        assert "KeyError" not in said(done)
+        said = snakemake(elsewhere, "-n", "-s", place, "--configfile", "mine.yaml")
+        assert "Nothing to be done" in said
+        assert "KeyError" not in said
 
 
 def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
     """What an included file makes by default is not the default: the root's made nothing, and said that all was so."""
     (tmp_path / "mine.yaml").write_text(STUDY)
-    for place in (ROOT / "Snakefile", ROOT / "workflow" / "Snakefile"):
-        done = snakemake(tmp_path, "-n", "-s", place, "--configfile", "mine.yaml")
-        assert re.search(r"^draw_plot +1$", said(done), re.MULTILINE), said(done)
+    for place in (ROOT / "Snakefile", SNAKEFILE):
+        assert re.search(r"^draw_plot +1$", snakemake(tmp_path, "-n", "-s", place, "--configfile", "mine.yaml"), re.M)
     laid_out = tmp_path / "own"
     command = [sys.executable, "-m", "disc_model", "init", str(laid_out)]
     subprocess.run(command, check=True, capture_output=True, timeout=300)
-    done = snakemake(laid_out, "-n")
-    assert re.search(r"^compute_batch +13$", said(done), re.MULTILINE), said(done)
+    assert re.search(r"^compute_batch +13$", snakemake(laid_out, "-n"), re.M)
 
 
 def test_what_is_stale_is_listed(elsewhere: Path) -> None:
     def listed(text: str) -> str:
         (elsewhere / "asked.yaml").write_text(text)
         command = [sys.executable, "-m", "disc_model", "list", "stale", "asked.yaml"]
-        done = subprocess.run(command, cwd=elsewhere, capture_output=True, text=True, check=False, timeout=300)
-        assert done.returncode == 0, said(done)
-        return done.stdout
+        return subprocess.run(command, cwd=elsewhere, capture_output=True, text=True, check=True, timeout=300).stdout
 
     assert re.fullmatch(r"0 of \d\d files are missing or out of date\n", listed(STUDY))
     another = listed(STUDY.replace("[0.3, 0.4]", "[0.3, 0.45]"))
@@ -97,26 +90,24 @@ def test_what_is_stale_is_listed(elsewhere: Path) -> None:
 
 
 def test_the_paper_is_the_study_if_none_is_given(tmp_path: Path) -> None:
-    done = snakemake(tmp_path, "-n", "-s", ROOT / "workflow" / "Snakefile", "results/paper/figures/fig13.pdf")
-    assert re.search(r"^simulate_case +1$", said(done), re.MULTILINE), said(done)
+    said = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
+    assert re.search(r"^simulate_case +1$", said, re.M)
 
 
 def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> None:
     (tmp_path / "Snakefile").write_text(MODULE)
     study = "".join(f"  {line}\n" for line in STUDY.splitlines())
     (tmp_path / "config.yaml").write_text(f"mine: 3\nvibration:\n{study}")
-    done = snakemake(tmp_path, "-j2")
-    assert done.returncode == 0, said(done)
+    snakemake(tmp_path, "-j2")
     for name in ("mine.nc", "cases.nc"):
         assert (tmp_path / "results" / "mine" / name).is_file()
 
 
 def test_it_is_linted_without_the_package_installed(tmp_path: Path) -> None:
     """The environment's packages but for this one are linked into a folder of their own."""
-    clone, rest = tmp_path / "clone", tmp_path / "site"
-    clone.mkdir()
+    project = copy_repository(tmp_path / "clone").folder
+    rest = tmp_path / "site"
     rest.mkdir()
-    project = copy_repository(clone).folder
     for path in Path(sysconfig.get_path("purelib")).iterdir():
         if "disc_model" not in path.name:
             (rest / path.name).symlink_to(path)
@@ -136,8 +127,7 @@ def test_it_is_linted_without_the_package_installed(tmp_path: Path) -> None:
     ],
 )
 def test_what_there_is_not_is_told_with_what_there_is(elsewhere: Path, target: str, message: str) -> None:
-    done = snakemake(elsewhere, "-n", "-s", ROOT / "workflow" / "Snakefile", target, "--configfile", "mine.yaml")
-    assert done.returncode != 0
-    assert message in said(done)
-    assert "KeyError" not in said(done)
-    assert "Traceback" not in said(done)
+    said = snakemake(elsewhere, "-n", "-s", SNAKEFILE, target, "--configfile", "mine.yaml", fails=True)
+    assert message in said
+    assert "KeyError" not in said
+    assert "Traceback" not in said

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from tests.workflow.conftest import Project
@@ -19,7 +21,7 @@ cases:
 
 def test_every_fault_is_shown_and_nothing_runs(project: Project) -> None:
     (project.folder / "config" / "bad.yaml").write_text(BAD)
-    shown = project.refused("-j2", config="config/bad.yaml")
+    shown = replace(project, config="config/bad.yaml").refused("-j2")
     for fault in (
         "config/bad.yaml: 8 faults",
         "base.m = 0: must be > 0",
@@ -43,11 +45,11 @@ def test_keys_given_twice_are_refused(project: Project) -> None:
 
 def test_what_is_no_yaml_is_named_with_its_line(project: Project) -> None:
     project.edit("config/paper.yaml", "\ntitle: ", "\ntitle: [")
-    shown = project.refused("-n", config=None)
+    shown = replace(project, config=None).refused("-n")
     assert "config/paper.yaml: 1 fault" in shown
     assert "line " in shown
     assert "Traceback" not in shown
 
 
 def test_lint_passes(project: Project) -> None:
-    project.complete("--lint", config=None)
+    replace(project, config=None).complete("--lint")

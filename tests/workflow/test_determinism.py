@@ -21,8 +21,8 @@ import numpy as np
 import pytest
 
 from tests import instruction_sets
-from tests.workflow.conftest import Project, copy_repository
-from tests.workflow.faulty import CONFIG, products, write_study
+from tests.workflow.conftest import copy_repository
+from tests.workflow.faulty import STUDY, products
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -34,12 +34,9 @@ def test_one_and_two_cores(tmp_path: Path) -> None:
     """Two folders; one job at a time with one thread of the linear algebra, or two with two."""
     found = []
     for cores in (1, 2):
-        folder = tmp_path / f"cores{cores}"
-        folder.mkdir()
-        threads = {name: str(cores) for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
-        project = Project(copy_repository(folder).folder, variables=threads)
-        write_study(project)
-        project.complete(f"-j{cores}", config=CONFIG)
+        threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), str(cores))
+        project = copy_repository(tmp_path / f"cores{cores}", STUDY, **threads)
+        project.complete(f"-j{cores}")
         found.append(products(project))
     assert set(found[0]) == set(found[1])
     assert [name for name in found[0] if found[0][name] != found[1][name]] == []

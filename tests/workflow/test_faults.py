@@ -11,7 +11,6 @@ import resource
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from base64 import urlsafe_b64encode
 from collections.abc import Iterable
@@ -23,37 +22,30 @@ import pytest
 from tests import needs
 from tests.tally import tried
 from tests.workflow.conftest import Project, copy_repository
-from tests.workflow.faulty import (
-    CONFIG,
-    check_same,
-    complete,
-    jobs,
-    kill,
-    mend,
-    products,
-    refused,
-    run,
-    said,
-    start,
-    wait_until,
-    write_study,
-)
+from tests.workflow.faulty import CONFIG, STUDY, check_same, jobs, kill, products, wait_until
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 needs_proc = pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
 LOCKED = "Directory cannot be locked"
 
 
-def fault(what: str, count: int = 1) -> None:
+def recovers(project: Project, undisturbed: dict[str, bytes], what: str, count: int = 1) -> None:
+    """A run after faults gives the bytes of an undisturbed one."""
+    project.complete("-j2")
+    recovered(project, undisturbed, what, count)
+
+
+def recovered(project: Project, undisturbed: dict[str, bytes], what: str, count: int = 1) -> None:
+    """The run after faults has been, and gave the bytes of an undisturbed one."""
+    check_same(project, undisturbed)
     tried("faults, after which a rerun gave the same bytes", what, count)
 
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """The study, undisturbed."""
-    project = copy_repository(tmp_path_factory.mktemp("undisturbed"))
-    write_study(project)
-    complete(project)
+    project = copy_repository(tmp_path_factory.mktemp("undisturbed"), STUDY)
+    project.complete("-j2")
     return project
 
 
@@ -84,16 +76,14 @@ def fresh(done: Project, tmp_path: Path) -> Project:
 def test_jobs_killed_at_random(fresh: Project, undisturbed: dict[str, bytes]) -> None:
     wanted, killed, chance = 8, 0, random.Random(7)
     while killed < wanted:
-        process = start(fresh)
+        process = fresh.start("-j2")
         while process.poll() is None:
             time.sleep(chance.uniform(0.2, 2.0))
             running = jobs(fresh)
             if running and killed < wanted:
                 killed += kill(chance.choice(running))
         assert process.returncode or not killed
-    complete(fresh)
-    check_same(fresh, undisturbed)
-    fault("jobs killed", killed)
+    recovers(fresh, undisturbed, "jobs killed", killed)
 
 
 @needs_proc
@@ -101,33 +91,30 @@ def test_whole_runs_killed_at_random(fresh: Project, undisturbed: dict[str, byte
     """What a power failure does: Snakemake and its jobs are gone at once, and its lock stays."""
     chance = random.Random(3)
     for number in range(4):
-        process = start(fresh)
+        process = fresh.start("-j2")
         wait_until(lambda: bool(jobs(fresh)))
         time.sleep(chance.uniform(0.0, 3.0 + 2.0 * number))
         os.killpg(process.pid, signal.SIGKILL)
         assert process.wait() == -signal.SIGKILL
-        told = refused(fresh)
+        told = fresh.refused("-j2")
         assert LOCKED in told
         assert "--unlock" in told
-        assert run(fresh, "--unlock").returncode == 0
-    complete(fresh)
-    check_same(fresh, undisturbed)
-    fault("whole runs killed", 4)
+        fresh.complete("-j2", "--unlock")
+    recovers(fresh, undisturbed, "whole runs killed", 4)
 
 
 @needs_proc
 def test_snakemake_killed_while_its_jobs_go_on(fresh: Project, undisturbed: dict[str, bytes]) -> None:
     """The next run makes the same files at the same time."""
-    process = start(fresh)
+    process = fresh.start("-j2")
     wait_until(lambda: bool(jobs(fresh)))
     os.kill(process.pid, signal.SIGKILL)
     process.wait()
     assert jobs(fresh)
-    assert run(fresh, "--unlock").returncode == 0
-    complete(fresh)
+    fresh.complete("-j2", "--unlock")
+    fresh.complete("-j2")
     wait_until(lambda: not jobs(fresh))
-    check_same(fresh, undisturbed)
-    fault("Snakemake alone killed")
+    recovered(fresh, undisturbed, "Snakemake alone killed")
 
 
 # ---- disk full
@@ -156,30 +143,25 @@ def test_disk_full(fresh: Project, done: Project, undisturbed: dict[str, bytes],
     disk = tmp_path / "disk"
     disk.mkdir()
     places = {"DISK": str(disk), "PROJECT": str(fresh.folder), "UNDISTURBED": str(done.folder), "ROOM": str(room)}
-    script = ["bash", "-euo", "pipefail", "-c", FULL, "bash", *fresh.command("-j2", config=CONFIG)]
+    script = ["bash", "-euo", "pipefail", "-c", FULL, "bash", *fresh.command("-j2")]
     ran = subprocess.run(
         [*NAMESPACE, *script], env=fresh.environment | places, capture_output=True, text=True, check=False, timeout=900
     )
-    assert ran.returncode == 0, said(ran)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
     assert "No space left on device" in (fresh.folder / "full.log").read_text()
-    check_same(fresh, undisturbed)
-    fault("disk full")
+    recovered(fresh, undisturbed, "disk full")
 
 
 def test_files_may_not_grow(fresh: Project, undisturbed: dict[str, bytes]) -> None:
     """A limit to the size of files, as quotas impose: the library that writes them only says "HDF error"."""
     limit = 80_000
-    ran = fresh.snakemake(
-        "-j2", config=CONFIG, prepare=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-    )
+    ran = fresh.snakemake("-j2", prepare=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
     assert ran.returncode != 0
-    assert "results/faulty/cases/F13.nc: cannot be written: File too large" in said(ran)
+    assert "results/faulty/cases/F13.nc: cannot be written: File too large" in ran.stdout
     found = products(fresh)
     assert found
     assert all(found[name] == undisturbed[name] for name in found)
-    complete(fresh)
-    check_same(fresh, undisturbed)
-    fault("file size limited")
+    recovers(fresh, undisturbed, "file size limited")
 
 
 # ---- damaged files
@@ -219,44 +201,37 @@ def damage(paths: Iterable[Path], seed: int, *, keep_times: bool = False) -> lis
     return damaged
 
 
-def test_damaged_inputs(finished: Project, undisturbed: dict[str, bytes]) -> None:
+@pytest.mark.parametrize(
+    ("patterns", "count", "what"),
+    [
+        (("faulty/cases/*.nc", "faulty_map/batches/*.nc"), 4, "input datasets damaged"),
+        (("faulty/cases.nc", "faulty_map/merged/*.nc"), 2, "merged datasets damaged"),
+    ],
+)
+def test_damaged_files(
+    finished: Project, undisturbed: dict[str, bytes], patterns: tuple[str, ...], count: int, what: str
+) -> None:
     """Every damaged file that a job reads is named, and the same command again computes it anew."""
     results = finished.folder / "results"
-    damaged = damage([*results.glob("faulty/cases/*.nc"), *results.glob("faulty_map/batches/*.nc")], 1)
-    assert len(damaged) == 4
+    damaged = damage((path for pattern in patterns for path in results.glob(pattern)), count)
+    assert len(damaged) == count
     (results / "faulty_map" / "faulty_map.nc").unlink()  # else nothing asks for the batches
-    told = refused(finished)
+    told = finished.refused("-j2")
     for path in damaged:
         assert f"{path.relative_to(finished.folder)}: damaged" in told
     assert "Run snakemake again" in told
-    complete(finished)
-    check_same(finished, undisturbed)
-    fault("input datasets damaged", len(damaged))
-
-
-def test_damaged_merged_files(finished: Project, undisturbed: dict[str, bytes]) -> None:
-    results = finished.folder / "results"
-    damaged = damage([results / "faulty" / "cases.nc", *(results / "faulty_map" / "merged").glob("*.nc")], 2)
-    assert len(damaged) == 2
-    told = refused(finished)
-    for path in damaged:
-        assert f"{path.relative_to(finished.folder)}: damaged" in told
-    complete(finished)
-    check_same(finished, undisturbed)
-    fault("merged datasets damaged", len(damaged))
+    recovers(finished, undisturbed, what, len(damaged))
 
 
 def test_damage_that_left_the_times_is_found_by_check(finished: Project, undisturbed: dict[str, bytes]) -> None:
     results = finished.folder / "results"
     damaged = damage(results.rglob("*.nc"), 3, keep_times=True)
     (results / "faulty" / "cases" / ".F11.nc.abc.tmp").write_text("left by a killed job")
-    checked = mend(finished)
+    checked = finished.complete("-j1", "check")
     for path in damaged:
         assert f"{path.relative_to(finished.folder)}: damaged" in checked
     assert not list(results.rglob(".*.tmp"))
-    complete(finished)
-    check_same(finished, undisturbed)
-    fault("datasets damaged without a change of times", len(damaged))
+    recovers(finished, undisturbed, "datasets damaged without a change of times", len(damaged))
 
 
 def test_damaged_kernels(fresh: Project, undisturbed: dict[str, bytes], tmp_path: Path) -> None:
@@ -269,19 +244,15 @@ def test_damaged_kernels(fresh: Project, undisturbed: dict[str, bytes], tmp_path
     solvers = sorted(cache.glob("machine.run-*.kernel"))
     damaged = damage([*by_size[:11], *solvers], 4)
     bad = {path: path.read_bytes() for path in damaged}
-    complete(replace(fresh, variables={"NUMBA_CACHE_DIR": str(cache.parent)}))
-    check_same(fresh, undisturbed)
+    damaging = replace(fresh, variables={"NUMBA_CACHE_DIR": str(cache.parent)})
+    recovers(damaging, undisturbed, "compiled kernels damaged", len(damaged))
     assert any(path.read_bytes() != bad[path] for path in solvers)
-    fault("compiled kernels damaged", len(damaged))
 
 
 def cache_of(project: Project) -> Path:
     """Folder of the compiled kernels."""
     code = "from disc_model.engine import machine; print(machine.run.stats.cache_path)"
-    done = subprocess.run(
-        [sys.executable, "-c", code], env=project.environment, capture_output=True, text=True, check=True
-    )
-    return Path(done.stdout.strip())
+    return Path(project.python(code).strip())
 
 
 # ---- Snakemake's records
@@ -289,63 +260,54 @@ def cache_of(project: Project) -> Path:
 
 def test_records_in_a_database(finished: Project) -> None:
     """There they are not looked for: Snakemake does as it does by itself, and it is said once."""
-    done = run(finished, "-n", "--persistence-backend", "db")
-    assert done.returncode == 0, said(done)
-    assert said(done).count("(they are in a database)") == 1
+    said = finished.complete("-n", "--persistence-backend", "db")
+    assert said.count("(they are in a database)") == 1
 
 
 def test_lost_records(finished: Project, undisturbed: dict[str, bytes]) -> None:
     """Without its records Snakemake would take everything for up to date."""
     shutil.rmtree(finished.folder / ".snakemake")
     finished.edit(CONFIG, "Omega: 15.1", "Omega: 15.2")
-    told = refused(finished)
+    told = finished.refused("-j2")
     assert "`snakemake -j1 check` removes them" in told
-    mend(finished)
+    finished.complete("-j1", "check")
     finished.edit(CONFIG, "Omega: 15.2", "Omega: 15.1")
-    complete(finished)
-    check_same(finished, undisturbed)
-    fault("all records lost")
+    recovers(finished, undisturbed, "all records lost")
 
 
 def test_a_damaged_record(finished: Project, undisturbed: dict[str, bytes]) -> None:
     records = finished.folder / ".snakemake" / "metadata"
     record = records / urlsafe_b64encode(b"results/faulty/cases/F13.nc").decode()
     os.truncate(record, record.stat().st_size // 2)
-    told = refused(finished)
+    told = finished.refused("-j2")
     assert "results/faulty/cases/F13.nc and 0 more are there" in told
-    mend(finished)
+    finished.complete("-j1", "check")
     (finished.folder / "results" / "faulty" / "cases.nc").unlink()
-    complete(finished)
-    check_same(finished, undisturbed)
-    fault("record damaged")
+    recovers(finished, undisturbed, "record damaged")
 
 
 # ---- two at once
 
 
 def test_a_second_workflow_is_told_and_leaves_the_first_alone(fresh: Project, undisturbed: dict[str, bytes]) -> None:
-    first = start(fresh)
+    first = fresh.start("-j2")
     wait_until(lambda: any((fresh.folder / ".snakemake" / "locks").glob("*")))
-    second = run(fresh)
+    second = fresh.refused("-j2")
     assert first.poll() is None
-    assert second.returncode != 0
-    assert said(second).count(LOCKED) == 1
-    assert "Traceback" not in said(second)
+    assert second.count(LOCKED) == 1
+    assert "Traceback" not in second
     assert first.wait(timeout=900) == 0, (fresh.folder / "run.log").read_text()
-    check_same(fresh, undisturbed)
-    fault("second workflow started")
+    recovered(fresh, undisturbed, "second workflow started")
 
 
 def test_two_workflows_without_lock(fresh: Project, undisturbed: dict[str, bytes]) -> None:
     """They remove each other's files and may fail, but no file is ever half one's and half the other's."""
-    both = [start(fresh, "--nolock", log=f"run{i}.log") for i in range(2)]
+    both = [fresh.start("-j2", "--nolock", log=f"run{i}.log") for i in range(2)]
     for process in both:
         process.wait(timeout=900)
     found = {name: content for name, content in products(fresh).items() if name.endswith(".nc")}
     assert all(content == undisturbed[name] for name, content in found.items())
-    complete(fresh)
-    check_same(fresh, undisturbed)
-    fault("two workflows without lock")
+    recovers(fresh, undisturbed, "two workflows without lock")
 
 
 # ---- the clock
@@ -354,18 +316,16 @@ def test_two_workflows_without_lock(fresh: Project, undisturbed: dict[str, bytes
 def test_clock_set_back_between_two_runs(finished: Project, undisturbed: dict[str, bytes]) -> None:
     """A case computed anew by an earlier clock looks older than what was made of its former self."""
     finished.edit(CONFIG, "Omega: 15.1", "Omega: 15.2")
-    complete(finished, "--until", "simulate_case", "compute_batch")
+    finished.complete("-j2", "--until", "simulate_case", "compute_batch")
     case = finished.folder / "results" / "faulty" / "cases" / "F13.nc"
     assert case.read_bytes() != undisturbed["faulty/cases/F13.nc"]
     set_times(case, days=-2)
-    complete(finished)
+    finished.complete("-j2")
     assert products(finished)["faulty/cases.nc"] != undisturbed["faulty/cases.nc"]
     finished.edit(CONFIG, "Omega: 15.2", "Omega: 15.1")
-    complete(finished, "--until", "simulate_case", "compute_batch")
+    finished.complete("-j2", "--until", "simulate_case", "compute_batch")
     set_times(case, days=-4)
-    complete(finished)
-    check_same(finished, undisturbed)
-    fault("clock set back between runs", 2)
+    recovers(finished, undisturbed, "clock set back between runs", 2)
 
 
 def test_results_from_the_future(finished: Project, undisturbed: dict[str, bytes]) -> None:
@@ -377,12 +337,10 @@ def test_results_from_the_future(finished: Project, undisturbed: dict[str, bytes
     for made_of_them in (results / "faulty" / "cases.nc", results / "faulty_map" / "faulty_map.nc"):
         made_of_them.unlink()
     shutil.rmtree(results / "faulty_map" / "merged")
-    told = refused(finished)
+    told = finished.refused("-j2")
     assert "has older modification time" in told
-    mend(finished)
-    complete(finished)
-    check_same(finished, undisturbed)
-    fault("files from the future", len(files))
+    finished.complete("-j1", "check")
+    recovers(finished, undisturbed, "files from the future", len(files))
 
 
 def set_times(path: Path, days: float) -> None:
@@ -394,14 +352,12 @@ def set_times(path: Path, days: float) -> None:
 @needs_proc
 def test_clock_set_back_during_a_run(fresh: Project, undisturbed: dict[str, bytes]) -> None:
     """The first part is made tomorrow, and killed; the rest today."""
-    process = start(fresh, wrapper=("faketime", "+1 day"))
+    process = fresh.start("-j2", wrapper=("faketime", "+1 day"))
     wait_until(lambda: bool(list((fresh.folder / "results").rglob("*.nc"))) or process.poll() is not None)
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
     assert products(fresh)
-    run(fresh, "--unlock")
-    assert "has older modification time" in said(run(fresh))
-    mend(fresh)
-    complete(fresh)
-    check_same(fresh, undisturbed)
-    fault("clock set back within a run")
+    fresh.snakemake("-j2", "--unlock")
+    assert "has older modification time" in fresh.refused("-j2")
+    fresh.complete("-j1", "check")
+    recovers(fresh, undisturbed, "clock set back within a run")

@@ -7,7 +7,6 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +16,7 @@ import xarray as xr
 
 from disc_model.studies.grids.schema import load_grid
 from tests.workflow.conftest import Project, copy_repository
+from tests.workflow.faulty import kill, wait_until
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -63,10 +63,9 @@ RUN = ("-j2", "--until", "publish_study", "draw_plot")
 @pytest.fixture(scope="session")
 def finished_grid(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """A map and its growth rates, computed."""
-    project = copy_repository(tmp_path_factory.mktemp("grid"))
-    for path, text in ((CONFIG, MAIN), (GRID, MAP), ("config/inc_growth.yaml", GROWTH)):
-        (project.folder / path).write_text(text)
-    project.complete(*RUN, config=CONFIG)
+    studies = {CONFIG: MAIN, GRID: MAP, "config/inc_growth.yaml": GROWTH}
+    project = copy_repository(tmp_path_factory.mktemp("grid"), studies)
+    project.complete(*RUN)
     return project
 
 
@@ -78,22 +77,14 @@ def grid(finished_grid: Project, tmp_path: Path) -> Project:
 
 def planned(project: Project, *options: str) -> Jobs:
     """Jobs of grid studies that a run would do: rule and study, for batches the batch instead."""
-    jobs = project.jobs(*options, config=CONFIG)
+    jobs = project.jobs(*options)
     return {(rule, found.get("batch") or found.get("study", "")) for rule, found in jobs if rule in RULES}
 
 
 def batches(project: Project, name: str) -> Jobs:
     """The jobs of all batches that a study now has, its sources hashed as in the project."""
     code = f"from disc_model.studies.grids.schema import load_grid; print(*load_grid('config/{name}.yaml').batches)"
-    found = subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=project.folder,
-        env=project.environment,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return {("compute_batch", batch) for batch in found.stdout.split()}
+    return {("compute_batch", batch) for batch in project.python(code).split()}
 
 
 def test_the_studies_are_complete(finished_grid: Project) -> None:
@@ -107,33 +98,33 @@ def test_the_studies_are_complete(finished_grid: Project) -> None:
     assert planned(finished_grid) == set()
 
 
-def test_an_added_value_runs_its_own_batch(grid: Project) -> None:
+@pytest.mark.parametrize(
+    ("old", "new", "count"),
+    [
+        ("N: [100, 200.0, 300]", "N: [250, 100, 200, 300]", 1),
+        ("Omega: [10, 15, 20, 25]", "Omega: {blocks: [[10, 15, 20, 25], [30]]}", 3),
+    ],
+)
+def test_an_added_value_or_block_runs_its_own_batches(grid: Project, old: str, new: str, count: int) -> None:
     before = batches(grid, "inc_map")
-    grid.edit(GRID, "N: [100, 200.0, 300]", "N: [250, 100, 200, 300]")
-    new = batches(grid, "inc_map") - before
-    assert len(new) == 1
-    assert planned(grid) == new | MAP_TAIL
-
-
-def test_a_value_added_as_a_block_leaves_the_others_batches(grid: Project) -> None:
-    before = batches(grid, "inc_map")
-    grid.edit(GRID, "Omega: [10, 15, 20, 25]", "Omega: {blocks: [[10, 15, 20, 25], [30]]}")
-    new = batches(grid, "inc_map") - before
-    assert len(new) == 3
-    assert planned(grid) == new | MAP_TAIL
+    grid.edit(GRID, old, new)
+    added = batches(grid, "inc_map") - before
+    assert len(added) == count
+    assert planned(grid) == added | MAP_TAIL
 
 
 def test_a_removed_value_computes_nothing_and_is_gone(grid: Project) -> None:
+    def preloads() -> list[float]:
+        grid.complete(*RUN)
+        with xr.open_dataset(grid.folder / "results" / "inc_map" / "inc_map.nc") as study:
+            return list(study["N"].values)
+
     grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 300]")
     assert planned(grid) == MAP_TAIL
-    grid.complete(*RUN, config=CONFIG)
-    with xr.open_dataset(grid.folder / "results" / "inc_map" / "inc_map.nc") as study:
-        assert list(study["N"].values) == [100, 300]
+    assert preloads() == [100, 300]
     grid.edit(GRID, "N: [100, 300]", "N: [100, 200, 300]")
     assert not {job for job in planned(grid) if job[0] in ("compute_batch", "merge_batches")}
-    grid.complete(*RUN, config=CONFIG)
-    with xr.open_dataset(grid.folder / "results" / "inc_map" / "inc_map.nc") as study:
-        assert list(study["N"].values) == [100, 200, 300]
+    assert preloads() == [100, 200, 300]
 
 
 def test_order_spelling_and_times_run_nothing(grid: Project) -> None:
@@ -147,14 +138,16 @@ def test_order_spelling_and_times_run_nothing(grid: Project) -> None:
     assert planned(grid) == set()
 
 
-@pytest.mark.parametrize("line", ["base: {mu_k: 0.23}\n", "base: {c: 0.1}\n"])
-def test_a_base_value_runs_the_whole_study(grid: Project, line: str) -> None:
-    grid.edit(GRID, "axes:\n", f"{line}axes:\n")
-    assert planned(grid) == batches(grid, "inc_map") | MAP_TAIL
-
-
-def test_an_option_runs_the_whole_study(grid: Project) -> None:
-    grid.edit(GRID, "horizon: 1,", "horizon: 1.5,")
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("axes:\n", "base: {mu_k: 0.23}\naxes:\n"),
+        ("axes:\n", "base: {c: 0.1}\naxes:\n"),
+        ("horizon: 1,", "horizon: 1.5,"),
+    ],
+)
+def test_a_base_value_or_an_option_runs_the_whole_study(grid: Project, old: str, new: str) -> None:
+    grid.edit(GRID, old, new)
     assert planned(grid) == batches(grid, "inc_map") | MAP_TAIL
 
 
@@ -212,7 +205,7 @@ def test_sources_run_what_uses_them(grid: Project, source: str, jobs: Callable[[
 
 def test_the_explorer_computes_motions_of_what_changed(grid: Project) -> None:
     page = grid.folder / "results" / "inc" / "explorer.html"
-    grid.complete("-j2", "explorer", config=CONFIG)
+    grid.complete("-j2", "explorer")
     assert {path.parents[1].name for path in (grid.folder / "results").glob("*/motions/*.nc")} == {
         "inc_map",
         "inc_growth",
@@ -229,19 +222,19 @@ def test_the_explorer_computes_motions_of_what_changed(grid: Project) -> None:
     grid.change("src/disc_model/studies/grids/motions.py")
     assert explored(grid) == {"compute_motions": 2, "build_explorer": 1}
     # and a plain run knows nothing of it
-    assert "compute_motions" not in grid.snakemake("-n", config=CONFIG).stdout
+    assert "compute_motions" not in grid.complete("-n")
 
 
 def explored(project: Project) -> dict[str, int]:
     """How many jobs of motions and of the explorer a run would do."""
-    jobs = dict(re.findall(r"^(\w+) +(\d+)$", project.complete("-n", "explorer", config=CONFIG), re.MULTILINE))
+    jobs = dict(re.findall(r"^(\w+) +(\d+)$", project.complete("-n", "explorer"), re.MULTILINE))
     return {rule: int(jobs[rule]) for rule in ("compute_motions", "build_explorer") if rule in jobs}
 
 
 def test_a_point_that_fails_is_reported_and_the_study_completes(grid: Project) -> None:
     grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 200, 1.0e+6]")
     grid.edit(GRID, "axes:\n", "base: {k_p: 2.0e+6, mu_s: 3, mu_k: 2.9, E: 1.0e+9}\naxes:\n")
-    grid.complete(*RUN, config=CONFIG)
+    grid.complete(*RUN)
     results = grid.folder / "results" / "inc_map"
     with xr.open_dataset(results / "inc_map.nc") as study:
         bad = int((study["status"] != 0).sum())
@@ -255,8 +248,8 @@ def test_a_point_that_fails_is_reported_and_the_study_completes(grid: Project) -
 def test_gc_removes_what_no_study_needs(grid: Project) -> None:
     kept = {path.name for path in (grid.folder / "results" / "inc_growth").rglob("*.nc")}
     grid.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 300, 400]")
-    grid.complete(*RUN, config=CONFIG)
-    grid.complete("-j1", "gc", config=CONFIG)
+    grid.complete(*RUN)
+    grid.complete("-j1", "gc")
     left = {path.stem for path in (grid.folder / "results" / "inc_map" / "batches").iterdir()}
     assert left == {batch for _, batch in batches(grid, "inc_map")}
     assert {path.name for path in (grid.folder / "results" / "inc_growth").rglob("*.nc")} == kept
@@ -268,23 +261,21 @@ def test_gc_removes_what_no_study_needs(grid: Project) -> None:
 
 def start(project: Project) -> subprocess.Popen[bytes]:
     """Snakemake in the background, on a study whose four batches take some seconds each."""
-    grown = "N: [100, 200, 300, 400]", "horizon: 6000, settled: 0, near: 0,", "normalization: [as_published]"
-    project.edit(GRID, "N: [100, 200.0, 300]", grown[0])
-    project.edit(GRID, "horizon: 1,", grown[1])
-    project.edit(GRID, "normalization: [as_published, orthonormal]", grown[2])
+    project.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 200, 300, 400]")
+    project.edit(GRID, "horizon: 1,", "horizon: 6000, settled: 0, near: 0,")
+    project.edit(GRID, "normalization: [as_published, orthonormal]", "normalization: [as_published]")
     project.edit(GRID, "Omega: [10, 15, 20, 25]", "Omega: [5, 6]")
     return resume(project)
 
 
 def resume(project: Project) -> subprocess.Popen[bytes]:
-    return project.start(*RUN, config=CONFIG)
+    return project.start(*RUN)
 
 
-def running_batches(project: Project) -> dict[str, int]:
-    """Batches that are being computed in the project, and the process of each."""
+def running_batches(project: Project) -> list[int]:
+    """Processes that are computing batches in the project."""
     commands = project.processes().items()
-    script = "workflow/scripts/compute_batch.py"
-    return {Path(words[-2]).stem: process for process, words in commands if script in words}
+    return [process for process, words in commands if "workflow/scripts/compute_batch.py" in words]
 
 
 def wait_for_batches(project: Project, process: subprocess.Popen[bytes]) -> dict[str, int]:
@@ -327,16 +318,8 @@ def check_the_rest_is_done(project: Project, finished: dict[str, int]) -> None:
 def test_a_killed_job_costs_only_its_own_batch(grid: Project) -> None:
     process = start(grid)
     finished = wait_for_batches(grid, process)
-    killed = []
-    for _ in range(100):
-        for batch, pid in running_batches(grid).items():
-            os.kill(pid, signal.SIGKILL)
-            killed.append(batch)
-        if killed:
-            break
-        time.sleep(0.05)
+    wait_until(lambda: sum(map(kill, running_batches(grid))) > 0, 5.0)
     assert process.wait(timeout=900) != 0
-    assert killed
     check_the_rest_is_done(grid, finished)
 
 
@@ -351,6 +334,6 @@ def test_an_interrupted_run_loses_no_finished_batch(grid: Project) -> None:
 
 def test_study_names_must_differ_from_the_cases_study(grid: Project) -> None:
     grid.edit(CONFIG, "study: inc\n", "study: inc_map\n")
-    said = grid.refused("-n", config=CONFIG)
+    said = grid.refused("-n")
     assert "study = 'inc_map': is the name of another folder of results" in said
     assert load_grid(grid.folder / GRID).name == "inc_map"

@@ -12,13 +12,14 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests import instruction_sets
 from tests.tally import tried
-from tests.workflow.conftest import ROOT, Project, copy_repository
+from tests.workflow.conftest import ROOT, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -57,8 +58,8 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
 
     @functools.cache
     def results(**variables: str) -> Path:
-        project = Project(copy_repository(tmp_path_factory.mktemp("study")).folder, variables=variables)
-        project.complete("-j2", *DATASETS, config="config/test.yaml")
+        project = copy_repository(tmp_path_factory.mktemp("study"), {}, **variables)
+        replace(project, config="config/test.yaml").complete("-j2", *DATASETS)
         return project.folder / "results"
 
     return results

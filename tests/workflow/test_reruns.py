@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import xarray as xr
 
-from tests.workflow.conftest import STUDY, Project
+from tests.workflow.conftest import STUDY, TINY, Project
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 SIMULATIONS = {"simulate_case:F11", "simulate_case:F13", "simulate_case:X"}
 FIGURES = {"draw_figure:fig11", "draw_figure:fig13"}
 TABLES = {"merge_cases", "check_claims", "describe_study"}
-TINY = "config/tiny.yaml"
 
 
 def test_the_study_is_complete(finished: Project) -> None:
@@ -33,21 +33,20 @@ def test_the_study_is_complete(finished: Project) -> None:
 
 def test_second_run_does_nothing(project: Project) -> None:
     before = {path: path.stat().st_mtime_ns for path in (project.folder / "results").rglob("*")}
-    done = project.snakemake("-j2")
-    assert "Nothing to be done" in done.stdout + done.stderr
+    assert "Nothing to be done" in project.complete("-j2")
     assert before == {path: path.stat().st_mtime_ns for path in (project.folder / "results").rglob("*")}
 
 
 def test_the_default_is_the_paper_with_the_fast_scheduler(project: Project) -> None:
-    jobs = project.planned(config=None)
+    usual = replace(project, config=None)
+    jobs = usual.planned()
     assert {"simulate_case:F02", "simulate_case:F13", "draw_figure:fig02"} <= jobs
     assert "simulate_case:X" not in jobs
-    done = project.snakemake("-n", config=None)
-    assert "profiles/default" in done.stderr + done.stdout
+    assert "profiles/default" in usual.complete("-n")
 
 
 def test_another_study_does_not_inherit_the_papers_cases(project: Project) -> None:
-    jobs = project.planned(config="config/test.yaml")
+    jobs = replace(project, config="config/test.yaml").planned()
     cases = {job for job in jobs if job.startswith("simulate_case")}
     assert cases == {f"simulate_case:{name}" for name in ("F02", "F04", "F11", "F13")}
 
@@ -138,17 +137,10 @@ def test_equal_sources_give_equal_results(project: Project) -> None:
 def test_an_interrupted_run_goes_on(project: Project, tmp_path: Path) -> None:
     """A job that dies in the middle of writing leaves nothing that is taken for a result."""
     project.edit(TINY, "t_end: 2}\nfigures", "t_end: 3}\nfigures")
-    project.edit(
-        "src/disc_model/data/dataset.py",
-        "        os.replace(temporary, path)\n",
-        "        os.kill(os.getpid(), 9)\n",
-    )
+    source, lives, dies = "src/disc_model/data/dataset.py", "os.replace(temporary, path)", "os.kill(os.getpid(), 9)"
+    project.edit(source, lives, dies)
     project.refused("-j2")
     assert not (project.folder / "results" / "tiny" / "cases" / "X.nc").exists()
-    project.edit(
-        "src/disc_model/data/dataset.py",
-        "        os.kill(os.getpid(), 9)\n",
-        "        os.replace(temporary, path)\n",
-    )
+    project.edit(source, dies, lives)
     project.complete("-j2")
     assert project.planned() == set()

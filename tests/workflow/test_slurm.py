@@ -10,6 +10,7 @@ import subprocess
 import time
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,7 @@ import xarray as xr
 from tests import needs
 from tests.workflow import slurm
 from tests.workflow.conftest import Project, copy_repository
+from tests.workflow.faulty import wait_until
 from tests.workflow.slurm import Cluster
 
 pytestmark = [
@@ -99,29 +101,22 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
 
 
 def small_study(folder: Path) -> Project:
-    folder.mkdir()
-    project = copy_repository(folder)
-    (project.folder / CONFIG).write_text(MAIN)
-    (project.folder / GRID).write_text(MAP)
-    (project.folder / "src" / "sitecustomize.py").write_text(WITNESS)
-    return project
+    return copy_repository(folder, {CONFIG: MAIN, GRID: MAP, "src/sitecustomize.py": WITNESS})
 
 
 @pytest.fixture(scope="module")
 def local(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """The study as one machine computes it."""
     project = small_study(tmp_path_factory.mktemp("slurm") / "project")
-    project.complete("-j2", config=CONFIG)
-    return Project(project.folder.rename(project.folder.with_name("local")))
+    project.complete("-j2")
+    return replace(project, folder=project.folder.rename(project.folder.with_name("local")))
 
 
 @pytest.fixture(scope="module")
 def queued(cluster: Cluster, local: Project) -> tuple[Project, str]:
     """The study as the cluster computes it, in the place where it was before (compiled code is found by its place)."""
     project = small_study(local.folder.with_name("project"))
-    done = project.snakemake(*PROFILE, config=CONFIG)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return project, done.stdout + done.stderr
+    return project, project.complete(*PROFILE)
 
 
 NEW_VALUES = itertools.count(300, 10)
@@ -141,7 +136,7 @@ def grown(queued: tuple[Project, str]) -> Iterator[tuple[Project, list[str]]]:
 
 
 def planned_batches(project: Project) -> list[str]:
-    jobs = project.jobs(PUBLISHED, config=CONFIG)
+    jobs = project.jobs(PUBLISHED)
     return sorted(wildcards["batch"] for _, wildcards in jobs if "batch" in wildcards)
 
 
@@ -182,7 +177,7 @@ def times(project: Project) -> dict[str, int]:
 
 def start(project: Project, *options: str) -> subprocess.Popen[bytes]:
     """Snakemake in the background, on the grid study alone."""
-    return project.start(*PROFILE, PUBLISHED, *options, config=CONFIG, prepare=slurm.die_with_parent)
+    return project.start(*PROFILE, PUBLISHED, *options, prepare=slurm.die_with_parent)
 
 
 def wait_for_attempt(project: Project, batch: str) -> str:
@@ -237,7 +232,7 @@ def test_results_are_those_of_one_machine(queued: tuple[Project, str], local: Pr
 
 
 def test_a_second_run_submits_nothing(queued: tuple[Project, str]) -> None:
-    assert "Nothing to be done" in queued[0].complete(*PROFILE, config=CONFIG)
+    assert "Nothing to be done" in queued[0].complete(*PROFILE)
 
 
 def test_a_cancelled_job_is_submitted_again(grown: tuple[Project, list[str]], cluster: Cluster) -> None:
@@ -290,7 +285,7 @@ def test_a_job_that_takes_too_much_gets_more_memory(grown: tuple[Project, list[s
 def test_a_job_that_always_fails_costs_nothing_but_itself(grown: tuple[Project, list[str]], cluster: Cluster) -> None:
     project, (bad, good) = grown
     ask_for(project, bad, "die", "die", "die")
-    said = project.refused(*PROFILE, PUBLISHED, config=CONFIG)
+    said = project.refused(*PROFILE, PUBLISHED)
     jobs = attempts(project)[bad]
     assert len(jobs) == 3
     for job in jobs:
@@ -312,11 +307,7 @@ def test_an_interrupted_run_cancels_its_jobs_and_goes_on(grown: tuple[Project, l
     jobs = [wait_for_attempt(project, unlucky), wait_for_attempt(project, other)]
     os.kill(process.pid, signal.SIGINT)
     assert process.wait(timeout=300) != 0
-    for _ in range(300):
-        if not cluster.queue():
-            break
-        time.sleep(0.1)
-    assert cluster.queue() == {}
+    wait_until(lambda: not cluster.queue(), 30.0)
     assert {cluster.finished()[job]["JobState"] for job in jobs} == {"CANCELLED"}
     before = times(project)
     assert planned_batches(project) == sorted([unlucky, other])
