@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import pytest
 
+from disc_model.data.dataset import markdown_table
+
 SEARCH = os.pathsep.join([os.environ.get("PATH", ""), "/usr/sbin", "/sbin"])
 """Where programs are looked for: daemons do not lie on the path of a user."""
 
@@ -98,9 +100,8 @@ ALL = (SLURM, BROWSER, FAKETIME, MPMATH, RIVALS, *PYTHONS.values())
 
 def table() -> str:
     """Markdown table of all needs, as CONTRIBUTING.md has it."""
-    rows = [("needs", "to test", "Debian", "pip"), ("---",) * 4]
-    rows += [(need.name, need.what, need.debian or "-", need.pip or "-") for need in ALL]
-    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+    rows = [(need.name, need.what, need.debian or "-", need.pip or "-") for need in ALL]
+    return "\n".join(markdown_table(("needs", "to test", "Debian", "pip"), rows))
 
 
 def lines(reasons: Iterable[str]) -> Iterator[str]:

@@ -8,13 +8,13 @@ from typing import Any
 import pytest
 
 from disc_model import ParameterError, Parameters, choose_modes, truncation
+from disc_model.cli.case import parameters_of
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import read_parameters
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.files import StudyError
 from disc_model.studies.schema import parse_study
-from disc_model.truncation import RICH, frequency_error
+from disc_model.truncation import RICH, frequency_error, read_asked
 
 P = Parameters(N=385.0, Omega=15.1)
 
@@ -80,12 +80,12 @@ def test_a_mapping_is_as_good_as_parameters() -> None:
 
 def test_files_and_command_lines_may_leave_the_choice() -> None:
     values = {"N": 385, "Omega": 15.1}
-    p, record = read_parameters({**values, "n_diameters": "auto", "truncation_tolerance": "1e-2"})
+    p, record = parameters_of({**values, "n_diameters": "auto", "truncation_tolerance": "1e-2"}, [])
     choice = choose_modes(P, 1e-2)
     assert (p, record) == (choice.parameters, choice.to_json())
     assert p == Parameters(**values, n_diameters=p.n_diameters, n_circles=p.n_circles)
-    assert read_parameters({**values, "n_diameters": "auto"})[0] == choose_modes(P, 1e-3).parameters
-    assert read_parameters({**values, "n_diameters": 5}) == (Parameters(**values, n_diameters=5), "")
+    assert parameters_of({**values, "n_diameters": "auto"}, [])[0] == choose_modes(P, 1e-3).parameters
+    assert parameters_of({**values, "n_diameters": 5}, []) == (Parameters(**values, n_diameters=5), "")
 
 
 def test_chosen_parameters_are_those_given_outright() -> None:
@@ -121,7 +121,7 @@ def test_a_plain_value_leaves_no_choice() -> None:
 )
 def test_faults_of_the_choice_come_with_the_others(values: dict[str, Any], faults: tuple[str, ...]) -> None:
     with pytest.raises(ParameterError) as caught:
-        read_parameters({"N": 385, "Omega": 15.1, **values})
+        read_asked({"N": 385, "Omega": 15.1, **values})
     assert caught.value.faults == faults
 
 

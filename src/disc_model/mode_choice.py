@@ -1,10 +1,7 @@
 """How many modes a case needs for what is asked of it: `choose_modes`.
 
-By ``frequencies`` no motion is needed (`disc_model.truncation`).  By a quantity of the motion there is no model that
-is known to be right, so a model is taken where two larger ones agree with it: one of twice as many nodal diameters,
-and one that has a nodal circle more as well.  Steps of two, because between models that hardly differ anything seems to
-have settled; a circle more, because diameters alone settle to something else.  Where no model does, nothing is chosen:
-the error says how far apart the largest ones are.  Agreement is no proof, and the choice keeps what it was made from.
+By ``frequencies`` no motion is needed (`disc_model.truncation`).  By a quantity of the motion a model is taken where
+two larger ones agree with it; where none does, nothing is chosen, and the error says how far apart the largest are.
 """
 
 from __future__ import annotations
@@ -25,7 +22,6 @@ from disc_model.truncation import (
     by_frequencies,
     checked_quantity,
     checked_tolerance,
-    read_asked,
     real_modes,
 )
 
@@ -93,26 +89,6 @@ def choose_modes(
     if quantity == FREQUENCIES:
         return by_frequencies(p, tolerance, band, rich)
     return by_motion(p, Asked(quantity, tolerance))
-
-
-def read_parameters(values: Mapping[str, Any]) -> tuple[Parameters, str]:
-    """Parameters as files and command lines give them, and how their modes were chosen, as JSON.
-
-    With ``n_diameters="auto"`` the modes are chosen by ``truncation_quantity`` and ``truncation_tolerance``. The text
-    is empty where the number of modes is given.
-
-    Raises
-    ------
-    ParameterError
-        Listing every fault.
-    DiscModelError
-        If no model meets the tolerance.
-    """
-    p, asked = read_asked(values)
-    if asked is None:
-        return p, ""
-    choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)
-    return choice.parameters, choice.to_json()
 
 
 def by_motion(p: Parameters, asked: Asked) -> ModeChoice:

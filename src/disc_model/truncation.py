@@ -1,8 +1,5 @@
 """How many modes a case needs: what may be asked, and the fewest modes whose coupled frequencies meet a tolerance.
 
-With ``contact_compliance="residual"`` every candidate has the flexibility of the modes that it leaves out, and so has
-the model compared with.
-
 Study files and the command line may say ``n_diameters: auto``; `read_asked` reads that.  By quantities of the motion
 `disc_model.mode_choice` chooses, which simulates.  `disc_model.benchmarks.truncation` measures what the number of
 modes does to everything.

@@ -233,7 +233,6 @@ def test_a_failing_write_leaves_the_old_file_and_nothing_else(
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs SIGKILL")
 def test_killed_while_writing_leaves_no_half_file(tmp_path: Path) -> None:
     path = tmp_path / "a.nc"
     script = f"""

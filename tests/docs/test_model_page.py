@@ -18,6 +18,9 @@ from tests.references.printed import MOTIONS, THETA, P, Printed, lively
 PAGE = (Path(__file__).parents[2] / "docs" / "model.md").read_text(encoding="utf-8")
 ROUNDING = 1e-12
 """Of two ways to write the same sums of some hundred terms, relative to the largest."""
+STEP = 1e-4
+ENERGY_ROUNDING = 1e-12
+"""Of energies of some 10 J, with room."""
 POWERS = str.maketrans("⁻¹²³", "-123")
 IN_WORDS = {"Contact and switches"}
 """Whose condition says what the phases do."""
@@ -42,12 +45,33 @@ def test_every_equation_is_written_out():
     assert with_equations - IN_WORDS == cited
 
 
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_rates_and_forces_are_the_papers(phase, direction):
+def motion(phase, direction):
+    """A motion: its state, the disc, u at the static start, the contact force, and the rates that the page states."""
     s, d = lively(phase, direction), equations.modal_damping(P)
     _, u_0 = equations.start(P, d)
     force, rates = getattr(equations, phase)(P, d, s, u_0)
-    rates |= equations.modal_rates(d, s, force)
+    return s, d, u_0, force, rates | equations.modal_rates(d, s, force)
+
+
+def moving(phase, direction):
+    """As `motion`, with the rates of all of the state: in contact u is that of the disc."""
+    s, d, u_0, force, rates = motion(phase, direction)
+    if phase != "separation":
+        _, _, A, B = equations.vertical_motion(d, s)
+        rates |= {"u": s.u_velocity, "u_velocity": A + rates["f"] * B - d.S * force}
+    return s, d, u_0, force, rates
+
+
+def rate_along(rates, s, of):
+    """How fast a function of the state that is quadratic at most changes: exact, but for rounding."""
+    there = [s.replace(**{n: getattr(s, n) + h * r for n, r in rates.items()}) for h in (STEP, -STEP)]
+    ahead, behind = (np.array(of(state, h)) for state, h in zip(there, (STEP, -STEP), strict=True))
+    return (ahead - behind) / (2 * STEP)
+
+
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_rates_and_forces_are_the_papers(phase, direction):
+    s, d, _, force, rates = motion(phase, direction)
     printed = Printed(P, s)
     close(force, printed.force())
     for name, rate in rates.items():
@@ -57,44 +81,21 @@ def test_rates_and_forces_are_the_papers(phase, direction):
     close(equations.displacement(d, s, THETA + s.psi), printed.described(0.0, printed.y)["w_point"])
 
 
-def moving(phase, direction):
-    """A motion: its state, the disc, u at the static start, the contact force, and the rates of all of the state."""
-    s, d = lively(phase, direction), equations.modal_damping(P)
-    _, u_0 = equations.start(P, d)
-    force, rates = getattr(equations, phase)(P, d, s, u_0)
-    rates |= equations.modal_rates(d, s, force)
-    if phase != "separation":
-        _, _, A, B = equations.vertical_motion(d, s)
-        rates |= {"u": s.u_velocity, "u_velocity": A + rates["f"] * B - d.S * force}
-    return s, d, u_0, force, rates
-
-
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_powers_are_the_rates_of_the_energies(phase, direction):
-    """The energies are quadratic: a central difference along the rates is exact but for rounding."""
     s, d, u_0, force, rates = moving(phase, direction)
-    step = 1e-4
-
-    def along(h):
-        return equations.energies(P, d, s.replace(**{n: getattr(s, n) + h * r for n, r in rates.items()}), u_0)
-
-    differences = [(ahead - behind) / (2 * step) for ahead, behind in zip(along(step), along(-step), strict=True)]
-    # rounding of the energies, some 10 J, over the step
-    np.testing.assert_allclose(differences, equations.powers(P, d, s, force), rtol=1e-9, atol=1e-14 * 1e2 / step)
+    gained = rate_along(rates, s, lambda there, _: equations.energies(P, d, there, u_0))
+    np.testing.assert_allclose(gained, equations.powers(P, d, s, force), rtol=1e-9, atol=ENERGY_ROUNDING / STEP)
 
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_powers_on_ramps_are_the_rates_of_the_energies(phase, direction):
     """Products of two linear functions as well."""
     s, d, u_0, force, rates = moving(phase, direction)
-    step, ramp = 1e-4, (-40.0, 3e3)
-
-    def along(h):
-        there = s.replace(**{n: getattr(s, n) + h * r for n, r in rates.items()})
-        return np.array(equations.energies(equations.ramp(P, ramp, h), d, there, u_0))
-
-    gained = np.add(equations.powers(P, d, s, force), (equations.power_of_ramp(s, u_0, ramp), 0.0))
-    np.testing.assert_allclose((along(step) - along(-step)) / (2 * step), gained, rtol=1e-9, atol=1e-14 * 1e2 / step)
+    ramp = (-40.0, 3e3)
+    gained = rate_along(rates, s, lambda there, h: equations.energies(equations.ramp(P, ramp, h), d, there, u_0))
+    expected = np.add(equations.powers(P, d, s, force), (equations.power_of_ramp(s, u_0, ramp), 0.0))
+    np.testing.assert_allclose(gained, expected, rtol=1e-9, atol=ENERGY_ROUNDING / STEP)
     assert abs(equations.power_of_ramp(s, u_0, ramp)) > 1e-3
 
 
@@ -204,17 +205,14 @@ def test_powers_of_other_contacts_are_the_rates_of_the_energies(phase, direction
         rates = {"u": velocity, "u_velocity": A + f_rate * B - d.S * V}
         close(P.m * rates["u_velocity"], V - P.N - P.k * (s.u - u_0) - P.c * velocity)
     rates |= equations.modal_rates(d, s, V) | {"f": f_rate, "psi": P.Omega - s.f}
-    step = 1e-5
 
-    def along(h):
-        there = s.replace(**{n: getattr(s, n) + h * r for n, r in rates.items()})
+    def energies(there, _):
         give = equations.vertical_motion(d, there)[0] - there.u
         transverse, in_plane = equations.energies(P, d, there, u_0)
-        return np.array([transverse + (0.5 * give**2 / compliance if compliance else 0.0), in_plane])
+        return transverse + (0.5 * give**2 / compliance if compliance else 0.0), in_plane
 
     expected = equations.normal_powers(P, d, s, R, T, V) if normal else equations.powers(P, d, s, V)
-    # rounding of the energies, some 10 J, over the step
-    np.testing.assert_allclose((along(step) - along(-step)) / (2 * step), expected, rtol=1e-9, atol=1e-14 * 1e2 / step)
+    np.testing.assert_allclose(rate_along(rates, s, energies), expected, rtol=1e-9, atol=ENERGY_ROUNDING / STEP)
     if normal:
         slope = B / P.r_0
         rubbed = P.mu_k * P.r_0 * R * abs(s.f) * (1 + slope**2) if phase == "slip" else 0.0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import contextlib
 import json
 import socket
@@ -94,9 +93,6 @@ class Page:
         """What the page wrote to the console since this was last asked."""
         found: list[dict[str, Any]] = self.call("POST", "/se/log", {"type": "browser"})
         return found
-
-    def screenshot(self, file: Path) -> None:
-        file.write_bytes(base64.b64decode(self.call("GET", "/screenshot")))
 
 
 @contextlib.contextmanager

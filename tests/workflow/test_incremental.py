@@ -139,26 +139,21 @@ def test_order_spelling_and_times_run_nothing(grid: Project) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new"),
+    ("old", "new", "jobs"),
     [
-        ("axes:\n", "base: {mu_k: 0.23}\naxes:\n"),
-        ("axes:\n", "base: {c: 0.1}\naxes:\n"),
-        ("horizon: 1,", "horizon: 1.5,"),
+        ("axes:\n", "base: {mu_k: 0.23}\naxes:\n", lambda project: batches(project, "inc_map") | MAP_TAIL),
+        ("axes:\n", "base: {c: 0.1}\naxes:\n", lambda project: batches(project, "inc_map") | MAP_TAIL),
+        ("horizon: 1,", "horizon: 1.5,", lambda project: batches(project, "inc_map") | MAP_TAIL),
+        # the default as it was
+        ("axes:\n", "base: {mu_k: 2.4e-1}\naxes:\n", lambda _: set()),
+        ("title: outcome", "title: what becomes of it", lambda _: MAP_TAIL),
     ],
 )
-def test_a_base_value_or_an_option_runs_the_whole_study(grid: Project, old: str, new: str) -> None:
+def test_what_is_said_for_all_points_runs_the_whole_study_and_no_more(
+    grid: Project, old: str, new: str, jobs: Callable[[Project], Jobs]
+) -> None:
     grid.edit(GRID, old, new)
-    assert planned(grid) == batches(grid, "inc_map") | MAP_TAIL
-
-
-def test_a_base_value_that_was_the_default_runs_nothing(grid: Project) -> None:
-    grid.edit(GRID, "axes:\n", "base: {mu_k: 2.4e-1}\naxes:\n")
-    assert planned(grid) == set()
-
-
-def test_titles_reach_the_file_without_a_computation(grid: Project) -> None:
-    grid.edit(GRID, "title: outcome", "title: what becomes of it")
-    assert planned(grid) == MAP_TAIL
+    assert planned(grid) == jobs(grid)
 
 
 def test_finer_resolution_keeps_what_is_there(grid: Project) -> None:

@@ -51,9 +51,18 @@ def test_another_study_does_not_inherit_the_papers_cases(project: Project) -> No
     assert cases == {f"simulate_case:{name}" for name in ("F02", "F04", "F11", "F13")}
 
 
-def test_one_cases_value_runs_that_case_and_what_shows_it(project: Project) -> None:
-    project.edit(TINY, "Omega: 15.1", "Omega: 15.2")
-    assert project.planned() == {"simulate_case:F13", "draw_figure:fig13"} | TABLES
+@pytest.mark.parametrize(
+    ("old", "new", "jobs"),
+    [
+        ("Omega: 15.1", "Omega: 15.2", {"simulate_case:F13", "draw_figure:fig13"}),
+        ("title: quiet", "title: calm", set()),
+        ("figures:", "  Y: {title: new, parameters: {N: 100, Omega: 20}, t_end: 2}\nfigures:", {"simulate_case:Y"}),
+    ],
+    ids=["value", "title", "case"],
+)
+def test_a_change_of_a_case_runs_that_case_and_what_shows_it(project: Project, old: str, new: str, jobs: set) -> None:
+    project.edit(TINY, old, new)
+    assert project.planned() == jobs | TABLES
 
 
 def test_other_spelling_and_order_run_nothing(project: Project) -> None:
@@ -62,16 +71,6 @@ def test_other_spelling_and_order_run_nothing(project: Project) -> None:
     lines[cases + 1 : cases + 4] = reversed(lines[cases + 1 : cases + 4])
     (project.folder / TINY).write_text("\n".join(lines))
     assert project.planned() == set()
-
-
-def test_titles_rerun_no_simulation(project: Project) -> None:
-    project.edit(TINY, "title: quiet", "title: calm")
-    assert project.planned() == TABLES
-
-
-def test_a_new_case_runs_alone(project: Project) -> None:
-    project.edit(TINY, "figures:", "  Y: {title: new, parameters: {N: 100, Omega: 20}, t_end: 2}\nfigures:")
-    assert project.planned() == {"simulate_case:Y"} | TABLES
 
 
 def test_a_removed_case_leaves_the_merged_file(project: Project) -> None:

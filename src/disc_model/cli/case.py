@@ -19,7 +19,7 @@ from rich.table import Table
 from disc_model.cli.progress import compiling
 from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters
-from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED
+from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED, read_asked
 
 ANY = "VALUE"
 """How help texts call what an option can be, where that is no list of words."""
@@ -92,13 +92,16 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
 
 
 def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, str]:
-    """Parameters of the options given and how their modes were chosen; what is wrong is added to `faults`."""
-    from disc_model.mode_choice import read_parameters
+    """Parameters of the options given and, as JSON, how their modes were chosen; what is wrong is added to `faults`."""
+    from disc_model.mode_choice import choose_modes
 
-    simulates = case.get("truncation_quantity", FREQUENCIES) != FREQUENCIES
     try:
-        with compiling() if simulates else nullcontext():
-            return read_parameters(case)
+        p, asked = read_asked(case)
+        if asked is None:
+            return p, ""
+        with compiling() if asked.quantity != FREQUENCIES else nullcontext():
+            choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)
+        return choice.parameters, choice.to_json()
     except ParameterError as error:
         faults += error.faults
         return Parameters(N=0.0, Omega=0.0), ""

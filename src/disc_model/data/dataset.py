@@ -1,14 +1,8 @@
 """How results become files: groups of a case, CF attributes, encoding, and saving in one piece.
 
-A case is a tree of groups, which is also how its file is laid out:
-
-- the root holds its scalars (parameters, status, first separation, statistics), all without dimension;
-- ``events`` holds one entry per switch along `event`;
-- every recorded window is a group under its name, along `time`; so is ``poincare``. Their attribute ``theta`` is the
-  angle in rad at which ``w_point`` was taken.
-
-`group`, `samples` and `ranges` look into such a tree. Nothing here holds a time stamp or a duration that
-differs from run to run, so that equal runs give equal bytes.
+A case is a tree of groups, and so is its file: the root holds what has no dimension, ``events`` an entry for each
+switch along `event`; every recorded window is a group under its name, along `time`, and so is ``poincare``. Nothing
+holds a time stamp or a duration that differs from run to run, so that equal runs give equal bytes.
 
 Files are whole or not there, and end in a checksum, which readers of netCDF and HDF5 pass over: HDF5 notices a changed
 byte in compressed arrays only, and reads a changed scalar or attribute as if nothing had happened.

@@ -14,7 +14,7 @@ from disc_model import Parameters, floquet, mode_choice
 from disc_model.claims import SCANS
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import read_parameters
+from disc_model.mode_choice import choose_modes
 from disc_model.studies import modes
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
@@ -245,7 +245,7 @@ def test_the_modes_are_chosen_for_each_point() -> None:
     grid = parse_grid(study(quantity="floquet", options={}, base=base, axes=axes, batch={}))
     [done] = map(run_batch, grid.batches.values())
     for i, normalization in enumerate(axes["normalization"]):
-        own, _ = read_parameters({**base, "normalization": normalization})
+        own = choose_modes({"N": 300, "Omega": 20, "normalization": normalization}, 1e-2).parameters
         assert (done["n_diameters"][i], done["n_circles"][i]) == (own.n_diameters, own.n_circles)
         assert done["growth_rate"][i] == pytest.approx(floquet(own).growth_rate, abs=1e-9)
     assert done["n_diameters"][0] < done["n_diameters"][1]
