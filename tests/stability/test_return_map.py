@@ -123,8 +123,17 @@ def test_derivatives_by_parameters_agree_with_central_differences(where):
     check_derivatives(map_, x, lambda name: 1e-2 if name in ("c", "c_p") else 1e-4)
 
 
-@pytest.mark.parametrize("compliance", [pytest.param(given, marks=COMPILES) for given in (2e-7, "residual")])
-def test_derivatives_by_parameters_on_a_compliant_contact(compliance):
+OTHER_LAWS = {"given": {"contact_compliance": 2e-7}, "residual": {"contact_compliance": "residual"}}
+OTHER_LAWS["normal"] = {"contact_force": "normal"}
+
+
+@pytest.mark.parametrize("law", [pytest.param(law, marks=COMPILES) for law in OTHER_LAWS])
+def test_derivatives_by_parameters_under_other_laws_of_contact(law):
     """E softens the disc and the residual flexibility with it, but not a compliance that is given."""
-    map_ = ReturnMap(DAMPED.replace(n_diameters=1, contact_compliance=compliance))
-    check_derivatives(map_, map_.static, lambda name: 1e-2 if name in ("c", "c_p", "D_star") else 1e-6)
+    map_ = ReturnMap(DAMPED.replace(n_diameters=1, **OTHER_LAWS[law]))
+    x = map_.static.copy()
+    if law == "normal":  # the disc slopes where stick is released
+        shift = map_.model.shift[map_.model.shift != 0]
+        x[: len(shift)][shift < 0] = 0.1 * np.max(np.abs(x))
+    assert map_.evaluate(x, tangent=False)[0].outcome == RETURNED
+    check_derivatives(map_, x, lambda name: 1e-2 if name in ("c", "c_p", "D_star") else 1e-6)

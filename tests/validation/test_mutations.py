@@ -41,6 +41,7 @@ CLOSED_FORM = (
     "tests/engine/test_coasting.py::test_events_are_those_of_the_series",
 )
 DERIVATIVES = ("tests/engine/test_variational.py",)
+SECTION = ("tests/stability/test_return_map.py", *DERIVATIVES)
 RIVALS = "tests/benchmarks/methods"
 METHODS = (*(f"{RIVALS}/test_{name}.py" for name in ("kernels", "rk4", "regularised", "short_motions")), *EQUATIONS)
 #: What notices changes of a file, if it is not the tests of the equations.
@@ -57,8 +58,8 @@ NOTICED_BY = {
     "engine/stick_modes.py": CLOSED_FORM,
     "engine/saltation.py": DERIVATIVES,
     "engine/tangent.py": DERIVATIVES,
-    "engine/variational.py": DERIVATIVES,
-    "stability/return_map.py": ("tests/stability/test_return_map.py", *DERIVATIVES),
+    "engine/variational.py": SECTION,
+    "stability/return_map.py": SECTION,
     "stability/sliding.py": ("tests/stability/test_sliding.py",),
     "benchmarks/methods/phases.py": METHODS,
     "benchmarks/methods/kernels.py": METHODS,
