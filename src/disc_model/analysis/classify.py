@@ -159,13 +159,11 @@ class Location(NamedTuple):
     ----------
     kind : "at the lowest position", "falling", "rising" or "at the highest position"
     height : share of the swing, 0 at the lowest and 1 at the highest point, median
-    velocity : median, in the unit of height and time given
     to_lowest : median share of the swing between the loss of contact and the next lowest point
     """
 
     kind: str
     height: float
-    velocity: float
     to_lowest: float
 
 
@@ -184,7 +182,9 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
     just before or just after it. The cycle is the stretch of one dominant period around the loss.
     """
     velocity = np.gradient(height, time)
-    half = max(2, _period_samples(height) // 2)
+    # half a period of the dominant oscillation
+    amplitude = np.abs(np.fft.rfft(height - np.mean(height)))
+    half = max(2, round(len(height) / max(1, int(np.argmax(amplitude[1:]) + 1))) // 2)
     share, lowest, speed = [], [], []
     for i in starts:
         cycle = height[max(0, i - half) : i + half + 1]
@@ -202,10 +202,4 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
         kind = "at the highest position"
     else:
         kind = "rising" if moving > 0 else "falling"
-    return Location(kind, where, moving, drop)
-
-
-def _period_samples(values: Array) -> int:
-    """Samples in a period of the dominant oscillation."""
-    amplitude = np.abs(np.fft.rfft(values - np.mean(values)))
-    return int(round(len(values) / max(1, int(np.argmax(amplitude[1:]) + 1))))
+    return Location(kind, where, drop)

@@ -1,18 +1,9 @@
-"""Which attractor a motion comes to.
+"""Which attractor a motion comes to: the quiet cycle, a known one, or one on which it has settled.
 
 A motion is followed in legs of some seconds.  The signature of a leg is the range of the slider over its last second,
-separations per second, and the shares of stick and separation.  A motion is on an attractor
-
-- quiet: the stable stick-slip cycle near the published start, if on the section of the return map it is near the
-  cycle's fixed point and nears it as the multipliers say, in size and in rate (`disc_model.stability.fate.follows`);
-- known: one that a motion followed before has settled on, if its range lies within `near` of that one's and far from
-  those of all others, has come closer from leg to leg, and does so as if its way ended there;
-- settled: the signature has changed by no more than `SETTLED` over eight legs, and the range does not drift on.  Such
-  an attractor is looked at more closely: whether it is periodic, and its fixed point on the section.  What stays near
-  an unstable cycle has not settled; what is new and not periodic has to stay to the horizon, for it might be on its way
-  past an unstable motion.
-
-None of these is asked with `near` = 0: then only the end of the horizon counts, and whether it has settled there.
+separations per second, and the shares of stick and separation.  What these decide is said in docs/studies.md, Many starts.
+What stays near an unstable cycle has not settled; what is new and not periodic has to stay to the horizon, for it
+might be on its way past an unstable motion.
 """
 
 from __future__ import annotations
@@ -25,7 +16,6 @@ from itertools import chain, pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
@@ -34,10 +24,8 @@ from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State
 from disc_model.stability.cycle import FloquetResult, cycle_of
 from disc_model.stability.fate import CYCLE_TOL, NEAR, Near, follows, published_start_near
-from disc_model.stability.return_map import RETURNED, ReturnMap, newton
+from disc_model.stability.return_map import RETURNED, Array, ReturnMap, newton
 from disc_model.stability.settling import LARGEST_PERIOD, shares
-
-Array = NDArray[np.float64]
 
 KINDS = ("none", "quiet", "vibrating", "separating", "sliding", "resting", "undecided", "failed")
 """What becomes of a motion: on the stable stick-slip cycle near the published start; in contact, but in another way;

@@ -24,6 +24,8 @@ from disc_model.stability.return_map import (
     PARAMETERS,
     PATIENT,
     RETURNED,
+    Array,
+    ComplexArray,
     Counts,
     Flight,
     ReturnMap,
@@ -35,7 +37,6 @@ from disc_model.stability.return_map import (
 # ----------------------------------------------------------------------------------------------------
 # The equation
 
-Array = NDArray[np.float64]
 
 REORDERED = "the order of switches changes"
 """How the reason for which a branch of cycles that separate ends may begin."""
@@ -167,8 +168,6 @@ def default_scale(p: Parameters, name: str) -> float:
 
 # ----------------------------------------------------------------------------------------------------
 # The walk
-
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

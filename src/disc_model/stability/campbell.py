@@ -1,10 +1,9 @@
 """Frequencies of steady sliding, and those of the stick-slip cycle's multipliers beside them.
 
 A multiplier's angle gives a frequency modulo that of the cycle, f = (angle / 2 pi + n) / T, and without its sign, since
-multipliers come with their conjugates.  The eigenvector tells the rest.  Near a mode of steady sliding a disturbance
-moves as exp(i omega t) times that mode's shape, so that each multiplier goes to the mode whose shape is most like its
-own, by one assignment for all; of two conjugates that one counts that is like the mode of positive frequency; and n is
-the whole number that brings f nearest to the mode's own frequency.
+multipliers come with their conjugates.  Each goes to the mode of sliding whose shape is most like its eigenvector, by
+one assignment for all; of two conjugates that one counts that is like the mode of positive frequency; and n is the
+whole number that brings f nearest to the mode's own frequency.
 """
 
 from __future__ import annotations
@@ -21,11 +20,8 @@ from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
-from disc_model.stability.return_map import ReturnMap
+from disc_model.stability.return_map import Array, ComplexArray, ReturnMap
 from disc_model.stability.sliding import SteadySliding
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False)

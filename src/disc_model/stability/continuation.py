@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError, broken
 from disc_model.parameters import Parameters
@@ -34,12 +33,11 @@ from disc_model.stability.branch import (
 )
 from disc_model.stability.cycle import faults_near, find_cycle, find_cycle_near
 from disc_model.stability.grazing import grazing
-from disc_model.stability.return_map import Counts, multipliers
+from disc_model.stability.return_map import Array, ComplexArray, Counts, multipliers
 
 # ----------------------------------------------------------------------------------------------------
 # One parameter
 
-Array = NDArray[np.float64]
 
 UNLOCATED = "a fold that cannot be located"
 """How the reason for which a branch ends may begin."""
@@ -151,7 +149,6 @@ def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, t
 # ----------------------------------------------------------------------------------------------------
 # Two parameters
 
-ComplexArray = NDArray[np.complex128]
 Test = Callable[[Array, complex], tuple[float, complex]]
 
 

@@ -19,9 +19,7 @@ from disc_model.parameters import Parameters
 from disc_model.stability.continuation import UNLOCATED, continue_cycle, continue_fold, continue_neutral
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Tongue, nearest_tongue
-from disc_model.stability.return_map import ReturnMap
-
-Array = NDArray[np.float64]
+from disc_model.stability.return_map import Array, ReturnMap
 
 SAME_PLACE, SAME_PERIOD = 0.01, 0.02
 """A curve known already passes within that share of the parameters' ranges, its cycles within that relative period."""
@@ -198,6 +196,3 @@ def _trace(
     mu = 1.0 + 0j if seed.kind == "fold" else complex(leading[middle])
     tongue = nearest_tongue(case, float(period[middle]), mu, int(diameters[middle]))
     return StabilityCurve(seed.kind, values, border, period, leading, tongue)
-
-
-__all__ = ["StabilityCurve", "stability_curves"]

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.errors import DiscModelError, StatusBase, broken, refuse
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_faults
@@ -21,6 +20,8 @@ from disc_model.stability.return_map import (
     OUTCOMES,
     PATIENT,
     RETURNED,
+    Array,
+    ComplexArray,
     Counts,
     FixedPoint,
     Flight,
@@ -32,9 +33,6 @@ from disc_model.stability.return_map import (
     newton,
 )
 from disc_model.stability.sliding import SteadySliding, steady_sliding
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 RETURNS_TRIED = (1, 2, 3)
 """Cycles with up to so many releases a period are looked for."""

@@ -1,21 +1,10 @@
 """What becomes of the published start within a horizon: decided by multipliers where they prove it, else simulated.
 
 The published start is a point of the section of `disc_model.stability.return_map`, and usually lies near the cycle that
-Newton's method finds from it: a few thousandths of the static deflection away.  There the map is linear, and the
-distance d from the cycle after n periods is J^n d.  This is tested, not assumed: the motion is followed over some
-seconds and compared with J^n d, in its size and in the rate at which the leading multiplier's part grows.  Where
-they agree,
-
-- a stable cycle keeps the motion: it is quiet, and nothing more is simulated;
-- from an unstable one the motion departs as J^n d says, up to a distance at which the same test is passed again; only
-  what follows is simulated, or nothing if the horizon comes before.
-
-Once a motion has departed, it is simulated until it separates or comes near a stable cycle, or else to the horizon.
-That its growth has saturated ends nothing: a motion rests for minutes on a torus that is itself unstable, and an
-irregular one may separate at any time.
-
-Where motion and multipliers do not agree, or there is no such cycle, the motion is simulated, and now and then looked
-at again: it may have come near another cycle, or to steady sliding.
+Newton's method finds from it.  There the map is linear, and the distance d from the cycle after n periods is J^n d.
+This is tested, not assumed: the motion is followed over some seconds and compared with J^n d, in its size and in the
+rate at which the leading multiplier's part grows.  What follows from it, and what is simulated, is said in
+docs/studies.md, Regions.
 """
 
 from __future__ import annotations
@@ -26,7 +15,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from disc_model.errors import Status
@@ -37,12 +25,9 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import Result, State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, cycle_of, find_cycle
-from disc_model.stability.return_map import OUTCOMES, RETURNED, ReturnMap, newton
+from disc_model.stability.return_map import OUTCOMES, RETURNED, Array, ComplexArray, ReturnMap, newton
 from disc_model.stability.settling import LARGEST_PERIOD, NOISE, growing
 from disc_model.stability.sliding import SteadySliding, steady_sliding
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 CYCLE_TOL = 1e-12
 """Tolerance of cycles and their multipliers."""

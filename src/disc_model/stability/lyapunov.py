@@ -19,9 +19,7 @@ from disc_model.errors import StatusBase, broken, refuse
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
-from disc_model.stability.return_map import OUTCOMES, case_faults
-
-Array = NDArray[np.float64]
+from disc_model.stability.return_map import OUTCOMES, Array, case_faults
 
 
 class LyapunovStatus(StatusBase):

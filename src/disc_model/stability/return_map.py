@@ -23,6 +23,7 @@ from disc_model.parameters import RESIDUAL, Parameters
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 
 Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
@@ -332,10 +333,8 @@ def _solve(matrix: Array, right: Array) -> Array:
 # ----------------------------------------------------------------------------------------------------
 # Multipliers of a cycle, and what they say of it
 
-ComplexArray = NDArray[np.complex128]
 
-
-def multipliers(jacobian: NDArray[np.float64]) -> ComplexArray:
+def multipliers(jacobian: Array) -> ComplexArray:
     """Eigenvalues of the return map's Jacobian, largest modulus first; of a complex pair the upper one first."""
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]

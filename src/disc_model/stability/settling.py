@@ -1,15 +1,14 @@
 """Following a motion until it separates, has settled, or its time is up.
 
 Whether a motion settles is read from the return map at stick release: short probes, more and more apart, compare the
-states at successive releases. Near a periodic orbit their difference is a sum of modes of the orbit that decay or grow
-exponentially, each excited by the start at much the same size (1e-5 to 1e-4 relative in the published cases). It is the
-difference that is looked at and not the motion's range, so that a slow growth is not taken for rest. A motion has
-settled if
+states at successive releases. It is their difference that is looked at and not the motion's range, so that a slow
+growth is not taken for rest. Near a periodic orbit it is a sum of modes of the orbit that decay or grow exponentially,
+each excited by the start at much the same size (1e-5 to 1e-4 relative in the published cases). A motion has settled if
 
 - it is near the stick-slip cycle that `disc_model.stability.cycle` finds, this is stable, and the difference
   keeps falling at the rate that the cycle's multipliers demand; or
 - near no such cycle, the difference has kept falling until it is below 1e-9: a mode that grows would be a thousand
-  times larger by then, however slow, since it never falls. If the cycle at hand is known to be unstable, never.
+  times larger by then, however slow. If the cycle at hand is known to be unstable, never.
 """
 
 from __future__ import annotations
@@ -20,7 +19,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
@@ -29,9 +27,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State, engine_case
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
-from disc_model.stability.return_map import case_faults
-
-Array = NDArray[np.float64]
+from disc_model.stability.return_map import Array, case_faults
 
 FIRST_PROBE = 5.0
 """Time of the first probe, s."""

@@ -23,9 +23,7 @@ from disc_model.errors import StatusBase, refuse
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
-from disc_model.stability.return_map import case_faults
-
-Array = NDArray[np.float64]
+from disc_model.stability.return_map import Array, case_faults
 
 
 class SlidingStatus(StatusBase):
