@@ -10,9 +10,6 @@ from scipy.optimize import linear_sum_assignment
 
 from disc_model import Parameters, plate_modes, slider_at_rest_frequencies
 from disc_model.stability.campbell import frequencies
-from disc_model.stability.cycle import CycleStatus
-from disc_model.stability.return_map import ReturnMap
-from tests.stability.test_return_map import central_differences
 
 BASE = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1)
@@ -64,21 +61,6 @@ def test_frequencies_and_growth_rates_are_those_of_the_multipliers(p: Parameters
     # away from resonances the cycle's modes are those of sliding: 0.1 Hz of what is apart by f_s / 2 = 33 Hz
     np.testing.assert_allclose(found.cycle_frequency[here], found.frequency[here], atol=0.2)
     assert found.likeness[here].min() > 0.9
-
-
-def test_a_disturbance_in_a_modes_shape_returns_as_its_multiplier_says() -> None:
-    """By differences of the return map, not by its variational equations."""
-    found = frequencies(SMALL)
-    cycle = found.cycle
-    assert cycle.status is CycleStatus.OK
-    assert cycle.state is not None
-    map_ = ReturnMap(SMALL)
-    x = map_.point(cycle.state)
-    values = np.linalg.eigvals(central_differences(map_, x))
-    here = found.diameters >= 0
-    own = np.exp((found.cycle_growth_rate[here] + 2j * math.pi * found.cycle_frequency[here]) * cycle.period)
-    # differences of a step of 3e-5: 1e-12 / 3e-5 of the map's tolerance, and its fourth power
-    assert np.abs(values[:, None] - own[None, :]).min(axis=0).max() < 1e-6
 
 
 def test_without_steady_sliding_or_cycle_there_is_nothing_to_say() -> None:

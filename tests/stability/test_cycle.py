@@ -8,14 +8,13 @@ import re
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Result, floquet, simulate
+from disc_model import Parameters, floquet, simulate
 from disc_model.engine import layout, saltation
 from disc_model.errors import DiscModelError
 from disc_model.stability import return_map as return_map_module
 from disc_model.stability.cycle import (
     CycleError,
     CycleStatus,
-    FloquetResult,
     cycle_neared,
     find_cycle,
     find_cycle_near,
@@ -30,14 +29,6 @@ from tests.stability.test_return_map import BASE, DAMPED, central_differences
 P = Parameters(N=200, Omega=20, n_diameters=1)
 
 
-def test_multipliers_agree_with_differences_of_the_return_map():
-    result, map_ = floquet(P), ReturnMap(P)
-    x = map_.point(result.state)
-    expected = np.linalg.eigvals(central_differences(map_, x))
-    assert np.max(np.min(np.abs(result.multipliers[:, None] - expected[None, :]), axis=1)) < 1e-6
-    assert result.growth_rate == pytest.approx(math.log(np.max(np.abs(expected))) / result.period, abs=1e-4)
-
-
 @pytest.mark.parametrize("tol", [1e-6, 1e-8])
 def test_a_rough_tolerance_finds_the_cycle(tol: float) -> None:
     """Flights as rough as the residual asked for scattered too much to reach it: no cycle was found, of any case."""
@@ -48,21 +39,21 @@ def test_a_rough_tolerance_finds_the_cycle(tol: float) -> None:
     assert found.growth_rate == pytest.approx(fine.growth_rate, abs=100 * tol)
 
 
-@pytest.mark.compiled
-@pytest.mark.parametrize(
-    "p",
-    [
-        BASE,
-        DAMPED,
-        Parameters(N=300, Omega=50, k_p=2e3),
-        Parameters(N=600, Omega=30, normalization="orthonormal"),
-        # half a minute to compile
-        pytest.param(Parameters(N=200, Omega=20, n_diameters=6), marks=pytest.mark.slow),
-        Parameters(N=200, Omega=20, n_diameters=0),
-        Parameters(N=200, Omega=20, contact="bonded"),
-    ],
-    ids=["base", "damped", "soft spring", "orthonormal", "two blocks", "axisymmetric", "bonded"],
-)
+COMPILED = pytest.mark.compiled
+CASES = {
+    "small": (P, ()),
+    "base": (BASE, COMPILED),
+    "damped": (DAMPED, COMPILED),
+    "soft spring": (Parameters(N=300, Omega=50, k_p=2e3), COMPILED),
+    "orthonormal": (Parameters(N=600, Omega=30, normalization="orthonormal"), COMPILED),
+    # half a minute to compile
+    "two blocks": (Parameters(N=200, Omega=20, n_diameters=6), (COMPILED, pytest.mark.slow)),
+    "axisymmetric": (Parameters(N=200, Omega=20, n_diameters=0), COMPILED),
+    "bonded": (Parameters(N=200, Omega=20, contact="bonded"), COMPILED),
+}
+
+
+@pytest.mark.parametrize("p", [pytest.param(p, marks=marks, id=name) for name, (p, marks) in CASES.items()])
 def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     result, map_ = floquet(p), ReturnMap(p)
     assert result.status is CycleStatus.OK
@@ -72,26 +63,21 @@ def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     distance = np.min(np.abs(mine[:, None] - reference[None, :]), axis=1)
     assert np.max(distance) < 1e-6
     assert np.max(np.abs(expected - map_.evaluate(x)[2])) < 1e-7
+    assert result.growth_rate == pytest.approx(math.log(np.max(np.abs(reference))) / result.period, abs=1e-4)
 
 
-def assert_closed(result: FloquetResult) -> Result:
-    """A simulation over the period ends where it began; returns it."""
+@pytest.mark.parametrize("p", [P, pytest.param(BASE, marks=COMPILED)], ids=["small", "base"])
+def test_the_cycle_closes_in_a_simulation(p):
+    result = floquet(p)
     run = simulate(result.parameters, result.period, initial_state=result.state, tol=1e-13)
     for name in ("a", "b", "alpha", "beta"):
         scale = np.max(np.abs(getattr(result.state, name)))
         assert np.allclose(getattr(run.final_state, name), getattr(result.state, name), atol=1e-9 * scale, rtol=0)
     assert run.final_state.psi == pytest.approx(result.state.psi, rel=1e-10)
-    return run
-
-
-@pytest.mark.compiled
-def test_the_cycle_closes_in_a_simulation():
-    result = floquet(BASE)
-    run = assert_closed(result)
     assert result.stick_fraction == pytest.approx(run.statistics["time_stick"] / result.period, abs=1e-9)
 
 
-@pytest.mark.compiled
+@COMPILED
 def test_result_is_complete_and_consistent():
     result = floquet(BASE)
     assert result.status is CycleStatus.OK
@@ -110,9 +96,8 @@ def test_result_is_complete_and_consistent():
         result.multipliers[0] = 0
 
 
-def test_the_cycle_closes_in_a_simulation_and_is_found_again_from_there():
+def test_the_cycle_is_found_again_from_a_simulation():
     result = floquet(P)
-    assert_closed(result)
     later = simulate(P, 0.5 * result.period, initial_state=result.state, tol=1e-12).final_state
     again = find_cycle_near(P, later, releases=1)
     assert again.status is CycleStatus.OK
@@ -154,7 +139,7 @@ def test_no_cycle_near_a_state_is_said():
     assert re.fullmatch(r"no_stick_slip: the slider does not stick within \d\.\d+ s of the given state", found.message)
 
 
-@pytest.mark.compiled
+@COMPILED
 @pytest.mark.parametrize(
     ("changes", "status"),
     [
@@ -223,7 +208,7 @@ def test_a_multiplier_tells_the_bifurcation():
     assert growth_rate(0j, 0.01) == -math.inf
 
 
-@pytest.mark.compiled
+@COMPILED
 def test_product_of_multipliers_is_that_of_divergence_and_saltation():
     """det of the return map from Liouville's formula.
 

@@ -11,10 +11,13 @@ from disc_model import Parameters, floquet, plate_modes, simulate
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
 from tests.stability.test_settling import paradox
 
+STICK = Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0, D_star=2e-4)
+"""Of a slow drive, for seconds."""
+
 
 def test_exponents_of_stick_are_those_of_the_coupled_mode():
     """Stick is linear: the exponents are 0, of the spring that is wound up, and the decay rate of one coupled mode."""
-    p = Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0, D_star=2e-4)
+    p = STICK
     omega, psi = (float(plate_modes(p)[name].iloc[0]) for name in ("omega", "psi"))
     decay = (p.D_star / p.D * omega**2 + p.c * psi**2) / (2 * (1 + p.m * psi**2))
     found = lyapunov_exponents(p, 0.1, count=3, interval=0.005)
@@ -67,6 +70,12 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     pair = lyapunov_exponents(p, 40.0, count=3, initial_state=cycle.state)
     # a complex pair has one rate: the two following zero are equal in the mean
     assert np.mean(pair.exponents[1:]) == pytest.approx(np.mean(expected[1:3]), rel=0.02)
+    # the exponent along the motion can be left out; the multipliers leave the 1 along the orbit out as well
+    found = lyapunov_exponents(p, 40.0, count=2, initial_state=cycle.state, leave_out_trivial=True)
+    # the rate of the motion is what it was after a period; a fraction of one is left over: ln of its range over 40 s
+    assert found.along == pytest.approx(0, abs=0.1)
+    assert np.mean(found.exponents) == pytest.approx(np.mean(cycle.exponents.real[:2]), rel=0.02)
+    assert found.history.shape == (16, 2)
 
 
 @pytest.mark.compiled
@@ -90,28 +99,15 @@ def test_columns_that_had_no_time_to_turn_were_taken_for_converged():
     assert np.all(np.abs(long.exponents - rate) < 0.005)
 
 
-@pytest.mark.compiled
-def test_the_exponent_along_the_motion_can_be_left_out():
-    """What is left is the cycle's: its multipliers leave the 1 along the orbit out as well."""
-    p = Parameters(N=200, Omega=20, c=2.0, D_star=1e-3)
-    cycle = floquet(p)
-    found = lyapunov_exponents(p, 40.0, count=2, initial_state=cycle.state, leave_out_trivial=True)
-    # the rate of the motion is what it was after a period; a fraction of one is left over: ln of its range over 40 s
-    assert found.along == pytest.approx(0, abs=0.1)
-    assert np.mean(found.exponents) == pytest.approx(np.mean(cycle.exponents.real[:2]), rel=0.02)
-    assert found.history.shape == (16, 2)
-
-
 def test_where_nothing_switches_there_is_no_trivial_exponent():
-    """Stick of a slow drive: no switch falls into the time; all that was found is kept."""
-    p = Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0, D_star=2e-4)
-    found = lyapunov_exponents(p, 0.1, count=2, interval=0.005, leave_out_trivial=True)
+    """No switch falls into the time; all that was found is kept."""
+    found = lyapunov_exponents(STICK, 0.1, count=2, interval=0.005, leave_out_trivial=True)
     assert np.isnan(found.along)
     assert found.exponents.shape == (2,)
 
 
 def test_exponents_that_drift_have_not_converged():
-    found = lyapunov_exponents(Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0), 0.1, count=2, interval=0.005)
+    found = lyapunov_exponents(STICK, 0.1, count=2, interval=0.005)
     steady = np.tile([1.0, -2.0], (16, 1))
     drifting = steady + np.linspace(-0.5, 0.5, 16)[:, None] * [1.0, 0.1]
     exponents = np.array([1.0, -2.0])

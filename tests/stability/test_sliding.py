@@ -65,27 +65,33 @@ def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_movi
         assert (growth > 1e-6) == grows, share
 
 
-def test_steady_sliding_says_why_there_is_none():
-    assert steady_sliding(P.replace(Omega=0)).status is SlidingStatus.AT_REST
-    # above a resonance the disc yields upwards, and the slider's spring with it
-    assert steady_sliding(P.replace(Omega=1520.0)).status is SlidingStatus.NO_CONTACT
-    assert steady_sliding(P.replace(Omega=1520.0, contact="bonded")).status is SlidingStatus.OK
-    # a bond that pulls tilts the disc against the slip
-    steep = steady_sliding(P.replace(Omega=1520.0, contact="bonded", N=1e6, D_star=2e-4))
-    assert steep.status is SlidingStatus.PARADOX
-    assert steep.message == steep.status.advice
-    assert not steep.stable
-    assert math.isnan(steep.contact_force)
-    # the damper alone cannot balance friction at f = Omega, where it does nothing; without friction it need not
-    assert steady_sliding(P.replace(k_p=0, c_p=0.5)).status is SlidingStatus.NO_SPRING
-    assert steady_sliding(P.replace(k_p=0, c_p=0.5, mu_s=0, mu_k=0)).status is SlidingStatus.OK
-    fine = steady_sliding(P)
-    assert fine.status is SlidingStatus.OK
-    assert fine.stable == (fine.growth_rate < 0)
+BONDED = {"Omega": 1520.0, "contact": "bonded"}
+LOOSE = {"k_p": 0, "mu_k": 0}
 
 
-def test_without_a_spring_the_slope_of_the_disc_is_not_balanced_either():
-    loose = P.replace(k_p=0, mu_k=0)
-    assert steady_sliding(loose).status is SlidingStatus.OK
-    assert steady_sliding(loose.replace(contact_force="normal")).status is SlidingStatus.NO_SPRING
-    assert steady_sliding(loose.replace(contact_force="normal", D_star=0)).status is SlidingStatus.OK
+@pytest.mark.parametrize(
+    ("changes", "status"),
+    [
+        ({}, SlidingStatus.OK),
+        ({"Omega": 0}, SlidingStatus.AT_REST),
+        # above a resonance the disc yields upwards, and the slider's spring with it
+        ({"Omega": 1520.0}, SlidingStatus.NO_CONTACT),
+        (BONDED, SlidingStatus.OK),
+        # a bond that pulls tilts the disc against the slip
+        ({**BONDED, "N": 1e6, "D_star": 2e-4}, SlidingStatus.PARADOX),
+        # the damper alone cannot balance friction at f = Omega, where it does nothing; without friction it need not
+        ({"k_p": 0, "c_p": 0.5}, SlidingStatus.NO_SPRING),
+        ({"k_p": 0, "c_p": 0.5, "mu_s": 0, "mu_k": 0}, SlidingStatus.OK),
+        # nor can it the slope of the disc
+        (LOOSE, SlidingStatus.OK),
+        ({**LOOSE, "contact_force": "normal"}, SlidingStatus.NO_SPRING),
+        ({**LOOSE, "contact_force": "normal", "D_star": 0}, SlidingStatus.OK),
+    ],
+)
+def test_steady_sliding_says_why_there_is_none(changes, status):
+    found = steady_sliding(P.replace(**changes))
+    assert found.status is status
+    assert found.stable == (found.growth_rate < 0)
+    if status is not SlidingStatus.OK:
+        assert found.message == status.advice
+        assert math.isnan(found.contact_force)

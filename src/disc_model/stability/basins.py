@@ -1,9 +1,9 @@
 """Which attractor a motion comes to: the quiet cycle, a known one, or one on which it has settled.
 
 A motion is followed in legs of some seconds.  The signature of a leg is the range of the slider over its last second,
-separations per second, and the shares of stick and separation.  What these decide is said in docs/studies.md, Many starts.
-What stays near an unstable cycle has not settled; what is new and not periodic has to stay to the horizon, for it
-might be on its way past an unstable motion.
+separations per second, and the shares of stick and separation.  What these decide is said in docs/studies.md, Many
+starts.  What stays near an unstable cycle has not settled; what is new and not periodic has to stay to the horizon, for
+it might be on its way past an unstable motion.
 """
 
 from __future__ import annotations
