@@ -17,9 +17,8 @@ from disc_model.stability.continuation import (
     _next_on_border,
     _OnCurve,
     _Ways,
+    continue_border,
     continue_cycle,
-    continue_fold,
-    continue_neutral,
 )
 from disc_model.stability.curves import stability_curves
 from tests.stability.toy_map import PERIOD, RETURNED, ToyMap, cycle_at, fold_at, growth_at, outside, toy
@@ -120,14 +119,14 @@ def test_a_corrector_without_gradient_is_lost(monkeypatch):
 
 
 def test_the_neutral_curve_is_the_ellipse():
-    curve = continue_neutral(P.replace(Omega=13.5), ("Omega", "N"), BOX)
+    curve = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX)
     assert curve.ended == "the curve is closed"
     assert [outside(*values) for values in curve.values] == pytest.approx(np.zeros(len(curve)), abs=1e-8)
     assert curve.growth_rate == pytest.approx(np.zeros(len(curve)), abs=1e-7)
     span = np.ptp(curve.values, axis=0)
     assert span == pytest.approx([8, 200], rel=0.02)
-    one_way = continue_neutral(P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=1, max_points=4)
-    other = continue_neutral(P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=-1, max_points=4)
+    one_way = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=1, max_points=4)
+    other = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=-1, max_points=4)
     assert len(one_way) == len(other) == 4
     first = one_way.values[0]
     assert (one_way.values[1] - first) @ (other.values[1] - first) < 0
@@ -135,7 +134,7 @@ def test_the_neutral_curve_is_the_ellipse():
 
 def test_the_curve_of_folds_is_the_line():
     at = P.replace(Omega=15.9)
-    curve = continue_fold(at, ("Omega", "N"), BOX, start=cycle_at(15.9, 300))
+    curve = continue_border("fold", at, ("Omega", "N"), BOX, start=cycle_at(15.9, 300))
     assert curve.ended == "Omega or N has left the bounds"
     assert curve.values[:, 0] == pytest.approx(fold_at(curve.values[:, 1]), abs=1e-7)
     assert np.min(np.abs(curve.multipliers - 1), axis=1) == pytest.approx(np.zeros(len(curve)), abs=1e-8)
@@ -143,22 +142,22 @@ def test_the_curve_of_folds_is_the_line():
 
 def test_without_a_curve_nearby_the_input_is_refused():
     with pytest.raises(ParameterError, match="must have a cycle to start from"):
-        continue_neutral(P.replace(Omega=17), ("Omega", "N"), BOX)
+        continue_border("neutral", P.replace(Omega=17), ("Omega", "N"), BOX)
     # at this load the cycle is unstable at every speed, and the damper changes nothing
     with pytest.raises(ParameterError, match="must be near a curve of this kind"):
-        continue_neutral(P.replace(N=450, Omega=12), ("Omega", "c"), {"Omega": (1, 20), "c": (0, 1)})
+        continue_border("neutral", P.replace(N=450, Omega=12), ("Omega", "c"), {"Omega": (1, 20), "c": (0, 1)})
 
 
 def test_a_curve_without_direction_is_refused_and_no_inner_error_escapes():
     """On the ellipse, but in parameters that change nothing: this used to end in an error of the package's inside."""
     with pytest.raises(ParameterError, match="does not depend on the parameters"):
-        continue_neutral(P.replace(Omega=14, c=1), ("c", "k"), {"c": (0, 9), "k": (0, 1e6)})
+        continue_border("neutral", P.replace(Omega=14, c=1), ("c", "k"), {"c": (0, 9), "k": (0, 1e6)})
 
 
 @pytest.mark.parametrize("names", [("Omega",), ("Omega", "Omega"), ("Omega", "rho")])
 def test_parameters_that_cannot_be_free_are_refused(names):
     with pytest.raises(ParameterError, match="must be 2 of Omega, N"):
-        continue_neutral(P, names, BOX)
+        continue_border("neutral", P, names, BOX)
 
 
 def test_all_curves_of_a_plane_are_found_once():
@@ -181,10 +180,12 @@ def test_all_curves_of_a_plane_are_found_once():
 def test_what_cannot_be_followed_is_noted(monkeypatch):
     from disc_model.stability import curves
 
-    def refuse(*_, **__):
+    def refuse(kind, *how, **more):
+        if kind == "fold":
+            return continue_border(kind, *how, **more)
         raise ParameterError("p: must be elsewhere")
 
-    monkeypatch.setattr(curves, "continue_neutral", refuse)
+    monkeypatch.setattr(curves, "continue_border", refuse)
     found, notes = stability_curves(P, ("Omega", "N"), BOX, [300.0], points=9, max_points=5)
     assert [curve.kind for curve in found] == ["fold"]
     assert len(notes) == 2  # the ellipse is met twice

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.stability.continuation import continue_cycle, continue_fold, continue_neutral
+from disc_model.stability.continuation import continue_border, continue_cycle
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.resonances import nearest_tongue
 from disc_model.stability.return_map import RETURNED, ReturnMap
@@ -131,8 +131,8 @@ def test_the_fold_in_two_parameters():
     branch = continue_cycle(Parameters(N=385, Omega=15), "Omega", (14.9, 16.0))
     near = int(np.argmin(np.abs(branch.values[:, 0] - branch.folds[0, 0])))
     start = Parameters(N=385, Omega=float(branch.values[near, 0]))
-    curve = continue_fold(
-        start, ("Omega", "N"), {"Omega": (12, 20), "N": (300, 450)}, start=branch.points[near], direction=1
+    curve = continue_border(
+        "fold", start, ("Omega", "N"), {"Omega": (12, 20), "N": (300, 450)}, start=branch.points[near], direction=1
     )
     assert curve.ended.startswith("Omega or N")
     at = float(np.interp(385.0, *np.sort(curve.values[:2], axis=0)[:, ::-1].T))
@@ -146,8 +146,8 @@ def test_the_fold_in_two_parameters():
 
 def test_the_neutral_curve_turns_at_its_top():
     """Branch of max|mu| = 1 from low load and high speed: the load rises to a turning point, then falls."""
-    curve = continue_neutral(
-        Parameters(N=50, Omega=40), ("Omega", "N"), {"Omega": (5.5, 50), "N": (20, 700)}, direction=-1
+    curve = continue_border(
+        "neutral", Parameters(N=50, Omega=40), ("Omega", "N"), {"Omega": (5.5, 50), "N": (20, 700)}, direction=-1
     )
     assert np.max(np.abs(curve.growth_rate)) < 1e-7
     top = int(np.argmax(curve.values[:, 1]))
@@ -175,7 +175,7 @@ def test_neutral_curves_in_other_pairs(start, names):
     p = Parameters(**start)
     value = {name: getattr(p, name) for name in names}
     bounds = {name: (0.5 * value[name], 2.5 * value[name]) for name in names}
-    curve = continue_neutral(p, names, bounds, max_points=12)
+    curve = continue_border("neutral", p, names, bounds, max_points=12)
     assert len(curve) == 12 or "bounds" in curve.ended
     assert np.max(np.abs(curve.growth_rate)) < 1e-6
     for values in curve.values[:: max(1, len(curve) // 3)]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,31 +51,25 @@ class Frequencies:
 def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
     """Of steady sliding and of the stick-slip cycle near the published start; arrays are empty without the former."""
     cycle = floquet(p, tol=tol)
-    modes = _sliding_modes(p, cycle.sliding)
-    found = np.full((3, len(modes.frequency)), math.nan)
-    if cycle.status is CycleStatus.OK and len(modes.frequency):
-        found[:, modes.diameters >= 0] = _of_cycle(p, cycle, modes, tol)
-    return Frequencies(cycle, *modes[:4], *found)
+    frequency, growth_rate, diameters, forward, shapes = _sliding_modes(p, cycle.sliding)
+    found = np.full((3, len(frequency)), math.nan)
+    if cycle.status is CycleStatus.OK and len(frequency):
+        disc = diameters >= 0
+        found[:, disc] = _of_cycle(p, cycle, frequency[disc], shapes[:, disc], tol)
+    return Frequencies(cycle, frequency, growth_rate, diameters, forward, *found)
 
 
 # ----------------------------------------------------------------------------------------------------
 # Steady sliding
 
 
-class _Sliding(NamedTuple):
-    """As of `Frequencies`; shapes : rows of a, alpha, b, beta of all modes of the disc, u, u', shape (m, n)."""
-
-    frequency: Array
-    growth_rate: Array
-    diameters: NDArray[np.int64]
-    forward: Array
-    shapes: ComplexArray
-
-
-def _sliding_modes(p: Parameters, sliding: SteadySliding) -> _Sliding:
+def _sliding_modes(
+    p: Parameters, sliding: SteadySliding
+) -> tuple[Array, Array, NDArray[np.int64], Array, ComplexArray]:
+    """As of `Frequencies`, and shapes: rows of a, alpha, b, beta of all modes of the disc, u, u', shape (m, n)."""
     if not len(sliding.eigenvalues):
         nothing = np.zeros(0)
-        return _Sliding(nothing, nothing, np.zeros(0, np.int64), nothing, np.zeros((0, 0), complex))
+        return nothing, nothing, np.zeros(0, np.int64), nothing, np.zeros((0, 0), complex)
     values, vectors = np.linalg.eig(sliding.jacobian)
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
     values, vectors = values[order], vectors[:, order]
@@ -95,7 +88,7 @@ def _sliding_modes(p: Parameters, sliding: SteadySliding) -> _Sliding:
     waves = [np.sum(np.abs(omega * (a + side * b)) ** 2, axis=0, where=of_l) for side in (1j, -1j)]
     in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
     diameters = np.where(in_plane > energy.sum(axis=0), -1, diameters)
-    return _Sliding(
+    return (
         values.imag / (2 * math.pi),
         np.asarray(values.real, dtype=float),
         diameters.astype(np.int64),
@@ -108,14 +101,13 @@ def _sliding_modes(p: Parameters, sliding: SteadySliding) -> _Sliding:
 # The cycle
 
 
-def _of_cycle(p: Parameters, cycle: FloquetResult, modes: _Sliding, tol: float) -> Array:
-    """Frequency, growth rate and likeness, shape (3, n), for each mode of the disc."""
+def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexArray, tol: float) -> Array:
+    """Frequency, growth rate and likeness, shape (3, n), for modes of the disc of frequencies and shapes."""
     assert cycle.state is not None
     map_ = ReturnMap(p, tol)
     *_, jacobian, _ = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
     multipliers, vectors = np.linalg.eig(jacobian)
-    here = modes.diameters >= 0
-    shapes = np.array([_on_section(map_, cycle.state, shape) for shape in modes.shapes.T[here]]).T
+    shapes = np.array([_on_section(map_, cycle.state, shape) for shape in shapes.T]).T
     shapes = shapes / np.linalg.norm(shapes, axis=0)
     # each mode has room for two multipliers: one like its shape, one like the conjugate
     likeness = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
@@ -125,7 +117,6 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, modes: _Sliding, tol: float) 
     own, other = place[: shapes.shape[1]], place[shapes.shape[1] :]
     rate = 1 / cycle.period
     angle = np.angle(multipliers[own]) / (2 * math.pi)
-    seen = modes.frequency[here]
     with np.errstate(divide="ignore"):
         growth = np.log(np.abs(multipliers)) * rate
     found = np.array(

@@ -1,8 +1,7 @@
 """A cycle followed in one parameter, and borders of its stability in two, by pseudo-arclength.
 
 On the surface F = 0 of `disc_model.stability.branch`, `continue_cycle` follows the cycle itself: folds, where two
-cycles meet, are points like any other. Over two parameters `continue_neutral` follows the curve on which the leading
-multiplier has modulus one, `continue_fold` that on which one is equal to one.
+cycles meet, are points like any other. Over two parameters `continue_border` follows neutral curves and folds.
 """
 
 from __future__ import annotations
@@ -11,6 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
+from typing import Literal
 
 import numpy as np
 
@@ -149,6 +149,7 @@ def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, t
 # ----------------------------------------------------------------------------------------------------
 # Two parameters
 
+Kind = Literal["neutral", "fold"]
 Test = Callable[[Array, complex], tuple[float, complex]]
 
 
@@ -172,42 +173,11 @@ def _at_one(jacobian: Array, former: complex) -> tuple[float, complex]:
     return mu.real - 1.0, mu
 
 
-def continue_neutral(
-    p: Parameters, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], **how: object
-) -> Branch:
-    """Follow the curve on which the leading multiplier has modulus one, in two parameters.
-
-    Parameters
-    ----------
-    p : a case near the curve, whose leading multiplier is the one followed
-    names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
-    bounds : of both; the curve is followed until it leaves them, closes or ends
-    how : direction (1 or -1), step, longest, shortest, max_points, start, tol as in `continue_cycle`
-
-    Raises
-    ------
-    ParameterError
-        Bad input, no cycle to start from, or no neutral cycle near it.
-    """
-    return _continue_on_surface(p, names, bounds, _on_circle, None, **how)  # type: ignore[arg-type]
-
-
-def continue_fold(
-    p: Parameters, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], **how: object
-) -> Branch:
-    """Follow the curve of folds, on which a multiplier is one: as `continue_neutral`, from a case near a fold.
-
-    `start` may be the point of the section nearest to the fold on a branch of `continue_cycle`.
-    """
-    return _continue_on_surface(p, names, bounds, _at_one, 1.0 + 0j, **how)  # type: ignore[arg-type]
-
-
-def _continue_on_surface(
+def continue_border(
+    kind: Kind,
     p: Parameters,
     names: tuple[str, str],
     bounds: Mapping[str, tuple[float, float]],
-    test: Test,
-    former: complex | None,
     *,
     direction: int = 1,
     step: float = 0.01,
@@ -217,11 +187,27 @@ def _continue_on_surface(
     start: Array | None = None,
     tol: float = 1e-12,
 ) -> Branch:
+    """Follow a border of stability in two parameters.
+
+    Parameters
+    ----------
+    kind : "neutral", the curve on which the leading multiplier of the first cycle has modulus one; or "fold", that on
+        which a multiplier is one, from the point of a branch of `continue_cycle` that is nearest to its fold
+    p, start : a case near the curve, and the point of the section to start Newton's method from
+    names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
+    bounds : of both; the curve is followed until it leaves them, closes or ends
+    direction, step, longest, shortest, max_points, tol : as in `continue_cycle`
+
+    Raises
+    ------
+    ParameterError
+        Bad input, no cycle to start from, or no curve of this kind near it.
+    """
     names = tuple(names)  # type: ignore[assignment]
     check(p, names, 2)
     problem = CycleProblem(p, names, None, tol)
     point = starting_point(problem, find_cycle(p, tol, start))
-    mu = former if former is not None else complex(multipliers(point.jacobian)[0])
+    test, mu = (_on_circle, complex(multipliers(point.jacobian)[0])) if kind == "neutral" else (_at_one, 1.0 + 0j)
     try:
         point, mu = _reach(problem, point, test, mu)
         ways = _ways(problem, point, test, mu)

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.stability.continuation import UNLOCATED, continue_cycle, continue_fold, continue_neutral
+from disc_model.stability.continuation import UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Tongue, nearest_tongue
 from disc_model.stability.return_map import Array, ReturnMap
@@ -54,7 +56,7 @@ class StabilityCurve:
 
 @dataclass(frozen=True)
 class _Seed:
-    kind: str
+    kind: Kind
     case: Parameters
     point: Array
     period: float
@@ -141,6 +143,7 @@ def _first_event(case: Parameters, name: str, end: float, direction: int, tol: f
     turns = np.flatnonzero(np.diff(values)[:-1] * np.diff(values)[1:] < 0) + 1
     crossings = np.flatnonzero(growth[:-1] * growth[1:] < 0)
     fold = int(turns[0]) if len(turns) else len(values)
+    kind: Kind
     if len(crossings) and crossings[0] + 1 < fold:
         i = int(crossings[0])
         kind, j = "neutral", i if abs(growth[i]) < abs(growth[i + 1]) else i + 1
@@ -175,13 +178,12 @@ def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: flo
 
 
 def _trace(
-    seed: _Seed, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], how: Mapping[str, object]
+    seed: _Seed, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], how: Mapping[str, Any]
 ) -> StabilityCurve:
-    """The curve through a seed, both ways; `how` as in `continue_neutral`."""
-    follow = continue_neutral if seed.kind == "neutral" else continue_fold
-    back = follow(seed.case, names, bounds, direction=-1, start=seed.point, **how)
-    closed = back.ended == "the curve is closed"
-    on = None if closed else follow(seed.case, names, bounds, direction=1, start=seed.point, **how)
+    """The curve through a seed, both ways; `how` as in `continue_border`."""
+    follow = partial(continue_border, seed.kind, seed.case, names, bounds, start=seed.point, **how)
+    back = follow(direction=-1)
+    on = None if back.ended == "the curve is closed" else follow(direction=1)
 
     def joined(name: str) -> NDArray[np.generic]:
         one = getattr(back, name)
