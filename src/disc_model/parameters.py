@@ -267,6 +267,11 @@ class Parameters(Checked):
         return str(extra["unit"]) if isinstance(extra, dict) else ""
 
 
+def leaves_modes(values: Mapping[str, Any]) -> bool:
+    """Whether what a file says of a case leaves its number of modes to `disc_model.truncation`."""
+    return values.get("n_diameters") == AUTO or any(name in values for name in CHOOSING)
+
+
 def _rigidity(E: float, h: float, nu: float) -> float:
     return E * h**3 / 12 / (1 - nu**2)
 

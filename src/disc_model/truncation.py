@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.errors import DiscModelError, Fault, ParameterError, broken, refuse, shown
+from disc_model.errors import DiscModelError, Fault, ParameterError, broken, shown
 from disc_model.flexibility import contact_give
 from disc_model.parameters import AUTO, CHOOSING, Parameters, number
 from disc_model.plate import coupled_frequencies, mode_arrays
@@ -120,7 +120,8 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
         p = Parameters.model_validate(rest)
     except ParameterError as error:
         raise ParameterError(*error.faults, *faults) from None
-    refuse(faults)
+    if faults:
+        raise ParameterError(*faults)
     return p, asked
 
 

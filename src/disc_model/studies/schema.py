@@ -20,7 +20,7 @@ from disc_model.errors import DiscModelError, ParameterError
 from disc_model.figures.cases.kinds import CASE_PLOTS, CasePlot
 from disc_model.figures.grids.kinds import PLOTS
 from disc_model.figures.paper.catalogue import CATALOGUE, lacking
-from disc_model.parameters import AUTO, Parameters, Positive, Real, Strict, Tolerance
+from disc_model.parameters import AUTO, Parameters, Positive, Real, Strict, Tolerance, leaves_modes
 from disc_model.simulation.case import CaseSpec, Poincare, Start, Window
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
@@ -286,6 +286,8 @@ def _parse_parameters(values: Any, place: Origin, faults: Faults) -> tuple[Param
     if not isinstance(values, Mapping):
         return None  # already reported by the schema
     try:
+        if not leaves_modes(values):
+            return Parameters.model_validate(values), "", ""
         p, asked = read_asked(values)
         if asked is None:
             return p, "", ""

@@ -18,7 +18,7 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Variable, attributes
 from disc_model.errors import DiscModelError, Status
-from disc_model.parameters import AUTO, Parameters
+from disc_model.parameters import AUTO, Parameters, leaves_modes
 from disc_model.simulation.case import START, Start
 from disc_model.studies.modes import chosen
 from disc_model.truncation import read_asked
@@ -113,6 +113,8 @@ def _made(base: Mapping[str, Any], varied: Mapping[str, Any]) -> Point:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
     values = {**base, **{name: value for name, value in varied.items() if name in Parameters.model_fields}}
     try:
+        if not leaves_modes(values):
+            return Parameters.model_validate(values)
         p, asked = read_asked(values)
         return p if asked is None else chosen(p, asked).parameters
     except DiscModelError as error:

@@ -24,7 +24,7 @@ from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
-from disc_model.parameters import AUTO, RESIDUAL, Count, Parameters, Strict, is_number
+from disc_model.parameters import AUTO, RESIDUAL, Count, Parameters, Strict, is_number, leaves_modes
 from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
 from disc_model.studies.files import (
     Faults,
@@ -415,7 +415,7 @@ def _quantity(raw: Mapping[str, Any], faults: Faults) -> Quantity | None:
 
 def _base(values: Mapping[str, Any], faults: Faults) -> tuple[dict[str, Any], dict[str, Any]]:
     """The base values that are right, N and Omega need not be among them; and what leaves the modes to each point."""
-    fixed, asked, more = asked_modes(values)
+    fixed, asked, more = asked_modes(values) if leaves_modes(values) else (dict(values), None, [])
     automatic: dict[str, Any] = {}
     if asked is not None:
         automatic = {"n_diameters": AUTO, "truncation_tolerance": asked.tolerance}
