@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import cycle
+from itertools import cycle, product
 from typing import Any
 
 import numpy as np
@@ -62,13 +62,13 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
     Where a method has no fixed order, the number is q of error ~ tol^q.
     """
     figure = new_figure(PAGE, 3.0)
-    left, right = figure.subplots(1, 2, sharey=True)
+    axes = figure.subplots(1, 2, sharey=True)
     part = dataset.sel(scene=scene)
-    for ax, error, letter in ((left, "event", "a"), (right, "state", "b")):
+    for ax, error, letter in zip(axes, ERRORS, "ab", strict=True):
         _cost_panel(ax, part, error, orders=True)
         parts.letter(ax, letter)
         ax.set_xlabel(ERRORS[error])
-    left.set_ylabel("Time per simulated second (s)")
+    axes[0].set_ylabel("Time per simulated second (s)")
     figure.legend(handles=_method_handles(part), loc="outside right center", title=TITLES[scene])
     return figure
 
@@ -76,17 +76,29 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
 @styled()
 def overview(dataset: xr.Dataset) -> Figure:
     """All scenes: cost against event-time error."""
-    figure = new_figure(PAGE, 4.6)
-    axes = np.ravel(figure.subplots(2, 2, sharey=True))
-    for ax, scene, letter in zip(axes, dataset["scene"].values, "abcd", strict=False):
+    scenes = dataset["scene"].values
+    figure, axes = _panels(len(scenes), "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
+    for ax, scene, letter in zip(axes, scenes, "abcd", strict=False):
         _cost_panel(ax, dataset.sel(scene=scene), "event", orders=False)
-        ax.set_title(f"({letter}) {TITLES[str(scene)]}", loc="left")
+        parts.letter(ax, letter, TITLES[str(scene)])
     for ax in axes[2:]:
         ax.set_xlabel(ERRORS["event"])
-    for ax in axes[::2]:
-        ax.set_ylabel("Time per simulated second (s)")
     figure.legend(handles=_method_handles(dataset), loc="outside right center")
     return figure
+
+
+def _panels(
+    count: int, ylabel: str, columns: int, row: float, more: float = 0.0, **shared: Any
+) -> tuple[Figure, list[Axes]]:
+    """As many panels; a row of them is `row` inches high, and `more` are left for the legend."""
+    rows = -(-count // columns)
+    figure = new_figure(PAGE, row * rows + more)
+    axes = list(np.ravel(figure.subplots(rows, columns, squeeze=False, **shared)))
+    for ax in axes[count:]:
+        ax.set_axis_off()
+    for ax in axes[::columns]:
+        ax.set_ylabel(ylabel)
+    return figure, axes[:count]
 
 
 def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None:
@@ -94,42 +106,39 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
     ax.set(xscale="log", yscale="log")
     wrong_at = 25.0
     labels: list[tuple[float, float, str, str]] = []
-    any_wrong = False
     for method in map(str, part["solver"].values):
         line = part.sel(solver=method)
-        color, marker, dash = _look(line)
+        look = _look(line)
+        look["markersize"] = 4.5 if look["marker"] == "*" else 3.5
         verdict, cost = line["verdict"].values, line["cost"].values
         x = line[f"{error}_error"].values
         right, wrong = np.isin(verdict, (0, 1)), verdict == 2
         bold = method == "series"
-        style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 4.5 if marker == "*" else 3.5}
-        ax.plot(x[right], cost[right], linestyle=dash, linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **style)
+        ax.plot(x[right], cost[right], linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **look)
         hollow = np.full(np.count_nonzero(wrong), wrong_at) if error == "event" else x[wrong]
-        ax.plot(hollow, cost[wrong], linestyle="", markerfacecolor="white", markeredgewidth=0.8, **style)
-        any_wrong |= bool(len(hollow)) and error == "event"
+        ax.plot(hollow, cost[wrong], **look | {"linestyle": "", "markerfacecolor": "white", "markeredgewidth": 0.8})
         order = float(line[f"order_{error}"])
         if orders and np.count_nonzero(right) and math.isfinite(order):
             finest = np.flatnonzero(right)[np.argmin(x[right])]
             fixed = math.isfinite(float(line["order_theory"]))
             text = f"{order:.1f}" if fixed else rf"$tol^{{{order:.1f}}}$"
-            labels.append((float(x[finest]), float(cost[finest]), text, color))
+            labels.append((float(x[finest]), float(cost[finest]), text, look["color"]))
     ax.set_xlim(1e-18, 300.0)
     ax.xaxis.set_major_locator(LogLocator(numticks=20))
     ax.set_xticks(10.0 ** np.arange(-15, 1, 3))
     ax.xaxis.set_minor_locator(NullLocator())
     if error == "event":
         ax.axvline(3.0, color=GREY, linewidth=0.5)
-        if any_wrong:
+        if (part["verdict"] == 2).any():
             ax.text(wrong_at, 1.01, "wrong\nevents", transform=ax.get_xaxis_transform(), ha="center", va="bottom",
                     fontsize=6, color=GREY, linespacing=0.9)  # fmt: skip
     for at_x, at_y, text, color in _spread(labels):
-        ax.annotate(text, (at_x, at_y), xytext=(-5, 0), textcoords="offset points", ha="right", va="center",
-                    fontsize=6.5, color=color, path_effects=_HALO, zorder=4)  # fmt: skip
+        parts.say(ax, text, (at_x, at_y), (-5, 0), fontsize=6.5, color=color, path_effects=_HALO, zorder=4)
 
 
-def _look(line: xr.Dataset) -> tuple[str, str, Any]:
+def _look(line: xr.Dataset) -> dict[str, Any]:
     """Colour, marker and line style of a method."""
-    return str(line["colour"].values), str(line["marker"].values), str(line["dash"].values)
+    return {"color": line["colour"].item(), "marker": line["marker"].item(), "linestyle": line["dash"].item()}
 
 
 def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float, float, str, str]]:
@@ -145,15 +154,9 @@ def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float
 
 def _method_handles(part: xr.Dataset) -> list[Line2D]:
     """Legend entries of the methods that have a point in this part."""
-    handles = []
-    for method in map(str, part["solver"].values):
-        line = part.sel(solver=method)
-        if not np.any(np.isin(line["verdict"].values, (0, 1, 2))):
-            continue
-        color, marker, dash = _look(line)
-        label = str(line["label"].values)
-        handles.append(Line2D([], [], color=color, marker=marker, markersize=4, linestyle=dash, label=label))
-    return handles
+    lines = [part.sel(solver=method) for method in part["solver"].values]
+    shown = [line for line in lines if np.isin(line["verdict"], (0, 1, 2)).any()]
+    return [Line2D([], [], markersize=4, label=line["label"].item(), **_look(line)) for line in shown]
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -191,16 +194,13 @@ def answers(dataset: xr.Dataset) -> Figure:
     """
     about = json.loads(dataset.attrs["questions"])
     names = [name for name in ANSWERS if name in dataset["answer"].values]
-    columns = min(3, len(names))
-    rows = -(-len(names) // columns)
-    figure = new_figure(PAGE, 0.7 + 2.1 * rows)
-    axes = np.ravel(figure.subplots(rows, columns, squeeze=False))
+    figure, axes = _panels(len(names), "Time on one core (s)", columns=min(3, len(names)), row=2.1, more=0.7)
     handles: dict[str, Line2D] = {}
     for ax, name, letter in zip(axes, names, "abcdef", strict=False):
         part = dataset.isel(row=dataset["answer"].values == name)
         ax.set(xscale="log", yscale="log", xlabel=ANSWERS[name])
         ax.margins(0.06)  # no marker cut at the edge
-        ax.set_title(f"({letter})", loc="left")
+        parts.letter(ax, letter)
         errors = part["error"].values
         positive = errors[np.isfinite(errors) & (errors > 0)]
         least = min(0.3 * float(positive.min(initial=math.inf)), 0.1 * about[name]["enough"])
@@ -213,31 +213,23 @@ def answers(dataset: xr.Dataset) -> Figure:
         ax.set_xlim(left=low)
         ax.xaxis.set_minor_formatter(NullFormatter())
         _number_models(ax, part.isel(row=np.isin(part["line"].values, MODELS)), least)
-    for ax in axes[::columns]:
-        ax.set_ylabel("Time on one core (s)")
-    for ax in axes[len(names) :]:
-        ax.set_axis_off()
     figure.legend(handles=list(handles.values()), loc="outside lower center", ncols=4)
     return figure
 
 
 def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -> Line2D | None:
     """Draw a line; returns its legend entry, if there is anything to draw."""
-    color, marker, dash = _look(points.isel(row=0))
+    look = _look(points.isel(row=0)) | {"markersize": 4.0} | ({"marker": ""} if counted else {})
     x, y = points["error"].values, points["seconds"].values
     found = np.isfinite(x)
-    size = 4.0
-    style: dict[str, Any] = {"color": color, "linestyle": dash, "marker": "" if counted else marker, "markersize": size}
-    drawn = np.maximum(x[found], least)
-    ax.plot(drawn, y[found], linewidth=0.9, **style)
+    ax.plot(np.maximum(x[found], least), y[found], linewidth=0.9, **look)
     denied = ~found & (points["verdict"].values == WRONG) & np.isfinite(y)
     if denied.any() and not counted:
-        edge = np.full(np.count_nonzero(denied), 0.97)
-        ax.plot(edge, y[denied], transform=ax.get_yaxis_transform(), linestyle="", marker=marker, color=color,
-                markerfacecolor="white", markersize=size)  # fmt: skip
+        edge = {"transform": ax.get_yaxis_transform(), "linestyle": "", "markerfacecolor": "white"}
+        ax.plot(np.full(denied.sum(), 0.97), y[denied], **look | edge)
     if not (found.any() or denied.any()):
         return None
-    return Line2D([], [], label=str(points["label"].values[0]), **style)
+    return Line2D([], [], label=points["label"].values[0], **look)
 
 
 APART = 0.045
@@ -272,26 +264,23 @@ def prices(dataset: xr.Dataset) -> Figure:
     ax = figure.subplots()
     colors = colormaps["YlGnBu"]
     norm = LogNorm(1e-3, 1e3)
-    for row, line in enumerate(lines):
-        for column, name in enumerate(names):
-            part = dataset.isel(row=(dataset["line"].values == line) & (dataset["answer"].values == name))
-            if part.sizes["row"]:
-                _price(ax, part, column, row, colors, norm)
+    for (row, line), (column, name) in product(enumerate(lines), enumerate(names)):
+        part = dataset.isel(row=(dataset["line"].values == line) & (dataset["answer"].values == name))
+        if part.sizes["row"]:
+            _price(ax, part, column, row, colors, norm)
     labels = [str(dataset["label"].values[dataset["line"].values == line][0]) for line in lines]
     ax.set_xticks(range(len(names)), [HEADS[name] for name in names], fontsize=7)
     ax.set_yticks(range(len(lines)), labels, fontsize=7)
     ax.set_xlim(-0.5, len(names) - 0.5)
     ax.set_ylim(len(lines) - 0.5, -0.5)
     ax.tick_params(length=0, top=False, labeltop=True, bottom=False, labelbottom=False)
-    for spine in ax.spines.values():
-        spine.set_visible(False)
+    ax.spines[:].set_visible(False)
     bar = figure.colorbar(ScalarMappable(norm, colors), ax=ax, shrink=0.7, pad=0.01)
     bar.set_label("Time on one core (s)")
     return figure
 
 
 def _price(ax: Axes, part: xr.Dataset, column: int, row: int, colors: Colormap, norm: LogNorm) -> None:
-    """A cell of `prices`."""
     verdict, seconds, setting = (part[name].values for name in ("verdict", "seconds", "setting"))
     right, wrong = verdict == RIGHT, verdict == WRONG
     face: Any = "#F4F4F4"
@@ -328,11 +317,11 @@ def _seconds(value: float) -> str:
 @styled()
 def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: verdict over setting and number of modes, with what explains the borders."""
-    figure, axes = _panels(len(maps), 1.45, 0.75)
-    used: set[int] = set()
-    for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
-        used |= _map_panel(ax, dataset, letter)
-    handles: list[Any] = [Patch(facecolor=SHADES[i], edgecolor=GREY, label=[*WORDS.values()][i]) for i in sorted(used)]
+    figure, axes = _map_panels(maps, SHADES, row=1.45, more=0.75)
+    for ax, dataset in zip(axes, maps, strict=True):
+        _map_borders(ax, dataset)
+    used = {int(verdict) for dataset in maps for verdict in np.unique(dataset["verdict"])}
+    handles: list[Any] = _verdict_patches({SHADES[i]: [*WORDS.values()][i] for i in sorted(used)})
     handles += [
         Line2D([], [], color=BLACK, linewidth=1.4, label=r"RK4: $h\,\omega_{max} = 2\sqrt{2}$"),
         Line2D([], [], color=BLACK, linestyle=":", linewidth=1.4, label="longest step = shortest phase"),
@@ -342,24 +331,31 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     return figure
 
 
-def _panels(count: int, height: float, more: float) -> tuple[Figure, list[Axes]]:
-    """Panels of maps, four a row; a row is `height` inches high, and `more` are left for the legend."""
-    columns = 4
-    rows = -(-count // columns)
-    figure = new_figure(PAGE, height * rows + more)
-    axes = list(np.ravel(figure.subplots(rows, columns, squeeze=False)))
-    for ax in axes[count:]:
-        ax.set_axis_off()
-    for ax in axes[::columns]:
-        ax.set_ylabel("Real modes")
-    return figure, axes[:count]
+@styled()
+def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
+    """One panel a method: whether it finds the first separation, over setting and number of modes."""
+    figure, _ = _map_panels(maps, ANSWER_SHADES, row=1.35, more=0.4)
+    handles = _verdict_patches(dict(zip(ANSWER_SHADES, ANSWER_WORDS, strict=True)))
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    return figure
 
 
-def _map_panel(ax: Axes, dataset: xr.Dataset, letter: str) -> set[int]:
-    """Draw a map; returns the verdicts that occur."""
-    _verdict_cells(ax, dataset, SHADES)
-    suffix = ", contact" if dataset.attrs["scene"] == "stick_slip" else ""
-    ax.set_title(f"({letter}) {dataset.attrs['label']}{suffix}", loc="left", fontsize=7)
+def _map_panels(maps: Sequence[xr.Dataset], shades: Sequence[str], **size: float) -> tuple[Figure, list[Axes]]:
+    figure, axes = _panels(len(maps), "Real modes", columns=4, **size)
+    for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
+        _verdict_cells(ax, dataset, shades)
+        suffix = ", contact" if dataset.attrs.get("scene") == "stick_slip" else ""
+        parts.letter(ax, letter, f"{dataset.attrs['label']}{suffix}", fontsize=7)
+    return figure, axes
+
+
+def _verdict_patches(words: Mapping[str, str]) -> list[Patch]:
+    """For legends: what shades of cells stand for."""
+    return [Patch(facecolor=shade, edgecolor=GREY, label=word) for shade, word in words.items()]
+
+
+def _map_borders(ax: Axes, dataset: xr.Dataset) -> None:
+    """Lines at what explains where a method fails."""
     setting = dataset.attrs["setting"]
     if setting == "step":
         _steps_line(ax, dataset["step_limit"].values, "-")
@@ -369,7 +365,6 @@ def _map_panel(ax: Axes, dataset: xr.Dataset, letter: str) -> set[int]:
         _steps_line(ax, dataset["stiff_epsilon"].values, "--")
     elif np.isfinite(dataset["longest_step"].values).any():
         _steps_line(ax, _crossing(dataset), ":")
-    return set(np.unique(dataset["verdict"]).astype(int).tolist())
 
 
 def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None:
@@ -383,21 +378,6 @@ def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None
     ax.set_xlim(edges[-1], edges[0])
     ax.set_yticks(np.arange(dataset.sizes["diameters"]), [f"{int(n)}" for n in dataset["modes"].values])
     ax.set_xlabel(SETTING_LABELS[dataset.attrs["setting"]], labelpad=1)
-
-
-@styled()
-def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
-    """One panel a method: whether it finds the first separation, over setting and number of modes."""
-    figure, axes = _panels(len(maps), 1.35, 0.4)
-    for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
-        _verdict_cells(ax, dataset, ANSWER_SHADES)
-        ax.set_title(f"({letter}) {dataset.attrs['label']}", loc="left", fontsize=7)
-    handles = [
-        Patch(facecolor=shade, edgecolor=GREY, label=word)
-        for shade, word in zip(ANSWER_SHADES, ANSWER_WORDS, strict=True)
-    ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
-    return figure
 
 
 def _steps_line(ax: Axes, x: np.ndarray, linestyle: str) -> None:
@@ -486,8 +466,8 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
     cases = json.loads(dataset.attrs["cases"])
     labels = [_case_said(cases[str(name)]) for name in dataset["case"].values]
-    handles = _look_handles(labels, filled="residual", hollow="rigid")
-    handles.append(Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found"))
+    gone = Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found")
+    handles = _look_handles(labels, gone, filled="residual", hollow="rigid")
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
@@ -532,8 +512,8 @@ def truncation(dataset: xr.Dataset) -> Figure:
     for ax in axes.values():
         ax.axvline(9, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
     circles = [f"{int(count)} nodal circle{'' if count == 1 else 's'}" for count in dataset["circles"].values]
-    handles = _look_handles(circles, filled="as published", hollow="orthonormal")
-    handles.append(Line2D([], [], color=GREY, linestyle=":", label="nine modes"))
+    nine = Line2D([], [], color=GREY, linestyle=":", label="nine modes")
+    handles = _look_handles(circles, nine, filled="as published", hollow="orthonormal")
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 
@@ -557,7 +537,7 @@ def _against_modes(
         ax.set_xscale("log")
         ax.set_yscale("log" if log else "linear")
         ax.margins(x=0.06)
-        ax.set_title(f"({letter}) {label}", loc="left", fontsize=7)
+        parts.letter(ax, letter, label, fontsize=7)
         ax.set_xticks(ticks, [str(tick) for tick in ticks])
         ax.xaxis.set_minor_formatter(NullFormatter())
         ax.yaxis.set_minor_formatter(NullFormatter())
@@ -566,7 +546,7 @@ def _against_modes(
     return figure, {name: ax for (name, _, _), ax in zip(panels, axes, strict=True)}
 
 
-def _look_handles(labels: Iterable[str], *, filled: str, hollow: str) -> list[Line2D]:
+def _look_handles(labels: Iterable[str], further: Line2D, *, filled: str, hollow: str) -> list[Line2D]:
     """For legends: what colours stand for, and what is filled or hollow."""
     style: dict[str, Any] = {"color": BLACK, "marker": "o", "markersize": 4}
     return [
@@ -574,6 +554,7 @@ def _look_handles(labels: Iterable[str], *, filled: str, hollow: str) -> list[Li
           for label, (color, marker) in zip(labels, cycle(_LOOKS))),
         Line2D([], [], linestyle="-", label=filled, **style),
         Line2D([], [], linestyle="--", markerfacecolor="white", label=hollow, **style),
+        further,
     ]  # fmt: skip
 
 

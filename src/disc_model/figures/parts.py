@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from textwrap import fill
@@ -13,8 +13,8 @@ import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
@@ -285,9 +285,26 @@ def disc_label(*windows: xr.Dataset) -> str:
     return rf"Disc at $r_0$, $\theta$ = {' and '.join(f'{angle:g}' for angle in angles)} (mm)"
 
 
-def disc_velocity_label(window: xr.Dataset) -> str:
-    """The axis of ``w_point_velocity``."""
-    return rf"Disc velocity at $r_0$, $\theta$ = {float(window.attrs['theta']):g} (m/s)"
+SAMPLED = {
+    "P": ("Contact force P (N)", 1.0),
+    "u": ("Slider u (mm)", 1e3),
+    "u_velocity": ("Slider du/dt (m/s)", 1.0),
+    "w": ("Disc under the slider w (mm)", 1e3),
+    "psi": ("ψ (rad)", 1.0),
+    "psi_velocity": ("dψ/dt (rad/s)", 1.0),
+}
+"""Label and factor from SI of what is sampled; those of the disc's fixed point also say where it is."""
+SAMPLED_COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}
+"""All others have that of the slider."""
+
+
+def sampled(name: str, window: xr.Dataset) -> tuple[str, float]:
+    """Label of the axis of a variable that was sampled in a window, and the factor from SI to its unit."""
+    if name == "w_point":
+        return disc_label(window), 1e3
+    if name == "w_point_velocity":
+        return rf"Disc velocity at $r_0$, $\theta$ = {float(window.attrs['theta']):g} (m/s)", 1.0
+    return SAMPLED[name]
 
 
 def mark_first_separation(ax: Axes, time: float) -> None:
@@ -299,36 +316,37 @@ def mark_first_separation(ax: Axes, time: float) -> None:
     say_above(ax, time, f"first separation {time:.2f} s", fontsize=7, color=SEPARATED)
 
 
+def say(ax: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **look: Any) -> None:
+    """A few words beside a place, on the side to which an offset in points goes."""
+    across, up = np.sign(offset)
+    ha, va = {-1: "right", 0: "center", 1: "left"}[across], {-1: "top", 0: "center", 1: "bottom"}[up]
+    ax.annotate(text, at, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
+
+
 def say_above(ax: Axes, x: float, text: str, **look: Any) -> None:
     """A few words above the panel."""
-    ax.annotate(
-        text, (x, 1), xycoords=("data", "axes fraction"), xytext=(0, 2), textcoords="offset points", ha="center",
-        va="bottom", **look,
-    )  # fmt: skip
+    say(ax, text, (x, 1), (0, 2), xycoords=("data", "axes fraction"), **look)
 
 
 def say_beside(ax: Axes, height: float, text: str) -> None:
     """A line's name at its right end, outside of the panel."""
-    ax.annotate(
-        text, (1, height), xycoords=("axes fraction", "data"), xytext=(2, 0), textcoords="offset points", va="center",
-        fontsize=6, color=GREY,
-    )  # fmt: skip
+    say(ax, text, (1, height), (2, 0), xycoords=("axes fraction", "data"), fontsize=6, color=GREY)
 
 
-def shade_cells(
-    ax: Axes, x: np.ndarray, y: np.ndarray, there: np.ndarray, color: str, label: str, alpha: float | None = None
-) -> None:
-    """Fill the cells around some points of a grid, there (len(y), len(x)); a grid of one row or column has none."""
-    if min(there.shape) < 2:
-        return
-    cells = np.ma.masked_where(~there, np.ones(there.shape))
-    ax.pcolormesh(x, y, cells, cmap=ListedColormap([color]), alpha=alpha, shading="nearest", rasterized=True)
-    ax.fill_between([], [], [], color=color, alpha=alpha, label=label)
+def letter(ax: Axes, text: str, said: str = "", **look: Any) -> None:
+    """A panel's letter above its upper left corner, and what it shows."""
+    ax.set_title(f"({text}) {said}".strip(), loc="left", **look)
 
 
-def letter(ax: Axes, text: str) -> None:
-    """A panel's letter above its upper left corner."""
-    ax.set_title(f"({text})", loc="left")
+def letters(axes: Sequence[Axes], said: Sequence[str], **look: Any) -> None:
+    """What panels show, each after its letter; a single one has none."""
+    for ax, text, one in zip(axes, "abcdef", said, strict=False):
+        ax.set_title(f"({text}) {one}" if len(axes) > 1 else one, loc="left", **look)
+
+
+def legend_above(ax: Axes, **look: Any) -> Legend:
+    """A legend in one row above the right end of the axes, where it hides nothing."""
+    return ax.legend(loc="lower right", bbox_to_anchor=(1, 1), **{"borderaxespad": 0.2, "ncols": 4, **look})
 
 
 def normalizations(study: xr.Dataset) -> list[str]:
@@ -341,6 +359,12 @@ def normalizations(study: xr.Dataset) -> list[str]:
 def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
     """A grid study's values for one normalization."""
     return study.sel(normalization=normalization) if "normalization" in study.dims else study
+
+
+def of_one(study: xr.Dataset, others: Mapping[str, xr.Dataset]) -> tuple[str, xr.Dataset, dict[str, xr.Dataset]]:
+    """The first normalization of a grid study, and the values of it and of further studies for that one."""
+    norm = normalizations(study)[0]
+    return norm, of(study, norm), {role: of(other, norm) for role, other in others.items()}
 
 
 def failed(study: xr.Dataset) -> xr.DataArray:

@@ -10,9 +10,9 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from disc_model.figures.cases.draw import AXES, draw
+from disc_model.figures.cases.draw import draw
 from disc_model.figures.cases.kinds import CASE_PLOTS
-from disc_model.figures.parts import save
+from disc_model.figures.parts import SAMPLED, save
 
 RATE = 4000.0
 TIME = np.arange(0, 3, 1 / RATE)
@@ -41,7 +41,7 @@ def drawn(case: xr.DataTree, kind: str, **said: Any) -> Figure:
 
 def test_a_history_has_a_panel_for_each_variable(case: xr.DataTree, tmp_path: Path) -> None:
     figure = drawn(case, "history", window="late", variables=["P", "w_point", "psi"], title="Seen")
-    assert figure.axes[0].get_ylabel() == AXES["P"][0]
+    assert figure.axes[0].get_ylabel() == SAMPLED["P"][0]
     assert len(figure.axes) == 3
     line = figure.axes[0].lines[0]
     assert np.array_equal(line.get_ydata(), case["late/P"].values)
@@ -66,7 +66,7 @@ def test_a_spectrogram_shows_the_frequency_that_is_there(case: xr.DataTree) -> N
 def test_a_portrait_is_coloured_by_phase(case: xr.DataTree) -> None:
     (ax,) = drawn(case, "portrait", window="late").axes
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["stick", "slip"]
-    assert ax.get_xlabel() == AXES["psi"][0]
+    assert ax.get_xlabel() == SAMPLED["psi"][0]
 
 
 def test_a_section_has_slider_and_disc(case: xr.DataTree) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from disc_model.figures.grids.kinds import Fault
-from disc_model.figures.paper.catalogue import HIGHEST, SHORTEST_SPECTRUM
+from disc_model.figures.paper.catalogue import HIGHEST, spectrum_faults
 from disc_model.parameters import Positive, Strict
 from disc_model.simulation.case import Poincare, Window
 
@@ -97,12 +97,9 @@ class Spectrogram(CasePlot):
 
     def _misfits(self, window: Any) -> Iterator[Fault]:
         yield from super()._misfits(window)
-        if isinstance(window, Poincare):
-            return
-        if window.stop - window.start < SHORTEST_SPECTRUM:
-            yield Fault(("window",), self.window, f"must be {SHORTEST_SPECTRUM:g} s long or more")
-        if window.rate < 2 * self.highest:
-            yield Fault(("window",), self.window, f"needs a rate of {2 * self.highest:g} Hz or more")
+        if not isinstance(window, Poincare):
+            for rule in spectrum_faults(window, self.highest):
+                yield Fault(("window",), self.window, rule)
 
 
 class Portrait(CasePlot):

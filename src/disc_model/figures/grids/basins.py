@@ -33,13 +33,8 @@ ASIDE = 0.06
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares) -> Figure:
-    """(a) shares of all starts, with intervals; (b) range of each attractor, its mark as large as its share; (c) kicks.
-
-    Parameters
-    ----------
-    study : of the quantity `basins`, over one parameter
-    """
-    study = parts.of(study, parts.normalizations(study)[0]).transpose(plot.x, ...)
+    """(a) shares of all starts; (b) range of each attractor, its mark as large as its share; (c) kicks."""
+    study = parts.of_one(study, {})[1].transpose(plot.x, ...)
     label, factor = parts.label_of(study[plot.x])
     along = study[plot.x].values * factor
     figure = new_figure(COLUMN, 5.6)
@@ -105,4 +100,4 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
                 place, 0.02, "0", color=SEPARATED, fontsize=7, ha="center", va="bottom",
                 transform=ax.get_xaxis_transform(),
             )  # fmt: skip
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, borderaxespad=0.2, columnspacing=0.9)
+    parts.legend_above(ax, columnspacing=0.9)

@@ -31,21 +31,16 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     was not steady yet.
 
     A cross says where a point failed, or the largest exponent is missing; a dash where the motion has nothing to
-    sample, as no switches.
-
-    Parameters
-    ----------
-    study : of the quantity `bifurcation`
-    others : ``lyapunov`` of that quantity over the same axis, for a panel below, if given
+    sample, as no switches.  The further study ``lyapunov``, if given, has a panel below.
     """
-    norm = parts.normalizations(study)[0]
-    study = parts.of(study, norm).transpose(plot.x, "sample", ...)
+    _, study, others = parts.of_one(study, others)
+    study = study.transpose(plot.x, "sample", ...)
     options = json.loads(study.attrs.get("options", "{}"))
     names = SWITCHES if options.get("section") == "switch" else {}
     figure = new_figure(PAGE, 4.5 if "lyapunov" in others else 3.1)
     axes = figure.subplots(2 if "lyapunov" in others else 1, 1, sharex=True, squeeze=False)[:, 0]
     ax = axes[0]
-    label, factor = parts.axis_of(plot.x)
+    xlabel, factor = parts.axis_of(plot.x)
     along, values = study[plot.x].values * factor, study[plot.variable].values * plot.scale
     position = np.broadcast_to(along[:, None], values.shape)
     lost = parts.failed(study).values
@@ -58,14 +53,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     for code, (name_of_phase, color) in enumerate(PHASE_COLOURS.items()):
         here = (phase == code) & ~unsteady
         if np.any(here):
-            ax.plot(
-                position[here],
-                values[here],
-                ".",
-                color=color,
-                markersize=1.5,
-                label=names.get(name_of_phase, name_of_phase),
-            )
+            label = names.get(name_of_phase, name_of_phase)
+            ax.plot(position[here], values[here], ".", color=color, markersize=1.5, label=label)
     parts.mark_failed(ax, along[lost])
     idle = along[(phase == -1).all(axis=1) & ~lost]
     if idle.size:
@@ -73,16 +62,15 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
         ax.plot(idle, low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="slides steadily")
     unit = study[plot.variable].attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
-    axes[-1].set_xlabel(label)
+    axes[-1].set_xlabel(xlabel)
     ax.set_ylabel(f"{parts.MOTION[plot.variable]} ({prefix}{unit.replace(' s-1', '/s')})")
     if "lyapunov" in others:
-        exponents = parts.without_failed(parts.of(others["lyapunov"], norm), "exponent", "exponent_error")
+        exponents = parts.without_failed(others["lyapunov"], "exponent", "exponent_error")
         _exponents(axes[1], exponents, plot.x)
-    legend = ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, borderaxespad=0.2)
-    for handle in legend.legend_handles:  # dots of the diagram are too small for it
+    for handle in parts.legend_above(ax).legend_handles:  # dots of the diagram are too small for it
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
-    parts.head(figure, study, plot.title or study.attrs.get("title", ""))
+    parts.head(figure, study, plot.title)
     figure.supxlabel(_start(options), fontsize=7, x=1, ha="right")
     return figure
 
@@ -119,4 +107,4 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
         ax.plot([], [], label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
     ax.set_ylabel("Lyapunov exponents" + (",\ntrivial one left out" if "along" in lyapunov else "") + " (1/s)")
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=4, borderaxespad=0.2)
+    parts.legend_above(ax)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -166,11 +165,10 @@ def alone(rate: Array) -> NDArray[np.bool_]:
     """
     place = np.where(np.isfinite(rate), growth_norm()(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(place, 1, constant_values=np.nan)
-    rows, columns = rate.shape
-    around = [padded[i : i + rows, j : j + columns] for i, j in product(range(3), range(3)) if (i, j) != (1, 1)]
-    like = np.any([np.abs(place - other) < UNLIKE for other in around], axis=0)
-    some = np.any([np.isfinite(other) for other in around], axis=0)
-    return np.isfinite(rate) & some & ~like
+    around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
+    like = np.abs(place[..., None, None] - around) < UNLIKE
+    # each is like itself
+    return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
 
 
 def cycle_patches(words: Collection[str]) -> list[Patch]:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -40,22 +41,14 @@ WIDTH = 20.0
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
-    """(a) speeds at which separation begins within each horizon, (b) the same beside a sweep of the speed.
-
-    Parameters
-    ----------
-    study : of the quantity `critical_speed`, over N
-    others : ``hysteresis`` of that quantity, over N; ``cycle`` of the quantity `floquet` over N and Omega; ``basins``
-        of that quantity, over Omega; if given
-    """
-    norm = parts.normalizations(study)[0]
-    study = parts.without_failed(parts.of(study, norm), "critical_speed", "crossing")
-    sweep = others.get("hysteresis")
+    """(a) speeds at which separation begins within each horizon, (b) the same beside a sweep of the speed."""
+    norm, study, others = parts.of_one(study, others)
+    study = parts.without_failed(study, "critical_speed", "crossing")
+    sweep, cycle = others.get("hysteresis"), others.get("cycle")
     figure = new_figure(PAGE if sweep is not None else COLUMN, 3.4)
     axes = figure.subplots(1, 2 if sweep is not None else 1, sharey=True, squeeze=False)[0]
     scan = study["scan_Omega"].values
     behind: list[Patch] = []
-    cycle = parts.of(others["cycle"], norm) if "cycle" in others else None
     if cycle is not None:
         behind = draw_behind(axes[0], cycle.sel(Omega=slice(scan[0], scan[-1])), "N", "Omega")
         if "outcome" in cycle:
@@ -65,25 +58,18 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
         points = np.array(list(plot.claim.values()))
         axes[0].plot(*points.T, linestyle="", label="what the paper says", zorder=5, clip_on=False, **parts.PAPER_SAYS)
     if sweep is not None:
-        sweep = parts.without_failed(parts.of(sweep, norm), "onset", "persists_to")
+        sweep = parts.without_failed(sweep, "onset", "persists_to")
         if "basins" in others:
-            _measured(axes[1], parts.of(others["basins"], norm))
+            _measured(axes[1], others["basins"])
         elif cycle is not None:
             _both(axes[1], cycle, sweep)
         _sweep(axes[1], sweep, study)
-    said = parts.MODES[norm]
-    for ax, letter in zip(axes, "ab", strict=False):
+    parts.letters(axes, [parts.MODES[norm]] * len(axes))
+    for ax in axes:
         ax.set(xlabel="Preload N (N)", xlim=(0, 1.03 * float(study["N"].max())), ylim=(scan[0] - 0.5, 1.02 * scan[-1]))
-        ax.set_title(f"({letter}) {said}" if len(axes) > 1 else said, loc="left")
-        handles = ax.get_legend_handles_labels()[0] + (behind if ax is axes[0] else [])
-        ax.legend(
-            handles=handles,
-            loc="upper left",
-            bbox_to_anchor=(0, -0.22),
-            ncols=2 if ax is axes[0] else 1,
-            columnspacing=1.0,
-            borderaxespad=0,
-        )
+        below: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0, -0.22), "borderaxespad": 0}
+        handles, columns = (behind, 2) if ax is axes[0] else ([], 1)
+        ax.legend(handles=ax.get_legend_handles_labels()[0] + handles, ncols=columns, columnspacing=1.0, **below)
     axes[0].set_ylabel("Speed Ω (rad/s)")
     return figure
 
@@ -99,7 +85,11 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     lowest = np.interp(loads, sweep["N"].values, sweep["persists_to"].values, left=np.nan, right=np.nan)
     highest = float(sweep["sweep_Omega"].max())
     there = (rate.values < 0) & (speeds[:, None] >= lowest[None, :]) & (speeds[:, None] <= highest)
-    parts.shade_cells(ax, loads, speeds, there, ORANGE, "quiet or separating,\nnot measured", 0.25)
+    if min(there.shape) > 1:
+        cells = np.ma.masked_where(~there, np.ones(there.shape))
+        flat = ListedColormap([ORANGE])
+        ax.pcolormesh(loads, speeds, cells, cmap=flat, alpha=0.25, shading="nearest", rasterized=True)
+        ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating,\nnot measured")
 
 
 def _measured(ax: Axes, basins: xr.Dataset) -> None:

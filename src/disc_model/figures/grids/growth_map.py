@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -65,10 +65,7 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
 
 
 def _tongue(one: xr.Dataset) -> Tongue:
-    numbers = {
-        name: one[f"tongue_{name}"].item() for name in ("harmonic", "frequency", "diameters", "sign", "detuning")
-    }
-    return Tongue(**numbers)
+    return Tongue(**{field.name: one[f"tongue_{field.name}"].item() for field in fields(Tongue)})
 
 
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
@@ -113,13 +110,9 @@ def _and_next(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return there | np.concatenate([[False], there[:-1]])
 
 
-def unfollowed(data: xr.Dataset) -> int:
-    """Number of places at which a curve could not be followed."""
-    return int(data["n_unfollowed"].sum())
-
-
-def unfollowed_handle(lost: Sequence[int]) -> list[Line2D]:
+def unfollowed_handle(curves: Sequence[xr.Dataset]) -> list[Line2D]:
     """For legends: at how many places curves stop that could not be followed, by panel; nothing if at none."""
+    lost = [int(data["n_unfollowed"].sum()) for data in curves]
     if not any(lost):
         return []
     each = zip("abcdef", lost, strict=False)
@@ -141,16 +134,8 @@ def draw_curve(ax: Axes, curve: Curve, number: int = 0) -> None:
     ax.plot(curve.Omega, curve.N, **parts.border(curve.kind) | {"label": "_nolegend_"})
     if number and np.isfinite(curve.N).any():
         i = int(np.nanargmax(curve.N))
-        ax.annotate(
-            str(number),
-            (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1])),
-            xytext=(0, 2),
-            textcoords="offset points",
-            fontsize=6,
-            ha="center",
-            va="bottom",
-            annotation_clip=False,
-        )
+        end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
+        parts.say(ax, str(number), end, (0, 2), fontsize=6, annotation_clip=False)
 
 
 def numbers_of(curves: Sequence[Curve]) -> dict[str, int]:
@@ -161,23 +146,9 @@ def numbers_of(curves: Sequence[Curve]) -> dict[str, int]:
 
 def number_handles(numbers: Mapping[str, int]) -> list[Line2D]:
     """For legends: what the numbers stand for."""
-    return [
-        Line2D(
-            [],
-            [],
-            linestyle="",
-            marker=f"${number}$",
-            color=BLACK,
-            markersize=4,
-            markeredgewidth=0,
-            label=_shown(label),
-        )
-        for label, number in numbers.items()
-    ]
-
-
-def _shown(label: str) -> str:
-    return label.replace("f_s", "$f_s$")
+    look: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
+    said = {label.replace("f_s", "$f_s$"): number for label, number in numbers.items()}
+    return [Line2D([], [], marker=f"${number}$", label=label, **look) for label, number in said.items()]
 
 
 def span(values: Array) -> tuple[float, float]:
@@ -190,13 +161,7 @@ def span(values: Array) -> tuple[float, float]:
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
-    """A panel for each normalization.
-
-    Parameters
-    ----------
-    study : of the quantity `floquet` or `regions` over N and Omega
-    others : ``curves`` of the quantity `stability_curves` over Omega and N, if they are to be shown
-    """
+    """A panel for each normalization, with the further study ``curves`` if it is given."""
     norms = parts.normalizations(study)
     figure = new_figure(PAGE if len(norms) > 1 else COLUMN, 2.9)
     axes = list(figure.subplots(1, len(norms), sharey=True, squeeze=False)[0])
@@ -205,7 +170,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -
         curves = curves_of(parts.of(others["curves"], norm)) if "curves" in others else []
         shown[norm], other[norm] = parted(curves, parts.of(study, norm))
     numbers = numbers_of([curve for curves in shown.values() for curve in curves])
-    for ax, norm, letter in zip(axes, norms, "abcdef", strict=False):
+    parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=9)
+    for ax, norm in zip(axes, norms, strict=True):
         grid = parts.of(study, norm)
         mesh = growth_cells(ax, grid, "Omega", "N")
         gaps |= set(cycles_of(grid, "Omega", "N").flat)
@@ -214,15 +180,13 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -
             ax.plot(curve.Omega, curve.N, **OTHER)
         for curve in shown[norm]:
             draw_curve(ax, curve, numbers.get(curve.label, 0))
-        ax.set_title(f"({letter}) {parts.MODES[norm]}" if len(norms) > 1 else parts.MODES[norm], loc="left", pad=9)
     axes[0].set_ylabel(LOAD)
     kinds = {curve.kind for curves in shown.values() for curve in curves}
     handles: list[Artist] = [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
     handles += [Line2D([], [], **OTHER)] if any(other.values()) else []
     handles += [*cycle_patches(gaps), *number_handles(numbers)]
     if "curves" in others:
-        lost = [unfollowed(parts.of(others["curves"], norm)) for norm in norms]
-        handles += unfollowed_handle(lost)
+        handles += unfollowed_handle([parts.of(others["curves"], norm) for norm in norms])
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
     growth_bar(figure, mesh, axes)

@@ -13,22 +13,16 @@ from matplotlib.figure import Figure
 from disc_model.figures import parts
 from disc_model.figures.grids.growth_map import Curve, crossings, curves_of
 from disc_model.figures.grids.kinds import RampedSpeeds
-from disc_model.figures.parts import COLUMN, END, GREY, ONSET, new_figure, styled
+from disc_model.figures.parts import COLUMN, END, ONSET, new_figure, styled
 
 BEYOND = "none up to the highest speed"
 
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
-    """One point.
-
-    Parameters
-    ----------
-    study : of the quantity `ramps`
-    others : ``curves`` of the quantity `stability_curves` over Omega and N, for the speeds at which the cycle ends
-    """
-    norm = parts.normalizations(study)[0]
-    study = parts.of(study, norm).squeeze()
+    """One point; with the further study ``curves``, the speeds at which the cycle ends."""
+    norm, study, others = parts.of_one(study, others)
+    study = study.squeeze()
     options = json.loads(study.attrs["options"])
     rates, onset, end = (study[name].values for name in ("rate", "onset", "persists_to"))
     gone = study["rate_status"].values != 0
@@ -41,7 +35,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
         top = np.full(late.size, options["high"])
         ax.plot(late, top, "^", color=ONSET, markersize=4, markerfacecolor="white", clip_on=False, label=BEYOND)
     if "curves" in others:
-        _folds(ax, curves_of(parts.of(others["curves"], norm)), study, options)
+        _folds(ax, curves_of(others["curves"]), study, options)
     parts.mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)
@@ -64,7 +58,4 @@ def _folds(ax: Axes, curves: list[Curve], study: xr.Dataset, options: Mapping[st
     for i, speed in enumerate(folds[(folds > options["low"]) & (folds < options["high"])]):
         style = parts.border("fold") | ({"label": "_nolegend_"} if i else {})
         ax.axhline(speed, **style, zorder=0)
-        ax.annotate(
-            f"{speed:.2f}", (1, speed), xycoords=("axes fraction", "data"), xytext=(2, 0), textcoords="offset points",
-            va="center", fontsize=6, color=GREY,
-        )  # fmt: skip
+        parts.say_beside(ax, speed, f"{speed:.2f}")

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.branches import branches, name_branches
+from disc_model.figures.grids.branches import Mask, branches, name_branches
 from disc_model.figures.grids.cells import (
     OUTCOMES,
     cycle_patches,
@@ -39,13 +39,7 @@ PALER = 0.35
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
-    """Two panels for each normalization: outcomes, and growth rates; the paper's cases are marked.
-
-    Parameters
-    ----------
-    study : of the quantity `regions`
-    others : none
-    """
+    """Two panels for each normalization: outcomes, and growth rates; the paper's cases are marked."""
     norms = parts.normalizations(study)
     figure = new_figure(PAGE, 5.6)
     axes = figure.subplots(2, len(norms), sharex=True, sharey=True, squeeze=False)
@@ -57,8 +51,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
         mesh = growth_cells(axes[1, column], one, plot.x, plot.y)
         are_named |= _branches(axes[1, column], one, plot)
         for row in range(2):
-            letter = "abcdef"[row * len(norms) + column]
-            axes[row, column].set_title(f"({letter}) {parts.MODES[norm] if row == 0 else ''}", loc="left")
+            parts.letter(axes[row, column], "abcd"[row * len(norms) + column], "" if row else parts.MODES[norm])
             kinds |= _borders(axes[row, column], one, plot)
     set_scales(axes, study, plot)
     for ax, norm in zip(axes[0], norms, strict=True):
@@ -95,26 +88,25 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> set[str]:
     stable, unstable = growth < 0, growth > 0
     gone = words_of(data, "cycle", plot.x, plot.y) == "none_found"
     gone &= words_of(data, "outcome", plot.x, plot.y) != "stable"
-    joined = _joined(data, plot)
     lines: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
-    for axis in (0, 1):
-        here, ahead = ([slice(None, -1), slice(1, None)][i] for i in (0, 1))
-        one = (here, slice(None)) if axis == 0 else (slice(None), here)
-        two = (ahead, slice(None)) if axis == 0 else (slice(None), ahead)
-        changes = (stable[one] & unstable[two]) | (unstable[one] & stable[two])
-        ends = (stable[one] & gone[two]) | (gone[one] & stable[two])
-        for kind, there in (("neutral", changes & joined[axis][one]), ("fold", ends)):
-            for i, j in np.argwhere(there):
-                if axis == 0:
-                    lines[kind].append([(x[j], y[i + 1]), (x[j + 1], y[i + 1])])
-                else:
-                    lines[kind].append([(x[j + 1], y[i]), (x[j + 1], y[i + 1])])
+    up, right = _joined(data, plot)
+
+    def between(here: tuple[slice, ...], ahead: tuple[slice, ...], joined: Mask) -> dict[str, NDArray[np.int64]]:
+        """Between which cells and the next ones a line is."""
+        changes = (stable[here] & unstable[ahead]) | (unstable[here] & stable[ahead])
+        ends = (stable[here] & gone[ahead]) | (gone[here] & stable[ahead])
+        return {"neutral": np.argwhere(changes & joined[here]), "fold": np.argwhere(ends)}
+
+    for kind, places in between(np.s_[:-1, :], np.s_[1:, :], up).items():
+        lines[kind] += [[(x[j], y[i + 1]), (x[j + 1], y[i + 1])] for i, j in places]
+    for kind, places in between(np.s_[:, :-1], np.s_[:, 1:], right).items():
+        lines[kind] += [[(x[j + 1], y[i]), (x[j + 1], y[i + 1])] for i, j in places]
     ax.add_collection(LineCollection(lines["neutral"], capstyle="projecting", **parts.border("neutral")))
     ax.add_collection(LineCollection(lines["fold"], **parts.border("fold")))
     return {kind for kind, found in lines.items() if found}
 
 
-def _joined(data: xr.Dataset, plot: RegionMap) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _joined(data: xr.Dataset, plot: RegionMap) -> tuple[Mask, Mask]:
     """Whether the cycle goes on upwards, and to the right; the study's plane may lie the other way round."""
     first = str(data["outcome"].dims[0])
     names = ("joined_first", "joined_second") if first == plot.y else ("joined_second", "joined_first")
@@ -123,26 +115,11 @@ def _joined(data: xr.Dataset, plot: RegionMap) -> tuple[NDArray[np.bool_], NDArr
 
 
 def _marks(ax: Axes, plot: RegionMap) -> None:
-    """The paper's cases: their names above the panel, and large marks in the shape of what the paper says of them."""
+    """The paper's cases, their names within the panel."""
+    to_panel = ax.transScale + ax.transLimits
     for name, mark in plot.marks.items():
-        at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
-        paper_ring(ax, at, mark.paper)
-        low, high = ax.get_xlim()
-        to_axis = ax.xaxis.get_transform()
-        share = (to_axis.transform(at[0]) - to_axis.transform(low)) / (to_axis.transform(high) - to_axis.transform(low))
-        right = share > 0.85
-        ax.annotate(
-            name,
-            at,
-            xytext=(-6 if right else 6, 0),
-            textcoords="offset points",
-            ha="right" if right else "left",
-            va="center",
-            fontsize=7,
-            zorder=5,
-            path_effects=parts.halo(2.0),
-            annotation_clip=False,
-        )
+        share, _ = to_panel.transform((mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1]))
+        paper_ring(ax, plot, name, (-6 if share > 0.85 else 6, 0), path_effects=parts.halo(2.0))
 
 
 def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap, kinds: Collection[str], are_named: bool) -> None:

@@ -129,10 +129,8 @@ def _bars(ax: Axes, cell: xr.Dataset, labelled: bool) -> None:
         for where, index in zip(at, value, strict=True):
             if not SPAN[0] <= np.nan_to_num(index) <= SPAN[1]:
                 edge, aside = (SPAN[1], 3) if index > 0 else (SPAN[0], -3)
-                ax.annotate(
-                    f"{index:.1f}".replace("-", "−"), (edge, where), (aside, 0), textcoords="offset points", fontsize=6,
-                    ha="left" if index > 0 else "right", va="center", annotation_clip=False,
-                )  # fmt: skip
+                said = f"{index:.1f}".replace("-", "−")
+                parts.say(ax, said, (edge, where), (aside, 0), fontsize=6, annotation_clip=False)
     ax.axvline(0, color=BLACK, linewidth=0.5)
     ax.set_yticks(place, labels=[symbol(name) for name in names] if labelled else [""] * len(names))
     ax.minorticks_off()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -18,53 +18,36 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import OUTCOMES as FILLED
-from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
+from disc_model.figures.grids.cells import OUTCOMES, cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
 from disc_model.figures.grids.kinds import StabilityMap
 from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure, styled
 
-
-class Look(NamedTuple):
-    """How an outcome is drawn."""
-
-    label: str
-    marker: str
-    face: str
-    size: float
-
-
-OUTCOMES = {
-    "stable": Look(FILLED["stable"].label, "o", "white", 9),
-    "unstable": Look(FILLED["unstable"].label, "^", "#9a9a9a", 13),
-    "separation": Look(FILLED["separation"].label, "s", BLACK, 10),
-    "unknown": Look(FILLED["unknown"].label, "x", BLACK, 12),
+MARKS = {
+    "stable": ("o", "white", 9),
+    "unstable": ("^", "#9a9a9a", 13),
+    "separation": ("s", BLACK, 10),
+    "unknown": ("x", BLACK, 12),
 }
+"""Shape, face and area of the mark of each outcome."""
 LARGE = 55.0
-"""Size of their marks."""
+"""Area of the marks of the paper."""
 
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
-    """One panel for each normalization; the paper's cases are marked in that of the published modes.
-
-    Parameters
-    ----------
-    study : of the quantity `outcome`
-    others : ``growth`` of the quantity `floquet`, over the same parameters, if it is to be shown
-    """
+    """One panel for each normalization; the paper's cases are marked in that of the published modes."""
     norms = parts.normalizations(study)
     figure = new_figure(PAGE, 3.3)
     axes = figure.subplots(1, len(norms), sharex=True, sharey=True, squeeze=False)[0]
     mesh: QuadMesh | None = None
     gaps: set[str] | None = None
-    for ax, norm, letter in zip(axes, norms, "abcd", strict=False):
+    parts.letters(axes, [parts.MODES[norm] for norm in norms])
+    for ax, norm in zip(axes, norms, strict=True):
         if "growth" in others:
             growth = parts.of(others["growth"], norm)
             mesh = _background(ax, growth, plot)
             gaps = {*(gaps or ()), *cycles_of(growth, plot.x, plot.y).flat}
         _points(ax, parts.of(study, norm), plot)
-        panel = f"({letter}) " if len(norms) > 1 else ""
-        ax.set_title(f"{panel}{parts.MODES[norm]}", loc="left")
         if norm == "as_published":
             _marks(ax, study, plot)
     set_scales(axes[None, :], study, plot)
@@ -87,62 +70,42 @@ def _background(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> QuadMesh:
 def _points(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
     x, y = np.meshgrid(*(study[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y)))
     outcome = flag_names(study["outcome"].transpose(plot.y, plot.x))
-    for name, look in OUTCOMES.items():
+    for name, (marker, face, size) in MARKS.items():
         there = outcome == name
-        ax.scatter(
-            x[there],
-            y[there],
-            look.size,
-            marker=look.marker,
-            facecolor=look.face,
-            edgecolor=BLACK if look.marker != "x" else None,
-            linewidth=0.5,
-            zorder=3,
-            clip_on=False,
-        )
+        edge = BLACK if marker != "x" else None
+        look: dict[str, Any] = {"marker": marker, "facecolor": face, "edgecolor": edge, "linewidth": 0.5}
+        ax.scatter(x[there], y[there], size, zorder=3, clip_on=False, **look)
 
 
 def _marks(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
-    """The paper's cases: their names, and large marks in the shape of what the paper says of them."""
+    """The paper's cases, their names towards the middle of the panel."""
+    box = {"boxstyle": "round,pad=0.1", "facecolor": "white", "alpha": 0.85, "linewidth": 0}
     for name, mark in plot.marks.items():
-        at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
-        paper_ring(ax, at, mark.paper)
         leftward, downward = _far(study[plot.x].values, mark.x), _far(study[plot.y].values, mark.y)
-        ax.annotate(
-            name,
-            at,
-            xytext=(-6 if leftward else 6, -5 if downward else 5),
-            textcoords="offset points",
-            ha="right" if leftward else "left",
-            va="top" if downward else "bottom",
-            fontsize=7,
-            zorder=5,
-            bbox={"boxstyle": "round,pad=0.1", "facecolor": "white", "alpha": 0.85, "linewidth": 0},
-            annotation_clip=False,
-        )
+        paper_ring(ax, plot, name, (-6 if leftward else 6, -5 if downward else 5), bbox=box)
 
 
-def paper_ring(ax: Axes, at: tuple[float, float], outcome: str) -> None:
-    """A large open mark in the shape of what the paper says."""
+def paper_ring(ax: Axes, plot: StabilityMap, name: str, offset: tuple[float, float], **look: Any) -> None:
+    """A case of the paper: a large open mark in the shape of what the paper says, and beside it its name."""
+    mark = plot.marks[name]
+    at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
+    ring: dict[str, Any] = {"marker": MARKS[mark.paper][0], "facecolor": "none", "zorder": 4, "clip_on": False}
     for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
-        ax.scatter(
-            *at, LARGE, marker=OUTCOMES[outcome].marker, facecolor="none", edgecolor=color, linewidth=width, zorder=4,
-            clip_on=False,
-        )  # fmt: skip
+        ax.scatter(*at, LARGE, edgecolor=color, linewidth=width, **ring)
+    parts.say(ax, name, at, offset, fontsize=7, zorder=5, annotation_clip=False, **look)
 
 
 def paper_rings(plot: StabilityMap) -> list[Line2D]:
     """For legends: one for each shape among the marks."""
-    said = {name: f"the paper: {look.label}" for name, look in OUTCOMES.items()}
-    said = {name: label for name, label in said.items() if name in {mark.paper for mark in plot.marks.values()}}
+    said = {mark.paper for mark in plot.marks.values()}
+    edge = [withStroke(linewidth=2.4, foreground=BLACK)]
+    ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "path_effects": edge}
+    ring |= {"markeredgewidth": 1.4, "markeredgecolor": PAPER}
     return [
-        Line2D(
-            [], [], linestyle="", marker=OUTCOMES[name].marker, markerfacecolor="none", markersize=6,
-            markeredgewidth=1.4, markeredgecolor=PAPER, path_effects=[withStroke(linewidth=2.4, foreground=BLACK)],
-            label=label,
-        )
-        for name, label in said.items()
-    ]  # fmt: skip
+        Line2D([], [], marker=marker, label=f"the paper: {OUTCOMES[name].label}", **ring)
+        for name, (marker, *_) in MARKS.items()
+        if name in said
+    ]
 
 
 def _far(values: np.ndarray, value: float) -> bool:
@@ -161,11 +124,9 @@ def set_scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
         scale = scale_of(name, values)
         for ax in axes.flat:
             axis = ax.xaxis if which == "x" else ax.yaxis
-            if scale == "log":
-                ax.set(**{f"{which}scale": "log"})
-            elif scale == "symlog":
-                getattr(ax, f"set_{which}scale")("symlog", linthresh=values[1], linscale=0.4)
             if scale != "linear":
+                start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
+                getattr(ax, f"set_{which}scale")(scale, **start)
                 axis.set_major_locator(FixedLocator(_round_values(values)))
                 axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
                 axis.set_minor_formatter(NullFormatter())
@@ -190,9 +151,9 @@ def _legend(figure: Figure, study: xr.Dataset, gaps: Collection[str] | None, rin
     """gaps : what there is where no cycle is, if growth is shown"""
     present = set(np.unique(flag_names(study["outcome"])))
     handles: list[Artist] = [
-        Line2D([], [], linestyle="", marker=look.marker, markerfacecolor=look.face, markeredgecolor=BLACK,
-               markeredgewidth=0.5, markersize=look.size**0.5, label=look.label)
-        for name, look in OUTCOMES.items()
+        Line2D([], [], linestyle="", marker=marker, markerfacecolor=face, markeredgecolor=BLACK,
+               markeredgewidth=0.5, markersize=size**0.5, label=OUTCOMES[name].label)
+        for name, (marker, face, size) in MARKS.items()
         if name in present
     ]  # fmt: skip
     if gaps is not None:

@@ -24,7 +24,6 @@ from disc_model.figures.grids.growth_map import (
     numbers_of,
     parted,
     span,
-    unfollowed,
     unfollowed_handle,
 )
 from disc_model.figures.grids.kinds import Thresholds
@@ -48,37 +47,31 @@ MARKS: dict[str, Any] = {"color": ONSET, "marker": "o", "markersize": 3, "linewi
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Thresholds) -> Figure:
     """Where the cycle becomes unstable or ends, and where separation follows within a stated time, on one chart.
 
-    Parameters
-    ----------
-    study : of the quantity `critical_speed`, over N
-    others : ``curves`` of the quantity `stability_curves` over Omega and N; ``cycle`` of the quantity `regions` or
-        `floquet` over the same, if given: what is behind, and which curves are of the cycle that it shows
+    The further study ``cycle``, if given, says what is behind, and which curves are of the cycle that it shows.
     """
-    norm = parts.normalizations(study)[0]
-    study = parts.of(study, norm)
+    norm, study, others = parts.of_one(study, others)
     lost = parts.failed(study).values
-    curves_data = parts.of(others["curves"], norm)
-    cycle = _scanned(parts.of(others["cycle"], norm), study) if "cycle" in others else None
+    cycle = _scanned(others["cycle"], study) if "cycle" in others else None
     horizon = horizon_of(study, cycle)
     figure = new_figure(COLUMN, 3.8)
     ax = figure.subplots()
     loads = study["N"].values
     ax.set_ylim(0.95 * loads.min(), 1.02 * loads.max())
     parts.mark_failed(ax, loads[lost], on="y")
-    study = study.isel(N=np.argsort(loads)[~lost[np.argsort(loads)]])
+    study = study.isel(N=~lost).sortby("N")
     behind: list[Patch] = []
     if cycle is not None:
         ax.set_xlim(*span(cycle["Omega"].values))
         behind = draw_behind(ax, cycle, "Omega", "N") if "outcome" in cycle else _growing(ax, cycle, study, horizon)
-    numbers = _curves(ax, curves_of(curves_data), cycle)
+    numbers = _curves(ax, curves_of(others["curves"]), cycle)
     draw_onsets(ax, study, horizon, load_along="y", label="separation begins", zorder=1.9, **MARKS)
     handles = [*ax.get_legend_handles_labels()[0], *behind]
     if draw_ends(ax, study, horizon, load_along="y", **MARKS):
         handles.append(ends_handle("o", ONSET))
-    for load, speed in plot.claim.values():
-        (mark,) = ax.plot(speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, label="what the paper says")
-        handles = [*(one for one in handles if one.get_label() != mark.get_label()), mark]
-    handles += number_handles(numbers) + unfollowed_handle([unfollowed(curves_data)])
+    if plot.claim:
+        load, speed = np.transpose([*plot.claim.values()])
+        handles += ax.plot(speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, label="what the paper says")
+    handles += number_handles(numbers) + unfollowed_handle([others["curves"]])
     ax.set(xlabel=SPEED, ylabel=LOAD)
     ax.set_title(f"{parts.MODES[norm]}, within {horizon:g} s", loc="left", pad=9)
     figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=1.0)

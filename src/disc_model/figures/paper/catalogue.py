@@ -59,6 +59,22 @@ def _section(section: str, case: str, title: str, what: str) -> Entry:
     return Entry(section, f"Poincare sections, {title}", text, {case: ("poincare",)}, "sections.sections")
 
 
+def _ranges(case: str, title: str, options: Mapping[str, Any]) -> Entry:
+    text = "(a) Contact force, (b) disc at r_0 and {theta}, as ranges."
+    return Entry("4.2", title, text, {case: ("history",)}, "histories.force_and_disc", options)
+
+
+def _response(case: str, title: str, text: str, variable: str, window: str, **options: Any) -> Entry:
+    windows = ("history", window, *(name for name, _ in options.get("zooms", ())))
+    options |= {"variable": variable, "window": window}
+    return Entry("4.4", title, text, {case: tuple(dict.fromkeys(windows))}, "spectra.response", options)
+
+
+def _portrait(case: str, title: str, what: str) -> Entry:
+    text = f"Phase portrait of the slider relative to the drive point, {{orbit}}, {what}."
+    return Entry("A", f"Phase portrait, {title}", text, {case: ("orbit",)}, "sections.portrait")
+
+
 BEFORE = (
     "Light blue crosses: in contact before the first separation; black dots: in contact after it; vermilion triangles: "
     "apart."
@@ -67,6 +83,12 @@ HALVES = "Light blue crosses: first half of the run; black dots: second half."
 IGNORED = f"Separation ignored. {HALVES}"
 STAGES = f"Stages: {BEFORE}"
 QUIET = f"No separation occurs. {HALVES}"
+
+SLIDER = (
+    "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
+    "the first separation, (b) its time-frequency spectrum in the shaded stretch. Dashed: first separation."
+)
+DISC = "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum in the"
 
 AROUND = tuple(f"around{i}" for i in range(9))
 """Windows with the disc at so many angles as nine modes need."""
@@ -111,22 +133,9 @@ CATALOGUE: Mapping[str, Entry] = {
         {"F02": ("history",), "F04": ("history",)},
         "histories.with_and_without",
     ),
-    "fig11": Entry(
-        "4.2",
-        "Histories below the critical speed",
-        "(a) Contact force, (b) disc at r_0 and {theta}, as ranges.",
-        {"F11": ("history",)},
-        "histories.force_and_disc",
-    ),
+    "fig11": _ranges("F11", "Histories below the critical speed", {}),
     "fig12": _section("4.2", "F11", "below the critical speed", QUIET),
-    "fig13": Entry(
-        "4.2",
-        "Histories above the critical speed",
-        "(a) Contact force, (b) disc at r_0 and {theta}, as ranges.",
-        {"F13": ("history",)},
-        "histories.force_and_disc",
-        options=ABOVE,
-    ),
+    "fig13": _ranges("F13", "Histories above the critical speed", ABOVE),
     "fig14": _section("4.2", "F13", "above the critical speed", STAGES),
     "fig16": _section("4.3", "F16", "small preload", QUIET),
     "fig17": _section("4.3", "F17", "intermediate preload", STAGES),
@@ -161,68 +170,42 @@ CATALOGUE: Mapping[str, Entry] = {
         {"F13": ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
         "spectra.four_stretches",
     ),
-    "fig26": Entry(
-        "4.4",
+    "fig26": _response(
+        "F13",
         "Slider's motion above the critical speed",
-        "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
-        "the first separation, (b) its time-frequency spectrum in the shaded stretch. Dashed: first separation.",
-        {"F13": ("history", "spectrum_c", "spectrum_d")},
-        "spectra.response",
-        {
-            "case": "F13",
-            "variable": "psi",
-            "spectrum": "spectrum_c",
-            "zooms": [["spectrum_c", 52.0], ["spectrum_d", 105.0]],
-        }
-        | ABOVE,
+        SLIDER,
+        "psi",
+        "spectrum_c",
+        zooms=[["spectrum_c", 52.0], ["spectrum_d", 105.0]],
+        **ABOVE,
     ),
-    "fig27": Entry(
-        "4.4",
+    "fig27": _response(
+        "F07",
         "Disc's vibration, smaller preload",
-        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum in the shaded "
-        "stretch. Dashed: first separation.",
-        {"F07": ("history", "spectrum_d")},
-        "spectra.response",
-        {"case": "F07", "variable": "w_point", "spectrum": "spectrum_d", "until": 200.0},
+        f"{DISC} shaded stretch. Dashed: first separation.",
+        "w_point",
+        "spectrum_d",
+        until=200.0,
     ),
-    "fig28": Entry(
-        "4.4",
+    "fig28": _response(
+        "F07",
         "Slider's motion, smaller preload",
-        "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
-        "the first separation, (b) its time-frequency spectrum in the shaded stretch. Dashed: first separation.",
-        {"F07": ("history", "spectrum_d")},
-        "spectra.response",
-        {
-            "case": "F07",
-            "variable": "psi",
-            "spectrum": "spectrum_d",
-            "zooms": [["spectrum_d", 143.1], ["spectrum_d", 152.0]],
-            "until": 200.0,
-        },
+        SLIDER,
+        "psi",
+        "spectrum_d",
+        zooms=[["spectrum_d", 143.1], ["spectrum_d", 152.0]],
+        until=200.0,
     ),
-    "fig29": Entry(
-        "4.4",
+    "fig29": _response(
+        "F21",
         "Disc's vibration, soft disc",
-        "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum in the stretch "
-        "marked there. Dotted: the disc's highest natural frequency.",
-        {"F21": ("history", "spectrum_d")},
-        "spectra.response",
-        {"case": "F21", "variable": "w_point", "spectrum": "spectrum_d", "highest": True},
+        f"{DISC} stretch marked there. Dotted: the disc's highest natural frequency.",
+        "w_point",
+        "spectrum_d",
+        highest=True,
     ),
-    "figA1": Entry(
-        "A",
-        "Phase portrait, separation ignored",
-        "Phase portrait of the slider relative to the drive point, {orbit}, separation ignored.",
-        {"F04": ("orbit",)},
-        "sections.portrait",
-    ),
-    "figA2": Entry(
-        "A",
-        "Phase portrait, with separation",
-        "Phase portrait of the slider relative to the drive point, {orbit}, by phase.",
-        {"F02": ("orbit",)},
-        "sections.portrait",
-    ),
+    "figA1": _portrait("F04", "separation ignored", "separation ignored"),
+    "figA2": _portrait("F02", "with separation", "by phase"),
     "figB1": Entry(
         "B",
         "The whole disc while the slider leaves it",
@@ -272,14 +255,19 @@ def _faults_of(figure: str, name: str, window: Window) -> list[str]:
         return [] if window.count >= 2 * window.envelope else ["must be two envelopes long or more"]
     faults = [] if window.envelope is None else ["must have no envelope"]
     if name.startswith("spectrum"):
-        if window.stop - window.start < SHORTEST_SPECTRUM:
-            faults.append(f"must be {SHORTEST_SPECTRUM:g} s long or more")
-        if window.rate < 2 * HIGHEST:
-            faults.append(f"needs a rate of {2 * HIGHEST:g} Hz or more")
+        faults += spectrum_faults(window, HIGHEST)
     for zoomed, start in CATALOGUE[figure].options.get("zooms", ()):
         if zoomed == name and not (window.start <= start and start + ZOOM <= window.stop):
             faults.append(f"must contain {start:g} to {start + ZOOM:g} s")
     return faults
+
+
+def spectrum_faults(window: Window, highest: float) -> Iterator[str]:
+    """What keeps a window's spectrum in time from being drawn up to a frequency in Hz."""
+    if window.stop - window.start < SHORTEST_SPECTRUM:
+        yield f"must be {SHORTEST_SPECTRUM:g} s long or more"
+    if window.rate < 2 * highest:
+        yield f"needs a rate of {2 * highest:g} Hz or more"
 
 
 def module_of(name: str) -> str:

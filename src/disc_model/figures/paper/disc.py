@@ -75,11 +75,6 @@ class Motion:
         """The disc's displacement at sample i along the circle of radius r_0, mm, shape of theta."""
         return 1e3 * self.deflection(i, np.array([self.parameters.r_0]), theta)[0]
 
-    def losses(self) -> NDArray[np.int64]:
-        """First samples of the separations that begin within the stretch."""
-        apart = (self.phase == SEPARATION).astype(int)
-        return np.flatnonzero(np.diff(apart) == 1) + 1
-
 
 def motion_of(case: xr.DataTree) -> Motion:
     """The motion of disc and slider from the windows `around0`, ...; raises `Missing`."""
@@ -132,7 +127,7 @@ def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 def _between_losses(motion: Motion) -> list[int]:
     """Samples equally far apart from the first loss of contact to the next; over the whole stretch without them."""
-    losses = motion.losses()
+    losses = np.flatnonzero(np.diff((motion.phase == SEPARATION).astype(int)) == 1) + 1
     first, last = (losses[0], losses[1]) if losses.size > 1 else (0, motion.time.size - 1)
     return [int(first + share * (last - first)) for share in np.arange(INSTANTS) / INSTANTS]
 
@@ -185,17 +180,22 @@ def _directions(ax: Axes, p: Parameters) -> None:
     )
 
 
-def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
-    """The disc along the circle of radius r_0, and the slider, at some instants."""
+def _around(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
+    """The disc along the circle of radius r_0 at an instant, and the slider as a mark of a size in points."""
     theta = np.linspace(0, 2 * np.pi, ANGLES)
+    ax.plot(theta, motion.around(i, theta), color=DISC, **look)
+    angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
+    ax.plot(angle, height, "s", ms=size, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
+    ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
+
+
+def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
+    """The circle of radius r_0 and the slider at some instants."""
     for i, style in zip(shown, STYLES, strict=True):
         after = 1e3 * (motion.time[i] - motion.time[shown[0]])
-        ax.plot(theta, motion.around(i, theta), color=DISC, linestyle=style, label=f"disc, {after:.1f} ms")
-        angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
-        ax.plot(angle, height, "s", ms=5, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
+        _around(ax, motion, i, 5, linestyle=style, label=f"disc, {after:.1f} ms")
     ax.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
     ax.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
-    ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
     ax.margins(y=0.08)
     ax.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
     ax.set_title("(e)", loc="left", x=-0.06)
@@ -248,11 +248,7 @@ def film(case: xr.DataTree, path: Path, frames: int = 70, rate: int = 12) -> Non
 
 def _still(ax: Axes, motion: Motion, i: int, scale: Normalize) -> None:
     """The circle of radius r_0 and the slider at one instant, with axes that do not move."""
-    theta = np.linspace(0, 2 * np.pi, ANGLES)
-    ax.plot(theta, motion.around(i, theta), color=DISC)
-    angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
-    ax.plot(angle, height, "s", ms=7, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
-    ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
+    _around(ax, motion, i, 7)
     ax.set_ylim(scale.vmin, scale.vmax)
     after = 1e3 * (motion.time[i] - motion.time[0])
     colour = SEPARATED if motion.phase[i] == SEPARATION else BLACK

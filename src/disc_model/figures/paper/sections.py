@@ -46,7 +46,7 @@ def sections(cases: Mapping[str, xr.DataTree]) -> Figure:
         _scatter(slider, samples["psi"].values, samples["psi_velocity"].values, found)
         _scatter(disc, samples["w_point"].values * 1e3, samples["w_point_velocity"].values, found)
         slider.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
-        disc.set(xlabel=parts.disc_label(samples), ylabel=parts.disc_velocity_label(samples))
+        disc.set(xlabel=parts.disc_label(samples), ylabel=parts.sampled("w_point_velocity", samples)[0])
         parts.letter(slider, "a")
         parts.letter(disc, "b")
         bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
@@ -80,21 +80,22 @@ def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool)
 
 
 @styled()
-def portrait(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """psi' over psi in the window `orbit`, coloured by phase."""
+def portrait(
+    cases: Mapping[str, xr.DataTree], *, window: str = "orbit", x: str = "psi", y: str = "psi_velocity"
+) -> Figure:
+    """One variable over another in a window, coloured by phase."""
     (case,) = cases.values()
     figure = new_figure(COLUMN, 2.7)
     ax = figure.subplots()
     with parts.or_say_why(ax):
-        window = dataset.samples(case, "orbit")
-        orbit(ax, window, window["psi"].values, window["psi_velocity"].values)
-        ax.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
+        samples = dataset.samples(case, window)
+        (across, in_x), (up, in_y) = (parts.sampled(name, samples) for name in (x, y))
+        _orbit(ax, samples["phase"].values, samples[x].values * in_x, samples[y].values * in_y)
+        ax.set(xlabel=across, ylabel=up)
     return figure
 
 
-def orbit(ax: Axes, window: xr.Dataset, x: np.ndarray, y: np.ndarray) -> None:
-    """y over x at a window's samples, coloured by the phase there."""
-    phase = window["phase"].values
+def _orbit(ax: Axes, phase: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
     for i, name in enumerate(PHASES):
         inside = phase == i
         if not inside.any():
@@ -105,4 +106,4 @@ def orbit(ax: Axes, window: xr.Dataset, x: np.ndarray, y: np.ndarray) -> None:
         ax.plot(x, shown, color=colour, linewidth=0.5, rasterized=True)
         ax.plot([], [], color=colour, linewidth=1.5, label=name)
     ax.margins(0.04)
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, ncols=3)
+    parts.legend_above(ax)

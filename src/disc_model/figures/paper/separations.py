@@ -18,10 +18,19 @@ from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, PAGE, SEPARATED
 SEPARATION = PHASES.index("separation")
 
 
-def shade(ax: Axes, spans: list[tuple[float, float]]) -> None:
-    """Shade separations on the horizontal axis; they stand in the legend once."""
-    for i, (start, stop) in enumerate(spans):
+def shade(ax: Axes, spans: list[tuple[float, float]], zero: float) -> None:
+    """Shade separations over the time in ms after a time in s; they stand in the legend once."""
+    for i, span in enumerate(spans):
+        start, stop = ((time - zero) * 1e3 for time in span)
         ax.axvspan(start, stop, color=SEPARATED, alpha=0.25, label="separation" if i == 0 else "_nolegend_")
+
+
+def displacements(ax: Axes, part: xr.Dataset, zero: float, rest: float) -> None:
+    """Disc and slider from a height at rest in m, over the time in ms after a time in s."""
+    time = (part["time"].values - zero) * 1e3
+    ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
+    ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
+    ax.set_ylabel("From equilibrium (mm)")
 
 
 def separations(window: xr.Dataset) -> list[tuple[float, float]]:
@@ -36,11 +45,6 @@ def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
     """Those separations that begin and end inside the window."""
     time = window["time"].values
     return [(a, b) for a, b in separations(window) if a > time[0] and b < time[-1]]
-
-
-def legend_above(ax: Axes) -> None:
-    """A legend in one row above the right end of the axes, where it hides nothing."""
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, ncols=4)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -77,13 +81,13 @@ def _zoom(ax: Axes, case: xr.DataTree) -> None:
     parts.letter(ax, "b")
     time = window["time"].values
     start = float(time[0])
-    spans = [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(window)]
-    shade(ax, spans)
+    spans = separations(window)
+    shade(ax, spans, start)
     ax.plot((time - start) * 1e3, window["P"].values, color=FORCE)
     _show_zero(ax, case)
     ax.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Contact force (N)")
     if spans:
-        legend_above(ax)
+        parts.legend_above(ax)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -110,18 +114,14 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
         start, stop = found[0]
         margin = MARGIN * (stop - start)
         part = window.sel(time=slice(start - margin, stop + margin))
-        time = (part["time"].values - start) * 1e3
-        u, w, rest = part["u"].values, part["w"].values, float(case["u_0"])
         for ax in (both, gap):
-            shade(ax, [(0.0, (stop - start) * 1e3)])
-        both.plot(time, (w - rest) * 1e3, color=DISC, label="disc")
-        both.plot(time, (u - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
-        gap.plot(time, (u - w) * 1e6, color=BLACK)
-        both.set(ylabel="From equilibrium (mm)")
+            shade(ax, found[:1], start)
+        displacements(both, part, start, float(case["u_0"]))
+        gap.plot((part["time"].values - start) * 1e3, (part["u"] - part["w"]).values * 1e6, color=BLACK)
         gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
         parts.letter(both, "a")
         parts.letter(gap, "b")
-        legend_above(both)
+        parts.legend_above(both)
     figure.align_ylabels()
     return figure
 
@@ -146,22 +146,13 @@ def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
         if found:
             start = found[0][0] - 0.1 * SHOWN
         part = window.sel(time=slice(start, start + SHOWN))
-        time = (part["time"].values - start) * 1e3
         rest = float(case["u_0"])
-        shade(ax, [((a - start) * 1e3, (b - start) * 1e3) for a, b in separations(part)])
-        ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
-        ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
-        losses = np.array([a for a, _ in separations(part) if a > start])
-        if losses.size:
-            height = part["w"].sel(time=losses, method="nearest").values
-            ax.plot(
-                (losses - start) * 1e3,
-                (height - rest) * 1e3,
-                "o",
-                color=SEPARATED,
-                markersize=3.5,
-                label="contact lost",
-            )
-        ax.set(xlabel=f"Time after {start:.4f} s (ms)", ylabel="From equilibrium (mm)")
-        legend_above(ax)
+        shade(ax, separations(part), start)
+        displacements(ax, part, start, rest)
+        losses = part.sel(time=[a for a, _ in separations(part) if a > start], method="nearest")
+        if losses["time"].size:
+            time, height = (losses["time"].values - start) * 1e3, (losses["w"].values - rest) * 1e3
+            ax.plot(time, height, "o", color=SEPARATED, markersize=3.5, label="contact lost")
+        ax.set_xlabel(f"Time after {start:.4f} s (ms)")
+        parts.legend_above(ax)
     return figure

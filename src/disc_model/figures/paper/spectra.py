@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
-from matplotlib.figure import Figure, FigureBase, SubFigure
+from matplotlib.figure import Figure, FigureBase
 from matplotlib.ticker import MaxNLocator
 
 from disc_model.analysis.spectra import TimeFrequency, time_frequency
@@ -41,15 +41,10 @@ def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: f
     return found
 
 
-def decibel(power: np.ndarray, reference: float) -> np.ndarray:
-    """Power relative to a reference, dB, no less than `FLOOR` - 20."""
-    return np.asarray(10 * np.log10(np.maximum(power / reference, 10 ** (FLOOR / 10 - 2))))
-
-
 def spectrogram(ax: Axes, found: TimeFrequency, reference: float, highest: float) -> QuadMesh:
     """Draw power in dB relative to a reference, up to a frequency in Hz."""
     shown = found.frequency <= highest
-    power = decibel(found.power[shown], reference)
+    power = 10 * np.log10(np.maximum(found.power[shown] / reference, 10 ** (FLOOR / 10 - 2)))
     mesh = ax.pcolormesh(
         found.time, found.frequency[shown], power, cmap=POWERS, vmin=FLOOR, vmax=0, shading="nearest", rasterized=True
     )
@@ -77,6 +72,14 @@ def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) 
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06)
     bar.set_label("Power (dB re strongest line)")
     bar.outline.set_visible(False)
+
+
+def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequency, highest: float) -> None:
+    """Power in dB below the strongest line, up to a frequency in Hz, with its scale; the first separation is marked."""
+    mesh = spectrogram(ax, found, float(found.power.max()), highest)
+    mark_time(ax, float(case["first_separation"]))
+    ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
+    colour_bar(figure, mesh, ax)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -167,23 +170,18 @@ def _name_lines(ax: Axes) -> None:
 # ----------------------------------------------------------------------------------------------------
 # Figures 26 to 29: one variable of one case, its range over the run and its spectrum in one stretch
 
-SCALES = {"psi": 1.0, "w_point": 1e3}
-"""From SI to what the axes show."""
-COLOURS = {"psi": SLIDER, "w_point": DISC}
-
 
 @styled()
 def response(
     cases: Mapping[str, xr.DataTree],
     *,
-    case: str,
     variable: str,
-    spectrum: str,
+    window: str,
     zooms: Sequence[tuple[str, float]] = (),
     highest: bool = False,
     until: float = np.inf,
 ) -> Figure:
-    """(a) range over the run, with closer looks beside it if asked for, (b) spectrum in the window `spectrum`.
+    """(a) range over the run, with closer looks beside it if asked for, (b) spectrum in a window.
 
     Parameters
     ----------
@@ -191,7 +189,7 @@ def response(
     highest : mark the disc's highest natural frequency
     until : s, how much of the run (a) shows
     """
-    tree = cases[case]
+    (case,) = cases.values()
     figure = new_figure(PAGE, 2.7)
     layout = [["whole"] * max(len(zooms), 1)] + ([[f"zoom{i}" for i in range(len(zooms))]] if zooms else [])
     left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
@@ -199,56 +197,47 @@ def response(
     shown = right.subplots()
     marked = None
     with parts.or_say_why(shown):
-        found = spectrum_in_time(tree, spectrum, variable)
+        found = spectrum_in_time(case, window, variable)
         marked = stretch(found)
-        _spectrum(right, shown, tree, found, highest)
+        spectrum(right, shown, case, found, HIGHEST)
+        parts.letter(shown, "b")
+        if highest:
+            p = Parameters.model_validate_json(case.attrs["parameters"])
+            natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
+            shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
     with parts.or_say_why(panels["whole"]):
-        _whole_run(panels["whole"], tree, variable, marked, until)
+        _whole_run(panels["whole"], case, variable, marked, until)
     for i, (name, start) in enumerate(zooms):
         with parts.or_say_why(panels[f"zoom{i}"]):
-            _closer(panels[f"zoom{i}"], dataset.samples(tree, name), variable, start, first=i == 0)
+            _closer(panels[f"zoom{i}"], dataset.samples(case, name), variable, start, first=i == 0)
     return figure
 
 
-def _whole_run(ax: Axes, tree: xr.DataTree, variable: str, marked: tuple[float, float] | None, until: float) -> None:
-    history = parts.history(tree, until)
+def _whole_run(ax: Axes, case: xr.DataTree, variable: str, marked: tuple[float, float] | None, until: float) -> None:
+    history = parts.history(case, until)
+    label, scale = parts.sampled(variable, history)
     if marked is not None:
         ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
         if marked[1] - marked[0] < 0.02 * float(history["time"][-1]):
             # a line where the stretch of (b) is too narrow to be seen
             ax.axvline(sum(marked) / 2, color=BLACK, linewidth=0.8)
             parts.say_above(ax, sum(marked) / 2, "(b)")
-    parts.envelope(ax, history, variable, scale=SCALES[variable], color=COLOURS[variable])
-    parts.mark_first_separation(ax, float(tree["first_separation"]))
-    ax.set(xlabel="Time (s)", ylabel=_label(variable, history))
+    parts.envelope(ax, history, variable, scale=scale, color=parts.SAMPLED_COLOURS.get(variable, SLIDER))
+    parts.mark_first_separation(ax, float(case["first_separation"]))
+    ax.set(xlabel="Time (s)", ylabel=label)
     parts.letter(ax, "a")
-
-
-def _label(variable: str, window: xr.Dataset) -> str:
-    return parts.disc_label(window) if variable == "w_point" else "ψ (rad)"
 
 
 def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first: bool) -> None:
     part = window.sel(time=slice(start, start + ZOOM))
     if part.sizes["time"] < 2:
         raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
-    time, values = (part["time"].values - start) * 1e3, part[variable].values * SCALES[variable]
-    ax.plot(time, values, color=COLOURS[variable], linewidth=0.6)
+    label, scale = parts.sampled(variable, window)
+    time, colour = (part["time"].values - start) * 1e3, parts.SAMPLED_COLOURS.get(variable, SLIDER)
+    ax.plot(time, part[variable].values * scale, color=colour, linewidth=0.6)
     ax.set_xlabel(f"Time after {start:g} s (ms)")
     ax.set_xlim(0, ZOOM * 1e3)
     if first:
-        ax.set_ylabel(_label(variable, window))
+        ax.set_ylabel(label)
     else:
         ax.set_label("shares the axis to its left")
-
-
-def _spectrum(figure: SubFigure, ax: Axes, tree: xr.DataTree, found: TimeFrequency, highest: bool) -> None:
-    mesh = spectrogram(ax, found, float(found.power.max()), HIGHEST)
-    mark_time(ax, float(tree["first_separation"]))
-    if highest:
-        p = Parameters.model_validate_json(tree.attrs["parameters"])
-        natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
-        ax.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
-    ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
-    parts.letter(ax, "b")
-    colour_bar(figure, mesh, ax)
