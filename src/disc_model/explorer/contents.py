@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -41,17 +41,17 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
     dict with the parameters that do not vary, the dimensions, each variable that lies along one (numbers as 32-bit
     floats of `BITS`, flags as bytes with their words), messages, and motions.
     """
-    dims = [_dimension(study, str(dim)) for dim in study.sizes]
-    order = [dim["name"] for dim in dims]
-    variables = [_variable(study[name], order) for name in study.data_vars if _shown(study[name])]
+    study = study.transpose(*study.sizes)
     message = study.get("message")
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
         "fixed": [_fixed(name, value) for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()],
-        "dims": dims,
-        "variables": variables,
-        "messages": None if message is None else _messages(message, order),
+        "dims": [_dimension(study, str(dim)) for dim in study.sizes],
+        "variables": [
+            _variable(found) for found in study.data_vars.values() if found.ndim and found.dtype.kind in "biuf"
+        ],
+        "messages": None if message is None else _messages(message),
         "motions": None if motions is None else motion_contents(motions, said),
     }
 
@@ -104,23 +104,22 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
     return np.where(np.isfinite(whole), rounded.view(np.float32), whole)
 
 
-def _shown(variable: xr.DataArray) -> bool:
-    return variable.ndim > 0 and variable.dtype.kind in "biuf"
+def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
+    """What anything is called, and its unit."""
+    return {"name": name, "title": str(attrs.get("long_name", name)), "unit": str(attrs.get("units", ""))}
 
 
 def _fixed(name: str, value: Any) -> dict[str, Any]:
     """A parameter that does not vary."""
     described = attributes(name) if name in Parameters.model_fields else FURTHER[name].attributes
-    return {"name": name, "title": described["long_name"], "unit": described.get("units", ""), "value": value}
+    return _named(name, described) | {"value": value}
 
 
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     """Values along a dimension; of a zip, which has no coordinate of its own, all that varies along it, in words."""
     if dim in study.coords:
-        coordinate = study[dim]
-        values = _plain(coordinate.values)
-        title, unit = str(coordinate.attrs.get("long_name", dim)), str(coordinate.attrs.get("units", ""))
-        return {"name": dim, "title": title, "unit": unit, "values": values, "parts": {dim: values}}
+        values = _plain(study[dim].values)
+        return _named(dim, study[dim].attrs) | {"values": values, "parts": {dim: values}}
     along = {str(name): _plain(study[name].values) for name in study.coords if study[name].dims == (dim,)}
     columns = along or {dim: list(range(study.sizes[dim]))}
     words = [", ".join(f"{name} = {_said(value)}" for name, value in zip(columns, row, strict=True))
@@ -128,36 +127,20 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     return {"name": dim, "title": ", ".join(columns), "unit": "", "values": words, "parts": columns}
 
 
-def _variable(variable: xr.DataArray, order: Iterable[str]) -> dict[str, Any]:
-    """A variable with its dimensions in the order of the study's."""
-    dims = [dim for dim in order if dim in variable.dims]
-    values = variable.transpose(*dims).values
-    found: dict[str, Any] = {
-        "name": str(variable.name),
-        "title": str(variable.attrs.get("long_name", variable.name)),
-        "unit": str(variable.attrs.get("units", "")),
-        "dims": dims,
-    }
-    if "flag_meanings" in variable.attrs:
-        words = flag_words(variable.attrs)
-        codes = np.array(sorted(words))
-        places = np.searchsorted(codes, values)
-        return found | {"flags": [words[int(code)] for code in codes], "data": packed(places, "u1")}
+def _variable(variable: xr.DataArray) -> dict[str, Any]:
+    attrs, values = variable.attrs, variable.values
+    found = _named(str(variable.name), attrs) | {"dims": list(variable.dims)}
+    if "flag_meanings" in attrs:
+        words = str(attrs["flag_meanings"]).split()
+        codes = np.atleast_1d(attrs.get("flag_values", range(len(words))))
+        return found | {"flags": words, "data": packed(np.searchsorted(codes, values), "u1")}
     return found | {"data": packed(shortened(values), "<f4")}
 
 
-def flag_words(attrs: Mapping[str, Any]) -> dict[int, str]:
-    """The word of each value of a flag."""
-    words = str(attrs["flag_meanings"]).split()
-    values = np.atleast_1d(attrs.get("flag_values", range(len(words))))
-    return {int(value): word for value, word in zip(values, words, strict=True)}
-
-
-def _messages(variable: xr.DataArray, order: Iterable[str]) -> dict[str, Any]:
+def _messages(variable: xr.DataArray) -> dict[str, Any]:
     """What was said at each point, as numbers of words; most points share theirs."""
-    dims = [dim for dim in order if dim in variable.dims]
-    words, places = np.unique(variable.transpose(*dims).values.astype(str), return_inverse=True)
-    return {"dims": dims, "words": words.tolist(), "data": packed(places, "<u2")}
+    words, places = np.unique(variable.values.astype(str), return_inverse=True)
+    return {"dims": list(variable.dims), "words": words.tolist(), "data": packed(places, "<u2")}
 
 
 def _plain(values: NDArray[Any]) -> list[Any]:

@@ -8,6 +8,8 @@ import json
 from collections.abc import Mapping, Sequence
 from html import escape
 from importlib.resources import files
+from itertools import groupby
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -67,18 +69,16 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
 def gallery(pictures: Sequence[Picture]) -> str:
     """Figures below their headings, each a button that shows it large."""
     lines: list[str] = []
-    heading = None
-    for picture in pictures:
-        if picture.heading != heading:
-            lines += [] if heading is None else ["</div>"]
-            heading = picture.heading
-            lines += [f"<h3>{escape(heading)}</h3>", '<div class="pictures">']
-        lines.append(
+    for heading, below in groupby(pictures, key=attrgetter("heading")):
+        lines += [f"<h3>{escape(heading)}</h3>", '<div class="pictures">']
+        lines += [
             f'<figure><button type="button"><span class="paper"><img loading="lazy" alt="{escape(picture.title)}" '
             f'src="{embedded(picture.file)}"></span>{escape(picture.title)}</button>'
             f"<figcaption>{escape(picture.caption)}</figcaption></figure>"
-        )
-    return "\n".join([*lines, "</div>" if pictures else "<p>None were made.</p>"])
+            for picture in below
+        ]
+        lines.append("</div>")
+    return "\n".join(lines or ["<p>None were made.</p>"])
 
 
 def embedded(file: Path) -> str:

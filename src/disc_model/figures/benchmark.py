@@ -76,9 +76,8 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
 @styled()
 def overview(dataset: xr.Dataset) -> Figure:
     """All scenes: cost against event-time error."""
-    scenes = dataset["scene"].values
-    figure, axes = _panels(len(scenes), "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
-    for ax, scene, letter in zip(axes, scenes, "abcd", strict=False):
+    figure, axes = _panels(4, "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
+    for ax, scene, letter in zip(axes, dataset["scene"].values, "abcd", strict=False):
         _cost_panel(ax, dataset.sel(scene=scene), "event", orders=False)
         parts.letter(ax, letter, TITLES[str(scene)])
     for ax in axes[2:]:

@@ -191,6 +191,11 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
     return (f"{said} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else said), 1.0
 
 
+def flags_of(variable: xr.DataArray) -> list[str]:
+    """What the values of a flag stand for; of other variables nothing."""
+    return [word.replace("_", " ") for word in variable.attrs.get("flag_meanings", "").split()]
+
+
 def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.DataArray:
     """A variable of a grid study at values of some dimensions; what is left with one value is no dimension any more."""
     words = {dim: value for dim, value in at.items() if isinstance(value, str)}

@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
-from disc_model.figures.grids import thresholds
+from disc_model.figures.grids import separating, thresholds
 from disc_model.figures.grids.growth_map import Curve
 from disc_model.figures.grids.kinds import Thresholds
 from disc_model.figures.parts import save
@@ -68,7 +68,7 @@ def test_no_separation_is_presumed_between_loads(monkeypatch: pytest.MonkeyPatch
     figure = chart(monkeypatch, cycle=cycle)
     assert figure.axes[0].get_xlim() == (5, 50)
     assert any("no stable cycle, no separation" in label for label in labels(figure))
-    apart = thresholds.separates(scanned(), 1000.0, loads, SPEEDS)
+    apart = separating.separates(scanned(), 1000.0, loads, SPEEDS)
     at_200, at_300 = SPEEDS >= 30, ((SPEEDS >= 10) & (SPEEDS < 20)) | (SPEEDS >= 40)
     np.testing.assert_array_equal(apart, [np.zeros(10, bool), at_200, at_200, at_200 | at_300, at_300])
 

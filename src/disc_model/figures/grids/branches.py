@@ -5,18 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from matplotlib.axes import Axes
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-
-from disc_model.figures import parts
 
 LARGE = 0.02
 """Share of a map's points from which on a branch is named."""
 NAMES = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
-Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
@@ -44,17 +40,3 @@ def named(labels: NDArray[np.int64]) -> Iterator[tuple[str, int, int]]:
             return
         row, column = places[np.argmin(np.sum((places - places.mean(axis=0)) ** 2, axis=1))]
         yield name, int(row), int(column)
-
-
-def name_branches(ax: Axes, x: Array, y: Array, labels: NDArray[np.int64]) -> bool:
-    """Write the names of the large branches into a map; whether there are any.
-
-    x, y : values along the axes, as drawn
-    """
-    found = list(named(labels))
-    for name, row, column in found:
-        ax.text(
-            x[column], y[row], name, ha="center", va="center", fontsize=8, fontweight="bold", zorder=4,
-            path_effects=parts.halo(2.0),
-        )  # fmt: skip
-    return bool(found)

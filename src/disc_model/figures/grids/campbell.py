@@ -11,21 +11,12 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from scipy.optimize import isotonic_regression
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.kinds import Campbell
-from disc_model.figures.parts import (
-    BLACK,
-    BLUE,
-    BROWN,
-    COLUMN,
-    GREY,
-    SKY,
-    SLIDER,
-    new_figure,
-    styled,
-)
+from disc_model.figures.parts import BLACK, BLUE, BROWN, COLUMN, GREY, SKY, SLIDER, new_figure, styled
 
 COLOURS = ("#332288", BLUE, "#999933", "#882255", SKY, BROWN)
 """Of the disc's modes by their nodal diameters; those of six or more as those of six fewer. None is that of a phase."""
@@ -62,10 +53,6 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Campbell) ->
     figure.legend(handles=_handles(study), loc="outside lower center", ncols=3, columnspacing=1.2)
     parts.head(figure, study, f"{plot.title or study.attrs.get('title', '')}, {parts.MODES[norm]}")
     return figure
-
-
-# ----------------------------------------------------------------------------------------------------
-# What happens to the cycle
 
 
 class Noted(NamedTuple):
@@ -123,15 +110,8 @@ def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
         yield float(edges[first]), float(edges[last]), int(last - first)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Panels
-
 _HALO = parts.halo()
 _TURN = r"$f_\Omega$"
-
-
-def _mode(l: int) -> str:
-    return "slider in the plane" if l < 0 else f"l = {l}"
 
 
 def _colour(l: int) -> str:
@@ -199,7 +179,6 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     ax.axhline(0, color=BLACK, linewidth=0.5)
     ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
     low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))
-    ax.set_ylim(min(1.1 * low, -LINEAR), max(1.3 * high, LINEAR))
     ticks = [-1, -0.5, 0, 0.5, 1, 10, 100]
     ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.set_ylim(min(1.1 * low, -LINEAR), max(1.3 * high, LINEAR))
@@ -231,22 +210,16 @@ def spread(places: list[float], apart: float, low: float, high: float) -> list[f
         return []
     apart = min(apart, (high - low) / max(len(places) - 1, 1))
     steps = apart * np.arange(len(places))
-    # places less steps need only not fall: the nearest such are running means of what is out of order
-    blocks: list[list[float]] = []
-    for place in np.asarray(places) - steps:
-        blocks.append([place])
-        while len(blocks) > 1 and np.mean(blocks[-2]) > np.mean(blocks[-1]):
-            blocks[-2:] = [blocks[-2] + blocks[-1]]
-    level = np.repeat([np.mean(block) for block in blocks], [len(block) for block in blocks])
+    # places less steps need only not fall
+    level = isotonic_regression(np.asarray(places) - steps).x
     return (np.clip(level, low, high - steps[-1]) + steps).tolist()  # type: ignore[no-any-return]
 
 
 def _handles(study: xr.Dataset) -> list[Line2D]:
     shown = sorted({l for l, _ in _parts(study, "sliding_frequency")})
-    handles = [Line2D([], [], color=_colour(l), label=_mode(l)) for l in shown]
     ring: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 2.5, "markeredgewidth": 0.5}
     return [
-        *handles,
+        *(Line2D([], [], color=_colour(l), label="slider in the plane" if l < 0 else f"l = {l}") for l in shown),
         Line2D([], [], color=BLACK, marker=".", linestyle="", markersize=4, label="stick-slip cycle"),
         Line2D([], [], color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
         Line2D([], [], marker="o", markerfacecolor="white", label="crossing", **ring),

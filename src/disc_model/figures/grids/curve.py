@@ -24,7 +24,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -
     ax = figure.subplots()
     label, factor = parts.label_of(found[plot.x])
     along = found[plot.x].values * factor
-    words = found.attrs.get("flag_meanings", "").split()
+    words = parts.flags_of(found)
     for i, (said, line) in enumerate(lines):
         colour = BLACK if len(lines) == 1 else cm.batlow(i / len(lines))
         mark = "." if words else ".-"
@@ -36,7 +36,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -
     ax.margins(0.03)
     ax.set(xlabel=label, ylabel=parts.label_of(found)[0])
     if words:
-        ax.set_yticks(range(len(words)), labels=[word.replace("_", " ") for word in words])
+        ax.set_yticks(range(len(words)), labels=words)
     elif found.dtype.kind == "f":
         parts.mark_failed(ax, along[np.isnan(found.transpose(plot.x, ...).values.reshape(len(along), -1)).any(axis=1)])
     if by is not None:

@@ -21,9 +21,6 @@ from disc_model.figures.grids.kinds import GrowthMap
 from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, axis_of, new_figure, styled
 from disc_model.stability.resonances import Tongue
 
-# ----------------------------------------------------------------------------------------------------
-# Curves, from datasets of the quantity `stability_curves`
-
 Array = NDArray[np.float64]
 
 NEAR = 3.0
@@ -129,23 +126,21 @@ def crossings(curve: Curve, load: float) -> Array:
     return np.unique(curve.Omega[at] + share * (curve.Omega[at + 1] - curve.Omega[at]))
 
 
-def draw_curve(ax: Axes, curve: Curve, number: int = 0) -> None:
-    """A curve; its number, if it has one, stands beyond its upper end, where it covers no line."""
-    ax.plot(curve.Omega, curve.N, **parts.border(curve.kind) | {"label": "_nolegend_"})
-    if number and np.isfinite(curve.N).any():
-        i = int(np.nanargmax(curve.N))
-        end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
-        parts.say(ax, str(number), end, (0, 2), fontsize=6, annotation_clip=False)
+def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]]) -> list[Line2D]:
+    """Curves of each panel; those with a label are numbered, and what the numbers stand for is returned for legends.
 
-
-def numbers_of(curves: Sequence[Curve]) -> dict[str, int]:
-    """Numbers of the labels, in the order of their speeds; those that are equal have one."""
-    named = sorted((curve for curve in curves if curve.label), key=lambda curve: float(np.nanmax(curve.Omega)))
-    return {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in named), 1)}
-
-
-def number_handles(numbers: Mapping[str, int]) -> list[Line2D]:
-    """For legends: what the numbers stand for."""
+    Numbers go by speed, and labels that are equal have one; it stands beyond the upper end, where it covers no line.
+    """
+    labelled = [curve for own in curves for curve in own if curve.label]
+    labelled.sort(key=lambda curve: float(np.nanmax(curve.Omega)))
+    numbers = {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in labelled), 1)}
+    for ax, own in zip(axes, curves, strict=True):
+        for curve in own:
+            ax.plot(curve.Omega, curve.N, **parts.border(curve.kind) | {"label": "_nolegend_"})
+            if curve.label and np.isfinite(curve.N).any():
+                i = int(np.nanargmax(curve.N))
+                end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
+                parts.say(ax, str(numbers[curve.label]), end, (0, 2), fontsize=6, annotation_clip=False)
     look: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
     said = {label.replace("f_s", "$f_s$"): number for label, number in numbers.items()}
     return [Line2D([], [], marker=f"${number}$", label=label, **look) for label, number in said.items()]
@@ -153,10 +148,6 @@ def number_handles(numbers: Mapping[str, int]) -> list[Line2D]:
 
 def span(values: Array) -> tuple[float, float]:
     return float(values.min()), float(values.max())
-
-
-# ----------------------------------------------------------------------------------------------------
-# Maps
 
 
 @styled()
@@ -169,7 +160,6 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -
     for norm in norms:
         curves = curves_of(parts.of(others["curves"], norm)) if "curves" in others else []
         shown[norm], other[norm] = parted(curves, parts.of(study, norm))
-    numbers = numbers_of([curve for curves in shown.values() for curve in curves])
     parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=9)
     for ax, norm in zip(axes, norms, strict=True):
         grid = parts.of(study, norm)
@@ -178,13 +168,12 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
         for curve in other[norm]:
             ax.plot(curve.Omega, curve.N, **OTHER)
-        for curve in shown[norm]:
-            draw_curve(ax, curve, numbers.get(curve.label, 0))
+    numbered = draw_curves(axes, [*shown.values()])
     axes[0].set_ylabel(LOAD)
     kinds = {curve.kind for curves in shown.values() for curve in curves}
     handles: list[Artist] = [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
     handles += [Line2D([], [], **OTHER)] if any(other.values()) else []
-    handles += [*cycle_patches(gaps), *number_handles(numbers)]
+    handles += [*cycle_patches(gaps), *numbered]
     if "curves" in others:
         handles += unfollowed_handle([parts.of(others["curves"], norm) for norm in norms])
     if handles:

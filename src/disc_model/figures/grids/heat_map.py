@@ -45,8 +45,12 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> 
         colours = _colours(found, plot)
         for ax, (_, panel) in zip(axes, panels, strict=True):
             mesh = _panel(ax, panel, plot, colours)
-        _bar(figure, mesh, axes, found)
-        if "flag_meanings" not in found.attrs and bool(found.isnull().any()):
+        bar = figure.colorbar(mesh, ax=axes, pad=0.01, aspect=30)
+        bar.set_label(parts.label_of(found)[0])
+        if words := parts.flags_of(found):
+            bar.set_ticks(list(range(len(words))), labels=words)
+            bar.minorticks_off()
+        elif found.isnull().any():
             handles = [Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label="no value")]
     _name(figure, axes, [said for said, _ in panels], found, plot)
     if handles:
@@ -95,7 +99,7 @@ def _panel(ax: Axes, panel: xr.DataArray, plot: HeatMap, colours: Mapping[str, A
 
 def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
     """Colours and their scale."""
-    if words := found.attrs.get("flag_meanings", "").split():
+    if words := parts.flags_of(found):
         many = [WORDS[i % len(WORDS)] for i in range(len(words))]
         return {"cmap": ListedColormap(many), "norm": BoundaryNorm(np.arange(len(words) + 1) - 0.5, len(words))}
     values = found.values[np.isfinite(found.values)]
@@ -108,11 +112,3 @@ def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
         most = max(-low, high)
         return {"cmap": cm.vik, "norm": Normalize(-most, most)}
     return {"cmap": cm.batlow, "norm": Normalize(low, high)}
-
-
-def _bar(figure: Figure, mesh: QuadMesh, axes: list[Axes], found: xr.DataArray) -> None:
-    bar = figure.colorbar(mesh, ax=axes, pad=0.01, aspect=30)
-    bar.set_label(parts.label_of(found)[0])
-    if words := found.attrs.get("flag_meanings", "").split():
-        bar.set_ticks(list(range(len(words))), labels=[word.replace("_", " ") for word in words])
-        bar.minorticks_off()

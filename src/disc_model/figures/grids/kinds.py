@@ -367,10 +367,7 @@ def _same(one: Any, other: Any) -> bool:
 
 def _listed(values: Sequence[Any]) -> str:
     """A few values as messages show them."""
-    said = [
-        value if isinstance(value, str) else str(value) if isinstance(value, tuple) else f"{value:g}"
-        for value in values
-    ]
+    said = [str(value) if isinstance(value, str | tuple) else f"{value:g}" for value in values]
     return ", ".join(said if len(said) <= 12 else [*said[:6], "...", said[-1]])
 
 

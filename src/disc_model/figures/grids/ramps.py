@@ -23,7 +23,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
     """One point; with the further study ``curves``, the speeds at which the cycle ends."""
     norm, study, others = parts.of_one(study, others)
     study = study.squeeze()
-    options = json.loads(study.attrs["options"])
+    options, load = json.loads(study.attrs["options"]), float(json.loads(study.attrs["base"])["N"])
     rates, onset, end = (study[name].values for name in ("rate", "onset", "persists_to"))
     gone = study["rate_status"].values != 0
     figure = new_figure(COLUMN, 3.4)
@@ -35,7 +35,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
         top = np.full(late.size, options["high"])
         ax.plot(late, top, "^", color=ONSET, markersize=4, markerfacecolor="white", clip_on=False, label=BEYOND)
     if "curves" in others:
-        _folds(ax, curves_of(others["curves"]), study, options)
+        _folds(ax, curves_of(others["curves"]), load, options)
     parts.mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)
@@ -43,18 +43,14 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
         xlabel="Rate of the speed (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"])
     )
     figure.legend(loc="outside lower center", ncols=1)
-    said = f"N = {_load(study):g} N, {parts.MODES[norm]}"
+    said = f"N = {load:g} N, {parts.MODES[norm]}"
     figure.suptitle(f"{plot.title}\n{said}" if plot.title else said, fontsize=8)
     return figure
 
 
-def _load(study: xr.Dataset) -> float:
-    return float(json.loads(study.attrs["base"])["N"])
-
-
-def _folds(ax: Axes, curves: list[Curve], study: xr.Dataset, options: Mapping[str, float]) -> None:
+def _folds(ax: Axes, curves: list[Curve], load: float, options: Mapping[str, float]) -> None:
     """Speeds at which the stick-slip cycle ends at this load: where the onset goes as the rate goes to zero."""
-    folds = np.concatenate([[], *(crossings(curve, _load(study)) for curve in curves if curve.kind == "fold")])
+    folds = np.concatenate([[], *(crossings(curve, load) for curve in curves if curve.kind == "fold")])
     for i, speed in enumerate(folds[(folds > options["low"]) & (folds < options["high"])]):
         style = parts.border("fold") | ({"label": "_nolegend_"} if i else {})
         ax.axhline(speed, **style, zorder=0)

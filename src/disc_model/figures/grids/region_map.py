@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Collection, Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.branches import Mask, branches, name_branches
+from disc_model.figures.grids.branches import Mask, branches, named
 from disc_model.figures.grids.cells import (
     OUTCOMES,
     cycle_patches,
@@ -74,7 +75,11 @@ def _branches(ax: Axes, data: xr.Dataset, plot: RegionMap) -> bool:
     """Name the branches of the cycle; whether there are any that are large enough."""
     followed = words_of(data, "cycle", plot.x, plot.y) == "followed"
     x, y = (data[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
-    return name_branches(ax, x, y, branches(followed, *_joined(data, plot)))
+    found = list(named(branches(followed, *_joined(data, plot))))
+    look: dict[str, Any] = {"ha": "center", "va": "center", "zorder": 4, "path_effects": parts.halo(2.0)}
+    for name, row, column in found:
+        ax.text(x[column], y[row], name, fontsize=8, fontweight="bold", **look)
+    return bool(found)
 
 
 def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> set[str]:

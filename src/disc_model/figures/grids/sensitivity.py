@@ -25,6 +25,8 @@ PROBABILITIES = {
 }
 INDICES = {"first": ("first-order index", SKY, "#d5d5d5"), "total": ("total index", BLUE, GREY)}
 """By kind: what it is called, its colour, and that of one of which nothing is known."""
+LETTERS = "bcdefghi"
+"""Of the panels of indices; the probabilities are (a)."""
 SPAN = (-0.25, 1.3)
 """Indices that are shown; true ones lie from 0 to 1."""
 WIDEST = 1.0
@@ -47,8 +49,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity)
         for row, output in enumerate(OUTPUTS):
             ax = figure.add_subplot(grid[row, 1 + column])
             _bars(ax, cell.sel(output=output), labelled=column == 0)
-            letter = _letter(row * len(cells) + column)
-            ax.set_title(f"({letter}) {title}" if row == 0 else f"({letter})", loc="left")
+            parts.letter(ax, LETTERS[row * len(cells) + column], "" if row else title)
             ax.set_xlabel(_said(cell, output))
     handles = first.get_legend_handles_labels()[0]
     handles += [Patch(color=color, label=label) for label, color, _ in INDICES.values()]
@@ -57,11 +58,6 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity)
     title = plot.title or study.attrs.get("title", "")
     parts.head(figure, study, f"{title}: {spreads(json.loads(study.attrs['options'])['distributions'])}")
     return figure
-
-
-def _letter(place: int) -> str:
-    """Of a panel of indices; the probabilities are (a)."""
-    return chr(ord("b") + place)
 
 
 def spreads(distributions: Mapping[str, Mapping[str, Any]]) -> str:
@@ -76,11 +72,11 @@ def _spread(name: str, how: Mapping[str, Any]) -> str:
     """How one is, in words."""
     if how["distribution"] == "uniform" and how["relative"] and np.isclose(how["low"] + how["high"], 2):
         return f"± {50 * (how['high'] - how['low']):g} %"
-    factor, unit = (1.0, " times its value") if how["relative"] else (parts.SYMBOLS[name][2], _unit(name))
+    _, unit, factor = ("", "times its value", 1.0) if how["relative"] else parts.SYMBOLS[name]
     said = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
-    texts = [f"{said['low']} to {said['high']}{unit}"] if "low" in said else []
-    texts += [f"normal, {said['mean']} ± {said['deviation']}{unit}"] if "mean" in said else []
-    return ", ".join(texts)
+    texts = [f"{said['low']} to {said['high']} {unit}"] if "low" in said else []
+    texts += [f"normal, {said['mean']} ± {said['deviation']} {unit}"] if "mean" in said else []
+    return ", ".join(text.rstrip() for text in texts)
 
 
 def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
@@ -108,11 +104,11 @@ def _probabilities(ax: Axes, cells: list[tuple[str, xr.Dataset]]) -> None:
         spans = np.maximum([(value - low)[known], (high - value)[known]], 0)  # an end may be the value, to rounding
         style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 4, "linestyle": "", "capsize": 2}
         ax.errorbar(place, value[known], spans, label=label, linewidth=1, **style)
-    letters = [", ".join(_letter(row * len(cells) + i) for row in range(len(OUTPUTS))) for i in range(len(cells))]
+    letters = [", ".join(LETTERS[row * len(cells) + i] for row in range(len(OUTPUTS))) for i in range(len(cells))]
     ax.set_xticks(range(len(cells)), labels=[f"({each})" for each in letters])
     ax.minorticks_off()
     ax.set(ylabel="Probability", ylim=(-0.03, 1.03), xlim=(-0.5, len(cells) - 0.5))
-    ax.set_title("(a)", loc="left")
+    parts.letter(ax, "a")
 
 
 def _bars(ax: Axes, cell: xr.Dataset, labelled: bool) -> None:
@@ -136,12 +132,6 @@ def _bars(ax: Axes, cell: xr.Dataset, labelled: bool) -> None:
     ax.minorticks_off()
     ax.patch.set_visible(False)  # it would cover the numbers beside the panel to its left
     ax.set(ylim=(len(names) - 0.4, -0.6), xlim=SPAN)
-
-
-def _unit(name: str) -> str:
-    """A parameter's unit, after a space; nothing if it has none."""
-    unit = parts.SYMBOLS[name][1]
-    return f" {unit}" if unit else ""
 
 
 def symbol(name: str) -> str:

@@ -63,6 +63,20 @@ def branches(speeds: list[Array]) -> list[tuple[int, float, float]]:
     return links
 
 
+def separates(study: xr.Dataset, horizon: float, loads: Array, speeds: Array) -> NDArray[np.bool_]:
+    """Whether one of the scanned loads beside a load separates at a speed, or none is beside: (loads, speeds)."""
+    scanned = study["N"].values
+    if not scanned.size:
+        return np.ones((len(loads), len(speeds)), bool)
+    changes = zip(onsets(study, horizon), speeds_of(study, horizon, "ends"), strict=True)
+    passed = [[np.searchsorted(np.sort(at), speeds, "right") for at in pair] for pair in changes]
+    at_scan = np.array([begun > ended for begun, ended in passed])
+    below, above = (np.searchsorted(scanned, loads, side) for side in ("right", "left"))
+    beyond = (below == 0) | (above == len(scanned))
+    below, above = np.clip(below - 1, 0, None), np.clip(above, None, len(scanned) - 1)
+    return at_scan[below] | at_scan[above] | beyond[:, None]
+
+
 def draw_onsets(ax: Axes, study: xr.Dataset, horizon: float, *, load_along: str, **style: Any) -> None:
     """Speeds at which separation begins, joined along their branches; the load lies along "x" or "y"."""
     loads, speeds = study["N"].values, onsets(study, horizon)

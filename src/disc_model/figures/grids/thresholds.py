@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -10,22 +10,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import edges_of, fill, patch
-from disc_model.figures.grids.growth_map import (
-    LOAD,
-    SPEED,
-    Curve,
-    curves_of,
-    draw_curve,
-    number_handles,
-    numbers_of,
-    parted,
-    span,
-    unfollowed_handle,
-)
+from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span, unfollowed_handle
 from disc_model.figures.grids.kinds import Thresholds
 from disc_model.figures.grids.separating import (
     BEHIND,
@@ -34,12 +22,10 @@ from disc_model.figures.grids.separating import (
     draw_onsets,
     ends_handle,
     horizon_of,
-    onsets,
-    speeds_of,
+    separates,
 )
 from disc_model.figures.parts import COLUMN, ONSET, new_figure, styled
 
-Array = NDArray[np.float64]
 MARKS: dict[str, Any] = {"color": ONSET, "marker": "o", "markersize": 3, "linewidth": 1.0}
 
 
@@ -63,7 +49,12 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Thresholds) 
     if cycle is not None:
         ax.set_xlim(*span(cycle["Omega"].values))
         behind = draw_behind(ax, cycle, "Omega", "N") if "outcome" in cycle else _growing(ax, cycle, study, horizon)
-    numbers = _curves(ax, curves_of(others["curves"]), cycle)
+    curves = curves_of(others["curves"])
+    shown = curves if cycle is None else parted(curves, cycle)[0]
+    numbered = draw_curves([ax], [shown])
+    for kind in parts.BORDERS:
+        if any(curve.kind == kind for curve in shown):
+            ax.plot([], [], **parts.border(kind))
     draw_onsets(ax, study, horizon, load_along="y", label="separation begins", zorder=1.9, **MARKS)
     handles = [*ax.get_legend_handles_labels()[0], *behind]
     if draw_ends(ax, study, horizon, load_along="y", **MARKS):
@@ -71,7 +62,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Thresholds) 
     if plot.claim:
         load, speed = np.transpose([*plot.claim.values()])
         handles += ax.plot(speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, label="what the paper says")
-    handles += number_handles(numbers) + unfollowed_handle([others["curves"]])
+    handles += numbered + unfollowed_handle([others["curves"]])
     ax.set(xlabel=SPEED, ylabel=LOAD)
     ax.set_title(f"{parts.MODES[norm]}, within {horizon:g} s", loc="left", pad=9)
     figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=1.0)
@@ -85,18 +76,6 @@ def _scanned(cycle: xr.Dataset, study: xr.Dataset) -> xr.Dataset | None:
     return within if min(within["growth_rate"].shape) > 1 else None
 
 
-def _curves(ax: Axes, curves: Sequence[Curve], cycle: xr.Dataset | None) -> dict[str, int]:
-    """Curves of the cycle that is shown, of all cycles if none is; the numbers of their names."""
-    shown = list(curves) if cycle is None else parted(curves, cycle)[0]
-    numbers = numbers_of(shown)
-    for curve in shown:
-        draw_curve(ax, curve, numbers.get(curve.label, 0))
-    for kind in parts.BORDERS:
-        if any(curve.kind == kind for curve in shown):
-            ax.plot([], [], **parts.border(kind))
-    return numbers
-
-
 def _growing(ax: Axes, cycle: xr.Dataset, study: xr.Dataset, horizon: float) -> list[Patch]:
     """Shade where no cycle is stable, and none of the nearest loads of the scan separates within the horizon.
 
@@ -108,17 +87,3 @@ def _growing(ax: Axes, cycle: xr.Dataset, study: xr.Dataset, horizon: float) -> 
     fill(ax, edges_of(cycle, "Omega", "N"), words, BEHIND)
     said = "no stable cycle, no separation;\nwhite: all else, or not known"
     return [patch(BEHIND["unstable"]._replace(label=said))]
-
-
-def separates(study: xr.Dataset, horizon: float, loads: Array, speeds: Array) -> NDArray[np.bool_]:
-    """Whether one of the scanned loads beside a load separates at a speed, or none is beside: (loads, speeds)."""
-    scanned = study["N"].values
-    if not scanned.size:
-        return np.ones((len(loads), len(speeds)), bool)
-    changes = zip(onsets(study, horizon), speeds_of(study, horizon, "ends"), strict=True)
-    passed = [[np.searchsorted(np.sort(at), speeds, "right") for at in pair] for pair in changes]
-    at_scan = np.array([begun > ended for begun, ended in passed])
-    below, above = (np.searchsorted(scanned, loads, side) for side in ("right", "left"))
-    beyond = (below == 0) | (above == len(scanned))
-    below, above = np.clip(below - 1, 0, None), np.clip(above, None, len(scanned) - 1)
-    return at_scan[below] | at_scan[above] | beyond[:, None]

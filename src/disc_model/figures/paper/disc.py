@@ -99,10 +99,6 @@ def motion_of(case: xr.DataTree) -> Motion:
     return Motion(p, time, found[: len(harmonics)], sines, slider, one["u"].values, one["phase"].values)
 
 
-# ----------------------------------------------------------------------------------------------------
-# The figure
-
-
 @styled()
 def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
     """The disc from above at instants between two losses of contact, and around its circle of radius r_0."""
@@ -201,15 +197,11 @@ def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
     ax.set_title("(e)", loc="left", x=-0.06)
 
 
-# ----------------------------------------------------------------------------------------------------
-# The film
+FILM, FILM_DPI, FRAME_RATE = (6.0, 2.5), 100, 12
+"""Size in inch, pixels an inch, and pictures a second."""
 
 
-FILM, FILM_DPI = (6.0, 2.5), 100
-"""Size in inch, and pixels an inch."""
-
-
-def film(case: xr.DataTree, path: Path, frames: int = 70, rate: int = 12) -> None:
+def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
     """Write the motion of disc and slider as a picture that moves.
 
     Parameters
@@ -217,7 +209,6 @@ def film(case: xr.DataTree, path: Path, frames: int = 70, rate: int = 12) -> Non
     case : with the windows `around0`, ...
     path : file to write, .gif or .webp
     frames : how many, at most
-    rate : per second of the film
 
     Raises
     ------
@@ -243,7 +234,7 @@ def film(case: xr.DataTree, path: Path, frames: int = 70, rate: int = 12) -> Non
 
         animation = FuncAnimation(figure, draw, frames=range(0, motion.time.size, step), blit=False)
         path.parent.mkdir(parents=True, exist_ok=True)
-        animation.save(path, writer=PillowWriter(fps=rate), dpi=FILM_DPI)
+        animation.save(path, writer=PillowWriter(fps=FRAME_RATE), dpi=FILM_DPI)
 
 
 def _still(ax: Axes, motion: Motion, i: int, scale: Normalize) -> None:

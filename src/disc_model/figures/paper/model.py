@@ -49,10 +49,6 @@ def sketch(p: Parameters) -> Figure:
     return figure
 
 
-# ----------------------------------------------------------------------------------------------------
-# Panels
-
-
 def _side(ax: Axes) -> None:
     """Along the circle of radius r_0, unrolled; the gap is open to show u and w apart."""
     x = np.linspace(-2.5, 4.4, 300)
@@ -154,10 +150,6 @@ def _forces(ax: Axes) -> None:
     ax.text(1.6, level + 0.32, "$B = \\partial w / \\partial\\theta$", ha="right", color=DISC, fontsize=SMALL)
     ax.set(xlim=(-1.65, 1.65), ylim=(-0.95, 2.35))
     ax.set_title("(c) forces at the contact", loc="left")
-
-
-# ----------------------------------------------------------------------------------------------------
-# Strokes
 
 
 def _at(angle: float, radius: float, aside: Point = (0.0, 0.0)) -> NDArray[np.float64]:

@@ -20,9 +20,6 @@ from disc_model.figures import parts
 from disc_model.figures.parts import AFTER, BEFORE, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, new_figure, styled
 from disc_model.parameters import Parameters
 
-# ----------------------------------------------------------------------------------------------------
-# Sections
-
 MARKS: dict[str, dict[str, Any]] = {
     "early": {"marker": "x", "color": BEFORE, "s": 9, "linewidths": 0.5},
     "later": {"marker": "o", "color": AFTER, "s": 3.5, "linewidths": 0},
@@ -73,10 +70,6 @@ def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool)
         title = f"First separation at {first:.2f} s:"
     blank = ax.scatter([], [], s=0, label=title)
     figure.legend(handles=[blank, *handles], loc="outside upper right", ncols=len(handles) + 1, handletextpad=0.2)
-
-
-# ----------------------------------------------------------------------------------------------------
-# Phase portraits
 
 
 @styled()

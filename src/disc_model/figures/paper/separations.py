@@ -47,13 +47,9 @@ def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
     return [(a, b) for a, b in separations(window) if a > time[0] and b < time[-1]]
 
 
-# ----------------------------------------------------------------------------------------------------
-# Figure 2: the contact force grows until the slider leaves the disc again and again
-
-
 @styled()
 def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """(a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
+    """Figure 2: (a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
     case = cases["F02"]
     figure = new_figure(PAGE, 2.3)
     whole, zoom = figure.subplots(1, 2)
@@ -90,16 +86,13 @@ def _zoom(ax: Axes, case: xr.DataTree) -> None:
         parts.legend_above(ax)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Figure 3: the slider leaves the rising disc, flies, and meets it again
-
 MARGIN = 0.5
 """Time shown before and after, as a share of the separation."""
 
 
 @styled()
 def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
+    """Figure 3, slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
 
     The paper shows (a); the gap is a hundredth of the motion, so that it needs an axis of its own to be seen.
     """
@@ -126,16 +119,13 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     return figure
 
 
-# ----------------------------------------------------------------------------------------------------
-# Figure 23: a light slider leaves the disc near the lowest point of its swing
-
 SHOWN = 0.025
 """Length of the stretch shown, s."""
 
 
 @styled()
 def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Slider and disc from static equilibrium; losses of contact are marked."""
+    """Figure 23, slider and disc from static equilibrium; losses of contact are marked."""
     case = cases["F23"]
     figure = new_figure(COLUMN, 2.5)
     ax = figure.subplots()

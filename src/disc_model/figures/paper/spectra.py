@@ -21,9 +21,6 @@ from disc_model.figures.parts import BLACK, DISC, PAGE, SKY, SLIDER, new_figure,
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
-# ----------------------------------------------------------------------------------------------------
-# Power over time and frequency
-
 FLOOR = -100.0
 """Least power shown, dB below the reference."""
 POWERS = cmc.lipari
@@ -82,15 +79,12 @@ def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequen
     colour_bar(figure, mesh, ax)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Figure 24: the disc's vibration, with the four stretches that figure 25 analyses
-
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
 
 
 @styled()
 def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
-    """Range of the disc's displacement at r_0 and a fixed angle."""
+    """Figure 24: range of the disc's displacement at r_0 and a fixed angle, with the stretches of figure 25."""
     case = cases["F13"]
     figure = new_figure(PAGE, 2.2)
     ax = figure.subplots()
@@ -108,9 +102,6 @@ def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -
     return figure
 
 
-# ----------------------------------------------------------------------------------------------------
-# Figure 25: how the disc's frequencies change, N = 385 N, Omega = 15.1 rad/s
-
 CLOSE = 300.0
 """Highest frequency of the closer view, Hz."""
 TABLE_2 = {
@@ -125,7 +116,7 @@ TABLE_2 = {
 
 @styled()
 def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Power of the disc's displacement at r_0 and a fixed angle over time and frequency, four stretches.
+    """Figure 25: power of the disc's displacement at r_0 and a fixed angle over time and frequency, four stretches.
 
     The lower row is the same up to `CLOSE` Hz, with the lines of Table 2 named.
     """
@@ -167,10 +158,6 @@ def _name_lines(ax: Axes) -> None:
     right.set_label("shares the axis to its left")
 
 
-# ----------------------------------------------------------------------------------------------------
-# Figures 26 to 29: one variable of one case, its range over the run and its spectrum in one stretch
-
-
 @styled()
 def response(
     cases: Mapping[str, xr.DataTree],
@@ -181,7 +168,7 @@ def response(
     highest: bool = False,
     until: float = np.inf,
 ) -> Figure:
-    """(a) range over the run, with closer looks beside it if asked for, (b) spectrum in a window.
+    """Figures 26 to 29: (a) range over the run, with closer looks beside it if asked for, (b) spectrum in a window.
 
     Parameters
     ----------
