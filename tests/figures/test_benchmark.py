@@ -14,14 +14,14 @@ from disc_model.benchmarks.register import SCENES
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
 from tests.benchmarks.conftest import dataset, known
+from tests.figures.grids.reading import labels
 
 __all__ = ["dataset", "known"]
 
 
 def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
     figure = figures.work_precision(dataset, "stick_slip")
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert set(labels) == {METHODS[name].label for name in ("series", "RK4", "Radau")}
+    assert set(labels(figure)) == {METHODS[name].label for name in ("series", "RK4", "Radau")}
     texts = {text.get_text() for text in figure.axes[0].texts}
     assert "4.0" in texts
     assert "wrong\nevents" in texts
@@ -72,5 +72,5 @@ def test_a_cell_of_prices_names_its_setting_and_holds_no_list(priced: xr.Dataset
 
 def test_answers_name_what_is_drawn_and_no_number_covers_another(priced: xr.Dataset) -> None:
     figure = figures.answers(priced)
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["RK4", "rigid"]
+    assert labels(figure) == ["RK4", "rigid"]
     assert [text.get_text() for text in figure.axes[0].texts] == ["8", "1"]

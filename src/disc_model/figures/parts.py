@@ -267,15 +267,7 @@ def spaced_by_factor(values: np.ndarray) -> bool:
     return bool(np.allclose(steps, steps[0], rtol=1e-6))
 
 
-def envelope(
-    ax: Axes,
-    history: xr.Dataset,
-    name: str,
-    *,
-    scale: float = 1.0,
-    color: str,
-    label: str = "",
-) -> None:
+def envelope(ax: Axes, history: xr.Dataset, name: str, *, scale: float = 1.0, color: str, label: str = "") -> None:
     """The range of a variable against time, as a band that stays visible where it is thin."""
     time = history["time"].values
     low = history[f"{name}_min"].values * scale

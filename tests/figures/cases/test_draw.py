@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from disc_model.figures.cases.draw import draw
 from disc_model.figures.cases.kinds import CASE_PLOTS
 from disc_model.figures.parts import SAMPLED, save
+from tests.figures.grids.reading import labels
 
 RATE = 4000.0
 TIME = np.arange(0, 3, 1 / RATE)
@@ -65,7 +66,7 @@ def test_a_spectrogram_shows_the_frequency_that_is_there(case: xr.DataTree) -> N
 
 def test_a_portrait_is_coloured_by_phase(case: xr.DataTree) -> None:
     (ax,) = drawn(case, "portrait", window="late").axes
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["stick", "slip"]
+    assert labels(ax) == ["stick", "slip"]
     assert ax.get_xlabel() == SAMPLED["psi"][0]
 
 

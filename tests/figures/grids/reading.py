@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 
 def crosses(ax: Axes) -> list[list[float]]:
@@ -15,6 +16,12 @@ def crosses(ax: Axes) -> list[list[float]]:
     ]
 
 
-def labels(figure: Figure) -> list[str]:
-    """What the legends of a figure say."""
-    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+def labels(shown: Figure | Axes) -> list[str]:
+    """What the legends of a figure, or that of a panel, say."""
+    legends = shown.legends if isinstance(shown, Figure) else [shown.get_legend()]
+    return [text.get_text() for legend in legends for text in legend.get_texts()]
+
+
+def lines(ax: Axes) -> dict[str, Line2D]:
+    """By what they are called."""
+    return {str(line.get_label()): line for line in ax.lines}

@@ -14,6 +14,7 @@ from disc_model.figures.grids.kinds import BasinShares, CriticalSpeed
 from disc_model.figures.parts import save
 from disc_model.stability.basins import Attractor, Reached, Signature
 from disc_model.studies.grids.quantities import basins
+from tests.figures.grids.reading import labels, lines
 from tests.studies.grids.conftest import computed, growth_over, with_failed
 
 QUIET, APART = Attractor("quiet", Signature(1e-5, 0, 0.3, 0)), Attractor("separating", Signature(0.03, 135, 0.2, 0.1))
@@ -41,10 +42,10 @@ def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 
 def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset, tmp_path) -> None:
     figure = drawn.draw(shares, {}, BasinShares(x="Omega"))
-    labels = figure.axes[0].get_legend_handles_labels()[1]
-    assert labels == ["quiet", "separating"]
-    least = next(line for line in figure.axes[2].lines if line.get_label() == "by bisection")
-    np.testing.assert_allclose(least.get_ydata(), [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
+    assert labels(figure) == ["quiet", "separating"]
+    np.testing.assert_allclose(
+        lines(figure.axes[2])["by bisection"].get_ydata(), [np.nan, 0.5, 0.05, np.nan], rtol=0.06
+    )
     save(figure, tmp_path / "shares.png")
     # what separates without a kick has no place on a logarithmic scale, and is not left out
     assert [(text.get_position()[0], text.get_text()) for text in figure.axes[2].texts] == [(15, "0")]
@@ -57,14 +58,11 @@ def test_the_band_of_fig_15_is_where_both_shares_are_above_zero(
 ) -> None:
     others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7))}
 
-    def legend(figure) -> list[str]:
-        return [text.get_text() for text in figure.axes[1].get_legend().get_texts()]
-
     before = critical_speed.draw(speeds, others, CriticalSpeed())
-    assert "quiet or separating,\nnot measured" in legend(before)
+    assert "quiet or separating,\nnot measured" in labels(before.axes[1])
     figure = critical_speed.draw(speeds, others | {"basins": shares}, CriticalSpeed())
-    assert "quiet or separating,\nmeasured at 385 N" in legend(figure)
-    assert "quiet or separating,\nnot measured" not in legend(figure)
+    assert "quiet or separating,\nmeasured at 385 N" in labels(figure.axes[1])
+    assert "quiet or separating,\nnot measured" not in labels(figure.axes[1])
     # not beyond what was measured: the bar used to go on to halfway to the next speed, past the cycle's end
     bars = [(bar.get_y(), bar.get_y() + bar.get_height()) for bar in figure.axes[1].patches if bar.get_height() > 0]
     assert bars == [(13.0, 14.0)]

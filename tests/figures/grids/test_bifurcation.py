@@ -12,7 +12,7 @@ from disc_model.data.variables import flag_names
 from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids.kinds import Bifurcation
 from disc_model.figures.parts import save
-from tests.figures.grids.reading import crosses
+from tests.figures.grids.reading import crosses, labels, lines
 from tests.studies.grids.conftest import SMALL, computed, made_up_samples, with_failed
 
 
@@ -30,7 +30,7 @@ def test_a_motion_without_switches_has_not_failed() -> None:
     samples["phase"][{"N": 1}] = 0  # not reached, as where a motion slides steadily
     (ax,) = attractors.draw(samples, {}, Bifurcation(x="N")).axes
     assert not crosses(ax)
-    assert [list(line.get_xdata()) for line in ax.lines if line.get_label() == "slides steadily"] == [[2]]
+    assert lines(ax)["slides steadily"].get_xdata() == [2]
 
 
 def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() -> None:
@@ -40,7 +40,7 @@ def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() 
         options=json.dumps({"section": "switch", "prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}}),
     )
     figure = attractors.draw(study, {}, Bifurcation(x="N", title="Made up"))
-    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["at release of stick"]
+    assert labels(figure.axes[0]) == ["at release of stick"]
     assert figure.get_suptitle() == "Made up\nΩ = 15 rad/s, c_p = 1 N s/m"  # k is that of Table 1
     assert "from the state of N = 385 N, Ω = 15.1 rad/s after 70 s" in figure.get_supxlabel()
     assert "published start" in attractors.draw(samples, {}, Bifurcation(x="N")).get_supxlabel()
@@ -52,13 +52,11 @@ def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
     samples["steady"] = ("N", np.array([2, 1, 2], np.int8), words)
     exponents["converged"] = (("N", "exponent_number"), np.array([[2], [2], [1]], np.int8), words)
     above, below = attractors.draw(samples, {"lyapunov": exponents}, Bifurcation(x="N")).axes
-    by = {line.get_label(): list(line.get_xdata()) for line in above.lines}
-    assert by["not steady"] == [2, 2]
-    assert 2 not in by["stick"]
+    assert list(lines(above)["not steady"].get_xdata()) == [2, 2]
+    assert 2 not in lines(above)["stick"].get_xdata()
     ring, _in_the_legend = (line for line in below.lines if line.get_markerfacecolor() == "none")
-    largest = next(line for line in below.lines if line.get_label() == "largest exponent")
     assert list(ring.get_xdata()) == [3]
-    assert ring.get_color() == largest.get_color()
+    assert ring.get_color() == lines(below)["largest exponent"].get_color()
 
 
 def test_diagrams_show_samples_and_exponents(tmp_path) -> None:

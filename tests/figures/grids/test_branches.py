@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from disc_model.figures.grids.branches import branches, name_branches, named
+from disc_model.figures.grids.branches import branches, named
 
 # two columns of one cycle, a cut, and three of another one; nothing is followed at a corner
 FOLLOWED = np.ones((4, 5), dtype=bool)
@@ -43,13 +42,3 @@ def test_large_branches_have_names_within_themselves() -> None:
     assert places == {"A": 0, "B": 1}
     many = np.arange(100).reshape(10, 10)  # a hundredth each
     assert not list(named(many))
-
-
-def test_names_stand_at_their_values() -> None:
-    ax = Figure().add_subplot()
-    assert name_branches(ax, np.arange(5.0), np.array([10.0, 20.0, 30.0, 40.0]), branches(FOLLOWED, UP, RIGHT))
-    at = {text.get_text(): text.get_position() for text in ax.texts}
-    assert set(at) == {"A", "B"}
-    assert at["A"][0] in (2.0, 3.0, 4.0)
-    assert at["B"][0] in (0.0, 1.0)
-    assert not name_branches(ax, np.arange(5.0), np.arange(4.0), np.full((4, 5), -1))

@@ -8,6 +8,7 @@ import xarray as xr
 from disc_model.figures.grids import critical_speed as curves
 from disc_model.figures.grids.kinds import CriticalSpeed
 from disc_model.figures.parts import save
+from tests.figures.grids.reading import labels, lines
 from tests.studies.grids.conftest import growth_over
 
 
@@ -21,11 +22,9 @@ def test_the_critical_speed_is_drawn_with_and_without_hysteresis(
     save(both, tmp_path / "both.png")
     alone = curves.draw(speeds, {}, CriticalSpeed())
     (ax,) = alone.axes
-    lowest = next(line for line in ax.lines if line.get_label() == "begins within 1000 s")
-    assert lowest.get_ydata()[:2].tolist() == [12.4, 12.4]
+    assert lines(ax)["begins within 1000 s"].get_ydata()[:2].tolist() == [12.4, 12.4]
     # more than one crossing is explained
     twice = speeds.assign(n_crossings=speeds["n_crossings"] + 1)
     twice["crossing"][..., 1], twice["crossing_kind"][..., 1] = 14.2, 2
-    labels = [text.get_text() for text in curves.draw(twice, {}, CriticalSpeed()).axes[0].get_legend().get_texts()]
-    assert "open: separation ends again" in labels
+    assert "open: separation ends again" in labels(curves.draw(twice, {}, CriticalSpeed()).axes[0])
     save(alone, tmp_path / "alone.png")

@@ -15,6 +15,7 @@ from disc_model.figures import parts
 from disc_model.figures.grids import curve, heat_map
 from disc_model.figures.grids.kinds import MOST_PANELS, CurvePlot, HeatMap
 from disc_model.figures.parts import save
+from tests.figures.grids.reading import labels, lines
 
 
 @pytest.fixture
@@ -52,7 +53,7 @@ def test_a_heat_map_has_a_panel_for_each_normalization(study: xr.Dataset, tmp_pa
     assert np.ma.getmaskarray(shown)[0, 0]
     assert shown[2, 3] == pytest.approx(0.1)
     assert figure.axes[-1].get_ylabel() == "Drift (m/s)"
-    assert figure.legends[0].get_texts()[0].get_text() == "no value"
+    assert labels(figure) == ["no value"]
     save(figure, tmp_path / "map.png")
 
 
@@ -84,11 +85,11 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     plot = CurvePlot(variable="growth_rate", x="mu_k", by="c_p", at={"normalization": "as_published"})
     figure = curve.draw(study, {}, plot)
     ax = figure.axes[0]
-    lines = {line.get_label(): line for line in ax.lines if not line.get_label().startswith("_")}
-    assert list(lines)[:4] == ["In-plane damper $c_p$ = 0.01 N s/m", "In-plane damper $c_p$ = 0.1 N s/m",
+    shown = lines(ax)
+    assert list(shown)[:4] == ["In-plane damper $c_p$ = 0.01 N s/m", "In-plane damper $c_p$ = 0.1 N s/m",
                                "In-plane damper $c_p$ = 1 N s/m", "In-plane damper $c_p$ = 10 N s/m"]  # fmt: skip
-    assert np.allclose(lines["In-plane damper $c_p$ = 1 N s/m"].get_ydata(), [-0.1, 0, 0.1])
-    assert lines["failed"].get_xdata() == [0.1], "a cross where one has no value"
+    assert np.allclose(shown["In-plane damper $c_p$ = 1 N s/m"].get_ydata(), [-0.1, 0, 0.1])
+    assert shown["failed"].get_xdata() == [0.1], "a cross where one has no value"
     assert ax.get_ylabel() == "Growth rate of disturbances (1/s)"
     save(figure, tmp_path / "curve.png")
 
@@ -113,9 +114,10 @@ def test_a_zip_has_a_panel_for_each_of_its_points(study: xr.Dataset) -> None:
 
 def test_a_zip_has_a_line_for_each_of_its_points(study: xr.Dataset) -> None:
     plot = CurvePlot(variable="growth_rate", x="c_p", by="both", at={"mu_k": 0.3})
-    lines = curve.draw(zipped(study), {}, plot).axes[0].lines
-    said = [line.get_label() for line in lines]
-    assert said[:2] == ["modes as published, vertical contact force", "orthonormal modes, normal contact force"]
+    assert list(lines(curve.draw(zipped(study), {}, plot).axes[0]))[:2] == [
+        "modes as published, vertical contact force",
+        "orthonormal modes, normal contact force",
+    ]
 
 
 def test_panels_come_as_the_page_has_its_columns(study: xr.Dataset) -> None:

@@ -9,7 +9,7 @@ from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids import critical_speed as curves
 from disc_model.figures.grids import growth_map, thresholds
 from disc_model.figures.grids.kinds import Bifurcation, CriticalSpeed, GrowthMap, Thresholds
-from tests.figures.grids.reading import crosses
+from tests.figures.grids.reading import crosses, lines
 from tests.studies.grids.conftest import growth_over, in_base, made_up_samples, with_failed
 
 
@@ -17,17 +17,17 @@ def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: 
     lost = with_failed(speeds, N=200)
     both = curves.draw(lost, {"hysteresis": with_failed(sweep, N=400)}, CriticalSpeed())
     assert [crosses(ax) for ax in both.axes] == [[[200]], [[400]]]
-    drawn = {line.get_label(): np.asarray(line.get_ydata()) for ax in both.axes for line in ax.lines}
-    loads = {line.get_label(): np.asarray(line.get_xdata()) for ax in both.axes for line in ax.lines}
+    shown = lines(both.axes[0]) | lines(both.axes[1])
     for label in ("begins within 1000 s", "published start, within 1000 s"):
-        assert set(loads[label][np.isfinite(loads[label])]) == {400}
+        loads = np.asarray(shown[label].get_xdata())
+        assert set(loads[np.isfinite(loads)]) == {400}
     for label in ("sweep up: separation begins", "sweep down: separation ends"):
-        assert np.isfinite(drawn[label]).tolist() == [True, False]
+        assert np.isfinite(shown[label].get_ydata()).tolist() == [True, False]
     growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
     (ax,) = thresholds.draw(lost, {"curves": plane, "cycle": growth}, Thresholds()).axes
     assert crosses(ax) == [[200]]
-    separation = next(line for line in ax.lines if line.get_label() == "separation begins")
-    assert np.nanmin(separation.get_ydata()) == np.nanmax(separation.get_ydata()) == 400
+    separation = lines(ax)["separation begins"].get_ydata()
+    assert np.nanmin(separation) == np.nanmax(separation) == 400
     # nothing is known of any
     (ax,) = thresholds.draw(with_failed(lost, N=400), {"curves": plane, "cycle": growth}, Thresholds()).axes
     assert crosses(ax) == [[200, 400]]

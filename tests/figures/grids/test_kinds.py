@@ -16,6 +16,7 @@ from disc_model.studies.grids.schema import load_grids
 
 CONFIG = Path(__file__).parents[3] / "config" / "studies"
 NORMS = ["as_published", "orthonormal"]
+NO_NUMBER = "must be one parameter, and a number"
 
 
 def plot(kind: str, **given: Any) -> Plot:
@@ -34,6 +35,14 @@ def study(quantity: str, options: dict[str, Any] | None = None, base: str = "as_
 
 
 MAP = {"kind": "stability_map", "x": "N", "y": "k"}
+CRITICAL = {"kind": "critical_speed"}
+THRESHOLDS = {"kind": "thresholds"}
+GROWTH = {"kind": "growth_map"}
+BIFURCATION = {"kind": "bifurcation", "x": "k"}
+
+
+def marked(x: float, y: float) -> dict[str, Any]:
+    return MAP | {"marks": {"F2": {"x": x, "y": y, "paper": "stable"}}}
 
 
 @pytest.mark.parametrize(
@@ -47,18 +56,10 @@ MAP = {"kind": "stability_map", "x": "N", "y": "k"}
         (MAP, {"N": [1]}, ["y = 'k': is no dimension of this study (known: N)"]),
         (MAP | {"y": "N"}, {"N": [1]}, ["y = 'N': must differ from x"]),
         (MAP | {"x": "kick_u"}, {"kick_u": [0, 1e-3], "k": [2]}, []),
-        (MAP | {"marks": {"F2": {"x": 1, "y": 0.3, "paper": "stable"}}}, {"N": [1], "k": [0.1 + 0.2]}, []),
-        (
-            MAP | {"marks": {"F2": {"x": 1.5, "y": 2, "paper": "stable"}}},
-            {"N": [1, 2], "k": [2]},
-            ["marks.F2.x = 1.5: must be a value of N, such as an extra one"],
-        ),
-        (
-            MAP | {"x": "contact"},
-            {"contact": ["bonded"], "k": [1]},
-            ["x = 'contact': must be one parameter, and a number"],
-        ),
-        (MAP | {"x": "N_c"}, {"N_c": [(1, 2)], "k": [1]}, ["x = 'N_c': must be one parameter, and a number"]),
+        (marked(1, 0.3), {"N": [1], "k": [0.1 + 0.2]}, []),
+        (marked(1.5, 2), {"N": [1, 2], "k": [2]}, ["marks.F2.x = 1.5: must be a value of N, such as an extra one"]),
+        (MAP | {"x": "contact"}, {"contact": ["bonded"], "k": [1]}, [f"x = 'contact': {NO_NUMBER}"]),
+        (MAP | {"x": "N_c"}, {"N_c": [(1, 2)], "k": [1]}, [f"x = 'N_c': {NO_NUMBER}"]),
         (
             MAP,
             {"N": [1], "k": [2], "c": [0], "contact": ["bonded"]},
@@ -69,34 +70,22 @@ MAP = {"kind": "stability_map", "x": "N", "y": "k"}
             {"N": [1], "k": [2]},
             ["others.growht = 'g': unknown role (known: growth)"],
         ),
-        ({"kind": "critical_speed"}, {"N": [1]}, []),
-        ({"kind": "critical_speed"}, {"c": [1]}, ["kind = 'critical_speed': needs the dimension N"]),
+        (CRITICAL, {"N": [1]}, []),
+        (CRITICAL, {"c": [1]}, ["kind = 'critical_speed': needs the dimension N"]),
+        (CRITICAL, {"N": [1], "normalization": NORMS}, ["kind = 'critical_speed': can show one normalization only"]),
+        (CRITICAL, {"N": [1], "k": [1]}, ["kind = 'critical_speed': can show N, normalization, but not k as well"]),
         (
-            {"kind": "critical_speed"},
-            {"N": [1], "normalization": NORMS},
-            ["kind = 'critical_speed': can show one normalization only"],
-        ),
-        (
-            {"kind": "critical_speed"},
-            {"N": [1], "k": [1]},
-            ["kind = 'critical_speed': can show N, normalization, but not k as well"],
-        ),
-        (
-            {"kind": "thresholds", "others": {"hysteresis": "h"}},
+            THRESHOLDS | {"others": {"hysteresis": "h"}},
             {"N": [1]},
             [
                 "others.hysteresis = 'h': unknown role (known: curves, cycle)",
                 "others.curves: is required: a study of the quantity stability_curves",
             ],
         ),
-        ({"kind": "growth_map"}, {"N": [1], "Omega": [1]}, []),
-        ({"kind": "growth_map"}, {"k": [1]}, ["kind = 'growth_map': needs the dimension N and Omega"]),
-        ({"kind": "bifurcation", "x": "k"}, {"k": [1]}, []),
-        (
-            {"kind": "bifurcation", "x": "normalization"},
-            {"normalization": NORMS},
-            ["x = 'normalization': must be one parameter, and a number"],
-        ),
+        (GROWTH, {"N": [1], "Omega": [1]}, []),
+        (GROWTH, {"k": [1]}, ["kind = 'growth_map': needs the dimension N and Omega"]),
+        (BIFURCATION, {"k": [1]}, []),
+        (BIFURCATION | {"x": "normalization"}, {"normalization": NORMS}, [f"x = 'normalization': {NO_NUMBER}"]),
     ],
 )
 def test_what_a_figure_can_show(given: dict[str, Any], dims: dict[str, list[Any]], faults: list[str]) -> None:
@@ -107,7 +96,8 @@ def test_what_a_figure_can_show(given: dict[str, Any], dims: dict[str, list[Any]
     assert found == faults
 
 
-PLANE = {"x": "Omega", "y": "N"}
+def curves(x: str, y: str, **dims: list[Any]) -> Any:
+    return study("stability_curves", {"x": x, "y": y}, **dims)
 
 
 @pytest.mark.parametrize(
@@ -123,33 +113,18 @@ PLANE = {"x": "Omega", "y": "N"}
             study("floquet", base="orthonormal", N=[1], k=[2]),
             ["must be computed for the same normalization: as_published"],
         ),
-        ({"kind": "critical_speed"}, "hysteresis", study("hysteresis", N=[2]), []),
+        (CRITICAL, "hysteresis", study("hysteresis", N=[2]), []),
+        (CRITICAL, "hysteresis", study("hysteresis", N=[2], c=[1]), ["must vary N beside normalization, and not N, c"]),
+        (THRESHOLDS, "curves", curves("Omega", "N", normalization=NORMS), []),
         (
-            {"kind": "critical_speed"},
-            "hysteresis",
-            study("hysteresis", N=[2], c=[1]),
-            ["must vary N beside normalization, and not N, c"],
-        ),
-        ({"kind": "thresholds"}, "curves", study("stability_curves", PLANE, normalization=NORMS), []),
-        (
-            {"kind": "growth_map"},
+            GROWTH,
             "curves",
-            study("stability_curves", {"x": "N", "y": "c_p"}, normalization=NORMS),
+            curves("N", "c_p", normalization=NORMS),
             ["must have options.x = 'Omega', and not 'N'", "must have options.y = 'N', and not 'c_p'"],
         ),
-        (
-            {"kind": "growth_map"},
-            "curves",
-            study("stability_curves", PLANE, k=[1, 2]),
-            ["must vary nothing beside normalization, and not k"],
-        ),
-        ({"kind": "bifurcation", "x": "k"}, "lyapunov", study("lyapunov", k=[1]), []),
-        (
-            {"kind": "bifurcation", "x": "k"},
-            "lyapunov",
-            study("lyapunov", m=[1]),
-            ["must vary k beside normalization, and not m"],
-        ),
+        (GROWTH, "curves", curves("Omega", "N", k=[1, 2]), ["must vary nothing beside normalization, and not k"]),
+        (BIFURCATION, "lyapunov", study("lyapunov", k=[1]), []),
+        (BIFURCATION, "lyapunov", study("lyapunov", m=[1]), ["must vary k beside normalization, and not m"]),
     ],
 )
 def test_what_it_can_show_beside(given: dict[str, Any], role: str, other: Any, faults: list[str]) -> None:
@@ -161,7 +136,10 @@ def test_what_it_can_show_beside(given: dict[str, Any], role: str, other: Any, f
 @pytest.mark.parametrize("folder", [CONFIG, CONFIG / "test"], ids=["paper", "test"])
 def test_the_figures_of_the_repository_can_be_drawn(folder: Path) -> None:
     grids = load_grids(sorted(folder.glob("*.yaml")))
-    seen = {name: study(grid.quantity, grid.options.model_dump(), **_values(grid)) for name, grid in grids.items()}
+    seen = {
+        name: study(grid.quantity, grid.options.model_dump(), **{dim.name: list(dim.values) for dim in grid.dims})
+        for name, grid in grids.items()
+    }
     for name, grid in grids.items():
         for figure in grid.plots.values():
             if isinstance(figure, General):  # checked with the study, which knows the quantity's variables
@@ -169,10 +147,6 @@ def test_the_figures_of_the_repository_can_be_drawn(folder: Path) -> None:
             assert not list(figure.faults(seen[name].values))
             for role, other in figure.others.items():
                 assert not list(figure.misfits_of(role, seen[name], seen[other]))
-
-
-def _values(grid: Any) -> dict[str, list[Any]]:
-    return {dim.name: list(dim.values) for dim in grid.dims}
 
 
 def test_every_plot_knows_its_quantity_its_dimensions_and_who_draws_it() -> None:

@@ -12,6 +12,7 @@ from disc_model.figures.grids.kinds import RampedSpeeds
 from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import ramps
 from disc_model.studies.grids.run import STATUSES
+from tests.figures.grids.reading import lines
 from tests.studies.grids.conftest import computed
 
 OPTIONS = {"low": 8, "high": 20, "rates": {"start": 0.01, "stop": 1, "count": 3, "scale": "log"}}
@@ -43,11 +44,11 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
     ]
     monkeypatch.setattr(drawn, "curves_of", lambda _: folds)
     figure = drawn.draw(study, {"curves": xr.Dataset()}, RampedSpeeds(title="t"))
-    lines = {str(line.get_label()): line for line in figure.axes[0].lines}
-    np.testing.assert_allclose(lines["onset of separation, speed rising"].get_ydata(), [15.3, np.nan, np.nan])
-    np.testing.assert_allclose(lines["end of separation, speed falling"].get_ydata(), [9.7, 9.3, np.nan])
-    assert list(lines[drawn.BEYOND].get_xdata()) == [0.1]
-    assert list(lines["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
+    shown = lines(figure.axes[0])
+    np.testing.assert_allclose(shown["onset of separation, speed rising"].get_ydata(), [15.3, np.nan, np.nan])
+    np.testing.assert_allclose(shown["end of separation, speed falling"].get_ydata(), [9.7, 9.3, np.nan])
+    assert list(shown[drawn.BEYOND].get_xdata()) == [0.1]
+    assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
     save(figure, tmp_path / "ramps.png")
     save(drawn.draw(study, {}, RampedSpeeds()), tmp_path / "alone.png")
 

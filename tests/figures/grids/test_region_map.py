@@ -11,8 +11,9 @@ from matplotlib.collections import LineCollection, QuadMesh
 
 from disc_model.figures.grids import region_map as maps
 from disc_model.figures.grids.kinds import Mark, RegionMap
-from disc_model.figures.parts import save
+from disc_model.figures.parts import axis_of, save
 from disc_model.studies.grids.quantities import regions
+from tests.figures.grids.reading import labels
 
 
 def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
@@ -58,16 +59,17 @@ def test_cells_borders_and_marks(x: str, values: list[float], scale: str, tmp_pa
     # the cycle's stability changes at two loads between the second and third value; stable ones end at two values
     assert lengths(outcome) == lengths(growth) == [2, 2]
     assert {text.get_text() for text in outcome.texts} == {"F2", "b"}
-    above, below = ([text.get_text() for text in legend.get_texts()] for legend in figure.legends)
-    assert {"stays quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"} <= set(above)
-    assert {"the paper: stays quiet", "the paper: separation"} <= set(above)
-    assert not any("inferred" in text for text in above)
-    assert "no cycle found" in below
+    (branch,) = growth.texts
+    assert (branch.get_text(), branch.get_position()) == ("A", (values[1] * axis_of(x)[1], 100))
+    named = {"stays quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"}
+    named |= {"the paper: stays quiet", "the paper: separation", "no cycle found"}
+    assert named <= set(labels(figure))
+    assert not any("inferred" in text for text in labels(figure))
     said = "Within 900 s of the published start.\n24 of 24 points simulated. F2: in Fig. 2 of the paper."
     alone = "Points unlike all beside them: 2."
     contradicted = "b: the paper says “separation”, the published start: undecided."
     branches = "A, B, ...: branches, on which one cycle goes on from point to point."
-    assert f"{said}\n{alone}\n{contradicted}\n{branches}" in below
+    assert f"{said}\n{alone}\n{contradicted}\n{branches}" in labels(figure)
     save(figure, tmp_path / "map.png")
 
 
@@ -86,7 +88,7 @@ def test_what_lies_inside_an_undivided_cell_is_paler(tmp_path) -> None:
     study["origin"][0] = regions.ORIGINS.index("undivided_cell")
     figure = maps.draw(study, {}, RegionMap(x="Omega", y="N"))
     assert colours(figure.axes[0]) > worked_out
-    assert "paler: inferred from the corners of a cell" in [text.get_text() for text in figure.legends[0].get_texts()]
+    assert "paler: inferred from the corners of a cell" in labels(figure)
 
 
 def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
@@ -102,17 +104,17 @@ def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
         other["origin"][2:] = regions.ORIGINS.index("undivided_cell")
         figure = maps.draw(other, {}, plot)
         assert lengths(figure.axes[0]) == [2, 0]
-        above, below = (" ".join(text.get_text() for text in legend.get_texts()) for legend in figure.legends)
-        assert "ends" not in above
-        assert ("Inferred to stay quiet, though the start was followed to no cycle: 6." in below) == (name == "outcome")
+        said = " ".join(labels(figure))
+        assert "ends" not in said
+        assert ("Inferred to stay quiet, though the start was followed to no cycle: 6." in said) == (name == "outcome")
 
 
 def test_what_did_not_vary_is_said() -> None:
     study = made_up("Omega", [5.0, 10, 20], ["as_published"]).rename(N="m")
     study.attrs["base"] = json.dumps({"N": 200.0, "c": 0.0, "contact": "separable", "D_star": 2e-5})
     figure = maps.draw(study, {}, RegionMap(x="Omega", y="m"))
-    (said,) = (text for text in figure.legends[1].get_texts() if "Within" in text.get_text())
-    assert said.get_text().startswith("N = 200 N, D* = 2e-05 N m s. Within 900 s of the published start.")
+    (said,) = (text for text in labels(figure) if "Within" in text)
+    assert said.startswith("N = 200 N, D* = 2e-05 N m s. Within 900 s of the published start.")
 
 
 def test_points_unlike_all_beside_them_are_counted() -> None:

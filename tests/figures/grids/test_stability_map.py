@@ -12,6 +12,7 @@ from disc_model.figures.grids import stability_map as maps
 from disc_model.figures.grids.kinds import Mark, StabilityMap
 from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import outcome
+from tests.figures.grids.reading import labels
 
 OUTCOMES = {"flag_meanings": " ".join(outcome.OUTCOMES)}
 
@@ -28,18 +29,12 @@ def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str, t
     rate = np.linspace(-0.1, 0.1, 12).reshape(2, 3, 2)
     rate[0, 0, 0] = np.nan
     growth = xr.Dataset({"growth_rate": (("N", x, "normalization"), rate)}, axes)
-    plot = StabilityMap(
-        x=x,
-        y="N",
-        marks={"a": Mark(x=values[1], y=100, paper="stable"), "b": Mark(x=values[2], y=200, paper="separation")},
-    )
-    figure = maps.draw(study, {"growth": growth}, plot)
+    marks = {"a": Mark(x=values[1], y=100, paper="stable"), "b": Mark(x=values[2], y=200, paper="separation")}
+    figure = maps.draw(study, {"growth": growth}, StabilityMap(x=x, y="N", marks=marks))
     assert figure.axes[0].get_xscale() == scale
     assert {text.get_text() for text in figure.axes[0].texts} == {"a", "b"}
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert {"stays quiet", "separation", "no cycle found", "the paper: stays quiet", "the paper: separation"} <= set(
-        labels
-    )
+    said = {"stays quiet", "separation", "no cycle found", "the paper: stays quiet", "the paper: separation"}
+    assert said <= set(labels(figure))
     save(figure, tmp_path / "map.png")
     bare = maps.draw(study.sel(normalization="orthonormal"), {}, StabilityMap(x=x, y="N"))
     (ax,) = bare.axes
@@ -60,5 +55,5 @@ def test_maps_of_one_normalization_over_any_number(x: str, values: list[float], 
     assert panel.get_title(loc="left") == "orthonormal modes"
     assert panel.get_xlabel() == {"c": "Damper c (N s/m)"}.get(x, f"Nodal {x[2:]}")
     # the paper's cases are of the other modes
-    assert not any("the paper" in text.get_text() for text in figure.legends[0].get_texts())
+    assert not any("the paper" in label for label in labels(figure))
     save(figure, tmp_path / "map.png")
