@@ -15,6 +15,8 @@ from disc_model.figures.parts import axis_of, save
 from disc_model.studies.grids.quantities import regions
 from tests.figures.grids.reading import labels
 
+PLOT = RegionMap(x="Omega", y="N")
+
 
 def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     """A plane in which the cycle loses stability at the third value of x, and ends above the second load."""
@@ -22,22 +24,16 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     shape = (4, len(values), len(norms))
     growth = np.where(np.arange(len(values)) < 2, -0.1, 0.1)[None, :, None] * np.ones(shape)
     growth[2:] = np.nan
-
-    def words(name: str, codes: np.ndarray) -> tuple:
-        flags = {"flag_meanings": " ".join(regions.COLUMNS[name].variable.flags)}
-        return dims, codes * np.ones(shape, int), flags
-
     followed = np.where(np.isfinite(growth), 1, 0)
     outcome = np.where(np.isnan(growth), 4, np.where(growth < 0, 1, 3))
     outcome[3, 0] = 2
+    codes = {"outcome": outcome, "origin": np.full(shape, 2)}
+    codes |= dict.fromkeys(("cycle", "joined_first", "joined_second"), followed)
     data = {
-        "outcome": words("outcome", outcome),
-        "cycle": words("cycle", followed),
-        "origin": words("origin", np.full(shape, 2)),
-        "joined_first": words("joined_first", followed),
-        "joined_second": words("joined_second", followed),
-        "growth_rate": (dims, growth),
+        name: (dims, values, {"flag_meanings": " ".join(regions.COLUMNS[name].variable.flags)})
+        for name, values in codes.items()
     }
+    data["growth_rate"] = (dims, growth)
     axes = {"N": [100.0, 200, 300, 400], x: values, "normalization": norms}
     return xr.Dataset(data, axes, {"options": json.dumps({"horizon": 900.0})})
 
@@ -84,9 +80,9 @@ def colours(ax) -> set[tuple]:
 
 def test_what_lies_inside_an_undivided_cell_is_paler(tmp_path) -> None:
     study = made_up("Omega", [5.0, 10, 20], ["as_published"])
-    worked_out = colours(maps.draw(study, {}, RegionMap(x="Omega", y="N")).axes[0])
+    worked_out = colours(maps.draw(study, {}, PLOT).axes[0])
     study["origin"][0] = regions.ORIGINS.index("undivided_cell")
-    figure = maps.draw(study, {}, RegionMap(x="Omega", y="N"))
+    figure = maps.draw(study, {}, PLOT)
     assert colours(figure.axes[0]) > worked_out
     assert "paler: inferred from the corners of a cell" in labels(figure)
 
@@ -94,7 +90,6 @@ def test_what_lies_inside_an_undivided_cell_is_paler(tmp_path) -> None:
 def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
     """Any cell without a cycle that was followed was said to be beyond a fold, and the picture showed the tiles."""
     study = made_up("Omega", [5.0, 10, 20], ["as_published"])
-    plot = RegionMap(x="Omega", y="N")
     for name, code in (
         ("cycle", regions.CYCLES.index("only_near")),  # another is near
         ("outcome", regions.OUTCOMES.index("stable")),  # it is inferred to stay quiet
@@ -102,7 +97,7 @@ def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
         other = study.copy(deep=True)
         other[name][2:] = code
         other["origin"][2:] = regions.ORIGINS.index("undivided_cell")
-        figure = maps.draw(other, {}, plot)
+        figure = maps.draw(other, {}, PLOT)
         assert lengths(figure.axes[0]) == [2, 0]
         said = " ".join(labels(figure))
         assert "ends" not in said
@@ -119,19 +114,12 @@ def test_what_did_not_vary_is_said() -> None:
 
 def test_points_unlike_all_beside_them_are_counted() -> None:
     """An outcome of its own in a corner, one in the middle; two that lie side by side are not alone."""
-    codes = np.full((1, 4, 5), regions.OUTCOMES.index("stable"))
-    codes[0, 0, 0] = codes[0, 2, 1] = codes[0, 1, 3] = codes[0, 2, 3] = regions.OUTCOMES.index("unstable")
-    flags = {"flag_values": np.arange(5), "flag_meanings": " ".join(regions.OUTCOMES)}
-    outcome = xr.DataArray(
-        codes,
-        {"normalization": ["as_published"], "N": np.arange(4.0), "Omega": np.arange(5.0)},
-        ("normalization", "N", "Omega"),
-        attrs=flags,
-    )
-    study = xr.Dataset({"outcome": outcome})
-    plot = RegionMap(x="Omega", y="N")
-    assert maps.standing_alone(study, plot) == ["Points unlike all beside them: 2."]
-    assert maps.standing_alone(study.isel(N=[1, 2], Omega=[3, 4]), plot) == []
+    study = made_up("Omega", [0.0, 1, 2, 3, 4], ["as_published"])
+    study["outcome"][:] = regions.OUTCOMES.index("stable")
+    for row, column in ((0, 0), (2, 1), (1, 3), (2, 3)):
+        study["outcome"][row, column] = regions.OUTCOMES.index("unstable")
+    assert maps.standing_alone(study, PLOT) == ["Points unlike all beside them: 2."]
+    assert maps.standing_alone(study.isel(N=[1, 2], Omega=[3, 4]), PLOT) == []
 
 
 def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> None:
@@ -142,7 +130,7 @@ def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> No
         "F3": Mark(x=20, y=100, paper="separation"),
     }
     study["growth_rate"].loc[{"Omega": 20}] = -0.2
-    said = maps.contradictions(study, RegionMap(x="Omega", y="N", marks=marks))
+    said = maps.contradictions(study, PLOT.model_copy(update={"marks": marks}))
     assert said == [
         "F2: the paper says “separation”, the published start: stays quiet.",
         "F3: separation, beside a cycle that is stable (-0.2/s): another motion is reached.",

@@ -14,18 +14,10 @@ from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window
 from disc_model.data.variables import KICKS
-from disc_model.figures.paper.catalogue import (
-    CATALOGUE,
-    SECTIONS,
-    caption,
-    function_of,
-    label,
-    module_of,
-    number_of,
-    said_parameters,
-)
+from disc_model.figures.paper import catalogue
+from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, number_of, said_parameters
 from disc_model.figures.paper.separations import complete_separations, contact_force, separations
-from disc_model.figures.parts import COLUMN, PAGE, SYMBOLS, save
+from disc_model.figures.parts import COLUMN, PAGE, SYMBOLS, VERMILION, save
 from tests.claims.damaged import DAMAGES, damaged
 
 
@@ -34,19 +26,15 @@ def made_up_case(*, separates: bool = True) -> xr.DataTree:
     t = np.arange(0.25, 60, 0.5)
     grow = np.minimum(np.exp((t - 40) / 10), 1)
     history = {
-        f"{name}_{end}": ("time", offset + sign * scale * grow)
+        f"{name}_{end}": offset + sign * scale * grow
         for name, offset, scale in (("P", 200.0, 200.0), ("w_point", -5e-4, 0.01), ("psi", 0.02, 0.05))
         for end, sign in (("min", -1), ("max", 1))
     }
     s = np.linspace(0, 0.035, 3501)
     cycle = np.sin(2 * np.pi * 135 * s)
     force = np.maximum(200 + (220 if separates else 100) * cycle, 0)
-    zoom = {
-        "P": ("time", force),
-        "phase": ("time", np.where(force == 0, 2, 1).astype(np.int8)),
-        "u": ("time", 0.009 * cycle),
-        "w": ("time", 0.009 * cycle - 3e-5 * (force == 0)),
-    }
+    zoom = {"P": force, "phase": np.where(force == 0, 2, 1).astype(np.int8)}
+    zoom |= {"u": 0.009 * cycle, "w": 0.009 * cycle - 3e-5 * (force == 0)}
     p = Parameters(N=200, Omega=20)
     root = xr.Dataset(
         {"first_separation": 40.0 if separates else np.nan, "u_0": -0.001, "time_reached": 60.0},
@@ -60,14 +48,12 @@ def made_up_case(*, separates: bool = True) -> xr.DataTree:
     stretches |= {f"around{j}": made_up_circle(0.7 * j) for j in range(9)}
     if not separates:
         stretches = {name: window.assign(phase=window["phase"] % 2) for name, window in stretches.items()}
-    return xr.DataTree.from_dict(
-        {
-            "/": root,
-            "/history": xr.Dataset(history, {"time": t}, {"theta": 0.5}),
-            "/zoom": xr.Dataset(zoom, coords={"time": 50 + s}),
-        }
-        | {f"/{name}": window for name, window in stretches.items()}
-    )
+    stretches |= {"history": made_up_window(t, history), "zoom": made_up_window(50 + s, zoom)}
+    return xr.DataTree.from_dict({"/": root} | {f"/{name}": window for name, window in stretches.items()})
+
+
+def made_up_window(t: np.ndarray, values: dict[str, np.ndarray], theta: float = 0.5) -> xr.Dataset:
+    return xr.Dataset({name: ("time", value) for name, value in values.items()}, {"time": t}, {"theta": theta})
 
 
 def made_up_circle(theta: float) -> xr.Dataset:
@@ -80,7 +66,7 @@ def made_up_circle(theta: float) -> xr.Dataset:
         "w_point": 1e-3 * np.cos(2 * np.pi * cycle) * np.cos(theta),
         "phase": np.where(cycle < 0.1, 2, 1).astype(np.int8),
     }
-    return xr.Dataset({name: ("time", value) for name, value in values.items()}, {"time": t}, {"theta": theta})
+    return made_up_window(t, values, theta)
 
 
 STARTS = (0.0, 20.0, 38.5, 50.0)
@@ -98,7 +84,7 @@ def made_up_samples(start: float, rate: float, length: float) -> xr.Dataset:
         "w_point_velocity": 0.1 * np.cos(2 * np.pi * 140 * t),
         "phase": np.where(cycle > 0.9, 2, np.where(cycle > 0, 0, 1)).astype(np.int8),
     }
-    return xr.Dataset({name: ("time", value) for name, value in values.items()}, {"time": t}, {"theta": 0.5})
+    return made_up_window(t, values)
 
 
 OPTIONS = {
@@ -114,7 +100,7 @@ def draw(name: str, *, separates: bool = True) -> Figure:
 
 
 def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
-    function = getattr(importlib.import_module(module_of(name)), function_of(name))
+    function = getattr(importlib.import_module(catalogue.module_of(name)), catalogue.function_of(name))
     figure: Figure = function(cases, **OPTIONS.get(name, CATALOGUE[name].options))
     return figure
 
@@ -183,8 +169,6 @@ def test_separations_of_a_window() -> None:
 
 
 def test_first_separation_is_marked() -> None:
-    from disc_model.figures.parts import VERMILION
-
     texts = [text.get_text() for text in draw("fig13").findobj(mpl.text.Text)]
     assert "first separation 40.00 s" in texts
     lines = draw("fig13").axes[0].lines
@@ -272,14 +256,6 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
     reasons = [text for text in said if text.startswith("not shown: the case ")]
     if damage in ("failed", "nothing recorded"):
         assert len(reasons) == len([ax for ax in figure.axes if not ax.has_data()])
-        assert set(reasons) <= {
-            f"not shown: the case {'failed' if damage == 'failed' else f'did not record {window}'}"
-            for window in (
-                "history",
-                "zoom",
-                "orbit",
-                "poincare",
-                "around0",
-                *(f"spectrum_{letter}" for letter in "abcd"),
-            )
-        }
+        windows = ("history", "zoom", "orbit", "poincare", "around0", *(f"spectrum_{letter}" for letter in "abcd"))
+        known = {"failed"} if damage == "failed" else {f"did not record {window}" for window in windows}
+        assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
