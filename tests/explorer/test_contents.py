@@ -26,9 +26,14 @@ def contents():
     return made_up.contents()[0]
 
 
-def test_every_number_comes_through(contents):
+@pytest.fixture
+def told(contents):
+    """What is told of each variable."""
+    return {variable["name"]: variable for variable in contents["variables"]}
+
+
+def test_every_number_comes_through(contents, told):
     study = made_up.plane()
-    told = {variable["name"]: variable for variable in contents["variables"]}
     assert set(told) == set(study.data_vars) - {"message"}
     shape = {dim["name"]: len(dim["values"]) for dim in contents["dims"]}
     for name in ("growth_rate", "releases"):
@@ -38,8 +43,7 @@ def test_every_number_comes_through(contents):
     assert told["growth_rate"]["title"] == "growth rate"
 
 
-def test_flags_are_said_by_their_words_whatever_numbers_stand_for_them(contents):
-    told = {variable["name"]: variable for variable in contents["variables"]}
+def test_flags_are_said_by_their_words_whatever_numbers_stand_for_them(told):
     words = np.array(told["outcome"]["flags"])[numbers(told["outcome"], "u1")]
     expected = np.where(made_up.plane()["outcome"].values == 0, "separation", "stable")
     assert words.tolist() == expected.ravel().tolist()
@@ -85,11 +89,9 @@ def test_a_history_is_right_to_half_a_step(contents):
     found = numbers(told, "<u2").reshape(2, SAMPLES)
     for i, motion in enumerate(contents["motions"]["points"]):
         expected = made_up.force(motion["at"][0]).astype(float)
+        error = np.abs(told["least"][i] + told["step"][i] * found[i] - expected).max()
         # half a step, and rounding of what is about 600
-        assert (
-            np.abs(told["least"][i] + told["step"][i] * found[i] - expected).max()
-            <= np.ptp(expected) / LEVELS / 2 + 1e-12
-        )
+        assert error <= np.ptp(expected) / LEVELS / 2 + 1e-12
 
 
 def test_a_constant_history():

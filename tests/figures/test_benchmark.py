@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
@@ -43,24 +44,18 @@ def test_every_method_looks_otherwise_and_every_scene_has_a_title():
 @pytest.fixture
 def priced() -> xr.Dataset:
     """One line with a right and a wrong setting, one without answers, and a model of which two points coincide."""
-    lines = ["RK4", "RK4", "CVODE", "rigid", "rigid", "rigid"]
-    settings, errors = [1e-4, 4e-4, 1e-3, 8, 6, 1], [1e-3, 5.0, np.nan, 1e-2, 1e-2, 1.0]
-    varies = ["step", "step", "tol", *["diameters"] * 3]
-    columns = {
-        "answer": ["first_separation"] * 6,
-        "line": lines,
-        "label": lines,
-        "setting": settings,
-        "varies": varies,
-        "error": errors,
-        "seconds": [0.4, 0.1, 2.0, 0.3, 0.29, 0.01],
-        "verdict": [figures.RIGHT, figures.WRONG, figures.NO_ANSWER, figures.RIGHT, figures.RIGHT, figures.WRONG],
-        "colour": ["#000000"] * 6,
-        "marker": ["s"] * 6,
-        "dash": ["-"] * 6,
-    }
+    rows = [
+        ("RK4", "step", 1e-4, 1e-3, 0.4, figures.RIGHT),
+        ("RK4", "step", 4e-4, 5.0, 0.1, figures.WRONG),
+        ("CVODE", "tol", 1e-3, np.nan, 2.0, figures.NO_ANSWER),
+        ("rigid", "diameters", 8, 1e-2, 0.3, figures.RIGHT),
+        ("rigid", "diameters", 6, 1e-2, 0.29, figures.RIGHT),
+        ("rigid", "diameters", 1, 1.0, 0.01, figures.WRONG),
+    ]
+    table = pd.DataFrame(rows, columns=["line", "varies", "setting", "error", "seconds", "verdict"]).rename_axis("row")
+    table = table.assign(label=table["line"], answer="first_separation", colour="#000000", marker="s", dash="-")
     questions = json.dumps({"first_separation": {"enough": 0.1}})
-    return xr.Dataset({name: ("row", column) for name, column in columns.items()}, attrs={"questions": questions})
+    return xr.Dataset.from_dataframe(table).assign_attrs(questions=questions)
 
 
 def test_a_cell_of_prices_names_its_setting_and_holds_no_list(priced: xr.Dataset) -> None:

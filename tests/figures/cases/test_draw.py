@@ -13,7 +13,9 @@ from matplotlib.figure import Figure
 from disc_model.figures.cases.draw import draw
 from disc_model.figures.cases.kinds import CASE_PLOTS
 from disc_model.figures.parts import SAMPLED, save
+from tests.claims.damaged import damaged
 from tests.figures.grids.reading import labels
+from tests.figures.paper.test_catalogue import made_up_window
 
 RATE = 4000.0
 TIME = np.arange(0, 3, 1 / RATE)
@@ -25,11 +27,9 @@ def case() -> xr.DataTree:
     swing = 1e-3 * np.cos(2 * np.pi * 100 * TIME)
     samples = {"P": 200 + swing, "w": swing, "w_point": swing, "psi": np.cos(TIME), "psi_velocity": -np.sin(TIME)}
     samples |= {"u": swing, "w_point_velocity": swing, "phase": (TIME > 1).astype(np.int8)}
-    late = xr.Dataset({name: ("time", values) for name, values in samples.items()}, {"time": TIME}, {"theta": 1.0})
-    bins = {
-        f"{name}_{bound}": late[name][::100] + shift for name in ("P", "w") for bound, shift in (("min", 0), ("max", 1))
-    }
-    whole = xr.Dataset(bins, attrs={"theta": 1.0})
+    late = made_up_window(TIME, samples, theta=1.0)
+    few = late[["P", "w"]].isel(time=slice(None, None, 100))
+    whole = few.rename(P="P_min", w="w_min").merge((few + 1).rename(P="P_max", w="w_max"))
     root = xr.Dataset({"first_separation": 2.0, "time_reached": 3.0}, attrs={"parameters": '{"N": 200, "Omega": 20}'})
     turns = late.isel(time=slice(0, None, 500))
     return xr.DataTree.from_dict({"/": root, "/late": late, "/whole": whole, "/poincare": turns})
@@ -80,9 +80,8 @@ def test_a_section_has_slider_and_disc(case: xr.DataTree) -> None:
 @pytest.mark.parametrize("kind", ["history", "spectrogram", "portrait"])
 def test_a_window_that_the_run_did_not_reach_is_said(kind: str, case: xr.DataTree) -> None:
     """A case that stops at its first separation ended the job of a history in an IndexError."""
-    early = {f"/{name}": node.to_dataset(inherit=False) for name, node in case.children.items()}
-    early["/late"] = early["/late"].isel(time=slice(0))
-    figure = drawn(xr.DataTree.from_dict({"/": case.to_dataset()} | early), kind, window="late")
+    early = damaged(case, lambda groups: groups | {"late": groups["late"].isel(time=slice(0))})
+    figure = drawn(early, kind, window="late")
     texts = [text.get_text().replace("\n", " ") for ax in figure.axes for text in ax.texts]
     assert any("has 0 samples in late" in text for text in texts)
 
