@@ -93,7 +93,7 @@ def test_what_separation_does_does_not_hold_without_one() -> None:
     scalars = {"status": STATUSES.index("ok"), "n_separations": 0, "time_reached": 9.0}
     case = CaseView("A", xr.DataTree(xr.Dataset(scalars, attrs={"parameters": p.canonical_json})))
     needed = Needed({"N": 200, "Omega": 20}, separates=True)
-    claim = Claim("X", "", "", "", "", "", lambda *_: Finding("1", HOLDS), needs={"A": needed})
+    claim = Claim("X", "", "", lambda *_: Finding("1", HOLDS), needs={"A": needed})
     found = claim.evaluate({"A": case})
     assert found == Finding("case A: no separation in 9 s", FAILS)
     other = p.replace(normalization="orthonormal")

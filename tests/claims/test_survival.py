@@ -14,14 +14,14 @@ import yaml
 
 from disc_model import Parameters, residual_flexibility
 from disc_model.claims import SURVIVAL_GRIDS
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Finding
-from disc_model.claims.survival import CONCLUSIONS, MODELS, Conclusion, Evidence, judge, page_of
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim, Finding
+from disc_model.claims.survival import CONCLUSIONS, MODELS, Evidence, judge, page_of
 from disc_model.data.dataset import events_dataset
 from disc_model.data.variables import STATUSES
 from disc_model.studies.schema import load_study
 from tests.claims.made_up import logistic
 
-BY_TITLE = {one.title: one for one in CONCLUSIONS}
+BY_TITLE = {one.id: one for one in CONCLUSIONS}
 CONFIG = Path(__file__).parents[2] / "config"
 DIM = "normalization_contact_compliance_contact_force"
 
@@ -406,8 +406,8 @@ def test_each_model_is_judged_by_its_own_data() -> None:
 def test_conclusions_say_how_they_are_judged() -> None:
     assert len(BY_TITLE) == len(CONCLUSIONS) == 8
     for one in CONCLUSIONS:
-        assert isinstance(one, Conclusion)
-        assert one.rule
+        assert isinstance(one, Claim)
+        assert one.tolerance
         assert one.reason
         assert one.bound > 0
 

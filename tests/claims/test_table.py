@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.analysis.classify import shortest_period
+from disc_model.analysis.classify import irregularity, shortest_period
 from disc_model.claims import SCANS, disc, measures
 from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim, Finding, Needed
@@ -103,7 +103,7 @@ def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -
 def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
     case = {"parameters": {"N": 385, "Omega": 15, "n_diameters": 1}, "t_end": 0.01, "start": {"kick": {"f": 1.0}}}
     needed = {"F11": Needed({"N": 385, "Omega": 15, "n_diameters": 1})}
-    claim = Claim("x", "", "", "", "", "", lambda cases, claim: Finding("", HOLDS), 0.0, needed)
+    claim = Claim("x", "", "", lambda *_: Finding("", HOLDS), needs=needed)
     views = {name: CaseView(name, node) for name, node in tree_of(F11=case).children.items()}
     said = "case F11 does not begin with the published start in this study"
     assert claim.evaluate(views).verdict == f"{NOT_COMPUTED}: {said}"
@@ -169,10 +169,10 @@ def test_shortest_period() -> None:
     intervals = np.tile([1.0, 2.0, 3.0], 10)
     assert shortest_period(intervals, 1e-9) == 3
     assert shortest_period(intervals + np.arange(30), 1e-9) == 0
-    assert measures.irregularity(np.ones(5)) == 0
+    assert irregularity(np.ones(5)) == 0
 
 
 def test_a_claim_without_its_evidence_is_not_judged() -> None:
-    claim = Claim("X", "", "", "", "", "", lambda *_: Finding("1", HOLDS), needs={"A": Needed({"N": 1, "Omega": 1})})
+    claim = Claim("X", "", "", lambda *_: Finding("1", HOLDS), needs={"A": Needed({"N": 1, "Omega": 1})})
     assert claim.evaluate({}).verdict.startswith(NOT_COMPUTED)
     assert Parameters(**claim.needs["A"].parameters).N == 1

@@ -6,12 +6,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from disc_model.claims import measures
 from disc_model.claims.cases import asked
-from disc_model.claims.measures import many
-from disc_model.claims.model import Cases, CaseView, Claim, Finding, claim, finding
+from disc_model.claims.measures import many, phase_share, rate_of
+from disc_model.claims.model import CaseView, Finding, claim, finding
 from disc_model.parameters import Parameters
-from disc_model.plate import plate_modes, slider_at_rest_frequencies
+from disc_model.plate import mode_shapes, plate_modes, slider_at_rest_frequencies
 
 BASE = Parameters(N=200, Omega=20)
 DISC = (1491.92, 1516.76, 1823.88, 2774.19, 4383.04)
@@ -29,9 +28,9 @@ PRINTED = "one unit of the last digit printed"
     reason=f"{PRINTED}: the first is cut off there, not rounded",
     bound=0.0101,
 )
-def disc_frequencies(cases: Cases, claim: Claim) -> Finding:
+def disc_frequencies(bound: float) -> Finding:
     ours = plate_modes(BASE)["omega"].to_numpy()
-    return finding(f"{many(ours)} rad/s", bool(np.all(np.abs(ours - DISC) <= claim.bound)))
+    return finding(f"{many(ours)} rad/s", bool(np.all(np.abs(ours - DISC) <= bound)))
 
 
 @claim(
@@ -41,7 +40,7 @@ def disc_frequencies(cases: Cases, claim: Claim) -> Finding:
     paper="1 + 4 x 2",
     tolerance="exact",
 )
-def nine_modes(cases: Cases, claim: Claim) -> Finding:
+def nine_modes(bound: float) -> Finding:
     diameters = plate_modes(BASE).sort_values("omega")["diameters"].to_numpy()
     single, pairs = int((diameters == 0).sum()), int((diameters > 0).sum())
     ours = f"{single} single, {pairs} pairs; the lowest has {diameters[0]} nodal diameters"
@@ -58,34 +57,31 @@ def nine_modes(cases: Cases, claim: Claim) -> Finding:
     bound=2.0,
     needs=asked(F13=0, P03l5=0, P03l6=0, P03l8=0, P03l8c2=0),
 )
-def truncation(cases: Cases, claim: Claim) -> Finding:
-    first = {name: cases[name]["first_separation"] for name in claim.needs}
-    shift = float(np.ptp(list(first.values())))  # nan if one does not separate
+def truncation(bound: float, *cases: CaseView) -> Finding:
+    first = [case["first_separation"] for case in cases]
+    shift = float(np.ptp(first))  # nan if one does not separate
     coupled = [slider_at_rest_frequencies(BASE.replace(n_diameters=n))[0] for n in (4, 8)]
-    after = {name: _after_separation(cases[name]) for name in ("F13", "P03l8", "P03l8c2")}
-    alike = {name: np.allclose(found, after["F13"], rtol=0.1) for name, found in after.items()}
+    nine, more, circles = (_after_separation(cases[i]) for i in (0, 3, 4))
+    alike, alike_with_circles = (np.allclose(found, nine, rtol=0.1) for found in (more, circles))
     said = ", ".join(
         f"{rate:.0f} separations/s, {100 * apart:.1f} % of the time apart, {100 * stick:.1f} % sticking"
-        for rate, apart, stick in (after["F13"], after["P03l8c2"])
+        for rate, apart, stick in (nine, circles)
     )
     remark = (
         f"with 8 nodal diameters the lowest coupled frequency is {coupled[1]:.2f} instead of {coupled[0]:.2f} rad/s, "
-        f"and what follows separation is {'' if alike['P03l8'] else 'not '}the same; with two nodal circles besides, "
-        f"which the paper leaves out, it is {'' if alike['P03l8c2'] else 'not '}the same"
+        f"and what follows separation is {'' if alike else 'not '}the same; with two nodal circles besides, "
+        f"which the paper leaves out, it is {'' if alike_with_circles else 'not '}the same"
     )
-    ours = f"first separation at {many(first.values())} s for l up to 4, 5, 6, 8, and 8 with two circles; "
-    return finding(
-        f"{ours}later, with nine modes and with the last: {said}", shift <= claim.bound and all(alike.values()), remark
+    ours = (
+        f"first separation at {many(first)} s for l up to 4, 5, 6, 8, and 8 with two circles; later, with nine modes "
+        f"and with the last: {said}"
     )
+    return finding(ours, shift <= bound and alike and alike_with_circles, remark)
 
 
 def _after_separation(case: CaseView) -> tuple[float, float, float]:
     """Separations per second, and the shares of time apart and in stick, late in the run."""
-    return (
-        measures.rate_of(case, "separation"),
-        measures.phase_share(case, "separation"),
-        measures.phase_share(case, "stick"),
-    )
+    return rate_of(case, "separation"), phase_share(case, "separation"), phase_share(case, "stick")
 
 
 @claim(
@@ -97,15 +93,15 @@ def _after_separation(case: CaseView) -> tuple[float, float, float]:
     reason=PRINTED,
     bound=0.0101,
 )
-def attached(cases: Cases, claim: Claim) -> Finding:
+def attached(bound: float) -> Finding:
     ours = slider_at_rest_frequencies(BASE)
     other = slider_at_rest_frequencies(BASE.replace(normalization="orthonormal"))
-    shifted = [value for value in other if np.min(np.abs(value - np.array(DISC))) > claim.bound]
+    shifted = [value for value in other if np.min(np.abs(value - np.array(DISC))) > bound]
     remark = (
         "with mode shapes whose coefficient of J_l is 1, not with those normalised as Eq. (17) says, "
         f"which give {many(shifted)} rad/s for the shifted ones"
     )
-    return finding(f"{many(ours)} rad/s", bool(np.all(np.abs(ours - ATTACHED) <= claim.bound)), remark)
+    return finding(f"{many(ours)} rad/s", bool(np.all(np.abs(ours - ATTACHED) <= bound)), remark)
 
 
 @claim(
@@ -117,10 +113,10 @@ def attached(cases: Cases, claim: Claim) -> Finding:
     reason=PRINTED,
     bound=0.0101,
 )
-def attached_hertz(cases: Cases, claim: Claim) -> Finding:
+def attached_hertz(bound: float) -> Finding:
     ours = slider_at_rest_frequencies(BASE) / (2 * np.pi)
-    off = np.abs(ours - ATTACHED_HZ) > claim.bound
-    swapped = bool(np.all(np.abs(np.sort(ATTACHED_HZ) - ours) <= claim.bound))
+    off = np.abs(ours - ATTACHED_HZ) > bound
+    swapped = bool(np.all(np.abs(np.sort(ATTACHED_HZ) - ours) <= bound))
     remark = f"printed in another order: {many(np.array(ATTACHED_HZ)[off])} Hz are swapped" if off.any() else ""
     return finding(f"{many(ours)} Hz", swapped, remark)
 
@@ -134,13 +130,13 @@ def attached_hertz(cases: Cases, claim: Claim) -> Finding:
     reason="far below the smallest shift, far above rounding",
     bound=0.1,
 )
-def pairs_split(cases: Cases, claim: Claim) -> Finding:
+def pairs_split(bound: float) -> Finding:
     """The frequencies interlace: between two of the disc's there is one of those that the slider lowers, if it does."""
     attached = slider_at_rest_frequencies(BASE)
     disc = plate_modes(BASE)["omega"].to_numpy()
     lowered = []
     for below, omega in pairwise(disc):
-        between = attached[(attached > below + claim.bound) & (attached < omega - claim.bound)]
+        between = attached[(attached > below + bound) & (attached < omega - bound)]
         lowered += [omega - float(between[0])] if between.size == 1 else []
     ours = f"{len(lowered)} of {len(disc) - 1} pairs have one lower by {many(lowered, 1)} rad/s"
     return finding(ours, len(lowered) == len(disc) - 1)
@@ -155,10 +151,10 @@ def pairs_split(cases: Cases, claim: Claim) -> Finding:
     reason="far below the smallest shift, far above rounding",
     bound=0.1,
 )
-def pairs_move(cases: Cases, claim: Claim) -> Finding:
+def pairs_move(bound: float) -> Finding:
     attached = slider_at_rest_frequencies(BASE)
     disc = plate_modes(BASE).query("diameters > 0")["omega"].to_numpy()
-    kept = [omega for omega in disc if np.min(np.abs(attached - omega)) < claim.bound]
+    kept = [omega for omega in disc if np.min(np.abs(attached - omega)) < bound]
     remark = "the mode whose nodal line passes under the slider: the paper's own two lists share these values"
     return finding(f"{len(kept)} of {len(disc)} pairs keep one: {many(kept)} rad/s", not kept, remark if kept else "")
 
@@ -172,14 +168,19 @@ def pairs_move(cases: Cases, claim: Claim) -> Finding:
     reason="half a unit of the last digit printed",
     bound=0.5,
 )
-def moving_load(cases: Cases, claim: Claim) -> Finding:
-    modes = plate_modes(BASE).query("diameters > 0")
-    omega, diameters = modes["omega"].to_numpy(), modes["diameters"].to_numpy()
-    ours = float(np.min(omega / diameters))
-    shifted = float(np.min(plate_modes(BASE)["omega"] / (plate_modes(BASE)["diameters"] + 1)))
+def moving_load(bound: float) -> Finding:
+    ours = moving_load_speed(BASE)
+    modes = plate_modes(BASE)
+    shifted = float(np.min(modes["omega"] / (modes["diameters"] + 1)))
     remark = f"the least omega_l/l is ours; the printed value is the least omega_l/(l + 1) = {shifted:.2f} rad/s"
-    holds = abs(ours - 608) <= claim.bound
+    holds = abs(ours - 608) <= bound
     return finding(f"{ours:.2f} rad/s", holds, "" if holds else remark)
+
+
+def moving_load_speed(p: Parameters) -> float:
+    """Of a load that moves around the disc: the least omega_l/l, rad/s."""
+    modes = plate_modes(p).query("diameters > 0")
+    return float(np.min(modes["omega"] / modes["diameters"]))
 
 
 @claim(
@@ -191,17 +192,17 @@ def moving_load(cases: Cases, claim: Claim) -> Finding:
     reason="far above the rounding of the integral",
     bound=1e-6,
 )
-def second_relation(cases: Cases, claim: Claim) -> Finding:
+def second_relation(bound: float) -> Finding:
     """Both relations of Eq. (17), with modes normalised by the first."""
     p = BASE.replace(normalization="orthonormal")
     nodes, weights = np.polynomial.legendre.leggauss(40)
     radii, weights = 0.5 * (p.b - p.a) * (nodes + 1) + p.a, 0.5 * (p.b - p.a) * weights
     modes = plate_modes(p)
     pairs = np.where(modes["diameters"] > 0, 2.0, 1.0)  # plate_modes has one amplitude for the two of a pair
-    square = np.array([plate_modes(p.replace(r_0=float(r)))["psi"] ** 2 for r in radii]).T / pairs[:, None]
+    square = mode_shapes(p, radii) ** 2 / pairs[:, None]
     first = 2 * np.pi * p.rho * p.h * square @ (weights * radii)
     second = first * modes["omega"].to_numpy() ** 2 / p.D  # of the biharmonic: rho h omega^2/D
     ours = f"first relation {many(first, 6)}; second {', '.join(f'{value:.3g}' for value in second)} 1/(kg m²)"
     remark = "a misprint: the right side lacks ω²/D; nothing computed depends on it"
-    holds = bool(np.max(np.abs(second - 1)) <= claim.bound)
+    holds = bool(np.max(np.abs(second - 1)) <= bound)
     return finding(ours, holds, "" if holds else remark)

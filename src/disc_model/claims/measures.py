@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import FEWEST, Kind, Motion, irregularity, motion_of, stick_disappears
+from disc_model.analysis.classify import FEWEST, Kind, Motion, motion_of, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims.cases import SEPARATED
 from disc_model.claims.model import STRETCH, CaseView, Finding, Missing, Range, finding, undecided
@@ -23,13 +23,18 @@ if TYPE_CHECKING:
     from disc_model.stability.cycle import FloquetResult
 
 
-__all__ = ["irregularity"]  # beside what is defined here
 Array = NDArray[np.float64]
-BETWEEN = "the 0-1 test lies between regular and chaotic motion"
-"""Why a motion that does not repeat may be neither quasi-periodic nor irregular."""
 SHOWN = 10.0
 """s; the longest stretch of which the paper shows a spectrum."""
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
+
+
+def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
+    """Cases with separation, each with the one in which separation is ignored, if that is there."""
+    free = [case for case in cases if case.parameters.contact != "bonded"]
+    bonded = {case.parameters: case for case in cases if case.parameters.contact == "bonded"}
+    wanted = [case.parameters.replace(contact="bonded") for case in free]
+    return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True) if p in bonded]
 
 
 def ratio(part: float, whole: float, what: str) -> float:
@@ -65,70 +70,73 @@ def many(values: Iterable[float], digits: int = 2) -> str:
     return ", ".join(f"{value:.{digits}f}" for value in values)
 
 
-def times_of(events: xr.Dataset, kind: str) -> Array:
-    """Times of one kind of event, s."""
-    times: Array = events["time"].values[is_kind(events, kind)]
+def switches(case: CaseView, kind: str) -> xr.Dataset:
+    """The events of one kind, of those kept."""
+    events = case.events
+    return events.isel(event=events["kind"].values == EVENT_KINDS.index(kind))
+
+
+def times_of(case: CaseView, kind: str) -> Array:
+    """Their times, s."""
+    times: Array = switches(case, kind)["time"].values
     return times
-
-
-def is_kind(events: xr.Dataset, kind: str) -> NDArray[np.bool_]:
-    """Which events are of one kind, shape (event,)."""
-    mask: NDArray[np.bool_] = events["kind"].values == EVENT_KINDS.index(kind)
-    return mask
 
 
 def release_intervals(case: CaseView) -> Array:
     """Times between successive releases of stick in the events kept, s."""
-    intervals = np.diff(times_of(case.events, "stick_to_slip"))
+    intervals = np.diff(times_of(case, "stick_to_slip"))
     if intervals.size < FEWEST:
         raise Missing(f"case {case.name} keeps fewer than {FEWEST} stick-slip cycles")
     return intervals
 
 
-def late_motion(case: CaseView, tolerance: float = 1e-8) -> Motion:
-    """What the in-plane motion is within the events kept; see `disc_model.analysis.classify`."""
-    return motion_of(release_intervals(case), tolerance)
+def late_motion(case: CaseView, tolerance: float = 1e-8) -> tuple[Motion, str]:
+    """What the in-plane motion is within the events kept, see `disc_model.analysis.classify`; and that in words.
 
-
-def said_motion(case: CaseView, motion: Motion) -> str:
-    """A motion in words: its period, in releases, separations and seconds, or what stands against one."""
+    They tell its period, in releases, separations and seconds, or what stands against one.
+    """
     intervals = release_intervals(case)
-    rate = f"{1 / intervals.mean():.1f} releases/s"
+    motion = motion_of(intervals, tolerance)
     if not motion.period:
         test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
-        return f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
+        rate = f"{1 / intervals.mean():.1f} releases/s"
+        return motion, f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
     length = period_of(case, motion)
     apart = round(rate_of(case, "separation") * length)
     releases = counted(motion.period, "release")
     after = f"{releases} = {apart} separations" if apart else releases
     seen = f"to {motion.closure:.0e} s, in the last {intervals.sum():.0f} s"
-    return f"periodic: repeats after {after} = {length:.6g} s, {seen}"
+    return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
 
-def is_quasi_periodic(case: CaseView, other: CaseView) -> Finding:
+def is_quasi_periodic(bound: float, case: CaseView, other: CaseView) -> Finding:
     """Whether the in-plane motion is quasi-periodic, as the paper says of several cases.
 
     other : the same parameters from another start
     """
-    motion = late_motion(case)
-    ours = said_motion(case, motion)
-    if motion.kind is Kind.UNDECIDED:
-        return undecided(ours, BETWEEN)
+    motion, ours = late_motion(case)
     remark = ""
     if motion.kind is Kind.PERIODIC:
         longer = period_of(case, motion) > SHOWN
         remark = f"it repeats {'only after longer than' if longer else 'within'} the {SHOWN:g} s of the paper's spectra"
     elif motion.kind is Kind.IRREGULAR:
         remark = "it does not repeat within the record, nor is it quasi-periodic by the 0-1 test"
-    return finding(ours, motion.kind is Kind.QUASI_PERIODIC, joined(remark, another_motion((case, other))))
+    return of_kind(Kind.QUASI_PERIODIC, motion, ours, remark=joined(remark, another_motion((case, other))))
 
 
-def is_intricate(case: CaseView, other: CaseView, bound: float) -> Finding:
+def of_kind(kind: Kind, motion: Motion, ours: str, *, besides: bool = True, remark: str = "") -> Finding:
+    """Whether a motion is of a kind and what else is claimed, `besides`, is so; undecided where that hangs on chaos."""
+    if besides and motion.kind is Kind.UNDECIDED:
+        return undecided(ours, "the 0-1 test lies between regular and chaotic motion")
+    return finding(ours, besides and motion.kind is kind, remark)
+
+
+def is_intricate(bound: float, case: CaseView, other: CaseView) -> Finding:
     """Whether the in-plane motion has no period of fewer than `bound` releases; `other` as in `is_quasi_periodic`."""
-    motion = late_motion(case)
+    motion, ours = late_motion(case)
     remark = "periodic all the same" if motion.period else ""
     holds = motion.period == 0 or motion.period >= bound
-    return finding(said_motion(case, motion), holds, joined(remark, another_motion((case, other))))
+    return finding(ours, holds, joined(remark, another_motion((case, other))))
 
 
 def another_motion(*pairs: tuple[CaseView, CaseView]) -> str:
@@ -137,7 +145,7 @@ def another_motion(*pairs: tuple[CaseView, CaseView]) -> str:
     pairs : a case from the published start, and the same parameters begun in a separated motion
     """
     said = [
-        f"at {place(case['N'], case['Omega'])} {_by_separations(other)}"
+        f"at {place_of(case)} {_by_separations(other)}"
         for case, other in pairs
         if other.separates and stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
     ]
@@ -147,7 +155,7 @@ def another_motion(*pairs: tuple[CaseView, CaseView]) -> str:
 
 def _by_separations(case: CaseView) -> str:
     """What a motion without stick is, by the intervals between its separations."""
-    intervals = np.diff(times_of(case.events, "separation"))
+    intervals = np.diff(times_of(case, "separation"))
     if intervals.size < FEWEST:
         raise Missing(f"case {case.name} keeps fewer than {FEWEST} separations")
     motion = motion_of(intervals)
@@ -166,6 +174,11 @@ def place(N: float, Omega: float) -> str:
     return f"{N:g} N, {Omega:g} rad/s"
 
 
+def place_of(case: CaseView) -> str:
+    """Where a case is in it."""
+    return place(case["N"], case["Omega"])
+
+
 def joined(*remarks: str) -> str:
     """Those remarks that say something."""
     return "; ".join(remark for remark in remarks if remark)
@@ -179,7 +192,7 @@ def period_of(case: CaseView, motion: Motion) -> float:
 def rate_of(case: CaseView, kind: str) -> float:
     """Events of one kind per second within the events kept, 1/s."""
     start, stop = kept_span(case)
-    return times_of(case.events, kind).size / (stop - start)
+    return times_of(case, kind).size / (stop - start)
 
 
 def kept_span(case: CaseView) -> Range:
@@ -190,8 +203,7 @@ def kept_span(case: CaseView) -> Range:
 
 def separation_durations(case: CaseView) -> Array:
     """Durations of the separations that begin and end within the events kept, s."""
-    events = case.events
-    apart, together = times_of(events, "separation"), times_of(events, "reattachment")
+    apart, together = times_of(case, "separation"), times_of(case, "reattachment")
     apart = apart[: np.searchsorted(apart, together[-1])] if together.size else apart[:0]
     if not apart.size:
         raise Missing(f"case {case.name} keeps no whole separation")
@@ -200,12 +212,10 @@ def separation_durations(case: CaseView) -> Array:
 
 def open_separation(case: CaseView) -> float:
     """How long the last separation of the events kept has lasted where they end without a reattachment, s; else 0."""
-    events = case.events
-    switched = is_kind(events, "separation") | is_kind(events, "reattachment")
-    last = events.isel(event=np.flatnonzero(switched)[-1:])
-    if not is_kind(last, "separation").any():
+    apart, together = times_of(case, "separation"), times_of(case, "reattachment")
+    if not apart.size or (together.size and together[-1] >= apart[-1]):
         return 0.0
-    return kept_span(case).high - float(last["time"].values[0])
+    return kept_span(case).high - float(apart[-1])
 
 
 def phase_share(case: CaseView, phase: str) -> float:
@@ -318,9 +328,25 @@ def growth_rate(case: CaseView) -> float:
     return cycle_of(case.parameters).growth_rate
 
 
-def said_growth(case: CaseView) -> str:
-    """The same in words; that there is no cycle, if so."""
+def growth_or_nan(p: Parameters) -> float:
+    """The same of any parameters, nan without a cycle."""
     try:
-        return f"growth {growth_rate(case):+.4f}/s"
+        return cycle_of(p).growth_rate
     except Missing:
-        return "no stick-slip cycle"
+        return math.nan
+
+
+def said_rate(rate: float, unit: str = "", without: str = "no cycle") -> str:
+    """A growth rate, or what stands for one without a cycle."""
+    return without if math.isnan(rate) else f"{rate:+.4f}{unit}"
+
+
+def said_growth(case: CaseView) -> str:
+    """How fast small disturbances of a case's cycle grow."""
+    rate = growth_or_nan(case.parameters)
+    return "no stick-slip cycle" if math.isnan(rate) else f"growth {said_rate(rate)}/s"
+
+
+def said_onset(case: CaseView) -> str:
+    """When a case first separates, and how fast small disturbances of its cycle grow."""
+    return f"{first_separation(case)}, {said_growth(case)}"

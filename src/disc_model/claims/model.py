@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any, Concatenate, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -66,6 +66,9 @@ class Range(NamedTuple):
     def width(self) -> float:
         return self.high - self.low
 
+    def said(self, digits: int) -> str:
+        return f"{self.low:.{digits}f}..{self.high:.{digits}f}"
+
 
 @dataclass(frozen=True)
 class CaseView:
@@ -111,13 +114,20 @@ class CaseView:
         low, high = (history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
         return Range(float(low.min()), float(high.max()))
 
+    def last_widths(self, name: str, length: float, count: int) -> list[float]:
+        """Widths of a variable's ranges over so many stretches of a length (s) up to the end, the last one first."""
+        end = self["time_reached"]
+        spans = [(end - (i + 1) * length, end - i * length) for i in range(count)]
+        return [self.range_of(name, *span).width for span in spans]
+
+    def last_quarters(self, name: str) -> list[float]:
+        """The same over the last two quarters of the time after the first separation."""
+        return self.last_widths(name, (self["time_reached"] - self["first_separation"]) / 4, 2)
+
     def drift(self) -> float:
         """By how much the ranges of contact force and disc differ among the last stretches, share of the widest."""
-        end, found = self["time_reached"], []
-        for name in ("P", "w_point"):
-            widths = [self.range_of(name, end - (i + 1) * STRETCH, end - i * STRETCH).width for i in range(STRETCHES)]
-            found.append((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0)
-        return max(found)
+        found = [self.last_widths(name, STRETCH, STRETCHES) for name in ("P", "w_point")]
+        return max((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0 for widths in found)
 
     def ranges(self, window: str) -> xr.Dataset:
         """Least and greatest values within the bins of a window; raises `Missing`."""
@@ -142,8 +152,8 @@ def undecided(ours: str, why: str) -> Finding:
     return Finding(ours, UNDECIDED, why)
 
 
-Cases = Mapping[str, CaseView]
-Check = Callable[[Cases, "Claim"], Finding]
+Check = Callable[Concatenate[float, ...], Finding]
+"""Is given the claim's bound, and what it needs: the cases, then the grid studies, each in the order it names them."""
 
 
 @dataclass(frozen=True)
@@ -164,33 +174,37 @@ class Claim:
     id: str
     location: str
     text: str
-    paper: str
-    tolerance: str
-    reason: str
     check: Check
+    paper: str = ""
+    tolerance: str = ""
+    reason: str = ""
     bound: float = 0.0
     needs: Mapping[str, Needed] = field(default_factory=dict)
     scans: tuple[str, ...] = ()
 
-    def evaluate(self, cases: Cases) -> Finding:
+    def judge(self, *evidence: Any) -> Finding:
+        """What the check makes of this evidence; the verdict says what that lacks."""
+        try:
+            return self.check(self.bound, *evidence)
+        except Missing as missing:
+            return Finding("", f"{NOT_COMPUTED}: {missing}")
+
+    def evaluate(self, cases: Mapping[str, CaseView]) -> Finding:
         """Check the claim; without the evidence it needs, the verdict says what is missing."""
         try:
-            for name, needed in self.needs.items():
-                _require(cases, name, needed)
+            needed = {name: _needed(cases, name, what) for name, what in self.needs.items()}
             for name in self.scans:
                 if name not in cases:
                     raise Missing(f"study {name} is not among those of this run")
-            quiet = [
-                cases[name] for name, needed in self.needs.items() if needed.separates and not cases[name].separates
-            ]
+            quiet = [case for name, case in needed.items() if self.needs[name].separates and not case.separates]
             if quiet:
                 said = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(said, FAILS)
-            found = self.check(cases, self)
-            drifts = {name: cases[name].drift() for name, needed in self.needs.items() if needed.steady}
+            scans = [cases[name].node.to_dataset() for name in self.scans]
+            found = self.check(self.bound, *needed.values(), *scans)
+            return _of_steady_state(found, [case for name, case in needed.items() if self.needs[name].steady])
         except Missing as missing:
             return Finding("", f"{NOT_COMPUTED}: {missing}")
-        return _of_steady_state(found, cases, drifts) if drifts else found
 
 
 def claim(
@@ -206,28 +220,24 @@ def claim(
     scans: tuple[str, ...] = (),
 ) -> Callable[[Check], Claim]:
     """Make a check the claim that it decides: ``@claim(...)`` above it says all that `Claim` holds besides."""
-
-    def with_check(check: Check) -> Claim:
-        return Claim(id, location, text, paper, tolerance, reason, check, bound, needs or {}, scans)
-
-    return with_check
+    return lambda check: Claim(id, location, text, check, paper, tolerance, reason, bound, needs or {}, scans)
 
 
-def _of_steady_state(found: Finding, cases: Cases, drifts: Mapping[str, float]) -> Finding:
-    """What was found, with the time at which each case was steady; undecided if one was not."""
-    moving = [name for name, drift in drifts.items() if not drift <= STEADY]
+def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
+    """What was found, with the time at which each of some cases was steady, if any; undecided if one was not."""
+    drifts = {f"{case.name} at {case['time_reached']:g} s": case.drift() for case in cases}
+    moving = "; ".join(
+        f"case {at}: ranges of successive {STRETCH:g} s differ by {100 * drift:.2g} %"
+        for at, drift in drifts.items()
+        if not drift <= STEADY
+    )
     if moving:
-        said = "; ".join(
-            f"case {name} at {cases[name]['time_reached']:g} s: ranges of successive {STRETCH:g} s differ by "
-            f"{100 * drifts[name]:.2g} %"
-            for name in moving
-        )
-        return undecided(found.ours, f"not yet steady: {said}")
-    at = ", ".join(f"{name} at {cases[name]['time_reached']:g} s" for name in drifts)
-    return replace(found, ours=f"{found.ours} (steady: {at})")
+        return undecided(found.ours, f"not yet steady: {moving}")
+    return replace(found, ours=f"{found.ours} (steady: {', '.join(drifts)})") if drifts else found
 
 
-def _require(cases: Cases, name: str, needed: Needed) -> None:
+def _needed(cases: Mapping[str, CaseView], name: str, needed: Needed) -> CaseView:
+    """A case that is as it must be; raises `Missing`."""
     if name not in cases:
         raise Missing(f"case {name} is not in this study")
     case = cases[name]
@@ -244,6 +254,7 @@ def _require(cases: Cases, name: str, needed: Needed) -> None:
         raise Missing(f"case {name} does not begin with the {start} in this study")
     if case.status == "ok" and case["time_reached"] < needed.until:
         raise Missing(f"case {name} ends at {case['time_reached']:g} s, {needed.until:g} s are needed")
+    return case
 
 
 def _after(case: CaseView) -> Mapping[str, Any] | None:

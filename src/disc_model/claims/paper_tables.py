@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import pandas as pd
 
@@ -58,10 +56,8 @@ def table_1(p: Parameters) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["symbol", "quantity", "unit", "paper", "ours"])
 
 
-def table_2(case: CaseView, found: Sequence[spectra.Line] | None = None) -> pd.DataFrame:
+def table_2(case: CaseView) -> pd.DataFrame:
     """Table 2: the lines of the disc's displacement at r_0, theta = 1 during the first 10 s.
-
-    found : what `table_2_lines` found, if it is there already
 
     Returns
     -------
@@ -70,7 +66,7 @@ def table_2(case: CaseView, found: Sequence[spectra.Line] | None = None) -> pd.D
         combination), paper_says
     """
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
-    found = table_2_lines(case) if found is None else found
+    found = table_2_lines(case)
     names = [spectra.identify(line.frequency, rate, drive) for line in found]
     return pd.DataFrame(
         {

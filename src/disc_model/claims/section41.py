@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 import xarray as xr
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import stick_disappears
+from disc_model.analysis.classify import closure, irregularity, stick_disappears
 from disc_model.claims import measures
-from disc_model.claims.cases import OTHERS, asked, others
-from disc_model.claims.measures import first_separation
-from disc_model.claims.model import Cases, Claim, Finding, Missing, claim, finding, undecided
+from disc_model.claims.cases import asked, others
+from disc_model.claims.measures import first_separation, pairs
+from disc_model.claims.model import CaseView, Claim, Finding, Missing, claim, finding, undecided
 
-SHOWN = (("F02", "F04"), ("F07", "F06"), ("F09", "F08"))
-"""Pairs of cases with separation and without it that the paper shows."""
-FURTHER = (("F13", "F13bonded"), ("F17", "F17bonded"))
-"""Two more of its cases, with counterparts of ours."""
 PAIRED = asked(
     separates=True, steady=True, F02=600, F04=790, F06=200, F07=190, F08=500, F09=190, F13=110, F13bonded=110
 ) | asked(separates=True, steady=True, F17=850, F17bonded=850)
+"""With separation and without it: three pairs that the paper shows, and two more of its cases, with counterparts of
+ours."""
 INTRICATE = "no period of fewer than 4 releases"
 PERIODIC = "a periodic motion repeats to rounding; 1e-6 leaves room for a slow approach to it"
 POINTS = 500
@@ -39,14 +38,11 @@ RETURNS = "a period has to be seen twice and to close a thousand times better th
     reason="the paper gives no time for it",
     needs=asked(separates=True, F02=600),
 )
-def force_grows_to_zero(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F02"]
-    early = measures.early_range(case, "P")
-    before = case["first_separation"]
+def force_grows_to_zero(bound: float, case: CaseView) -> Finding:
+    early, before = measures.early_range(case, "P"), case["first_separation"]
     late = case.range_of("P", before - 20, before)
-    ours = f"{early.low:.2f}..{early.high:.2f} N at first, {late.low:.1f}..{late.high:.1f} N before separation; "
-    grows = late.width > 2 * early.width
-    return finding(ours + first_separation(case), case.separates and grows)
+    ours = f"{early.said(2)} N at first, {late.said(1)} N before separation; {first_separation(case)}"
+    return finding(ours, late.width > 2 * early.width)
 
 
 @claim(
@@ -58,8 +54,7 @@ def force_grows_to_zero(cases: Cases, claim: Claim) -> Finding:
     reason="when the window begins within a cycle depends on the method's rounding",
     needs=asked(separates=True, steady=True, F02=602.15),
 )
-def separations_repeat(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F02"]
+def separations_repeat(bound: float, case: CaseView) -> Finding:
     window = case.samples("zoom")
     apart = window["phase"].values == measures.SEPARATION
     count = int(np.sum(np.diff(apart.astype(int)) == 1))
@@ -80,17 +75,15 @@ def separations_repeat(cases: Cases, claim: Claim) -> Finding:
     bound=0.99,
     needs=asked(separates=True, steady=True, F02=600),
 )
-def contact_is_lost_upward(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F02"]
-    events = case.events
-    at = measures.is_kind(events, "separation")
-    velocity, height = events["u_velocity"].values[at], events["u"].values[at] - case["u_0"]
+def contact_is_lost_upward(bound: float, case: CaseView) -> Finding:
+    lost = measures.switches(case, "separation")
+    velocity, height = lost["u_velocity"].values, lost["u"].values - case["u_0"]
     share = float(np.mean(velocity > 0))
     ours = (
         f"{100 * share:.0f} % of {velocity.size}: mean velocity {velocity.mean():+.2f} m/s, "
         f"{1e3 * height.mean():+.1f} mm from equilibrium"
     )
-    return finding(ours, share >= claim.bound)
+    return finding(ours, share >= bound)
 
 
 @claim(
@@ -103,8 +96,7 @@ def contact_is_lost_upward(cases: Cases, claim: Claim) -> Finding:
     bound=0.25,
     needs=asked(separates=True, steady=True, F02=600),
 )
-def separations_are_short(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F02"]
+def separations_are_short(bound: float, case: CaseView) -> Finding:
     durations, still_open = measures.separation_durations(case), measures.open_separation(case)
     share = measures.phase_share(case, "separation")
     period = 1 / measures.rate_of(case, "separation")
@@ -114,61 +106,55 @@ def separations_are_short(cases: Cases, claim: Claim) -> Finding:
     )
     if still_open > 0:
         ours += f"; the last one lasts since {1e3 * still_open:.2f} ms"
-    return finding(ours, bool(max(durations.max(), still_open) < claim.bound * period))
+    return finding(ours, bool(max(durations.max(), still_open) < bound * period))
 
 
-@claim(
+def _releases_regularly(bound: float, case: CaseView) -> Finding:
+    intervals, late = measures.release_intervals(case), measures.late_range(case, "P")
+    spread = irregularity(intervals)
+    ours = f"one release per {1e3 * intervals.mean():.3f} ms, spread {spread:.1e}; P {late.said(0)} N"
+    return finding(ours, spread <= bound)
+
+
+without_separation = partial(
+    Claim,
+    check=_releases_regularly,
+    paper="periodic",
+    tolerance="spread of the release intervals 1e-6",
+    reason=PERIODIC,
+    bound=1e-6,
+)
+quasi_periodic = partial(
+    Claim,
+    check=measures.is_quasi_periodic,
+    paper="quasi-periodic",
+    tolerance="no period within half the record; 0-1 test below 0.3",
+    reason=RETURNS,
+)
+bonded_is_periodic = without_separation(
     "F04",
     "Sec. 4.1, Figs. 4, A1",
     "Separation ignored, N = 200 N, Omega = 20 rad/s: in-plane motion becomes periodic",
-    paper="periodic",
-    tolerance="spread of the release intervals 1e-6",
-    reason=PERIODIC,
-    bound=1e-6,
     needs=asked(steady=True, F04=790),
 )
-def bonded_is_periodic(cases: Cases, claim: Claim) -> Finding:
-    return _bonded(cases, claim, "F04")
-
-
-@claim(
+separation_is_quasi_periodic = quasi_periodic(
     "F05",
     "Sec. 4.1, Figs. 5, A2",
     "With separation: in-plane motion is quasi-periodic",
-    paper="quasi-periodic",
-    tolerance="no period within half the record; 0-1 test below 0.3",
-    reason=RETURNS,
     needs=asked(separates=True, steady=True, F02=600) | others("F02"),
 )
-def quasi_periodic(cases: Cases, claim: Claim) -> Finding:
-    return measures.is_quasi_periodic(cases["F02"], cases[OTHERS["F02"]])
-
-
-@claim(
+bonded_is_periodic_with_larger_preload = without_separation(
     "F06",
     "Sec. 4.1, Fig. 6",
     "Separation ignored, N = 300 N, Omega = 20 rad/s: periodic",
-    paper="periodic",
-    tolerance="spread of the release intervals 1e-6",
-    reason=PERIODIC,
-    bound=1e-6,
     needs=asked(steady=True, F06=200),
 )
-def bonded_is_periodic_with_larger_preload(cases: Cases, claim: Claim) -> Finding:
-    return _bonded(cases, claim, "F06")
-
-
-@claim(
+separation_is_quasi_periodic_with_larger_preload = quasi_periodic(
     "F07",
     "Sec. 4.1, Fig. 7; Sec. 4.4, Fig. 28",
     "With separation, N = 300 N, Omega = 20 rad/s: in-plane motion is quasi-periodic",
-    paper="quasi-periodic",
-    tolerance="no period within half the record; 0-1 test below 0.3",
-    reason=RETURNS,
     needs=asked(separates=True, steady=True, F07=190) | others("F07"),
 )
-def quasi_periodic_with_larger_preload(cases: Cases, claim: Claim) -> Finding:
-    return measures.is_quasi_periodic(cases["F07"], cases[OTHERS["F07"]])
 
 
 @claim(
@@ -181,17 +167,11 @@ def quasi_periodic_with_larger_preload(cases: Cases, claim: Claim) -> Finding:
     bound=0.01,
     needs=asked(steady=True, F08=500),
 )
-def bonded_is_steady(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F08"]
-    late, motion, share = (
-        measures.late_range(case, "P"),
-        measures.late_motion(case),
-        measures.phase_share(case, "stick"),
-    )
-    ours = f"P {late.low:.0f}..{late.high:.0f} N; sticks {100 * share:.0f} % of the time; "
-    ours += measures.said_motion(case, motion)
+def bonded_is_steady(bound: float, case: CaseView) -> Finding:
+    late, share = measures.late_range(case, "P"), measures.phase_share(case, "stick")
+    motion, said = measures.late_motion(case)
     remark = "" if motion.period else f"locked to the coupled mode but slowly modulated: {motion}"
-    return finding(ours, share > claim.bound, remark)
+    return finding(f"P {late.said(0)} N; sticks {100 * share:.0f} % of the time; {said}", share > bound, remark)
 
 
 @claim(
@@ -204,13 +184,10 @@ def bonded_is_steady(cases: Cases, claim: Claim) -> Finding:
     bound=1e-3,
     needs=asked(separates=True, steady=True, F09=190),
 )
-def stick_is_gone(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F09"]
-    whole = case["time_stick"] / case["time_reached"]
-    late = measures.phase_share(case, "stick")
-    gone = stick_disappears(whole, late, claim.bound)
+def stick_is_gone(bound: float, case: CaseView) -> Finding:
+    whole, late = case["time_stick"] / case["time_reached"], measures.phase_share(case, "stick")
     ours = f"{first_separation(case)}; sticks {100 * whole:.1f} % of the whole run, {100 * late:.2f} % of the last 20 s"
-    return finding(ours, case.separates and gone)
+    return finding(ours, stick_disappears(whole, late, bound))
 
 
 @claim(
@@ -223,11 +200,10 @@ def stick_is_gone(cases: Cases, claim: Claim) -> Finding:
     bound=0.5,
     needs=PAIRED,
 )
-def much_smaller_range(cases: Cases, claim: Claim) -> Finding:
-    ratios, said = _ranges(cases, SHOWN)
-    others, more = _ranges(cases, FURTHER)
-    remark = f"not in general: {more}" if max(others) >= claim.bound else ""
-    return finding(said, max(ratios) < claim.bound, remark)
+def much_smaller_range(bound: float, *cases: CaseView) -> Finding:
+    ratios, said = _ranges(pairs(cases)[:3])
+    others, more = _ranges(pairs(cases)[3:])
+    return finding(said, max(ratios) < bound, f"not in general: {more}" if max(others) >= bound else "")
 
 
 @claim(
@@ -239,8 +215,8 @@ def much_smaller_range(cases: Cases, claim: Claim) -> Finding:
     reason="only the order is claimed",
     needs=PAIRED,
 )
-def smaller_range(cases: Cases, claim: Claim) -> Finding:
-    ratios, said = _ranges(cases, (*SHOWN, *FURTHER))
+def smaller_range(bound: float, *cases: CaseView) -> Finding:
+    ratios, said = _ranges(pairs(cases))
     return finding(said, max(ratios) < 1)
 
 
@@ -254,13 +230,13 @@ def smaller_range(cases: Cases, claim: Claim) -> Finding:
     bound=1e-3,
     needs=asked(separates=True, steady=True, F02=600, F04=790, F06=200, F07=190),
 )
-def more_frequencies(cases: Cases, claim: Claim) -> Finding:
+def more_frequencies(bound: float, *cases: CaseView) -> Finding:
     said, more = [], []
-    for name, ignored in (("F02", "F04"), ("F07", "F06")):
-        windows = [cases[each].samples("late") for each in (name, ignored)]
+    for pair in pairs(cases):
+        windows = [case.samples("late") for case in pair]
         found = [(window["time"].values, window["w_point"].values) for window in windows]
-        lines = [len(spectra.lines(*each, above=1.0, floor=claim.bound)) for each in found]
-        said.append(f"N = {cases[name]['N']:g} N: {lines[0]} lines against {lines[1]}")
+        lines = [len(spectra.lines(*each, above=1.0, floor=bound)) for each in found]
+        said.append(f"N = {pair[0]['N']:g} N: {lines[0]} lines against {lines[1]}")
         more.append(lines[0] > lines[1])
     return finding("; ".join(said), all(more), "the paper argues from the number of points: see S41p")
 
@@ -275,15 +251,15 @@ def more_frequencies(cases: Cases, claim: Claim) -> Finding:
     bound=1.2,
     needs=asked(separates=True, steady=True, F02=600, F04=790, F06=200, F07=190),
 )
-def more_points(cases: Cases, claim: Claim) -> Finding:
+def more_points(bound: float, *cases: CaseView) -> Finding:
     """More than the section without separation can have: as many points as it takes to fill that."""
     said, more, filling = [], [], []
-    for free, bonded in (("F02", "F04"), ("F07", "F06")):
-        points, full = (measures.late_points(cases[name], POINTS) for name in (free, bonded))
-        said.append(f"N = {cases[free]['N']:g} N: {points} points against {full}")
-        more.append(points >= claim.bound * full)
-        if full > FULL * measures.late_points(cases[bonded], POINTS // 2):
-            filling.append(bonded)
+    for free, bonded in pairs(cases):
+        points, full = (measures.late_points(case, POINTS) for case in (free, bonded))
+        said.append(f"N = {free['N']:g} N: {points} points against {full}")
+        more.append(points >= bound * full)
+        if full > FULL * measures.late_points(bonded, POINTS // 2):
+            filling.append(bonded.name)
     if filling:
         return undecided("; ".join(said), f"{POINTS} points do not fill the section of {', '.join(filling)}")
     return finding("; ".join(said), all(more))
@@ -299,9 +275,9 @@ def more_points(cases: Cases, claim: Claim) -> Finding:
     bound=0.3,
     needs=asked(separates=True, steady=True, F02=600, F07=190, F09=190) | others("F02", "F07"),
 )
-def trajectory_changes(cases: Cases, claim: Claim) -> Finding:
-    found = [measures.trajectory_change(cases[name], claim.bound) for name in ("F02", "F07", "F09")]
-    remark = measures.another_motion(*((cases[name], cases[OTHERS[name]]) for name in ("F02", "F07")))
+def trajectory_changes(bound: float, *cases: CaseView) -> Finding:
+    found = [measures.trajectory_change(case, bound) for case in cases[:3]]
+    remark = measures.another_motion(*zip(cases[:2], cases[3:], strict=True))
     return finding("; ".join(said for said, _ in found), all(changed for _, changed in found), remark)
 
 
@@ -315,31 +291,28 @@ def trajectory_changes(cases: Cases, claim: Claim) -> Finding:
     bound=1e-6,
     needs=asked(steady=True, F04=790),
 )
-def bonded_orbit_closes(cases: Cases, claim: Claim) -> Finding:
+def bonded_orbit_closes(bound: float, case: CaseView) -> Finding:
     """Whether it returns to itself at each release."""
-    events = cases["F04"].events
-    psi = events["psi"].values[measures.is_kind(events, "stick_to_slip")]
+    psi = measures.switches(case, "stick_to_slip")["psi"].values
     if psi.size < 20:
-        raise Missing("case F04 keeps fewer than 20 releases")
-    apart = min(float(np.max(np.abs(psi[n:] - psi[:-n]))) for n in range(1, 9))
-    width = float(np.ptp(cases["F04"].samples("orbit")["psi"].values))
-    apart = measures.ratio(apart, width, "the width of the orbit of case F04")
-    ours = f"releases of up to 8 cycles apart differ by {apart:.1e} of the orbit's width"
-    return finding(ours, apart <= claim.bound)
+        raise Missing(f"case {case.name} keeps fewer than 20 releases")
+    apart = min(closure(psi, n) for n in range(1, 9))
+    width = float(np.ptp(case.samples("orbit")["psi"].values))
+    apart = measures.ratio(apart, width, f"the width of the orbit of case {case.name}")
+    return finding(f"releases of up to 8 cycles apart differ by {apart:.1e} of the orbit's width", apart <= bound)
 
 
-@claim(
+intricate_orbit = Claim(
     "A2",
     "Appendix, Fig. A2",
     "With separation: the orbit is no regular cycle any more but an intricate one",
+    check=measures.is_intricate,
     paper="intricate",
     tolerance=INTRICATE,
     reason="what 'intricate' may mean beside one release a period without separation; F05 judges 'quasi-periodic'",
     bound=4.0,
     needs=asked(separates=True, steady=True, F02=600) | others("F02"),
 )
-def intricate_orbit(cases: Cases, claim: Claim) -> Finding:
-    return measures.is_intricate(cases["F02"], cases[OTHERS["F02"]], claim.bound)
 
 
 @claim(
@@ -351,21 +324,18 @@ def intricate_orbit(cases: Cases, claim: Claim) -> Finding:
     reason="any slip that ends in stick although the relation is true refutes it",
     needs=asked(F02=0, F04=0),
 )
-def slip_condition(cases: Cases, claim: Claim) -> Finding:
+def slip_condition(bound: float, *cases: CaseView) -> Finding:
     """The relation where the slider stops on the disc: ψ' = Ω there, and c_p = 0 in both cases."""
     true, ends = 0, 0
-    for name in claim.needs:
-        case = cases[name]
-        events = case.events.isel(event=measures.is_kind(case.events, "slip_to_stick"))
-        pull = case["r_0"] * np.abs(case["c_p"] * case["Omega"] + case["k_p"] * events["psi"].values)
-        true += int(np.sum(pull < case["mu_s"] * events["P"].values))
-        ends += events.sizes["event"]
+    for case in cases:
+        stops = measures.switches(case, "slip_to_stick")
+        pull = case["r_0"] * np.abs(case["c_p"] * case["Omega"] + case["k_p"] * stops["psi"].values)
+        true += int(np.sum(pull < case["mu_s"] * stops["P"].values))
+        ends += stops.sizes["event"]
     if not ends:
         raise Missing("no case keeps an end of slip")
-    ours = f"true at {true} of {ends} ends of slip, where the slider sticks"
-    return finding(
-        ours, not true, "a misprint for ≥, as Eq. (2) has it: so printed it is Eq. (20), for stick" if true else ""
-    )
+    remark = "a misprint for ≥, as Eq. (2) has it: so printed it is Eq. (20), for stick" if true else ""
+    return finding(f"true at {true} of {ends} ends of slip, where the slider sticks", not true, remark)
 
 
 @claim(
@@ -378,9 +348,8 @@ def slip_condition(cases: Cases, claim: Claim) -> Finding:
     bound=1e-3,
     scans=("bonded",),
 )
-def bonded_always_sticks(cases: Cases, claim: Claim) -> Finding:
+def bonded_always_sticks(bound: float, study: xr.Dataset) -> Finding:
     """Over a grid of preloads and speeds; not only where the paper looks."""
-    study = cases["bonded"].node.to_dataset()
     points = study[["share_stick", "settled"]].stack(point=("N", "Omega"))
     if np.isnan(points["share_stick"]).any():
         raise Missing("study bonded has points that failed")
@@ -392,7 +361,7 @@ def bonded_always_sticks(cases: Cases, claim: Claim) -> Finding:
         return undecided(f"{said}none has settled", "no motion of the scan is known to be in its steady state")
     ours = f"{said}{settled.size} have settled: sticks {_least_stick(settled)}"
     remark = f"undecided at {moving.size} that still change: by now {_least_stick(moving)}" if moving.size else ""
-    return finding(ours, float(settled.min()) > claim.bound, remark)
+    return finding(ours, float(settled.min()) > bound, remark)
 
 
 def _least_stick(shares: xr.DataArray) -> str:
@@ -411,41 +380,26 @@ def _least_stick(shares: xr.DataArray) -> str:
     bound=1e-12,
     needs=asked(F02=0, F04=790),
 )
-def stick_on_a_line(cases: Cases, claim: Claim) -> Finding:
+def stick_on_a_line(bound: float, *cases: CaseView) -> Finding:
     worst, count = 0.0, 0
-    for name in ("F02", "F04"):
-        samples = cases[name].samples("poincare")
+    for case in cases:
+        samples = case.samples("poincare")
         stuck = samples["phase"].values == measures.STICK
         count += int(stuck.sum())
-        deviation = np.abs(samples["psi_velocity"].values[stuck] - cases[name]["Omega"])
+        deviation = np.abs(samples["psi_velocity"].values[stuck] - case["Omega"])
         worst = max(worst, float(deviation.max(initial=0.0)))
-    return finding(
-        f"largest deviation from Omega {worst:g} rad/s at {count} stick points",
-        worst <= claim.bound,
-        "by construction: to stick is to move with the drive",
-    )
+    ours = f"largest deviation from Omega {worst:g} rad/s at {count} stick points"
+    return finding(ours, worst <= bound, "by construction: to stick is to move with the drive")
 
 
-# ----------------------------------------------------------------------------------------------------
-# What several checks use
-
-
-def _ranges(cases: Cases, pairs: Sequence[tuple[str, str]]) -> tuple[list[float], str]:
+def _ranges(compared: Sequence[tuple[CaseView, CaseView]]) -> tuple[list[float], str]:
     """Late ranges of the disc with separation over those without, and all of it in words."""
     ratios, said = [], []
-    for name, ignored in pairs:
-        free, bonded = (measures.late_range(cases[each], "w_point").width for each in (name, ignored))
-        ratios.append(measures.ratio(free, bonded, f"the range of the disc in case {ignored}"))
+    for case, ignored in compared:
+        free, bonded = (measures.late_range(each, "w_point").width for each in (case, ignored))
+        ratios.append(measures.ratio(free, bonded, f"the range of the disc in case {ignored.name}"))
         said.append(
-            f"N = {cases[name]['N']:g} N, {cases[name]['Omega']:g} rad/s: {1e3 * free:.1f} mm, without separation "
-            f"{1e3 * bonded:.1f} mm (ratio {ratios[-1]:.2f})"
+            f"N = {measures.place_of(case)}: {1e3 * free:.1f} mm, without separation {1e3 * bonded:.1f} mm "
+            f"(ratio {ratios[-1]:.2f})"
         )
     return ratios, "; ".join(said)
-
-
-def _bonded(cases: Cases, claim: Claim, name: str) -> Finding:
-    intervals = measures.release_intervals(cases[name])
-    spread = measures.irregularity(intervals)
-    ours = f"one release per {1e3 * intervals.mean():.3f} ms, spread {spread:.1e}"
-    late = measures.late_range(cases[name], "P")
-    return finding(f"{ours}; P {late.low:.0f}..{late.high:.0f} N", spread <= claim.bound)

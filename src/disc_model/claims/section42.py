@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Sequence
 
+from disc_model.analysis.classify import irregularity
 from disc_model.claims import measures
-from disc_model.claims.cases import REPEATS, asked, repeated
-from disc_model.claims.measures import first_separation, said_growth, separates_at
-from disc_model.claims.model import Cases, Claim, Finding, claim, finding
-from disc_model.plate import plate_modes
+from disc_model.claims.cases import asked, repeated
+from disc_model.claims.disc import moving_load_speed
+from disc_model.claims.measures import first_separation, said_growth, said_onset, separates_at
+from disc_model.claims.model import CaseView, Finding, claim, finding
 
 ELSEWHERE = "from the published start; a separating state exists at 385 N and 15 rad/s as well, see Fig. 15b"
 
@@ -23,15 +24,10 @@ ELSEWHERE = "from the published start; a separating state exists at 385 N and 15
     bound=0.05,
     needs=asked(steady=True, F11=190),
 )
-def quiet(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F11"]
+def quiet(bound: float, case: CaseView) -> Finding:
     early, late = measures.early_range(case, "P"), measures.late_range(case, "P")
-    ours = (
-        f"{first_separation(case)}; P {early.low:.2f}..{early.high:.2f} N at first, "
-        f"{late.low:.2f}..{late.high:.2f} N in the end"
-    )
-    ours += f"; {said_growth(case)}"
-    small = max(early.width, late.width) < claim.bound * case["N"]
+    ours = f"{first_separation(case)}; P {early.said(2)} N at first, {late.said(2)} N in the end; {said_growth(case)}"
+    small = max(early.width, late.width) < bound * case["N"]
     return finding(ours, not case.separates and small and late.width <= early.width + 0.05, ELSEWHERE)
 
 
@@ -45,10 +41,10 @@ def quiet(cases: Cases, claim: Claim) -> Finding:
     bound=1e-6,
     needs=asked(steady=True, F11=190),
 )
-def periodic(cases: Cases, claim: Claim) -> Finding:
-    intervals = measures.release_intervals(cases["F11"])
-    spread = measures.irregularity(intervals)
-    return finding(f"{1 / intervals.mean():.4f} Hz, spread {spread:.1e}", spread <= claim.bound)
+def periodic(bound: float, case: CaseView) -> Finding:
+    intervals = measures.release_intervals(case)
+    spread = irregularity(intervals)
+    return finding(f"{1 / intervals.mean():.4f} Hz, spread {spread:.1e}", spread <= bound)
 
 
 @claim(
@@ -61,8 +57,8 @@ def periodic(cases: Cases, claim: Claim) -> Finding:
     bound=0.1,
     needs=asked(F13=59),
 )
-def when_it_separates(cases: Cases, claim: Claim) -> Finding:
-    return separates_at(cases["F13"], 54.5, claim.bound)
+def when_it_separates(bound: float, case: CaseView) -> Finding:
+    return separates_at(case, 54.5, bound)
 
 
 @claim(
@@ -74,9 +70,8 @@ def when_it_separates(cases: Cases, claim: Claim) -> Finding:
     reason="two runs from the published start decide it",
     needs=asked(F11=190, F13=59),
 )
-def onset(cases: Cases, claim: Claim) -> Finding:
-    below, above = cases["F11"], cases["F13"]
-    said = [f"{case['Omega']:g} rad/s: {first_separation(case)}, {said_growth(case)}" for case in (below, above)]
+def onset(bound: float, below: CaseView, above: CaseView) -> Finding:
+    said = [f"{case['Omega']:g} rad/s: {said_onset(case)}" for case in (below, above)]
     return finding("; ".join(said), not below.separates and above.separates, ELSEWHERE)
 
 
@@ -90,10 +85,10 @@ def onset(cases: Cases, claim: Claim) -> Finding:
     bound=0.02,
     needs=asked(steady=True, F11=190),
 )
-def disc_does_not_grow(cases: Cases, claim: Claim) -> Finding:
-    early, late = (of(cases["F11"], "w_point").width for of in (measures.early_range, measures.late_range))
+def disc_does_not_grow(bound: float, case: CaseView) -> Finding:
+    early, late = (of(case, "w_point").width for of in (measures.early_range, measures.late_range))
     ours = f"disc within {1e3 * early:.2f} mm at first, {1e3 * late:.2f} mm in the end"
-    return finding(ours, late <= (1 + claim.bound) * early)
+    return finding(ours, late <= (1 + bound) * early)
 
 
 @claim(
@@ -106,10 +101,10 @@ def disc_does_not_grow(cases: Cases, claim: Claim) -> Finding:
     bound=1.5,
     needs=asked(steady=True, F11=190, F13=110),
 )
-def larger_range(cases: Cases, claim: Claim) -> Finding:
-    below, above = (measures.late_range(cases[name], "w_point").width for name in ("F11", "F13"))
+def larger_range(bound: float, *cases: CaseView) -> Finding:
+    below, above = (measures.late_range(case, "w_point").width for case in cases)
     ours = f"disc within {1e3 * below:.1f} mm at 15 rad/s, {1e3 * above:.1f} mm at 15.1 rad/s"
-    return finding(ours, above > claim.bound * below)
+    return finding(ours, above > bound * below)
 
 
 @claim(
@@ -122,9 +117,9 @@ def larger_range(cases: Cases, claim: Claim) -> Finding:
     bound=1e-8,
     needs=asked(separates=True, steady=True, F13=110),
 )
-def later_periodic(cases: Cases, claim: Claim) -> Finding:
-    motion = measures.late_motion(cases["F13"], claim.bound)
-    return finding(measures.said_motion(cases["F13"], motion), motion.period > 0)
+def later_periodic(bound: float, case: CaseView) -> Finding:
+    motion, said = measures.late_motion(case, bound)
+    return finding(said, motion.period > 0)
 
 
 @claim(
@@ -136,22 +131,21 @@ def later_periodic(cases: Cases, claim: Claim) -> Finding:
     reason="runs from the published start decide on which side of the critical speed they are",
     needs=asked(F16=290, F17=850, F11=190) | repeated("S43N550"),
 )
-def falls_then_rises(cases: Cases, claim: Claim) -> Finding:
+def falls_then_rises(bound: float, *cases: CaseView) -> Finding:
     """Critical speeds of four preloads against 15 rad/s: above it, below it, above it again."""
-    ours, found = separations_by_load(cases)
-    beyond = cases["S43N550"]
+    ours, found = separations_by_load(cases[:3])
+    beyond, *repeats = cases[3:]
     remark = "seen at one speed, where only the preload in between separates; the curve itself is that of Fig. 15"
     if beyond.separates:
-        again = first_separation(beyond, *(cases[name] for name in REPEATS[beyond.name]))
+        again = first_separation(beyond, *repeats)
         remark += f"; it falls again at larger preloads: N = {beyond['N']:g} N: {again}"
     return finding(f"at 15 rad/s: {ours}", found == [False, True, False], remark)
 
 
-def separations_by_load(cases: Cases) -> tuple[str, list[bool]]:
+def separations_by_load(cases: Sequence[CaseView]) -> tuple[str, list[bool]]:
     """When each of three preloads separates at 15 rad/s, and whether."""
-    shown = [cases[name] for name in ("F16", "F17", "F11")]
-    said = "; ".join(f"N = {case['N']:g} N: {first_separation(case)}" for case in shown)
-    return said, [case.separates for case in shown]
+    said = "; ".join(f"N = {case['N']:g} N: {first_separation(case)}" for case in cases)
+    return said, [case.separates for case in cases]
 
 
 @claim(
@@ -164,10 +158,9 @@ def separations_by_load(cases: Cases) -> tuple[str, list[bool]]:
     bound=0.1,
     needs=asked(F02=500, F09=200),
 )
-def far_below(cases: Cases, claim: Claim) -> Finding:
-    modes = plate_modes(cases["F02"].parameters).query("diameters > 0")
-    critical = float(np.min(modes["omega"] / modes["diameters"]))
-    lower = [cases[name] for name in claim.needs if cases[name]["Omega"] < claim.bound * critical]
+def far_below(bound: float, *cases: CaseView) -> Finding:
+    critical = moving_load_speed(cases[0].parameters)
+    lower = [case for case in cases if case["Omega"] < bound * critical]
     said = [
         f"{first_separation(case)} at {case['Omega']:g} rad/s, {100 * case['Omega'] / critical:.1f} %" for case in lower
     ]

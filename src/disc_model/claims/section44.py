@@ -7,11 +7,11 @@ import numpy as np
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import Kind
 from disc_model.claims import measures
-from disc_model.claims.cases import OTHERS, asked, others
-from disc_model.claims.measures import BETWEEN, many, separates_at
-from disc_model.claims.model import Cases, CaseView, Claim, Finding, Missing, claim, finding, undecided
+from disc_model.claims.cases import asked, others
+from disc_model.claims.measures import many, separates_at
+from disc_model.claims.model import CaseView, Finding, Missing, claim, finding
 from disc_model.claims.paper_tables import LISTED, SEARCHED, TABLE_2, stick_slip_rate, table_2, table_2_lines
-from disc_model.claims.section41 import RETURNS
+from disc_model.claims.section41 import quasi_periodic
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
 EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
@@ -37,10 +37,8 @@ FUZZ = "share of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: l
     bound=1.0,
     needs=asked(F13=110),
 )
-def lines(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
-    found = table_2_lines(case)
-    table = table_2(case, found)
+def lines(bound: float, case: CaseView) -> Finding:
+    found, table = table_2_lines(case), table_2(case)
     window = measures.stretch(case, *EARLY)
     time, values = window["time"].values, window["w_point"].values
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
@@ -52,12 +50,12 @@ def lines(cases: Cases, claim: Claim) -> Finding:
     others = [
         line.frequency
         for line in spectra.lines(time, values, above=1.0, below=300.0, floor=floor, apart=1.0)
-        if np.min(np.abs(line.frequency - table["ours_Hz"])) > claim.bound
+        if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
     ]
     remark = "combinations of the stick-slip rate and the drive's, not natural frequencies: see T2c"
     if others:
         remark += f"; no weaker than the weakest of them, but not in the table: {many(others)} Hz"
-    return finding(ours, bool(off.max() <= claim.bound) and chance * len(found) <= SIGNIFICANT, remark)
+    return finding(ours, bool(off.max() <= bound) and chance * len(found) <= SIGNIFICANT, remark)
 
 
 @claim(
@@ -70,8 +68,7 @@ def lines(cases: Cases, claim: Claim) -> Finding:
     bound=-60.0,
     needs=asked(F13=110),
 )
-def drive(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
+def drive(bound: float, case: CaseView) -> Finding:
     drive = case["Omega"] / (2 * np.pi)
     (every,) = measures.loudest(measures.lines(case, *EARLY, above=0.5 * drive), 1)
     window = measures.stretch(case, *EARLY)
@@ -79,7 +76,7 @@ def drive(cases: Cases, claim: Claim) -> Finding:
     level = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
     ours = ", ".join(f"{line.frequency:.2f} Hz at {x:.0f} dB" for line, x in zip(found, level, strict=True))
     near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))
-    return finding(ours, near and every.amplitude <= found[0].amplitude * (1 + 1e-9) and min(level) > claim.bound)
+    return finding(ours, near and every.amplitude <= found[0].amplitude * (1 + 1e-9) and min(level) > bound)
 
 
 @claim(
@@ -92,16 +89,15 @@ def drive(cases: Cases, claim: Claim) -> Finding:
     bound=COMBINED,
     needs=asked(F13=110, T2kp18=9.9, T2kp22=9.9, T2Om12=9.9),
 )
-def follow(cases: Cases, claim: Claim) -> Finding:
+def follow(bound: float, *cases: CaseView) -> Finding:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     said, combined, near, worst, farthest = [], [], [], 0.0, 0.0
-    for name in claim.needs:
-        case = cases[name]
+    for case in cases:
         found = sorted(measures.loudest(measures.lines(case, *EARLY, above=100, below=300, apart=1.0), 6))
         rate = stick_slip_rate(case)
         off = [_from_combination(case, line, rate) for line in found]
         away = [_from_natural(case, line) for line in found]
-        combined += [each <= claim.bound for each in off]
+        combined += [each <= bound for each in off]
         near += [each <= 4 * case["Omega"] / (2 * np.pi) for each in away]
         worst, farthest = max(worst, *off), max(farthest, *away)
         said.append(
@@ -109,7 +105,7 @@ def follow(cases: Cases, claim: Claim) -> Finding:
             f"{many([line.frequency for line in found], 1)} Hz"
         )
     remark = (
-        f"the six strongest of 100..300 Hz; {sum(combined)} of {len(combined)} are n f_s + m f_Ω to {claim.bound:g} Hz "
+        f"the six strongest of 100..300 Hz; {sum(combined)} of {len(combined)} are n f_s + m f_Ω to {bound:g} Hz "
         f"when the in-plane spring or the speed is changed (the farthest by {worst:.2f} Hz); {sum(near)} lie near a "
         f"natural frequency, which does not change, others up to {farthest:.0f} Hz away"
     )
@@ -126,8 +122,7 @@ def follow(cases: Cases, claim: Claim) -> Finding:
     bound=1.0,
     needs=asked(F13=110),
 )
-def inplane_line(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
+def inplane_line(bound: float, case: CaseView) -> Finding:
     rate = stick_slip_rate(case)
     drive = case["Omega"] / (2 * np.pi)
     pair = sorted(measures.loudest(measures.lines(case, *EARLY, above=40, below=100, apart=1.0), 2))
@@ -139,7 +134,7 @@ def inplane_line(cases: Cases, claim: Claim) -> Finding:
         f"they are f_s ± f_Ω ({rate - drive:.2f} and {rate + drive:.2f} Hz), seen in the disc's frame: the rate of "
         f"stick and slip, which sticking makes slower than the spring's own {free:.2f} Hz, and not 70 Hz"
     )
-    holds = abs(middle - 70.0) <= claim.bound
+    holds = abs(middle - 70.0) <= bound
     return finding(ours, holds, "" if holds else remark)
 
 
@@ -153,14 +148,13 @@ def inplane_line(cases: Cases, claim: Claim) -> Finding:
     bound=5.0,
     needs=asked(F13=110),
 )
-def close_to_natural(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
+def close_to_natural(bound: float, case: CaseView) -> Finding:
     table = table_2(case).iloc[3:]
     natural = _natural(case)
     nearest = [float(natural[np.argmin(np.abs(natural - f))]) for f in table["ours_Hz"]]
     off = np.abs(np.array(nearest) - table["ours_Hz"].to_numpy())
     said = ", ".join(f"{f:.1f} ({n:.1f})" for f, n in zip(table["ours_Hz"], nearest, strict=True))
-    far = off[off > claim.bound]
+    far = off[off > bound]
     remark = f"{far.size} of {off.size} are {far.min():.0f} to {far.max():.0f} Hz away" if far.size else ""
     if 0 < far.size < off.size:
         remark += f"; the others stand at f_Ω on both sides of 2 f_s = {2 * stick_slip_rate(case):.2f} Hz, which nears "
@@ -178,8 +172,7 @@ def close_to_natural(cases: Cases, claim: Claim) -> Finding:
     bound=2.0,
     needs=asked(separates=True, F13=110),
 )
-def three_kinds(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
+def three_kinds(bound: float, case: CaseView) -> Finding:
     spans = (EARLY, LATER, LATE)
     ranges = [float(np.ptp(measures.stretch(case, *span)["w_point"].values)) for span in spans]
     filled = [_fuzziness(case, *span) for span in spans]
@@ -190,8 +183,7 @@ def three_kinds(cases: Cases, claim: Claim) -> Finding:
         for (_, start, stop), width, share, rate in zip(spans, ranges, filled, rates, strict=True)
     )
     differ = [
-        any(max(x[i], x[j]) >= claim.bound * min(x[i], x[j]) for x in (ranges, filled))
-        for i, j in ((0, 1), (1, 2), (0, 2))
+        any(max(x[i], x[j]) >= bound * min(x[i], x[j]) for x in (ranges, filled)) for i, j in ((0, 1), (1, 2), (0, 2))
     ]
     return finding(ours, all(differ))
 
@@ -206,10 +198,10 @@ def three_kinds(cases: Cases, claim: Claim) -> Finding:
     bound=2.0,
     needs=asked(separates=True, F13=110),
 )
-def new_lines(cases: Cases, claim: Claim) -> Finding:
-    shares = [_fuzziness(cases["F13"], *EARLY), _fuzziness(cases["F13"], *LATER)]
+def new_lines(bound: float, case: CaseView) -> Finding:
+    shares = [_fuzziness(case, *EARLY), _fuzziness(case, *LATER)]
     ours = f"lines fill {100 * shares[0]:.1f} % of 20..300 Hz in 0..10 s, {100 * shares[1]:.1f} % in 38..48 s"
-    return finding(ours, shares[1] > claim.bound * shares[0])
+    return finding(ours, shares[1] > bound * shares[0])
 
 
 @claim(
@@ -222,8 +214,7 @@ def new_lines(cases: Cases, claim: Claim) -> Finding:
     bound=50.0,
     needs=asked(separates=True, F13=110),
 )
-def higher(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
+def higher(bound: float, case: CaseView) -> Finding:
     first = case["first_separation"]
     before = _high_share(case, "spectrum_c", 50, first)
     after = _high_share(case, "spectrum_c", first, 60)
@@ -231,7 +222,7 @@ def higher(cases: Cases, claim: Claim) -> Finding:
     ours = (
         f"power above {HIGH:g} Hz, of that above {LOW:g} Hz: {before:.1e} before, {after:.1e} after, {late:.1e} later"
     )
-    return finding(ours, after > claim.bound * before)
+    return finding(ours, after > bound * before)
 
 
 @claim(
@@ -244,8 +235,7 @@ def higher(cases: Cases, claim: Claim) -> Finding:
     bound=2.0,
     needs=asked(separates=True, F13=110),
 )
-def steady_lines(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
+def steady_lines(bound: float, case: CaseView) -> Finding:
     fuzz = [_fuzziness(case, *LATER), _fuzziness(case, *LATE)]
     first, second = (
         measures.lines(case, "spectrum_d", *span, above=LOW, floor=1e-2) for span in ((100, 105), (105, 110))
@@ -255,7 +245,7 @@ def steady_lines(cases: Cases, claim: Claim) -> Finding:
         f"lines fill {100 * fuzz[1]:.1f} % of 20..300 Hz ({100 * fuzz[0]:.1f} % in 38..48 s); from 100..105 to "
         f"105..110 s they move by {drift:.0e} Hz at most"
     )
-    return finding(ours, fuzz[1] < fuzz[0] / claim.bound and drift < 0.01)
+    return finding(ours, fuzz[1] < fuzz[0] / bound and drift < 0.01)
 
 
 @claim(
@@ -268,15 +258,13 @@ def steady_lines(cases: Cases, claim: Claim) -> Finding:
     bound=2.0,
     needs=asked(separates=True, steady=True, F13=110),
 )
-def slider_settles(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
+def slider_settles(bound: float, case: CaseView) -> Finding:
     first = case["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_d", 100, 100 + first - 50))
     before, after = (_fuzziness(case, *span, name="psi") for span in spans)
-    motion = measures.late_motion(case)
-    ours = f"lines of ψ fill {100 * before:.1f} % of 20..300 Hz before, {100 * after:.1f} % after; "
-    ours += f"then {measures.said_motion(case, motion)}"
-    return finding(ours, after < before / claim.bound and motion.period > 0)
+    motion, said = measures.late_motion(case)
+    ours = f"lines of ψ fill {100 * before:.1f} % of 20..300 Hz before, {100 * after:.1f} % after; then {said}"
+    return finding(ours, after < before / bound and motion.period > 0)
 
 
 @claim(
@@ -289,8 +277,7 @@ def slider_settles(cases: Cases, claim: Claim) -> Finding:
     bound=0.2,
     needs=asked(separates=True, steady=True, F13=110),
 )
-def multiples(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F13"]
+def multiples(bound: float, case: CaseView) -> Finding:
     first = case["first_separation"]
     late = _lines_of_psi(case, *LATE)
     rate = late[0].frequency
@@ -298,11 +285,11 @@ def multiples(cases: Cases, claim: Claim) -> Finding:
     after = _off_multiples([*_lines_of_psi(case, "spectrum_c", first, 60), *late], rate)
     ours = (
         f"f_h = {rate:.2f} Hz; of {len(after)} lines the farthest from n f_h is {max(after):.2f} Hz off; before, "
-        f"{sum(off > claim.bound for off in before)} of {len(before)} lines are no n f_h"
+        f"{sum(off > bound for off in before)} of {len(before)} lines are no n f_h"
     )
     releases = measures.rate_of(case, "stick_to_slip") / rate
     remark = f"f_h is the rate at which stick and slip repeat, {releases:.2g} releases each time, not 70 Hz: see T2d"
-    return finding(ours, max(after) <= claim.bound, remark)
+    return finding(ours, max(after) <= bound, remark)
 
 
 @claim(
@@ -315,8 +302,8 @@ def multiples(cases: Cases, claim: Claim) -> Finding:
     bound=0.2,
     needs=asked(F07=150),
 )
-def when_it_separates(cases: Cases, claim: Claim) -> Finding:
-    return separates_at(cases["F07"], 149.5, claim.bound)
+def when_it_separates(bound: float, case: CaseView) -> Finding:
+    return separates_at(case, 149.5, bound)
 
 
 @claim(
@@ -329,8 +316,7 @@ def when_it_separates(cases: Cases, claim: Claim) -> Finding:
     bound=3.0,
     needs=asked(separates=True, F07=190),
 )
-def growth_stages(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F07"]
+def growth_stages(bound: float, case: CaseView) -> Finding:
     first, end = case["first_separation"], case["time_reached"]
     if not 20 <= first <= end - 20:
         raise Missing(f"case {case.name} does not run for 20 s both before and after its first separation")
@@ -343,7 +329,7 @@ def growth_stages(cases: Cases, claim: Claim) -> Finding:
         f"growth of the range: {slow:.4f}/s over the first half, {sharp:.3f}/s at {starts[peak] + 2.5:.0f} s, "
         f"{last:.3f}/s just before separation, {after:.4f}/s in the end"
     )
-    grows = sharp > max(claim.bound * slow, 2e-3)  # at least 1 % in the 5 s that it is measured over
+    grows = sharp > max(bound * slow, 2e-3)  # at least 1 % in the 5 s that it is measured over
     return finding(ours, grows and last < sharp and abs(after) < 0.01 * sharp)
 
 
@@ -357,8 +343,7 @@ def growth_stages(cases: Cases, claim: Claim) -> Finding:
     bound=0.9,
     needs=asked(separates=True, F07=190),
 )
-def natural_lines(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F07"]
+def natural_lines(bound: float, case: CaseView) -> Finding:
     span = ("spectrum_d", 143.0, 153.0)
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case, *span)
     every, higher = (
@@ -369,9 +354,9 @@ def natural_lines(cases: Cases, claim: Claim) -> Finding:
     ours += f"within 4 f_Ω of a natural frequency, the lowest being {_natural(case)[0]:.1f} Hz, and no n f_s + m f_Ω "
     ours += f"(f_s = {rate:.2f} Hz)"
     remark = "that is the lowest coupled mode, l f_Ω up and down in the disc's frame; the others hardly take part"
-    if share <= claim.bound < without:
+    if share <= bound < without:
         remark = f"above {LOW:g} Hz, without the drive's line, {100 * without:.0f} %: {remark}"
-    return finding(ours, share > claim.bound, remark if without > claim.bound else "")
+    return finding(ours, share > bound, remark if without > bound else "")
 
 
 @claim(
@@ -384,8 +369,7 @@ def natural_lines(cases: Cases, claim: Claim) -> Finding:
     bound=1.5,
     needs=asked(separates=True, F07=190),
 )
-def fuzz_stays(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F07"]
+def fuzz_stays(bound: float, case: CaseView) -> Finding:
     first = case["first_separation"]
     before = _fuzziness(case, "spectrum_d", first - 4, first)
     after = _fuzziness(case, "spectrum_d", first, first + 4)
@@ -394,20 +378,15 @@ def fuzz_stays(cases: Cases, claim: Claim) -> Finding:
         f"lines fill {100 * before:.0f} % of 20..300 Hz before and {100 * after:.0f} % after; "
         f"power above {HIGH:g} Hz {high[0]:.1e} before, {high[1]:.1e} after"
     )
-    return finding(ours, after > before / claim.bound and high[1] > 10 * high[0])
+    return finding(ours, after > before / bound and high[1] > 10 * high[0])
 
 
-@claim(
+steady_state_is_quasi_periodic = quasi_periodic(
     "F28",
     "Sec. 4.4, Fig. 28b",
     "The same case: stick-slip is quasi-periodic in the steady state",
-    paper="quasi-periodic",
-    tolerance="no period within half the record; 0-1 test below 0.3",
-    reason=RETURNS,
     needs=asked(separates=True, steady=True, F07=190) | others("F07"),
 )
-def quasi_periodic(cases: Cases, claim: Claim) -> Finding:
-    return measures.is_quasi_periodic(cases["F07"], cases[OTHERS["F07"]])
 
 
 @claim(
@@ -420,8 +399,7 @@ def quasi_periodic(cases: Cases, claim: Claim) -> Finding:
     bound=1e-7,
     needs=asked(F21=1500),
 )
-def no_high_line(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F21"]
+def no_high_line(bound: float, case: CaseView) -> Finding:
     omega = float(plate_modes(case.parameters)["omega"].max())
     base = float(plate_modes(case.parameters.replace(E=150e9))["omega"].max())
     spans = (("spectrum_d", 465, 475), ("spectrum_late", 1490, 1500))
@@ -429,7 +407,7 @@ def no_high_line(cases: Cases, claim: Claim) -> Finding:
     ours = f"share of power above {omega:.1f} rad/s, of that above {LOW:g} Hz: {shares[0]:.0e} in 465..475 s, "
     ours += f"{shares[1]:.0e} in 1490..1500 s"
     remark = f"at 100 GPa the highest natural frequency is {omega:.1f} rad/s; {base:.2f} rad/s belongs to 150 GPa"
-    return finding(ours, max(shares) < claim.bound, remark)
+    return finding(ours, max(shares) < bound, remark)
 
 
 @claim(
@@ -443,30 +421,22 @@ def no_high_line(cases: Cases, claim: Claim) -> Finding:
     bound=2.0,
     needs=asked(F21=480),
 )
-def erratic(cases: Cases, claim: Claim) -> Finding:
-    case = cases["F21"]
+def erratic(bound: float, case: CaseView) -> Finding:
     rate = stick_slip_rate(case, "spectrum_d", 465, 475)
     found = measures.lines(case, "spectrum_d", 465, 475, above=LOW, below=600, floor=1e-2)
     strongest = max(line.amplitude for line in found)
     every = _further(found, rate, case["Omega"] / (2 * np.pi))
     further = [line for line in every if line.amplitude >= PROMINENT * strongest]
-    motion = measures.late_motion(case)
+    motion, said = measures.late_motion(case)
     ours = (
         f"{len(found)} lines above a hundredth of the strongest, made of f_s = {rate:.2f} Hz, f_Ω and {len(further)} "
         f"independent frequencies, seen at {_seen(further, strongest)}, and {len(every) - len(further)} weak ones; "
-        "in-plane motion "
-        f"{measures.said_motion(case, motion)}"
+        f"in-plane motion {said}"
     )
-    several = len(further) >= claim.bound
-    if several and motion.kind is Kind.UNDECIDED:
-        return undecided(ours, BETWEEN)
+    several = len(further) >= bound
     second = further[1].amplitude / further[0].amplitude if several else 1.0
     remark = f"mainly one of them: the next is {second:.2g} times as strong" if second < 0.5 else ""
-    return finding(ours, several and motion.kind is Kind.IRREGULAR, remark)
-
-
-# ----------------------------------------------------------------------------------------------------
-# What several checks use
+    return measures.of_kind(Kind.IRREGULAR, motion, ours, besides=several, remark=remark)
 
 
 def _lines_of_psi(case: CaseView, window: str, start: float, stop: float) -> list[spectra.Line]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 from disc_model.analysis.classify import FEWEST, Kind, motion_of, stick_disappears
 from disc_model.claims import measures
 from disc_model.claims.ledger import Comparison
-from disc_model.claims.model import NOT_COMPUTED, STRETCH, STRETCHES, CaseView, Finding, Missing, finding, undecided
+from disc_model.claims.measures import place_of, said_rate
+from disc_model.claims.model import STRETCH, STRETCHES, CaseView, Claim, Finding, Missing, claim, finding, undecided
 from disc_model.data.variables import flag_names
 
 Array = NDArray[np.float64]
@@ -60,13 +61,10 @@ class Evidence:
             raise Missing(f"study {name} has nothing of this model")
         return self.grids[name]
 
-    def pairs(self) -> Iterator[tuple[CaseView, CaseView]]:
+    def pairs(self) -> list[tuple[CaseView, CaseView]]:
         """Cases that separate, each with the one in which separation is ignored."""
-        ignored = {case.parameters: case for case in self.cases if case.parameters.contact == "bonded"}
-        for case in self.separating():
-            bonded = case.parameters.replace(contact="bonded")
-            if bonded in ignored:
-                yield case, ignored[bonded]
+        ignored = [case for case in self.cases if case.parameters.contact == "bonded"]
+        return measures.pairs([*self.separating(), *ignored])
 
     def separating(self) -> list[CaseView]:
         """Cases that lose contact; raises `Missing` if one did not get to its end."""
@@ -91,63 +89,34 @@ def _is_of(case: CaseView, model: Model) -> bool:
 def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
     """The one place along the dimension of models."""
     (dim,) = grid["normalization"].dims
-    there = (
-        (grid["normalization"].values == model.normalization)
-        & ((grid["contact_compliance"].values != 0) == model.compliant)
-        & (grid["contact_force"].values == model.contact_force)
-    )
-    if there.sum() != 1:
-        return None
-    return grid.isel({dim: int(np.flatnonzero(there)[0])})
+    varied = [grid[name].values for name in ("normalization", "contact_compliance", "contact_force")]
+    models = [(normalization, give != 0, force) for normalization, give, force in zip(*varied, strict=True)]
+    return grid.isel({dim: models.index(model[1:])}) if models.count(model[1:]) == 1 else None
 
 
 # ----------------------------------------------------------------------------------------------------
 # Conclusions
 
-Check = Callable[[Evidence, "Conclusion"], Finding]
 SLOW = 1e-3
 """1/s, a growth rate below which a cycle counts as neither stable nor unstable."""
 
 
-@dataclass(frozen=True)
-class Conclusion:
-    """A conclusion of the paper in our own words, what decides it, and why that much; bound: as a number."""
-
-    title: str
-    text: str
-    rule: str
-    reason: str
-    bound: float
-    check: Check
-
-    def judge(self, found: Evidence) -> Finding:
-        """Check it; without what it needs, the verdict says what is missing."""
-        try:
-            return self.check(found, self)
-        except Missing as missing:
-            return Finding("", f"{NOT_COMPUTED}: {missing}")
-
-
-def conclusion(title: str, text: str, *, rule: str, reason: str, bound: float) -> Callable[[Check], Conclusion]:
-    """Make a check the conclusion that it decides."""
-    return lambda check: Conclusion(title, text, rule, reason, bound, check)
-
-
-@conclusion(
+@claim(
     "Onset",
+    "Conclusions",
     "Friction makes the stick-slip cycle unstable, and separation follows from that only.",
-    rule="nowhere on a grid of speeds and preloads does the published start separate where the cycle is stable; within "
-    "0.1 rad/s of the fold at which the cycle ends, that is a remark",
+    tolerance="nowhere on a grid of speeds and preloads does the published start separate where the cycle is stable; "
+    "within 0.1 rad/s of the fold at which the cycle ends, that is a remark",
     reason="simulations that are never left early, beside multipliers; growth below 1e-3 per second shows too late",
     bound=SLOW,
 )
-def onset(found: Evidence, said: Conclusion) -> Finding:
+def onset(bound: float, found: Evidence) -> Finding:
     points = found.grid("survival_outcome")
     outcome, growth = _beside(points, found.grid("survival_growth"))
     if (outcome == "unknown").any():
         raise Missing("study survival_outcome has points that failed")
     apart = outcome == "separation"
-    stable, unstable, none = growth < -said.bound, growth > said.bound, np.isnan(growth)
+    stable, unstable, none = growth < -bound, growth > bound, np.isnan(growth)
     counts = [int((apart & where).sum()) for where in (unstable, none, stable)]
     ours = (
         f"{int(apart.sum())} of {apart.size} points separate: {counts[0]} from an unstable cycle, {counts[1]} where "
@@ -187,26 +156,27 @@ NEAR_FOLD = 385.0
 """N, the preload at which the paper finds its critical speed between 15 and 15.1 rad/s."""
 
 
-@conclusion(
+@claim(
     "Fold at N = 385 N",
+    "Conclusions",
     "At N = 385 N separation begins where the quiet cycle ends, at a fold.",
-    rule="a fold lies within 0.05 rad/s of the interval in which separation begins as the speed rises; it does not "
-    "hold where the cycle goes on unstable at the speeds of the growth map on both sides",
+    tolerance="a fold lies within 0.05 rad/s of the interval in which separation begins as the speed rises; it does "
+    "not hold where the cycle goes on unstable at the speeds of the growth map on both sides",
     reason="a fold is read off between points of its curve, to a hundredth; the interval is what bisection left; where "
     "some curve could not be followed, a fold may have been missed",
     bound=0.05,
 )
-def fold(found: Evidence, said: Conclusion) -> Finding:
+def fold(bound: float, found: Evidence) -> Finding:
     folds = np.array(sorted(_folds_at(found.grid("survival_curves"), NEAR_FOLD)))
     highs, width = _beginnings(found.grid("survival_speed"), NEAR_FOLD)
     ours = f"folds beside a stable cycle: {_listed(folds, 3)}; separation begins: {_listed(highs, 1)} (rad/s)"
     if not highs.size:
         return undecided(ours, "no speed at which separation begins was found")
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
-    if min(off) <= said.bound:
+    if min(off) <= bound:
         return finding(ours, True)
     beside = [_growth_beside(found.grid("survival_growth"), high - width, high) for high in highs]
-    ours += "; growth there " + ", ".join(f"{_rate(low)} to {_rate(high)}" for low, high in beside)
+    ours += "; growth there " + ", ".join(f"{said_rate(low, '/s')} to {said_rate(high, '/s')}" for low, high in beside)
     if all(rate > SLOW for rates in beside for rate in rates):
         return finding(ours, False)
     missed = int(found.grid("survival_curves")["n_unfollowed"])
@@ -220,10 +190,6 @@ def _growth_beside(growth: xr.Dataset, low: float, high: float) -> tuple[float, 
     if below < 0 or above >= speed.size:
         raise Missing("study survival_growth does not reach as far as survival_speed")
     return float(rate[below]), float(rate[above])
-
-
-def _rate(growth: float) -> str:
-    return "no cycle" if math.isnan(growth) else f"{growth:+.4f}/s"
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
@@ -251,15 +217,16 @@ def _require_ok(grid: xr.Dataset, name: str) -> None:
         raise Missing(f"study {name} has points that failed")
 
 
-@conclusion(
+@claim(
     "Critical speed",
+    "Conclusions",
     "The lowest speed with separation falls with the preload at first, then rises.",
-    rule="between preloads at both of which it is higher, by 0.3 rad/s or more, or there is no separation at all",
+    tolerance="between preloads at both of which it is higher, by 0.3 rad/s or more, or there is no separation at all",
     reason="speeds are found to 0.1 rad/s, but for stripes narrower than the scan's 1 rad/s; how long one waits, "
     "1000 s here, moves them all",
     bound=0.3,
 )
-def falls_then_rises(found: Evidence, said: Conclusion) -> Finding:
+def falls_then_rises(bound: float, found: Evidence) -> Finding:
     study = found.grid("survival_speed").isel(horizon=0)
     _require_ok(study, "survival_speed")
     speed, load = study["critical_speed"].values, study["N"].values
@@ -267,83 +234,74 @@ def falls_then_rises(found: Evidence, said: Conclusion) -> Finding:
     height = np.where(np.isnan(speed), np.inf, speed)
     if np.isfinite(height).sum() < 3:
         return undecided(f"{ours} (rad/s)", "fewer than three preloads separate")
-    dips = [
-        bool(height[:i].max() >= height[i] + said.bound and height[i + 1 :].max() >= height[i] + said.bound)
-        for i in range(1, len(height) - 1)
-    ]
+    dips = [bool(min(height[:i].max(), height[i + 1 :].max()) >= height[i] + bound) for i in range(1, len(height) - 1)]
     return finding(f"{ours} (rad/s)", any(dips))
 
 
-@conclusion(
+@claim(
     "Smaller vibration",
+    "Conclusions",
     "Separation keeps the disc's vibration smaller than it is where separation is ignored.",
-    rule="over the last half of the time after the first separation it is narrower than any 20 s without separation",
+    tolerance="over the last half of the time after the first separation it is narrower than any 20 s without "
+    "separation",
     reason="motions that wander have no single range; one whose last quarter is a fifth wider than the one before "
     "decides nothing",
     bound=0.2,
 )
-def smaller_vibration(found: Evidence, said: Conclusion) -> Finding:
-    smaller, larger, open_, words = 0, 0, 0, []
+def smaller_vibration(bound: float, found: Evidence) -> Finding:
+    smaller: list[bool | None] = []
+    words = []
     for free, bonded in found.pairs():
-        third, fourth = _late_quarters(free)
-        other = _late_widths(bonded, STRETCH, STRETCHES)
-        settled = fourth <= (1 + said.bound) * third
-        smaller += settled and max(third, fourth) < min(other)
-        larger += min(third, fourth) >= max(other)
-        open_ += not settled or min(other) <= max(third, fourth)
-        words.append(f"{_place(free)}: {1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm")
-    return _of_cases("; ".join(words), smaller, larger, open_)
+        fourth, third = free.last_quarters("w_point")
+        other = bonded.last_widths("w_point", STRETCH, STRETCHES)
+        settled = fourth <= (1 + bound) * third
+        if min(third, fourth) >= max(other):
+            smaller.append(False)
+        else:
+            smaller.append(True if settled and max(third, fourth) < min(other) else None)
+        words.append(f"{place_of(free)}: {1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm")
+    return _of_cases(words, smaller)
 
 
-def _late_quarters(case: CaseView) -> tuple[float, float]:
-    """Ranges of the disc's point over the last two quarters of the time after the first separation, m."""
-    quarter = (case["time_reached"] - case["first_separation"]) / 4
-    fourth, third = _late_widths(case, quarter, 2)
-    return third, fourth
-
-
-def _late_widths(case: CaseView, length: float, count: int) -> list[float]:
-    """Ranges of the disc's point over so many stretches of a length (s) up to the end, the last first, m."""
-    end = case["time_reached"]
-    spans = [(end - (i + 1) * length, end - i * length) for i in range(count)]
-    return [case.range_of("w_point", *span).width for span in spans]
-
-
-@conclusion(
+@claim(
     "Stick vanishes",
+    "Conclusions",
     "After a separation the stick phase disappears, under certain parameter values.",
-    rule="0.1 % of the last 60 s in at least one case that stuck before; where it does not, that is a remark",
+    tolerance="0.1 % of the last 60 s in at least one case that stuck before; where it does not, that is a remark",
     reason="a stray stick would not refute the statement",
     bound=1e-3,
 )
-def stick_vanishes(found: Evidence, said: Conclusion) -> Finding:
+def stick_vanishes(bound: float, found: Evidence) -> Finding:
     gone, stays, words = 0, [], []
     for case in found.separating():
         before, late = case["time_stick"] / case["time_reached"], measures.phase_share(case, "stick")
-        vanished = stick_disappears(before, late, said.bound)
+        vanished = stick_disappears(before, late, bound)
         gone += vanished
-        stays += [] if vanished else [_place(case)]
-        words.append(f"{_place(case)}: {100 * late:.2g} %")
+        stays += [] if vanished else [place_of(case)]
+        words.append(f"{place_of(case)}: {100 * late:.2g} %")
     ours = "; ".join(words)
     if not words:
         return undecided(ours, "no case separates")
     return finding(ours, gone > 0, f"not at {', '.join(stays)}" if stays else "")
 
 
-@conclusion(
+@claim(
     "Damper normal to the disc",
+    "Conclusions",
     "Damping normal to the disc stabilises.",
-    rule="c = 0.5 N s/m lowers the growth rate of every cycle that grows without it by 1e-3 per second or more",
+    tolerance="c = 0.5 N s/m lowers the growth rate of every cycle that grows without it by 1e-3 per second or more",
     reason="growth rates are right to 1e-7; a cycle that is lost or found with the damper has no two rates to compare",
     bound=1e-3,
 )
-def normal_damping(found: Evidence, said: Conclusion) -> Finding:
+def normal_damping(bound: float, found: Evidence) -> Finding:
     without, with_damper, _ = _damped(found, "c")
-    compared = (without > said.bound) & np.isfinite(with_damper)
+    compared = (without > bound) & np.isfinite(with_damper)
     lower = compared & (with_damper < without)
     stable = compared & (with_damper < 0)
-    ours = f"lower at {int(lower.sum())} of {int(compared.sum())} points with a growing cycle"
-    ours += f", stable at {int(stable.sum())}"
+    ours = (
+        f"lower at {int(lower.sum())} of {int(compared.sum())} points with a growing cycle, stable at "
+        f"{int(stable.sum())}"
+    )
     if not compared.any():
         return undecided(ours, "no cycle grows without the damper")
     return finding(ours, bool(lower.sum() == compared.sum()))
@@ -353,20 +311,21 @@ LARGE = 300.0
 """N, the least preload that counts as large; the paper shows 385 N."""
 
 
-@conclusion(
+@claim(
     "Damper in the disc's plane",
+    "Conclusions",
     "In-plane damping destabilises at some large preloads.",
-    rule="at 300 N or more, somewhere on a grid, c_p = 0.5 N s/m raises a growth rate that is positive with it by 1e-3 "
-    "per second or more, or a stable cycle ends",
+    tolerance="at 300 N or more, somewhere on a grid, c_p = 0.5 N s/m raises a growth rate that is positive with it by "
+    "1e-3 per second or more, or a stable cycle ends",
     reason="one place decides; ten cycles or more have to be there for none to mean anything",
     bound=1e-3,
 )
-def inplane_damping(found: Evidence, said: Conclusion) -> Finding:
+def inplane_damping(bound: float, found: Evidence) -> Finding:
     without, damped, status = _damped(found, "c_p")
     large = (found.grid("survival_damping")["N"].values >= LARGE)[:, None]
     both = np.isfinite(without) & np.isfinite(damped)
-    higher = both & (damped > 0) & (damped > without + said.bound)
-    ended = (without < -said.bound) & np.isin(status, ("no_cycle", "separates"))
+    higher = both & (damped > 0) & (damped > without + bound)
+    ended = (without < -bound) & np.isin(status, ("no_cycle", "separates"))
     grows = [int((higher & place).sum()) for place in (large, ~large)]
     ends = measures.counted(int((ended & large).sum()), "stable cycle")
     ours = (
@@ -382,38 +341,34 @@ def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]
     """Growth rates without and with one damper, 1/s, and what was found with it: each (N, Omega)."""
     study = found.grid("survival_damping")
     (dim,) = study["c"].dims
-    other = {"c": "c_p", "c_p": "c"}[name]
-    off = study[other].values == 0
-    places = [off & (study[name].values == 0), off & (study[name].values > 0)]
-    if any(place.sum() != 1 for place in places):
+    on = list(zip(study["c"].values != 0, study["c_p"].values != 0, strict=True))
+    wanted = [(False, False), (name == "c", name == "c_p")]
+    if any(on.count(pair) != 1 for pair in wanted):
         raise Missing(f"study survival_damping lacks a pair of points without and with {name}")
-    one, two = (study.isel({dim: int(np.flatnonzero(place)[0])}).transpose("N", "Omega", ...) for place in places)
+    one, two = (study.isel({dim: on.index(pair)}).transpose("N", "Omega", ...) for pair in wanted)
     return one["growth_rate"].values, two["growth_rate"].values, flag_names(two["status"])
 
 
-@conclusion(
+@claim(
     "Not periodic afterwards",
+    "Conclusions",
     "After a separation the motion does not settle to a periodic one.",
-    rule="no period within half of the last 60 s, by releases of stick, or by separations where it hardly sticks: "
+    tolerance="no period within half of the last 60 s, by releases of stick, or by separations where it hardly sticks: "
     "in every case; 1e-8 s",
     reason="far above rounding, far below what an irregular motion leaves; the paper judges sections by their looks",
     bound=1e-8,
 )
-def not_periodic(found: Evidence, said: Conclusion) -> Finding:
-    periodic, others, open_, words = 0, 0, 0, []
-    for case in found.separating():
-        kind, told = _repeats(case, said.bound)
-        periodic += kind is Kind.PERIODIC
-        others += kind in (Kind.QUASI_PERIODIC, Kind.IRREGULAR)
-        open_ += kind is Kind.UNDECIDED
-        words.append(f"{_place(case)}: {told}")
-    return _of_cases("; ".join(words), others, periodic, open_)
+def not_periodic(bound: float, found: Evidence) -> Finding:
+    cases = found.separating()
+    repeats = [_repeats(case, bound) for case in cases]
+    words = [f"{place_of(case)}: {told}" for case, (_, told) in zip(cases, repeats, strict=True)]
+    return _of_cases(words, [None if kind is Kind.UNDECIDED else kind is not Kind.PERIODIC for kind, _ in repeats])
 
 
 def _repeats(case: CaseView, tolerance: float) -> tuple[Kind, str]:
     """What a motion is by the intervals between its releases, or separations; and that in words."""
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
-        intervals = np.diff(measures.times_of(case.events, kind))
+        intervals = np.diff(measures.times_of(case, kind))
         if intervals.size >= 2 * FEWEST:
             motion = motion_of(intervals, tolerance)
             if motion.period:
@@ -423,24 +378,21 @@ def _repeats(case: CaseView, tolerance: float) -> tuple[Kind, str]:
     return Kind.UNDECIDED, "too few switches"
 
 
-def _place(case: CaseView) -> str:
-    return measures.place(case["N"], case["Omega"])
-
-
 def _listed(values: Array, digits: int) -> str:
     return measures.many(values, digits) or "none"
 
 
-def _of_cases(ours: str, good: int, bad: int, open_: int) -> Finding:
-    """The verdict on a statement about every case: one against it is enough, one that is open leaves it open."""
-    if bad:
+def _of_cases(words: Sequence[str], holds: Sequence[bool | None]) -> Finding:
+    """The verdict on a statement about every case: one against it is enough, an open one (None) leaves it open."""
+    ours = "; ".join(words)
+    if False in holds:
         return finding(ours, False)
-    if open_ or not good:
-        return undecided(ours, "not every case decides" if good + open_ else "no case separates")
+    if None in holds or not holds:
+        return undecided(ours, "not every case decides" if holds else "no case separates")
     return finding(ours, True)
 
 
-CONCLUSIONS = tuple(one for one in list(vars().values()) if isinstance(one, Conclusion))
+CONCLUSIONS = tuple(one for one in list(vars().values()) if isinstance(one, Claim))
 """In the order in which they stand here."""
 
 # ----------------------------------------------------------------------------------------------------
@@ -454,7 +406,7 @@ def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
         found = evidence(model, cases, grids)
         for one in CONCLUSIONS:
             judged = one.judge(found)
-            rows.append((one.title, model.name, judged.verdict, judged.ours, judged.remark))
+            rows.append((one.id, model.name, judged.verdict, judged.ours, judged.remark))
     return pd.DataFrame(rows, columns=["conclusion", "model", "verdict", "ours", "remark"])
 
 
@@ -469,7 +421,7 @@ INTRODUCTION = (
 def page_of(table: pd.DataFrame) -> Comparison:
     """What `judge` found, as a page: all verdicts at a glance, then what each rests on."""
     glance = table.pivot(index="conclusion", columns="model", values="verdict")
-    glance = glance.loc[[one.title for one in CONCLUSIONS], [model.name for model in MODELS]]
+    glance = glance.loc[[one.id for one in CONCLUSIONS], [model.name for model in MODELS]]
     first = (
         pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})
         .join(glance.reset_index(drop=True))
@@ -477,10 +429,9 @@ def page_of(table: pd.DataFrame) -> Comparison:
     )
     sections = [("At a glance", INTRODUCTION, first)]
     for one in CONCLUSIONS:
-        rows = table[table["conclusion"] == one.title]
-        columns = {"Model": rows["model"], "Verdict": rows["verdict"], "Found": rows["ours"], "Remark": rows["remark"]}
-        shown = pd.DataFrame(columns)
+        rows = table[table["conclusion"] == one.id].drop(columns="conclusion")
+        shown = rows.rename(columns={"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"})
         if not rows["remark"].any():
             shown = shown.drop(columns="Remark")
-        sections.append((one.title, f"{one.text} Rule: {one.rule}. Why: {one.reason}.", shown))
+        sections.append((one.id, f"{one.text} Rule: {one.tolerance}. Why: {one.reason}.", shown))
     return Comparison("What survives of the paper's conclusions", tuple(sections))
