@@ -17,7 +17,6 @@ from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim
 from disc_model.claims.pages import page, table_html
 from disc_model.data.dataset import markdown_table
 from disc_model.figures.paper.catalogue import said_parameters
-from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
 COLUMNS = ("id", "location", "claim", "paper_value", "ours", "tolerance", "reason", "verdict", "remark")
@@ -49,9 +48,6 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
 
 # ----------------------------------------------------------------------------------------------------
 # The same cases under both normalisations, side by side
-
-BASE = Parameters(N=200, Omega=20)
-MODES = ("as_published", "orthonormal")
 
 
 @dataclass(frozen=True)
@@ -92,13 +88,13 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
     )
     if failed:
         text += f" Without a result: {_listed(failed)}."
-    only = [name for name in new if name not in old]
+    only = [case for name, case in new.items() if name not in old]
     sections = [
         ("The modes", _MODES_TEXT, _modes()),
-        ("The cases of the paper", text, _cases(old, new, shared)),
+        ("The cases of the paper", text, _cases([old[name] for name in shared], [new[name] for name in shared])),
     ]
     if only:
-        sections.append(("Where instability goes instead", _INSTEAD, _elsewhere(new, only)))
+        sections.append(("Where instability goes instead", _INSTEAD, _elsewhere(only)))
     sections.append(("Statements of the paper whose verdict changes", _VERDICTS, _verdicts(published, orthonormal)))
     return Comparison("What changes when the modes are normalised as Eq. (17) says", tuple(sections))
 
@@ -122,53 +118,49 @@ def _listed(names: list[str]) -> str:
 
 
 def _modes() -> pd.DataFrame:
-    modes = {name: plate_modes(BASE.replace(normalization=name)) for name in MODES}
-    squares = {name: frame["psi"].to_numpy() ** 2 for name, frame in modes.items()}
-    attached = {name: slider_at_rest_frequencies(BASE.replace(normalization=name)) for name in MODES}
-    disc = modes[MODES[0]]["omega"].to_numpy()
-    shifted = {name: [f for f in values if np.min(np.abs(f - disc)) > 1e-6 * f] for name, values in attached.items()}
+    both = [disc.BASE.replace(normalization=name) for name in ("as_published", "orthonormal")]
+    modes = plate_modes(both[0])
+    omega = modes["omega"].to_numpy()
+    squares = [plate_modes(p)["psi"].to_numpy() ** 2 for p in both]
+    attached = [slider_at_rest_frequencies(p) for p in both]
+    shifted = [[f"{f:.2f}" for f in found if np.min(np.abs(f - omega)) > 1e-6 * f] for found in attached]
     return pd.DataFrame(
         {
-            "Nodal diameters": [str(n) for n in modes[MODES[0]]["diameters"]],
-            "Disc alone (rad/s)": [f"{f:.2f}" for f in disc],
-            "psi², as published (1/kg)": [f"{x:.4f}" for x in squares[MODES[0]]],
-            "psi², Eq. (17) (1/kg)": [f"{x:.4f}" for x in squares[MODES[1]]],
-            "ratio": [f"{a / b:.2f}" for a, b in zip(*squares.values(), strict=True)],
-            "With slider, as published (rad/s)": [f"{f:.2f}" for f in shifted[MODES[0]]],
-            "With slider, Eq. (17) (rad/s)": [f"{f:.2f}" for f in shifted[MODES[1]]],
+            "Nodal diameters": [str(n) for n in modes["diameters"]],
+            "Disc alone (rad/s)": [f"{f:.2f}" for f in omega],
+            "psi², as published (1/kg)": [f"{x:.4f}" for x in squares[0]],
+            "psi², Eq. (17) (1/kg)": [f"{x:.4f}" for x in squares[1]],
+            "ratio": [f"{ratio:.2f}" for ratio in squares[0] / squares[1]],
+            "With slider, as published (rad/s)": shifted[0],
+            "With slider, Eq. (17) (rad/s)": shifted[1],
         }
     )
 
 
-def _cases(old: dict[str, CaseView], new: dict[str, CaseView], names: list[str]) -> pd.DataFrame:
-    rows = []
-    for name in names:
-        rows.append(
-            {
-                "Case": name,
-                "Parameters": _said(old[name].parameters),
-                "First separation, as published": _first(old[name]),
-                "First separation, Eq. (17)": _first(new[name]),
-                "Growth, as published (1/s)": _growth(old[name]),
-                "Growth, Eq. (17) (1/s)": _growth(new[name]),
-                "P in the end, Eq. (17) (N)": _late(new[name]),
-            }
-        )
-    return pd.DataFrame(rows)
-
-
-def _elsewhere(new: dict[str, CaseView], names: list[str]) -> pd.DataFrame:
-    rows = [
+def _cases(old: list[CaseView], new: list[CaseView]) -> pd.DataFrame:
+    return pd.DataFrame(
         {
-            "Case": name,
-            "Parameters": _said(new[name].parameters),
-            "First separation": _first(new[name]),
-            "Growth (1/s)": _growth(new[name]),
-            "P in the end (N)": _late(new[name]),
+            "Case": [case.name for case in old],
+            "Parameters": [_said(case) for case in old],
+            "First separation, as published": [_first(case) for case in old],
+            "First separation, Eq. (17)": [_first(case) for case in new],
+            "Growth, as published (1/s)": [_growth(case) for case in old],
+            "Growth, Eq. (17) (1/s)": [_growth(case) for case in new],
+            "P in the end, Eq. (17) (N)": [_late(case) for case in new],
         }
-        for name in names
-    ]
-    return pd.DataFrame(rows)
+    )
+
+
+def _elsewhere(cases: list[CaseView]) -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            "Case": [case.name for case in cases],
+            "Parameters": [_said(case) for case in cases],
+            "First separation": [_first(case) for case in cases],
+            "Growth (1/s)": [_growth(case) for case in cases],
+            "P in the end (N)": [_late(case) for case in cases],
+        }
+    )
 
 
 def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
@@ -187,7 +179,8 @@ def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
     )
 
 
-def _said(p: Parameters) -> str:
+def _said(case: CaseView) -> str:
+    p = case.parameters
     return said_parameters(p) + (", separation ignored" if p.contact == "bonded" else "")
 
 
@@ -201,15 +194,11 @@ def _first(case: CaseView) -> str:
 
 
 def _growth(case: CaseView) -> str:
-    try:
-        return f"{measures.growth_rate(case):+.4f}"
-    except Missing:
-        return "–"
+    return measures.said_rate(measures.growth_or_nan(case.parameters), without="–")
 
 
 def _late(case: CaseView) -> str:
     try:
-        late = measures.late_range(case, "P")
+        return measures.late_range(case, "P").said(1)
     except Missing:
         return "–"
-    return f"{late.low:.1f}..{late.high:.1f}"

@@ -90,13 +90,13 @@ def release_intervals(case: CaseView) -> Array:
     return intervals
 
 
-def late_motion(case: CaseView, tolerance: float = 1e-8) -> tuple[Motion, str]:
+def late_motion(case: CaseView) -> tuple[Motion, str]:
     """What the in-plane motion is within the events kept, see `disc_model.analysis.classify`; and that in words.
 
     They tell its period, in releases, separations and seconds, or what stands against one.
     """
     intervals = release_intervals(case)
-    motion = motion_of(intervals, tolerance)
+    motion = motion_of(intervals)
     if not motion.period:
         test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
         rate = f"{1 / intervals.mean():.1f} releases/s"
@@ -109,7 +109,7 @@ def late_motion(case: CaseView, tolerance: float = 1e-8) -> tuple[Motion, str]:
     return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
 
-def is_quasi_periodic(bound: float, case: CaseView, other: CaseView) -> Finding:
+def is_quasi_periodic(case: CaseView, other: CaseView) -> Finding:
     """Whether the in-plane motion is quasi-periodic, as the paper says of several cases.
 
     other : the same parameters from another start
@@ -131,11 +131,11 @@ def of_kind(kind: Kind, motion: Motion, ours: str, *, besides: bool = True, rema
     return finding(ours, besides and motion.kind is kind, remark)
 
 
-def is_intricate(bound: float, case: CaseView, other: CaseView) -> Finding:
-    """Whether the in-plane motion has no period of fewer than `bound` releases; `other` as in `is_quasi_periodic`."""
+def is_intricate(case: CaseView, other: CaseView) -> Finding:
+    """Whether the in-plane motion has no period of fewer than 4 releases; `other` as in `is_quasi_periodic`."""
     motion, ours = late_motion(case)
     remark = "periodic all the same" if motion.period else ""
-    holds = motion.period == 0 or motion.period >= bound
+    holds = motion.period == 0 or motion.period >= 4
     return finding(ours, holds, joined(remark, another_motion((case, other))))
 
 
@@ -270,10 +270,10 @@ def strongest(case: CaseView, samples: xr.Dataset, name: str, near: float, withi
         raise Missing(f"case {case.name}: {error} in {name}") from None
 
 
-def trajectory_change(case: CaseView, bound: float) -> tuple[str, bool]:
+def trajectory_change(case: CaseView) -> tuple[str, bool]:
     """The section of the in-plane motion before the first separation and long after it, and whether it changes.
 
-    It does if its width, or the share of time in stick, changes by the share `bound`.
+    It does if its width, or the share of time in stick, changes by three tenths.
     """
     samples, first = case.samples("poincare"), case["first_separation"]
     time, psi = samples["time"].values, samples["psi"].values
@@ -287,7 +287,7 @@ def trajectory_change(case: CaseView, bound: float) -> tuple[str, bool]:
     said = f"{case.name}: ψ spans {before:.3f} rad before, {after:.3f} after; sticks {100 * stick:.1f} % of the time "
     said += f"before, {100 * then:.1f} % after"
     wider = ratio(after, before, f"the width of the section of case {case.name} before separation")
-    return said, abs(wider - 1) > bound or abs(then - stick) > bound * stick
+    return said, abs(wider - 1) > 0.3 or abs(then - stick) > 0.3 * stick
 
 
 def late_points(case: CaseView, last: int) -> int:

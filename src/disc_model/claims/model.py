@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Concatenate, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -99,9 +99,9 @@ class CaseView:
         """Switches kept; raises `Missing` if the case keeps none."""
         return self._held(dataset.events)
 
-    def samples(self, window: str, at_least: int = 2) -> xr.Dataset:
+    def samples(self, window: str) -> xr.Dataset:
         """Samples of a window, or of the section ``poincare``; raises `Missing`."""
-        return self._held(dataset.samples, window, at_least)
+        return self._held(dataset.samples, window)
 
     def range_of(self, name: str, start: float, stop: float) -> Range:
         """Range of a variable from the whole bins of the window `history` between two times; raises `Missing`."""
@@ -152,13 +152,17 @@ def undecided(ours: str, why: str) -> Finding:
     return Finding(ours, UNDECIDED, why)
 
 
-Check = Callable[Concatenate[float, ...], Finding]
-"""Is given the claim's bound, and what it needs: the cases, then the grid studies, each in the order it names them."""
+Check = Callable[..., Finding]
+"""Is given what its claim needs: the cases, then the grid studies, each in the order in which the claim names them."""
+
+
+def _without_check(*evidence: Any) -> Finding:
+    raise Missing("nothing checks it")
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper.
+    """A statement of the paper. As a decorator it becomes the one that the function below decides.
 
     Attributes
     ----------
@@ -166,7 +170,6 @@ class Claim:
     text : the statement in our own words
     paper : the value the paper gives, or "" if it only shows it
     tolerance, reason : what counts as agreement, and why that much
-    bound : the same as a number, for the check
     needs : the cases it is about
     scans : the grid studies that it looks at besides, which stand among the cases under their names
     """
@@ -174,18 +177,20 @@ class Claim:
     id: str
     location: str
     text: str
-    check: Check
+    check: Check = _without_check
     paper: str = ""
     tolerance: str = ""
     reason: str = ""
-    bound: float = 0.0
     needs: Mapping[str, Needed] = field(default_factory=dict)
     scans: tuple[str, ...] = ()
+
+    def __call__(self, check: Check) -> Claim:
+        return replace(self, check=check)
 
     def judge(self, *evidence: Any) -> Finding:
         """What the check makes of this evidence; the verdict says what that lacks."""
         try:
-            return self.check(self.bound, *evidence)
+            return self.check(*evidence)
         except Missing as missing:
             return Finding("", f"{NOT_COMPUTED}: {missing}")
 
@@ -201,26 +206,10 @@ class Claim:
                 said = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(said, FAILS)
             scans = [cases[name].node.to_dataset() for name in self.scans]
-            found = self.check(self.bound, *needed.values(), *scans)
+            found = self.check(*needed.values(), *scans)
             return _of_steady_state(found, [case for name, case in needed.items() if self.needs[name].steady])
         except Missing as missing:
             return Finding("", f"{NOT_COMPUTED}: {missing}")
-
-
-def claim(
-    id: str,
-    location: str,
-    text: str,
-    *,
-    paper: str = "",
-    tolerance: str = "",
-    reason: str = "",
-    bound: float = 0.0,
-    needs: Mapping[str, Needed] | None = None,
-    scans: tuple[str, ...] = (),
-) -> Callable[[Check], Claim]:
-    """Make a check the claim that it decides: ``@claim(...)`` above it says all that `Claim` holds besides."""
-    return lambda check: Claim(id, location, text, check, paper, tolerance, reason, bound, needs or {}, scans)
 
 
 def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:

@@ -25,7 +25,7 @@ th { background: var(--head); position: sticky; top: 0; }
 .small { color: var(--soft); font-size: 12px; } .verdict { font-weight: 600; }
 .good { color: var(--good); } .note { color: var(--note); } .bad { color: var(--bad); } .none { color: var(--soft); }
 """
-CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad", UNDECIDED: "note"}
+CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad", UNDECIDED: "note", NOT_COMPUTED: "none"}
 
 
 def page(title: str, *body: str) -> str:
@@ -59,32 +59,31 @@ def _counts(table: pd.DataFrame) -> str:
 
 
 def _claim(row: Mapping[Any, Any]) -> str:
-    verdict = str(row["verdict"])
-    remark = f'<div class="small">{escape(row["remark"])}</div>' if row["remark"] else ""
-    shown, _, missing = verdict.partition(":")
-    kind = CLASSES.get(shown, "none" if shown == NOT_COMPUTED else "")
-    why = f'<div class="small">{escape(row["reason"])}</div>' if row["reason"] else ""
+    shown, _, missing = row["verdict"].partition(":")
     return _row(
         escape(row["id"]),
         escape(row["location"]),
         escape(row["claim"]),
         escape(row["paper_value"]),
-        escape(row["ours"]) + remark,
-        f'<span class="verdict {kind}">{escape(shown)}</span><div class="small">{escape(missing)}</div>',
-        escape(row["tolerance"]) + why,
+        escape(row["ours"]) + (_small(row["remark"]) if row["remark"] else ""),
+        f'<span class="verdict {CLASSES.get(shown, "")}">{escape(shown)}</span>{_small(missing)}',
+        escape(row["tolerance"]) + (_small(row["reason"]) if row["reason"] else ""),
     )
+
+
+def _small(text: str) -> str:
+    return f'<div class="small">{escape(text)}</div>'
 
 
 def table_page(title: str, note: str, table: pd.DataFrame, names: Mapping[str, str] | None = None) -> str:
     """Any table as a page; `names` are headings by column."""
-    return page(title, f"<p>{escape(note)}</p>" if note else "", table_html(table, names))
+    return page(title, f"<p>{escape(note)}</p>" if note else "", table_html(table.rename(columns=names or {})))
 
 
-def table_html(table: pd.DataFrame, names: Mapping[str, str] | None = None) -> str:
+def table_html(table: pd.DataFrame) -> str:
     """The table alone."""
-    head = [(names or {}).get(str(name), str(name)) for name in table.columns]
     rows = ["<tr>" + "".join(_cell(value) for value in row) + "</tr>" for row in table.itertuples(index=False)]
-    return _table(head, rows)
+    return _table([str(name) for name in table.columns], rows)
 
 
 def _cell(value: object) -> str:

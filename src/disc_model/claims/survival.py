@@ -22,7 +22,7 @@ from disc_model.analysis.classify import FEWEST, Kind, motion_of, stick_disappea
 from disc_model.claims import measures
 from disc_model.claims.ledger import Comparison
 from disc_model.claims.measures import place_of, said_rate
-from disc_model.claims.model import STRETCH, STRETCHES, CaseView, Claim, Finding, Missing, claim, finding, undecided
+from disc_model.claims.model import STRETCH, STRETCHES, CaseView, Claim, Finding, Missing, finding, undecided
 from disc_model.data.variables import flag_names
 
 Array = NDArray[np.float64]
@@ -101,22 +101,21 @@ SLOW = 1e-3
 """1/s, a growth rate below which a cycle counts as neither stable nor unstable."""
 
 
-@claim(
+@Claim(
     "Onset",
     "Conclusions",
     "Friction makes the stick-slip cycle unstable, and separation follows from that only.",
     tolerance="nowhere on a grid of speeds and preloads does the published start separate where the cycle is stable; "
     "within 0.1 rad/s of the fold at which the cycle ends, that is a remark",
     reason="simulations that are never left early, beside multipliers; growth below 1e-3 per second shows too late",
-    bound=SLOW,
 )
-def onset(bound: float, found: Evidence) -> Finding:
+def onset(found: Evidence) -> Finding:
     points = found.grid("survival_outcome")
     outcome, growth = _beside(points, found.grid("survival_growth"))
     if (outcome == "unknown").any():
         raise Missing("study survival_outcome has points that failed")
     apart = outcome == "separation"
-    stable, unstable, none = growth < -bound, growth > bound, np.isnan(growth)
+    stable, unstable, none = growth < -SLOW, growth > SLOW, np.isnan(growth)
     counts = [int((apart & where).sum()) for where in (unstable, none, stable)]
     ours = (
         f"{int(apart.sum())} of {apart.size} points separate: {counts[0]} from an unstable cycle, {counts[1]} where "
@@ -156,7 +155,7 @@ NEAR_FOLD = 385.0
 """N, the preload at which the paper finds its critical speed between 15 and 15.1 rad/s."""
 
 
-@claim(
+@Claim(
     "Fold at N = 385 N",
     "Conclusions",
     "At N = 385 N separation begins where the quiet cycle ends, at a fold.",
@@ -164,16 +163,15 @@ NEAR_FOLD = 385.0
     "not hold where the cycle goes on unstable at the speeds of the growth map on both sides",
     reason="a fold is read off between points of its curve, to a hundredth; the interval is what bisection left; where "
     "some curve could not be followed, a fold may have been missed",
-    bound=0.05,
 )
-def fold(bound: float, found: Evidence) -> Finding:
+def fold(found: Evidence) -> Finding:
     folds = np.array(sorted(_folds_at(found.grid("survival_curves"), NEAR_FOLD)))
     highs, width = _beginnings(found.grid("survival_speed"), NEAR_FOLD)
     ours = f"folds beside a stable cycle: {_listed(folds, 3)}; separation begins: {_listed(highs, 1)} (rad/s)"
     if not highs.size:
         return undecided(ours, "no speed at which separation begins was found")
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
-    if min(off) <= bound:
+    if min(off) <= 0.05:
         return finding(ours, True)
     beside = [_growth_beside(found.grid("survival_growth"), high - width, high) for high in highs]
     ours += "; growth there " + ", ".join(f"{said_rate(low, '/s')} to {said_rate(high, '/s')}" for low, high in beside)
@@ -217,16 +215,15 @@ def _require_ok(grid: xr.Dataset, name: str) -> None:
         raise Missing(f"study {name} has points that failed")
 
 
-@claim(
+@Claim(
     "Critical speed",
     "Conclusions",
     "The lowest speed with separation falls with the preload at first, then rises.",
     tolerance="between preloads at both of which it is higher, by 0.3 rad/s or more, or there is no separation at all",
     reason="speeds are found to 0.1 rad/s, but for stripes narrower than the scan's 1 rad/s; how long one waits, "
     "1000 s here, moves them all",
-    bound=0.3,
 )
-def falls_then_rises(bound: float, found: Evidence) -> Finding:
+def falls_then_rises(found: Evidence) -> Finding:
     study = found.grid("survival_speed").isel(horizon=0)
     _require_ok(study, "survival_speed")
     speed, load = study["critical_speed"].values, study["N"].values
@@ -234,11 +231,11 @@ def falls_then_rises(bound: float, found: Evidence) -> Finding:
     height = np.where(np.isnan(speed), np.inf, speed)
     if np.isfinite(height).sum() < 3:
         return undecided(f"{ours} (rad/s)", "fewer than three preloads separate")
-    dips = [bool(min(height[:i].max(), height[i + 1 :].max()) >= height[i] + bound) for i in range(1, len(height) - 1)]
+    dips = [bool(min(height[:i].max(), height[i + 1 :].max()) >= height[i] + 0.3) for i in range(1, len(height) - 1)]
     return finding(f"{ours} (rad/s)", any(dips))
 
 
-@claim(
+@Claim(
     "Smaller vibration",
     "Conclusions",
     "Separation keeps the disc's vibration smaller than it is where separation is ignored.",
@@ -246,15 +243,14 @@ def falls_then_rises(bound: float, found: Evidence) -> Finding:
     "separation",
     reason="motions that wander have no single range; one whose last quarter is a fifth wider than the one before "
     "decides nothing",
-    bound=0.2,
 )
-def smaller_vibration(bound: float, found: Evidence) -> Finding:
+def smaller_vibration(found: Evidence) -> Finding:
     smaller: list[bool | None] = []
     words = []
     for free, bonded in found.pairs():
         fourth, third = free.last_quarters("w_point")
         other = bonded.last_widths("w_point", STRETCH, STRETCHES)
-        settled = fourth <= (1 + bound) * third
+        settled = fourth <= (1 + 0.2) * third
         if min(third, fourth) >= max(other):
             smaller.append(False)
         else:
@@ -263,19 +259,18 @@ def smaller_vibration(bound: float, found: Evidence) -> Finding:
     return _of_cases(words, smaller)
 
 
-@claim(
+@Claim(
     "Stick vanishes",
     "Conclusions",
     "After a separation the stick phase disappears, under certain parameter values.",
     tolerance="0.1 % of the last 60 s in at least one case that stuck before; where it does not, that is a remark",
     reason="a stray stick would not refute the statement",
-    bound=1e-3,
 )
-def stick_vanishes(bound: float, found: Evidence) -> Finding:
+def stick_vanishes(found: Evidence) -> Finding:
     gone, stays, words = 0, [], []
     for case in found.separating():
         before, late = case["time_stick"] / case["time_reached"], measures.phase_share(case, "stick")
-        vanished = stick_disappears(before, late, bound)
+        vanished = stick_disappears(before, late, 1e-3)
         gone += vanished
         stays += [] if vanished else [place_of(case)]
         words.append(f"{place_of(case)}: {100 * late:.2g} %")
@@ -285,17 +280,16 @@ def stick_vanishes(bound: float, found: Evidence) -> Finding:
     return finding(ours, gone > 0, f"not at {', '.join(stays)}" if stays else "")
 
 
-@claim(
+@Claim(
     "Damper normal to the disc",
     "Conclusions",
     "Damping normal to the disc stabilises.",
     tolerance="c = 0.5 N s/m lowers the growth rate of every cycle that grows without it by 1e-3 per second or more",
     reason="growth rates are right to 1e-7; a cycle that is lost or found with the damper has no two rates to compare",
-    bound=1e-3,
 )
-def normal_damping(bound: float, found: Evidence) -> Finding:
+def normal_damping(found: Evidence) -> Finding:
     without, with_damper, _ = _damped(found, "c")
-    compared = (without > bound) & np.isfinite(with_damper)
+    compared = (without > 1e-3) & np.isfinite(with_damper)
     lower = compared & (with_damper < without)
     stable = compared & (with_damper < 0)
     ours = (
@@ -311,21 +305,20 @@ LARGE = 300.0
 """N, the least preload that counts as large; the paper shows 385 N."""
 
 
-@claim(
+@Claim(
     "Damper in the disc's plane",
     "Conclusions",
     "In-plane damping destabilises at some large preloads.",
     tolerance="at 300 N or more, somewhere on a grid, c_p = 0.5 N s/m raises a growth rate that is positive with it by "
     "1e-3 per second or more, or a stable cycle ends",
     reason="one place decides; ten cycles or more have to be there for none to mean anything",
-    bound=1e-3,
 )
-def inplane_damping(bound: float, found: Evidence) -> Finding:
+def inplane_damping(found: Evidence) -> Finding:
     without, damped, status = _damped(found, "c_p")
     large = (found.grid("survival_damping")["N"].values >= LARGE)[:, None]
     both = np.isfinite(without) & np.isfinite(damped)
-    higher = both & (damped > 0) & (damped > without + bound)
-    ended = (without < -bound) & np.isin(status, ("no_cycle", "separates"))
+    higher = both & (damped > 0) & (damped > without + SLOW)
+    ended = (without < -SLOW) & np.isin(status, ("no_cycle", "separates"))
     grows = [int((higher & place).sum()) for place in (large, ~large)]
     ends = measures.counted(int((ended & large).sum()), "stable cycle")
     ours = (
@@ -349,28 +342,27 @@ def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]
     return one["growth_rate"].values, two["growth_rate"].values, flag_names(two["status"])
 
 
-@claim(
+@Claim(
     "Not periodic afterwards",
     "Conclusions",
     "After a separation the motion does not settle to a periodic one.",
     tolerance="no period within half of the last 60 s, by releases of stick, or by separations where it hardly sticks: "
     "in every case; 1e-8 s",
     reason="far above rounding, far below what an irregular motion leaves; the paper judges sections by their looks",
-    bound=1e-8,
 )
-def not_periodic(bound: float, found: Evidence) -> Finding:
+def not_periodic(found: Evidence) -> Finding:
     cases = found.separating()
-    repeats = [_repeats(case, bound) for case in cases]
+    repeats = [_repeats(case) for case in cases]
     words = [f"{place_of(case)}: {told}" for case, (_, told) in zip(cases, repeats, strict=True)]
     return _of_cases(words, [None if kind is Kind.UNDECIDED else kind is not Kind.PERIODIC for kind, _ in repeats])
 
 
-def _repeats(case: CaseView, tolerance: float) -> tuple[Kind, str]:
+def _repeats(case: CaseView) -> tuple[Kind, str]:
     """What a motion is by the intervals between its releases, or separations; and that in words."""
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
         intervals = np.diff(measures.times_of(case, kind))
         if intervals.size >= 2 * FEWEST:
-            motion = motion_of(intervals, tolerance)
+            motion = motion_of(intervals)
             if motion.period:
                 length = float(intervals[: motion.period].sum())
                 return motion.kind, f"repeats after {measures.counted(motion.period, name)} = {length:.4g} s"
