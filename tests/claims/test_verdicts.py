@@ -398,7 +398,7 @@ def test_growth_is_that_of_the_cycle(told: xr.DataTree) -> None:
     still = CaseView("Y", xr.DataTree(xr.Dataset(attrs={"parameters": p.replace(Omega=0).canonical_json})))
     assert measures.said_growth(still) == "no stick-slip cycle"
     with pytest.raises(Missing, match="no stick-slip cycle: "):
-        measures.growth_rate(still)
+        measures.cycle_of(still.parameters)
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:

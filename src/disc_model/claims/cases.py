@@ -78,8 +78,8 @@ def asked(*, separates: bool = False, steady: bool = False, **until: float) -> d
     separates, steady : see `Needed`; cases in which separation is ignored need not separate
     """
     return {
-        name: Needed(own, until[name], separates and own.get("contact") != "bonded", steady)
-        for name, own in ((name, PARAMETERS[name]) for name in until)
+        name: Needed(own := PARAMETERS[name], time, separates and "contact" not in own, steady)
+        for name, time in until.items()
     }
 
 

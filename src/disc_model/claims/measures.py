@@ -78,8 +78,7 @@ def switches(case: CaseView, kind: str) -> xr.Dataset:
 
 def times_of(case: CaseView, kind: str) -> Array:
     """Their times, s."""
-    times: Array = switches(case, kind)["time"].values
-    return times
+    return np.asarray(switches(case, kind)["time"])
 
 
 def release_intervals(case: CaseView) -> Array:
@@ -101,7 +100,7 @@ def late_motion(case: CaseView) -> tuple[Motion, str]:
         test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
         rate = f"{1 / intervals.mean():.1f} releases/s"
         return motion, f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
-    length = period_of(case, motion)
+    length = float(intervals[: motion.period].sum())
     apart = round(rate_of(case, "separation") * length)
     releases = counted(motion.period, "release")
     after = f"{releases} = {apart} separations" if apart else releases
@@ -117,7 +116,7 @@ def is_quasi_periodic(case: CaseView, other: CaseView) -> Finding:
     motion, ours = late_motion(case)
     remark = ""
     if motion.kind is Kind.PERIODIC:
-        longer = period_of(case, motion) > SHOWN
+        longer = release_intervals(case)[: motion.period].sum() > SHOWN
         remark = f"it repeats {'only after longer than' if longer else 'within'} the {SHOWN:g} s of the paper's spectra"
     elif motion.kind is Kind.IRREGULAR:
         remark = "it does not repeat within the record, nor is it quasi-periodic by the 0-1 test"
@@ -159,9 +158,7 @@ def _by_separations(case: CaseView) -> str:
     if intervals.size < FEWEST:
         raise Missing(f"case {case.name} keeps fewer than {FEWEST} separations")
     motion = motion_of(intervals)
-    if not motion.period:
-        return str(motion)
-    return f"it repeats after {counted(motion.period, 'separation')}"
+    return f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
 
 
 def counted(count: int, name: str) -> str:
@@ -182,11 +179,6 @@ def place_of(case: CaseView) -> str:
 def joined(*remarks: str) -> str:
     """Those remarks that say something."""
     return "; ".join(remark for remark in remarks if remark)
-
-
-def period_of(case: CaseView, motion: Motion) -> float:
-    """How long a motion takes to repeat, s."""
-    return float(release_intervals(case)[: motion.period].sum())
 
 
 def rate_of(case: CaseView, kind: str) -> float:
@@ -237,7 +229,7 @@ def early_range(case: CaseView, name: str) -> Range:
     return case.range_of(name, 1.0, 1.0 + STRETCH)
 
 
-def stretch(case: CaseView, window: str, start: float = -np.inf, stop: float = np.inf) -> xr.Dataset:
+def stretch(case: CaseView, window: str, start: float, stop: float) -> xr.Dataset:
     """The samples of a window between two times; raises `Missing` if there are none."""
     samples = case.samples(window)
     found = samples.sel(time=slice(start, stop))
@@ -262,12 +254,12 @@ def loudest(found: Iterable[spectra.Line], count: int) -> list[spectra.Line]:
     return sorted(found, key=lambda line: -line.amplitude)[:count]
 
 
-def strongest(case: CaseView, samples: xr.Dataset, name: str, near: float, within: float) -> spectra.Line:
-    """The strongest line of a variable no further than `within` Hz from a frequency; raises `Missing`."""
+def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -> spectra.Line:
+    """The strongest line of the disc's point no further than `within` Hz from a frequency; raises `Missing`."""
     try:
-        return spectra.strongest(samples["time"].values, samples[name].values, near, within)
+        return spectra.strongest(samples["time"].values, samples["w_point"].values, near, within)
     except ValueError as error:
-        raise Missing(f"case {case.name}: {error} in {name}") from None
+        raise Missing(f"case {case.name}: {error} in w_point") from None
 
 
 def trajectory_change(case: CaseView) -> tuple[str, bool]:
@@ -323,13 +315,8 @@ def cycle_of(p: Parameters) -> FloquetResult:
     return found
 
 
-def growth_rate(case: CaseView) -> float:
-    """Largest growth rate of small disturbances of the case's stick-slip cycle, 1/s; raises `Missing`."""
-    return cycle_of(case.parameters).growth_rate
-
-
 def growth_or_nan(p: Parameters) -> float:
-    """The same of any parameters, nan without a cycle."""
+    """Largest growth rate of small disturbances of the cycle, 1/s; nan if there is none."""
     try:
         return cycle_of(p).growth_rate
     except Missing:

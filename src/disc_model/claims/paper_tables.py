@@ -95,7 +95,7 @@ def table_2_lines(case: CaseView) -> list[spectra.Line]:
     """The strongest line near each frequency of Table 2."""
     window = measures.stretch(case, "spectrum_a", 0, 10)
     within = [SEARCHED if paper > 10 else SEARCHED / 4 for paper in LISTED]
-    return [measures.strongest(case, window, "w_point", *near) for near in zip(LISTED, within, strict=True)]
+    return [measures.strongest(case, window, *near) for near in zip(LISTED, within, strict=True)]
 
 
 def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:

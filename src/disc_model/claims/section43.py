@@ -15,15 +15,7 @@ from disc_model.analysis.classify import Kind, closure, irregularity, separation
 from disc_model.claims import measures
 from disc_model.claims.cases import PARAMETERS, asked, others, repeated
 from disc_model.claims.disc import moving_load_speed
-from disc_model.claims.measures import (
-    first_separation,
-    growth_or_nan,
-    place,
-    place_of,
-    said_growth,
-    said_onset,
-    said_rate,
-)
+from disc_model.claims.measures import first_separation, growth_or_nan, said_growth, said_onset, said_rate
 from disc_model.claims.model import CaseView, Claim, Finding, Missing, Needed, finding
 from disc_model.claims.section41 import INTRICATE, RETURNS
 from disc_model.claims.section42 import ELSEWHERE, separations_by_load
@@ -144,10 +136,9 @@ def critical_speed(known: CaseView, *cases: CaseView) -> Finding:
 def more_disc_damping(case: CaseView) -> Finding:
     damped = [case.parameters.replace(D_star=value) for value in (0.0, 1e-5, 2e-5)]
     rates = [measures.cycle_of(p).growth_rate for p in damped]
-    ours = ", ".join(f"{rate:+.4f}/s" for rate in rates)
-    return finding(
-        f"growth at N = 200 N, 10 rad/s for D* = 0, 1e-5, 2e-5 N m s: {ours}", rates[0] > rates[1] > rates[2]
-    )
+    said = ", ".join(f"{rate:+.4f}/s" for rate in rates)
+    ours = f"growth at N = 200 N, 10 rad/s for D* = 0, 1e-5, 2e-5 N m s: {said}"
+    return finding(ours, rates[0] > rates[1] > rates[2])
 
 
 def _grew(case: CaseView) -> bool:
@@ -498,15 +489,14 @@ def inplane_damping_alone(*cases: CaseView) -> Finding:
     needs=asked(S43E100=590, F02=500, S43E200=1000, F21=1000),
 )
 def elasticity(*cases: CaseView) -> Finding:
-    rates = [measures.growth_rate(case) for case in cases[:3]]
+    points = [case.parameters for case in cases]
+    *rates, soft, base = [measures.cycle_of(p).growth_rate for p in (*points, points[-1].replace(E=150e9))]
     said = "; ".join(f"{case['E'] / 1e9:g} GPa: {said_onset(case)}" for case in cases[:3])
-    low = cases[3]
-    low_rates = [measures.growth_rate(low), measures.cycle_of(low.parameters.replace(E=150e9)).growth_rate]
     monotonous = rates[0] > rates[1] > rates[2]
     remark = (
         f"{'' if monotonous else 'not monotonous: '}at 20 rad/s the soft disc is "
-        f"{'stable' if rates[0] < 0 else 'unstable'}; at 11 rad/s growth is {low_rates[0]:+.4f}/s for 100 GPa and "
-        f"{low_rates[1]:+.4f}/s for 150 GPa"
+        f"{'stable' if rates[0] < 0 else 'unstable'}; at 11 rad/s growth is {soft:+.4f}/s for 100 GPa and "
+        f"{base:+.4f}/s for 150 GPa"
     )
     return finding(f"at 20 rad/s, {said}", monotonous and rates[2] < 0, remark)
 
@@ -601,7 +591,7 @@ def bounded(*cases: CaseView) -> Finding:
 def stick_may_vanish(*cases: CaseView) -> Finding:
     shares = [measures.phase_share(case, "stick") for case in cases[:5]]
     said = "; ".join(
-        f"N = {place_of(case)}: {100 * share:.1f} %" for case, share in zip(cases[:5], shares, strict=True)
+        f"N = {measures.place_of(case)}: {100 * share:.1f} %" for case, share in zip(cases[:5], shares, strict=True)
     )
     again = [cases[0], cases[1], cases[4]]
     remark = measures.another_motion(*zip(again, cases[5:], strict=True))
@@ -615,7 +605,9 @@ def _where_damping_helps(case: CaseView) -> str:
     rates = [(p, growth_or_nan(p.replace(c_p=0.0)), growth_or_nan(p)) for p in points]
     lower = sum(damped < without for _, without, damped in rates)
     raised = [
-        f"{place(p.N, p.Omega)}: {without:+.4f} to {damped:+.4f}/s" for p, without, damped in rates if damped > without
+        f"{measures.place(p.N, p.Omega)}: {without:+.4f} to {damped:+.4f}/s"
+        for p, without, damped in rates
+        if damped > without
     ]
     ended = [p for p, without, damped in rates if math.isfinite(without) and math.isnan(damped)]
     remark = f"at {len(points)} loads and speeds c_p = {case['c_p']:g} N s/m lowers the growth of the cycle at {lower}"

@@ -71,7 +71,7 @@ def drive(case: CaseView) -> Finding:
     drive = case["Omega"] / (2 * np.pi)
     (every,) = measures.loudest(measures.lines(case, *EARLY, above=0.5 * drive), 1)
     window = measures.stretch(case, *EARLY)
-    found = [measures.strongest(case, window, "w_point", n * drive, 0.4 * drive) for n in (1, 2, 3)]
+    found = [measures.strongest(case, window, n * drive, 0.4 * drive) for n in (1, 2, 3)]
     level = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
     ours = ", ".join(f"{line.frequency:.2f} Hz at {x:.0f} dB" for line, x in zip(found, level, strict=True))
     near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from disc_model.analysis.classify import FEWEST, Kind, motion_of, stick_disappears
 from disc_model.claims import measures
 from disc_model.claims.ledger import Comparison
-from disc_model.claims.measures import place_of, said_rate
+from disc_model.claims.measures import many, place_of, said_rate
 from disc_model.claims.model import STRETCH, STRETCHES, CaseView, Claim, Finding, Missing, finding, undecided
 from disc_model.data.variables import flag_names
 
@@ -167,7 +167,8 @@ NEAR_FOLD = 385.0
 def fold(found: Evidence) -> Finding:
     folds = np.array(sorted(_folds_at(found.grid("survival_curves"), NEAR_FOLD)))
     highs, width = _beginnings(found.grid("survival_speed"), NEAR_FOLD)
-    ours = f"folds beside a stable cycle: {_listed(folds, 3)}; separation begins: {_listed(highs, 1)} (rad/s)"
+    begins = many(highs, 1) or "none"
+    ours = f"folds beside a stable cycle: {many(folds, 3) or 'none'}; separation begins: {begins} (rad/s)"
     if not highs.size:
         return undecided(ours, "no speed at which separation begins was found")
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
@@ -370,10 +371,6 @@ def _repeats(case: CaseView) -> tuple[Kind, str]:
     return Kind.UNDECIDED, "too few switches"
 
 
-def _listed(values: Array, digits: int) -> str:
-    return measures.many(values, digits) or "none"
-
-
 def _of_cases(words: Sequence[str], holds: Sequence[bool | None]) -> Finding:
     """The verdict on a statement about every case: one against it is enough, an open one (None) leaves it open."""
     ours = "; ".join(words)
@@ -412,13 +409,10 @@ INTRODUCTION = (
 
 def page_of(table: pd.DataFrame) -> Comparison:
     """What `judge` found, as a page: all verdicts at a glance, then what each rests on."""
-    glance = table.pivot(index="conclusion", columns="model", values="verdict")
-    glance = glance.loc[[one.id for one in CONCLUSIONS], [model.name for model in MODELS]]
-    first = (
-        pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})
-        .join(glance.reset_index(drop=True))
-        .rename(columns=lambda name: name[0].upper() + name[1:])
-    )
+    verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
+    first = pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})
+    for model in MODELS:
+        first[model.name[0].upper() + model.name[1:]] = verdicts[model.name].to_numpy()
     sections = [("At a glance", INTRODUCTION, first)]
     for one in CONCLUSIONS:
         rows = table[table["conclusion"] == one.id].drop(columns="conclusion")
