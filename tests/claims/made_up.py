@@ -17,6 +17,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from disc_model.claims.model import CaseView
 from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
@@ -323,11 +324,9 @@ def as_told() -> dict[str, Story]:
         "F17": WILD.replace(first=810.0),
         "F22": GROWING.replace(first=220.0, wanders=0.1, chaotic=True, second=0.01),
         "F23": GROWING.replace(first=240.0, swing=math.pi),
-        **_separating(
-            {"F18": 263, "S43z4": 800, "F19": 51, "C4cp1": 40, "S43kp2e4": 100, "S43k2e4": 100, "S43k3e4": 200}
-        ),
+        **_separating({"F18": 263, "F19": 51, "C4cp1": 40, "S43kp2e4": 100, "S43k2e4": 100, "S43k3e4": 200}),
         **_separating({"P03l5": 54.4, "P03l6": 54.4, "P03l8": 54.5, "P03l8c2": 54.5}),
-        **_separating(dict.fromkeys(("S43z4a", "S43z4b", "S43z4c"), 800)),
+        **_separating(dict.fromkeys(("S43z4", "S43z4a", "S43z4b", "S43z4c"), 800)),
         **{name: GROWING.replace(first=0.01, stick=0.0) for name in ("F02free", "F07free", "F17free")},
         **_separating({"S43c126": 700, "S43c14": 700, "S43c145": 700, "S43c124": 1000}),
     }
@@ -368,7 +367,7 @@ def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
     return xr.DataTree.from_dict({f"/{name}": tell(specs[name], story) for name, story in stories.items()})
 
 
-def scan(least: float, settled: bool = True, softest: str = "unstable") -> dict[str, xr.Dataset]:
+def scans(least: float = 0.2, settled: bool = True, softest: str = "unstable") -> dict[str, xr.Dataset]:
     """Grid studies: stick without separation, and what becomes of the published start on softer and stiffer discs.
 
     least, settled : share of stick where it is least, and whether the motion there has settled
@@ -378,10 +377,8 @@ def scan(least: float, settled: bool = True, softest: str = "unstable") -> dict[
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
     bonded = {"share_stick": (("Omega", "N"), shares), "settled": (("Omega", "N"), times)}
     kinds = ["unknown", "stable", "unstable", "separation"]
-    outcome = np.full((3, 2, 2), kinds.index("separation"), dtype=np.int8)
-    outcome[1] = kinds.index("stable")
-    outcome[0, 1] = kinds.index(softest)
-    outcome[0, 0] = kinds.index("stable")
+    outcome = np.full((3, 2, 2), kinds.index("stable"), dtype=np.int8)
+    outcome[0, 1], outcome[2] = kinds.index(softest), kinds.index("separation")
     flags = {"flag_values": np.arange(len(kinds), dtype=np.int8), "flag_meanings": " ".join(kinds)}
     return {
         "bonded": xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]}),
@@ -391,3 +388,18 @@ def scan(least: float, settled: bool = True, softest: str = "unstable") -> dict[
             {"base": '{"N": 200}'},
         ),
     }
+
+
+def views(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> dict[str, CaseView]:
+    """Cases, and grid studies among them, as claims look at them."""
+    nodes = dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()}
+    return {name: CaseView(name, node) for name, node in nodes.items()}
+
+
+def orthonormal(tree: xr.DataTree) -> xr.DataTree:
+    """The same motions, said to be of modes normalised as Eq. (17) says; and a case that the paper has not."""
+    found = tree.copy()
+    for case in found.children.values():
+        p = Parameters.model_validate_json(case.attrs["parameters"]).replace(normalization="orthonormal")
+        case.attrs = case.attrs | {"parameters": p.canonical_json}
+    return found.assign({"X30": found["F02"]})

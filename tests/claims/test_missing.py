@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import Parameters
 from disc_model.claims import ledger
 from disc_model.claims.ledger import CLAIMS
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim
+from tests.claims import made_up
 from tests.claims.damaged import DAMAGES, damaged
 
 pytestmark = pytest.mark.usefixtures("cycles_as_told")
@@ -50,7 +50,7 @@ def test_damage_ends_no_claim(damage: str, told: xr.DataTree) -> None:
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_damaged_case_among_whole_ones_ends_no_claim(damage: str, told: xr.DataTree) -> None:
     """One at a time: what is missing first may hide what is missing next."""
-    cases = {name: CaseView(name, node) for name, node in told.children.items()}
+    cases = made_up.views(told)
     for name, view in cases.items():
         hurt = cases | {name: CaseView(name, damaged(view.node, DAMAGES[damage]))}
         verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.needs])
@@ -58,13 +58,10 @@ def test_a_damaged_case_among_whole_ones_ends_no_claim(damage: str, told: xr.Dat
 
 def test_a_failed_case_counts_for_neither_normalisation(told: xr.DataTree) -> None:
     """It used to be listed among those that no longer separate."""
-    other = {}
-    for name, node in told.children.items():
-        p = Parameters.model_validate_json(node.attrs["parameters"]).replace(normalization="orthonormal")
-        other[f"/{name}"] = node.to_dataset().assign_attrs(node.attrs | {"parameters": p.canonical_json})
-    tree = xr.DataTree.from_dict(other)
+    tree = made_up.orthonormal(told)
+    parameters = tree["F17"].attrs["parameters"]
     tree["F17"] = damaged(tree["F17"], DAMAGES["failed"])
-    tree["F17"].attrs["parameters"] = other["/F17"].attrs["parameters"]
+    tree["F17"].attrs["parameters"] = parameters
     found = ledger.compare(told, tree)
     text, table = found.sections[1][1:]
     assert "No longer: none." in text

@@ -11,10 +11,9 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.claims.ledger import COLUMNS
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Needed
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView
 from disc_model.claims.pages import ledger, table_page
 from disc_model.claims.paper_tables import LISTED, TABLE_1, stick_slip_rate, table_1, table_2, table_2_or_why
-from disc_model.data.variables import STATUSES
 
 F_S, OMEGA = 67.63, 15.1
 DRIVE = OMEGA / (2 * np.pi)
@@ -86,16 +85,3 @@ def test_a_table_page_leaves_unknown_numbers_empty() -> None:
     text = table_page("T", "", pd.DataFrame({"x": [1.5, np.nan]}))
     assert '<td class="number">1.5</td>' in text
     assert '<td class="number"></td>' in text
-
-
-def test_what_separation_does_does_not_hold_without_one() -> None:
-    p = Parameters(N=200, Omega=20)
-    scalars = {"status": STATUSES.index("ok"), "n_separations": 0, "time_reached": 9.0}
-    case = CaseView("A", xr.DataTree(xr.Dataset(scalars, attrs={"parameters": p.canonical_json})))
-    needed = Needed({"N": 200, "Omega": 20}, separates=True)
-    claim = Claim("X", "", "", lambda *_: Finding("1", HOLDS), needs={"A": needed})
-    found = claim.evaluate({"A": case})
-    assert found == Finding("case A: no separation in 9 s", FAILS)
-    other = p.replace(normalization="orthonormal")
-    case.node.attrs["parameters"] = other.canonical_json
-    assert claim.evaluate({"A": case}).verdict == FAILS, "a claim is judged for either normalisation"
