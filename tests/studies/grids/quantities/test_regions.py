@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
@@ -26,10 +27,18 @@ from tests.studies.grids.conftest import computed
 
 ROUND = {"Omega": (28.0, 14.0), "N": (300.0, 160.0)}
 """Middle and half axis of the ellipse within which the made-up motion separates."""
+PLANE = ["N", "Omega"]
 
 
 def separates(p: Parameters) -> bool:
     return math.hypot(*((getattr(p, name) - at) / size for name, (at, size) in ROUND.items())) < 1
+
+
+def wrong(study: xr.Dataset) -> np.ndarray:
+    """Where a plane says otherwise than the made-up motion does."""
+    speeds = study["Omega"].values
+    expected = [[separates(Parameters(N=N, Omega=Omega)) for Omega in speeds] for N in study["N"].values]
+    return (flag_names(study["outcome"].transpose("N", "Omega")) == "separation") != expected
 
 
 @pytest.fixture
@@ -49,6 +58,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
 
 def raw(**changes) -> dict:
     study = {
+        "study": "small",
         "quantity": "regions",
         "options": {"horizon": 10, "coarse": 8},
         "axes": {
@@ -56,16 +66,14 @@ def raw(**changes) -> dict:
             "N": {"start": 50, "stop": 600, "count": 49},
             "normalization": ["as_published"],
         },
-        "batch": {"over": ["N", "Omega"], "tile": 32},
+        "batch": {"over": PLANE, "tile": 32},
     }
     return study | changes
 
 
 def test_a_region_is_found_as_by_brute_force_with_fewer_points(made_up) -> None:
     study = computed(**raw()).isel(normalization=0)
-    expected = [[separates(Parameters(N=N, Omega=Omega)) for Omega in study["Omega"].values] for N in study["N"].values]
-    found = flag_names(study["outcome"].transpose("N", "Omega")) == "separation"
-    np.testing.assert_array_equal(found, expected)
+    assert not wrong(study).any()
     origin = flag_names(study["origin"])
     assert set(np.unique(origin)) == {"simulation", "undivided_cell"}
     assert (origin == "simulation").sum() < 0.3 * origin.size
@@ -74,20 +82,16 @@ def test_a_region_is_found_as_by_brute_force_with_fewer_points(made_up) -> None:
 
 
 def test_the_border_does_not_depend_on_the_tiles(made_up) -> None:
-    whole = computed(**raw(batch={"over": ["N", "Omega"], "tile": 64}))
-    parts = computed(**raw(batch={"over": ["N", "Omega"], "tile": 16}))
+    whole, parts = (computed(**raw(batch={"over": PLANE, "tile": tile})) for tile in (64, 16))
     assert whole["outcome"].equals(parts["outcome"])
 
 
 def test_normalisations_may_share_batches(made_up) -> None:
     axes = raw()["axes"] | {"normalization": ["as_published", "orthonormal"]}
-    apart = parse_grid({"study": "small", **raw(axes=axes)})
-    together = parse_grid({"study": "small", **raw(axes=axes, batch={"over": ["N", "Omega", "normalization"]})})
+    ways = [raw(axes=axes, batch={"over": over, "tile": 64}) for over in (PLANE, [*PLANE, "normalization"])]
+    apart, together = map(parse_grid, ways)
     assert len(apart.batches) == 2 * len(together.batches)
-    one, two = (
-        computed(**raw(axes=axes, batch={"over": over, "tile": 64}))
-        for over in (["N", "Omega"], ["N", "Omega", "normalization"])
-    )
+    one, two = (computed(**way) for way in ways)
     assert one.equals(two)
 
 
@@ -105,7 +109,7 @@ def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
 def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     marks = {"here": {"x": 12.03125, "y": 187.5, "paper": "stable"}}
     plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": marks}
-    study = parse_grid({"study": "small", **raw(figures={"map": plot})})
+    study = parse_grid(raw(figures={"map": plot}))
     texts = [json.loads(text) for text in study.batches.values()]
     assert len(texts) == 2 * 2
     points = [tuple(point) for text in texts for point in text["points"]]
@@ -116,9 +120,8 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
         for place in text["tile"]["sampled"]
     ]
     assert sampled == [[187.5, 12.03125]]
-    bare = parse_grid({"study": "small", **raw()})
     # only the tile in which the mark lies is another batch
-    assert len(study.batches.keys() - bare.batches.keys()) == 1
+    assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
 
 
 def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:
@@ -149,9 +152,7 @@ def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatc
 def test_between_two_corners_that_are_alike_a_neighbour_may_still_find_another(made_up) -> None:
     """The middle of an edge is presumed in the finest cells only: the made-up border crosses edges twice."""
     study = computed(**raw(options={"horizon": 10, "coarse": 2})).isel(normalization=0)
-    expected = [[separates(Parameters(N=N, Omega=Omega)) for Omega in study["Omega"].values] for N in study["N"].values]
-    found = flag_names(study["outcome"].transpose("N", "Omega")) == "separation"
-    assert (found != expected).mean() <= 2e-3
+    assert wrong(study).mean() <= 2e-3
     assert (flag_names(study["outcome"]) != "unknown").all()
 
 
@@ -227,16 +228,9 @@ where the outcome hangs on the last per cent of a long growth."""
 def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cells() -> None:
     """Points drawn of a map in which all outcomes and a fold occur, simulated from the published start throughout."""
     horizon = 400
-    study = computed(
-        quantity="regions",
-        options={"horizon": horizon, "coarse": 4},
-        axes={
-            "N": {"start": 100, "stop": 500, "count": 17},
-            "Omega": {"start": 8, "stop": 24, "count": 17},
-            "normalization": ["as_published"],
-        },
-        batch={"over": ["N", "Omega"]},
-    ).isel(normalization=0)
+    axes = {"N": {"start": 100, "stop": 500, "count": 17}, "Omega": {"start": 8, "stop": 24, "count": 17}}
+    options = {"horizon": horizon, "coarse": 4}
+    study = computed(quantity="regions", options=options, axes=axes, batch={"over": PLANE})
     separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["origin"])
     beside = np.zeros_like(separates)
     for axis in (0, 1):
@@ -257,11 +251,10 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
     assert len(wrong) <= MOST_WRONG * drawn, wrong
 
 
-@pytest.mark.parametrize("over", [["N"], ["N", "normalization"], None])
-def test_a_tile_needs_two_numbers(over) -> None:
-    batch = {} if over is None else {"over": over}
+@pytest.mark.parametrize("batch", [{"over": ["N"]}, {"over": ["N", "normalization"]}, {}])
+def test_a_tile_needs_two_numbers(batch: dict) -> None:
     with pytest.raises(StudyError, match=r"batch.over.*two dimensions"):
-        parse_grid({"study": "small", **raw(batch=batch)})
+        parse_grid(raw(batch=batch))
 
 
 @pytest.mark.parametrize(("size", "coarse"), list(product([2, 3, 9, 34, 65], [1, 8, 50])))
@@ -274,12 +267,8 @@ def test_coarse_cells_cover_a_side(size: int, coarse: int) -> None:
 
 @pytest.mark.compiled
 def test_the_cycle_is_known_at_every_point_and_goes_on_from_one_to_the_next() -> None:
-    study = computed(
-        quantity="regions",
-        options={"horizon": 50},
-        axes={"N": [100, 110], "Omega": [14, 15, 16], "normalization": ["as_published"]},
-        batch={"over": ["N", "Omega"]},
-    ).isel(normalization=0)
+    axes = {"N": [100, 110], "Omega": [14, 15, 16]}
+    study = computed(quantity="regions", options={"horizon": 50}, axes=axes, batch={"over": PLANE})
     assert (flag_names(study["cycle"]) == "followed").all()
     assert (study["growth_rate"].values < 0).all()
     assert (flag_names(study["origin"]) == "multipliers").all()
