@@ -116,11 +116,8 @@ def test_shares_are_the_same_to_the_last_digit_whatever_the_batch() -> None:
 @pytest.mark.compiled
 def test_kicks_of_an_axis_are_starts_of_their_own() -> None:
     """A plane of two coordinates: at 15 rad/s a kick of 0.3 mm leads to separation, one of 0.1 mm dies out."""
-    plane = computed(
-        quantity="basins",
-        options={"horizon": 200, "bisected": 0},
-        base={"N": 385, "Omega": 15},
-        axes={"kick_u": [1e-4, 3e-4], "kick_u_velocity": [0.0]},
-    )
+    axes = {"kick_u": [1e-4, 3e-4], "kick_u_velocity": [0.0]}
+    options = {"horizon": 200, "bisected": 0}
+    plane = computed(quantity="basins", options=options, base={"N": 385, "Omega": 15}, axes=axes)
     kinds = plane["kind"].squeeze().values
     assert [basins.KINDS[kind] for kind in kinds] == ["quiet", "separating"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -80,6 +82,14 @@ def test_what_still_settles_may_be_periodic_and_is_looked_at() -> None:
     assert bifurcation.nearly(0.015 + 1e-4 * NO_PERIODS["quasi-periodic"]) == []
 
 
+def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]:
+    """What the separating motion at 385 N settles to; one that is steady says nothing besides."""
+    options = BifurcationOptions(prepare=APART, section="switch", samples=samples, **how)
+    values, message = bifurcation.at(Parameters(N=385, Omega=Omega), options)
+    assert (message == "") == (values["steady"] == "yes")
+    return values
+
+
 @pytest.mark.compiled
 def test_a_motion_on_a_torus_has_no_period() -> None:
     """At rest there since 220 s, see `tests.stability.test_fate`: the cycle within the torus is unstable."""
@@ -91,13 +101,7 @@ def test_a_motion_on_a_torus_has_no_period() -> None:
 @pytest.mark.compiled
 def test_a_slow_drift_with_equal_intervals_is_not_steady() -> None:
     """At 120 s intervals repeat to 1e-12 s, and the angle still drifts, by 1e-5 rad/s: it takes minutes more."""
-    early, late = (
-        bifurcation.at(
-            Parameters(N=385, Omega=7.5),
-            BifurcationOptions(prepare=APART, transient=transient, section="switch", longest=transient, samples=50),
-        )[0]
-        for transient in (120, 480)
-    )
+    early, late = (at_switches(7.5, transient=transient, longest=transient) for transient in (120, 480))
     assert (early["steady"], early["period"]) == ("no", 0)
     assert (late["steady"], late["period"]) == ("yes", 1)
 
@@ -105,8 +109,7 @@ def test_a_slow_drift_with_equal_intervals_is_not_steady() -> None:
 @pytest.mark.compiled
 def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
     """Of 21 separations and 5 releases; simulated to 240 s its intervals repeat to 1e-13 s."""
-    options = BifurcationOptions(prepare=APART, transient=15, section="switch", samples=50)
-    values, _ = bifurcation.at(Parameters(N=385, Omega=20), options)
+    values = at_switches(20, transient=15)
     assert (values["period"], values["steady"]) == (21, "yes")
     assert values["transient"] < 100
     assert 1e-11 < values["closure"] < 1e-6
@@ -115,10 +118,8 @@ def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
 @pytest.mark.compiled
 @pytest.mark.parametrize(("Omega", "period", "phase"), [(9.5, 1, "stick"), (14.5, 2, "separation")])
 def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: float, period: int, phase: str) -> None:
-    options = BifurcationOptions(prepare=APART, transient=60, section="switch", samples=100)
-    values, message = bifurcation.at(Parameters(N=385, Omega=Omega), options)
-    assert (values["steady"], message) == ("yes", "")
-    assert values["period"] == period
+    values = at_switches(Omega, transient=60, samples=100)
+    assert (values["steady"], values["period"]) == ("yes", period)
     assert len(np.unique(np.round(values["psi"], 5))) == period
     assert set(values["phase"]) == {phase}
 
@@ -126,6 +127,5 @@ def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: 
 @pytest.mark.compiled
 def test_the_period_of_a_motion_that_sticks_rarely_was_missed() -> None:
     """It sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several."""
-    options = BifurcationOptions(prepare=APART, transient=30, section="switch", longest=30, samples=50)
-    values, _ = bifurcation.at(Parameters(N=385, Omega=22.25), options)
+    values = at_switches(22.25, transient=30, longest=30)
     assert (values["period"], values["steady"]) == (40, "yes")

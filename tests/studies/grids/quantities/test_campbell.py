@@ -66,16 +66,18 @@ def made_up(**changes: Any) -> xr.Dataset:
     speeds = np.linspace(8, 12, 401)
     rate = -0.2 + 0.1 / (1 + ((speeds - 10) / 0.02) ** 2)
     values = {
-        "growth_rate": ("Omega", rate),
-        "stick_slip_frequency": ("Omega", 10 * speeds),
-        "rotation_frequency": ("Omega", speeds / (2 * np.pi)),
-        "diameters": (("Omega", "mode"), np.ones((401, 1), int)),
-        "sliding_frequency": (("Omega", "mode"), np.full((401, 1), 100.0)),
-        "cycle_frequency": (("Omega", "mode"), np.full((401, 1), 100.0)),
-        "likeness": (("Omega", "mode"), np.ones((401, 1))),
-        "cycle_growth_rate": (("Omega", "mode"), rate[:, None]),
-    }
-    return xr.Dataset(values | changes, {"Omega": speeds, "mode": [1]})
+        "growth_rate": rate,
+        "stick_slip_frequency": 10 * speeds,
+        "rotation_frequency": speeds / (2 * np.pi),
+        "diameters": np.ones((401, 1), int),
+        "sliding_frequency": np.full((401, 1), 100.0),
+        "cycle_frequency": np.full((401, 1), 100.0),
+        "likeness": np.ones((401, 1)),
+        "cycle_growth_rate": rate[:, None],
+    } | changes
+    dims = {1: "Omega", 2: ("Omega", "mode")}
+    made = {name: (dims[value.ndim], value) for name, value in values.items()}
+    return xr.Dataset(made, {"Omega": speeds, "mode": [1]})
 
 
 def effects(cell: xr.Dataset, **options: Any) -> list[str]:
@@ -96,23 +98,19 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     assert effects(peak) == ["rises"]
     assert effects(peak, rise=0.2) == ["no_rise"]
     rate = peak["growth_rate"].values
-    raised = {"growth_rate": ("Omega", rate + 0.15), "cycle_growth_rate": (("Omega", "mode"), rate[:, None] + 0.15)}
-    assert effects(made_up(**raised)) == ["destabilises"]
-    assert effects(made_up(growth_rate=("Omega", np.full(401, -0.05)))) == ["mode_rises"]
-    flat = {
-        "growth_rate": ("Omega", np.full(401, -0.1)),
-        "cycle_growth_rate": (("Omega", "mode"), np.full((401, 1), -0.1)),
-    }
-    assert effects(made_up(**flat)) == ["no_rise"]
+    raised = made_up(growth_rate=rate + 0.15, cycle_growth_rate=rate[:, None] + 0.15)
+    assert effects(raised) == ["destabilises"]
+    assert effects(made_up(growth_rate=np.full(401, -0.05))) == ["mode_rises"]
+    flat = made_up(growth_rate=np.full(401, -0.1), cycle_growth_rate=np.full((401, 1), -0.1))
+    assert effects(flat) == ["no_rise"]
     assert effects(peak.isel(Omega=slice(0, 401, 20))) == ["unresolved"]
     assert effects(peak.isel(Omega=slice(195, 401))) == ["unresolved"]
 
 
 def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
     gone = made_up()
-    for name in ("growth_rate", "stick_slip_frequency"):
+    for name in ("growth_rate", "stick_slip_frequency", "cycle_growth_rate"):
         gone[name][195:210] = np.nan
-    gone["cycle_growth_rate"][195:210] = np.nan
     found = campbell.of(gone, CampbellOptions())
     assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
     assert effects(gone) == ["no_cycle"]
@@ -127,9 +125,9 @@ def test_gaps_are_bridged_and_ends_are_not() -> None:
 
 def test_the_rotation_meets_a_mode_at_its_critical_speed() -> None:
     """f_Omega = 100 Hz at 200 pi rad/s, the speed of a moving load."""
-    cell = made_up().assign_coords(Omega=np.linspace(500, 700, 401))
-    cell["rotation_frequency"] = cell["Omega"] / (2 * np.pi)
-    cell["stick_slip_frequency"] = ("Omega", np.full(401, 70.0))
+    speeds = np.linspace(500, 700, 401)
+    cell = made_up(rotation_frequency=speeds / (2 * np.pi), stick_slip_frequency=np.full(401, 70.0))
+    cell = cell.assign_coords(Omega=speeds)
     found = campbell.of(cell, CampbellOptions())
     assert found["crossing_line"] == ["rotation"]
     assert found["crossing_Omega"][0] == pytest.approx(200 * np.pi, rel=1e-9)
@@ -143,12 +141,10 @@ def test_a_diagram_needs_speeds() -> None:
 
 def test_a_line_that_meets_the_cycles_frequency_and_not_slidings_is_a_crossing() -> None:
     """It was missed: 10 f_s at 23.85 rad/s, orthonormal modes, 1.8 Hz below the frequency of sliding."""
-    cell = made_up()
-    locked = np.abs(cell["Omega"].values - 10) < 0.05
-    own = np.where(locked, 10 * cell["Omega"].values, 100.0)
-    cell["cycle_frequency"] = (("Omega", "mode"), own[:, None])
-    cell["likeness"] = (("Omega", "mode"), np.where(locked, 0.5, 0.9)[:, None])
-    cell["sliding_frequency"] = (("Omega", "mode"), np.full((401, 1), 130.0))
+    speeds = np.linspace(8, 12, 401)[:, None]
+    locked = np.abs(speeds - 10) < 0.05
+    own, likeness = np.where(locked, 10 * speeds, 100.0), np.where(locked, 0.5, 0.9)
+    cell = made_up(cycle_frequency=own, likeness=likeness, sliding_frequency=np.full((401, 1), 130.0))
     found = campbell.of(cell, CampbellOptions())
     # where the multiplier is bound to the line it says nothing of the mode
     assert found["n_crossings"] == 1

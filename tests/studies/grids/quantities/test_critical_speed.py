@@ -13,7 +13,14 @@ from disc_model.parameters import Parameters
 from disc_model.studies.grids.quantities import critical_speed
 from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions
 from disc_model.studies.grids.run import STATUSES, compute
-from tests.studies.grids.conftest import SCAN
+
+
+def speeds_at(
+    N: float, horizons: list[float], start: float, stop: float, step: float, precision: float
+) -> dict[str, np.ndarray]:
+    scan = {"start": start, "stop": stop, "step": step}
+    options = CriticalSpeedOptions(horizons=horizons, scan=scan, precision=precision)
+    return compute(critical_speed, [Parameters(N=N, Omega=0)], options).arrays
 
 
 def test_every_crossing_is_found(speeds: xr.Dataset) -> None:
@@ -41,8 +48,7 @@ def test_a_run_that_breaks_off_is_no_quiet_run(
         return whole(p, options) if p.Omega != fails_at else critical_speed.Motion(math.nan, 1.0, "paradox", "why")
 
     monkeypatch.setattr(critical_speed, "motion", motion)
-    options = CriticalSpeedOptions.model_validate({"horizons": [1000], "scan": SCAN | {"stop": 14}})
-    found = compute(critical_speed, [Parameters(N=400, Omega=0)], options).arrays
+    found = speeds_at(400, [1000], 12, 14, 0.5, 0.1)
     assert found["critical_speed"][0, 0] == pytest.approx(lowest, nan_ok=True)
     assert found["n_crossings"][0, 0] == crossings == np.isfinite(found["crossing"]).sum()
     status = STATUSES[found["status"][0]]
@@ -50,18 +56,9 @@ def test_a_run_that_breaks_off_is_no_quiet_run(
     assert {STATUSES[i] for i in found["scan_status"][0]} == {"ok", status}
 
 
-def speeds(
-    N: float, horizons: list[float], start: float, stop: float, step: float, precision: float
-) -> dict[str, np.ndarray]:
-    options = CriticalSpeedOptions.model_validate(
-        {"horizons": horizons, "scan": {"start": start, "stop": stop, "step": step}, "precision": precision}
-    )
-    return compute(critical_speed, [Parameters(N=N, Omega=0)], options).arrays
-
-
 @pytest.mark.slow
 def test_lowest_separating_speed_at_200_N_depends_on_the_horizon() -> None:
-    found = speeds(200, [1800, 800], 10, 13, 1, 0.1)
+    found = speeds_at(200, [1800, 800], 10, 13, 1, 0.1)
     assert list(found["critical_speed"][0]) == [12.4, 12.0]
     assert list(found["n_crossings"][0]) == [1, 1]
 
@@ -73,7 +70,7 @@ def test_385_N_turns_between_15_08_and_15_09() -> None:
     At 15.085 rad/s contact is lost at 59.6101202 s, at 15.09 at 56.4006380 s, by the engine, by a long-order Taylor
     integrator and by fixed-step Runge-Kutta alike; at 15.08 not within 300 s.
     """
-    found = speeds(385, [200], 15, 15.2, 0.05, 0.01)
+    found = speeds_at(385, [200], 15, 15.2, 0.05, 0.01)
     assert found["critical_speed"][0, 0] == 15.09
     assert found["crossing"][0, 0, 0] == 15.09
     kinds = critical_speed.COLUMNS["crossing_kind"].flags

@@ -8,7 +8,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.errors import Status
@@ -123,9 +122,8 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
 @pytest.mark.usefixtures("impatient")
 def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
     options = {"horizon": 3.0, "late": 0.05, "after_separation": 0.05, "tol": 1e-9}
-    damped = computed(
-        quantity="outcome", options=options, base=SMALL | {"c": 20.0, "D_star": 1e-3}, axes={"N": [200], "Omega": [20]}
-    ).squeeze()
+    base = SMALL | {"c": 20.0, "D_star": 1e-3}
+    damped = computed(quantity="outcome", options=options, base=base, axes={"N": [200], "Omega": [20]}).squeeze()
     assert flag_names(damped["outcome"]) == "stable"
     assert damped["settled"] == damped["time_reached"] < 3.0
     assert damped["distance"] < 1e-4
@@ -159,10 +157,3 @@ def test_growth_without_separation_is_unstable(monkeypatch: pytest.MonkeyPatch) 
         assert outcome.OUTCOMES[table.arrays["outcome"][0]] == expected
         assert table.arrays["difference"][0] == 0.5
         assert list(table.messages) == ["why" if status is Status.STEP_LIMIT else ""]
-
-
-@pytest.mark.compiled
-def test_flags_read_as_words() -> None:
-    table = compute(outcome, [Parameters(N=385, Omega=15)], OutcomeOptions(horizon=1, late=0.5))
-    attrs = {"flag_meanings": " ".join(outcome.OUTCOMES)}
-    assert list(flag_names(xr.DataArray(table.arrays["outcome"], attrs=attrs))) == ["stable"]

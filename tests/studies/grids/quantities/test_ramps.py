@@ -37,9 +37,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
         up, down = ramps
         rate = (up.to - p.Omega) / up.end
         begins, ends = (12 - p.Omega) / rate + 4, down.start + (up.to - 11) / rate + 2
-        times = np.arange(begins, math.inf if world.goes_on else ends, EVERY) if world.goes_on is False else None
-        if times is None:
-            times = np.arange(begins, down.end + SPAN["stay"] + 1, EVERY)
+        times = np.arange(begins, down.end + SPAN["stay"] + 1 if world.goes_on else ends, EVERY)
         lost = times[(times > start) & (times <= min(until, world.breaks_at))]
         first = float(lost[0]) if lost.size else math.nan
         end, status = min(until, world.breaks_at), Status.STALLED if until > world.breaks_at else Status.OK
