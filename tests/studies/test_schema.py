@@ -35,16 +35,16 @@ CASES: dict[str, Any] = {
 }
 
 
-def asked(study: Any) -> dict[str, Any]:
-    return study.grids()[0]
+def figures(**figure: Any) -> dict[str, Any]:
+    """One figure, of a grid's growth if it does not say otherwise."""
+    return {"figures": {"f": {"kind": "heat_map", "x": "mu_s", "variable": "period"} | figure}}
 
 
 def test_a_grid_alone_is_a_study() -> None:
     study = parse_study(GRID)
-    assert study.grid is not None
     assert (study.specs, study.claims, study.figures) == ({}, False, ())
-    assert asked(study)["mine"].n_points == 6
-    assert study.grids()[1] == ("mine",)
+    grids, asked = study.grids()
+    assert (grids["mine"].n_points, asked) == (6, ("mine",))
 
 
 def test_cases_alone_are_a_study_without_claims() -> None:
@@ -54,8 +54,8 @@ def test_cases_alone_are_a_study_without_claims() -> None:
 
 
 def test_a_file_can_say_both_and_figures_of_both() -> None:
-    figures = GRID["figures"] | {"seen": {"kind": "history", "case": "A", "window": "whole"}}
-    study = parse_study(GRID | CASES | {"figures": figures})
+    both = GRID["figures"] | {"seen": {"kind": "history", "case": "A", "window": "whole"}}
+    study = parse_study(GRID | CASES | {"figures": both})
     assert study.grid is not None
     assert list(study.grid.plots) == ["growth"]
     assert list(study.plots) == ["seen"]
@@ -71,9 +71,7 @@ def test_the_papers_study_asks_for_claims_and_for_its_figures() -> None:
 
 def test_what_is_drawable_has_its_cases_and_windows() -> None:
     """A figure of the paper that a study does not list can still be asked for, if there is all that it needs."""
-    case = CASES["cases"]["A"]
-    named = CASES | {"cases": {"F04": case}}
-    assert parse_study(named).drawable == ("fig04",)
+    assert parse_study(CASES | {"cases": {"F04": CASES["cases"]["A"]}}).drawable == ("fig04",)
     assert parse_study(CASES).drawable == ()
 
 
@@ -95,29 +93,17 @@ def test_a_file_of_a_grid_is_given_as_it_is(path: Path) -> None:
         ({"figures": 3}, "figures = 3: must be a mapping of names to {kind: ...}, or a list of the paper's figures"),
         ({"figures": {"f": {"kind": "heat"}}}, "figures.f.kind = 'heat': unknown kind of figure (known: history,"),
         (
-            {"figures": {"f": {"kind": "heat_map", "x": "mu_s", "y": "mu_k", "variable": "growth"}}},
+            figures(y="mu_k", variable="growth"),
             "figures.f.variable = 'growth': unknown variable (known: status, growth_rate,",
         ),
         (
-            {"figures": {"f": {"kind": "heat_map", "x": "mu_s", "z": "mu_k", "variable": "period"}}},
+            figures(z="mu_k"),
             "figures.f.z = 'mu_k': unknown key (known: kind, title, others, variable, x, at, by, log, y)",
         ),
-        (
-            {"figures": {"f": {"kind": "curve", "x": "mu_s", "variable": "period"}}},
-            "figures.f.at.mu_k: is required, or by: mu_k; one of 0.1, 0.2, 0.3",
-        ),
-        (
-            {"figures": {"f": {"kind": "curve", "x": "mu_s", "at": {"mu_k": 0.15}, "variable": "period"}}},
-            "figures.f.at.mu_k = 0.15: must be one of 0.1, 0.2, 0.3",
-        ),
-        (
-            {"figures": {"f": {"kind": "heat_map", "x": "mu_s", "y": "mu_s", "variable": "period"}}},
-            "figures.f.y = 'mu_s': must differ from the other dimensions shown",
-        ),
-        (
-            {"figures": {"f": {"kind": "curve", "x": "k", "variable": "period"}}},
-            "figures.f.x = 'k': is no dimension of period (known: mu_s, mu_k)",
-        ),
+        (figures(kind="curve"), "figures.f.at.mu_k: is required, or by: mu_k; one of 0.1, 0.2, 0.3"),
+        (figures(kind="curve", at={"mu_k": 0.15}), "figures.f.at.mu_k = 0.15: must be one of 0.1, 0.2, 0.3"),
+        (figures(y="mu_s"), "figures.f.y = 'mu_s': must differ from the other dimensions shown"),
+        (figures(kind="curve", x="k"), "figures.f.x = 'k': is no dimension of period (known: mu_s, mu_k)"),
         ({"figures": {"f": {"kind": "poincare", "case": "A"}}}, "f.case = 'A': no such case (known: none)"),
         ({"batch": {"sise": 3}}, "batch.sise = 3: unknown key, did you mean size? (known: over, size, tile)"),
     ],
@@ -139,8 +125,7 @@ def test_faults_of_a_grid_are_told_with_what_is_known(changes: dict[str, Any], f
     ],
 )  # fmt: skip
 def test_faults_of_figures_of_cases(figure: dict[str, Any], fault: str) -> None:
-    figures = {"f": {"case": "A", **figure}}
-    assert fault in "\n".join(faults_of(parse_study, CASES | {"figures": figures}))
+    assert fault in "\n".join(faults_of(parse_study, CASES | {"figures": {"f": {"case": "A", **figure}}}))
 
 
 def test_keys_inside_a_case_are_told_with_those_that_there_are() -> None:

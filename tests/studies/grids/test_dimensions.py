@@ -102,12 +102,10 @@ def test_what_is_refused(changes: dict[str, Any], fault: str) -> None:
 
 def test_extra_values_leave_the_batches_that_there_are() -> None:
     """At any resolution; a value that is there already is not computed twice."""
-    axis = {"start": 0, "stop": 4, "count": 3}
+    axis, base = {"start": 0, "stop": 4, "count": 3}, {"N": 1, "Omega": 1}
     for resolution in (1, 2):
         before, after = (
-            parse_grid(
-                {"study": "x", "quantity": "floquet", "base": {"N": 1, "Omega": 1}, "axes": {"c": given}}, resolution
-            )
+            parse_grid({"study": "x", "quantity": "floquet", "base": base, "axes": {"c": given}}, resolution)
             for given in (axis, axis | {"extra": [2, 3.3]})
         )
         assert {(3.3,)} == set(after.values["c"]) - set(before.values["c"])

@@ -12,7 +12,7 @@ import xarray as xr
 from disc_model.studies.grids.merge import MergeError, failures, merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import parse_grid
-from tests.studies.grids.conftest import study
+from tests.studies.grids.conftest import computed, study
 
 #: The slider stays where it is on the disc: nothing has to be computed.
 STILL = {"study": "still", "quantity": "floquet", "base": {"k_p": 0}, "axes": {"N": [100, 200], "Omega": [10, 20]}}
@@ -56,8 +56,7 @@ def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
 
 @pytest.mark.compiled
 def test_merged_study_has_every_point_with_units(tmp_path: Path) -> None:
-    grid = parse_grid(study())
-    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {"title": "small"})
+    merged = computed(**study())
     merged.to_netcdf(tmp_path / "small.nc")
     with xr.open_dataset(tmp_path / "small.nc") as read:
         assert dict(read["status"].sizes) == {"N": 3, "Omega": 3}
@@ -73,27 +72,19 @@ def test_merged_study_has_every_point_with_units(tmp_path: Path) -> None:
 def test_zips_and_two_normalizations_keep_their_order() -> None:
     axes = {"normalization": ["orthonormal", "as_published"]}
     zipped = {"N": [300, 100], "Omega": [20, 10]}
-    grid = parse_grid(study(quantity="floquet", options={}, axes=axes, zip=zipped, batch={}))
-    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {})
+    merged = computed(**study(quantity="floquet", options={}, axes=axes, zip=zipped, batch={}))
     assert dict(merged["growth_rate"].sizes) == {"N_Omega": 2, "normalization": 2}
     assert merged["N"].dims == ("N_Omega",)
-    alone = parse_grid(
-        study(quantity="floquet", options={}, base={"normalization": "orthonormal"}, axes={"N": [300], "Omega": [20]})
-    )
-    single = run_batch(next(iter(alone.batches.values())))
-    assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == single["growth_rate"].values[0]
+    base = {"normalization": "orthonormal"}
+    alone = computed(**study(quantity="floquet", options={}, base=base, axes={"N": [300], "Omega": [20]}))
+    assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == alone["growth_rate"].item()
 
 
 @pytest.mark.compiled
 def test_a_point_that_fails_has_a_status_and_a_line() -> None:
     # in the last case rigid friction on the sloping disc has no solution
-    raw = study(
-        axes={"N": [300, 1e6], "Omega": [20]},
-        base={"k_p": 2e6, "mu_s": 3.0, "mu_k": 2.9, "E": 1e9},
-        batch={"over": ["N"]},
-    )
-    grid = parse_grid(raw)
-    merged = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, {})
+    base = {"k_p": 2e6, "mu_s": 3.0, "mu_k": 2.9, "E": 1e9}
+    merged = computed(**study(axes={"N": [300, 1e6], "Omega": [20]}, base=base, batch={"over": ["N"]}))
     lines = list(failures(merged))
     bad = merged["status"].values != 0
     assert bad.any()
