@@ -150,6 +150,8 @@ def span(start: float, stop: float, count: int, **more: Any) -> dict[str, Any]:
 
 HUGE = span(1, 2, 10**9)
 ONE = {"N": [1], "Omega": [1]}
+CURVES = {"x_range": [1, 2], "y_lines": span(1, 2, 2)}
+REGIONS = {"quantity": "regions", "options": {"horizon": 1}, "axes": ONE | {"contact": ["bonded"]}}
 AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
 
 
@@ -161,7 +163,18 @@ AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
             "quantity = 'noise': unknown quantity (known: outcome, regions, critical_speed, floquet, hysteresis, ",
         ),
         ({"quantity": "critical_speed"}, "axes.Omega: is varied by the quantity critical_speed"),
+        (
+            {"quantity": "stability_curves", "options": CURVES, "base": {"Omega": 1}, "axes": {"c": [0]}},
+            "base.Omega: is varied by the quantity stability_curves",
+        ),
+        ({"quantity": "campbell", "axes": {"N": [1]}}, "axes.Omega: is required: campbell looks along it"),
         ({"batch": {"over": ["c"]}}, "batch.over = 'c': must name dimensions (known: N, Omega)"),
+        (REGIONS | {"batch": {"over": ["N"]}}, "batch.over = ['N']: must name the two dimensions"),
+        (REGIONS | {"batch": {"over": ["N", "contact"]}}, "= ['N', 'contact']: must name the two dimensions"),
+        (
+            REGIONS | {"batch": {}},
+            "batch.over = None: must name the two dimensions, single numbers, of regions's",
+        ),
         ({"options": {"horizon": 2, "late": 3}}, "late must be <= after_separation and <= horizon"),
         # axes
         ({"axes": {}}, "axes: is required: at least one axis or zip"),
@@ -324,17 +337,15 @@ def test_the_only_fault_of_a_figure_is_the_one_that_matters() -> None:
 
 
 def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
-    others = {"growth": "other"}
-    shown = study(figures={"f": {"kind": "stability_map", "x": "N", "y": "Omega", "others": others}})
-    other = {"study": "other", "quantity": "floquet", "axes": {"N": [1], "Omega": [1]}}
+    figure = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growth": "other"}}
+    shown = study(figures={"f": figure})
+    other = {"study": "other", "quantity": "floquet", "axes": ONE}
+    outcome = {"quantity": "outcome", "options": {"horizon": 2}}
     files = tmp_path / "small.yaml", tmp_path / "other.yaml"
     for changes, fault in (
         ({}, ""),
-        (
-            {"quantity": "outcome", "options": {"horizon": 2}},
-            "must be a study of the quantity floquet, and not outcome",
-        ),
-        ({"axes": {"N": [1], "Omega": [1], "k": [2]}}, "must vary N, Omega beside normalization, and not N, Omega, k"),
+        (outcome, "must be a study of the quantity floquet, and not outcome"),
+        ({"axes": ONE | {"k": [2]}}, "must vary N, Omega beside normalization, and not N, Omega, k"),
         ({"base": {"normalization": "orthonormal"}}, "must be computed for the same normalization: as_published"),
     ):
         for file, raw in zip(files, (shown, other | changes), strict=True):
@@ -358,12 +369,26 @@ def test_nonsense_is_refused_without_another_error(raw: Any) -> None:
 
 
 def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
-    (tmp_path / "one.yaml").write_text("study: one\nquantity: outcome\n")
-    (tmp_path / "two.yaml").write_text("study: other\nquantity: floquet\naxes: {N: [1], Omega: [1], N: [2]}\n")
-    found = "\n".join(faults_of(load_grids, [tmp_path / "one.yaml", tmp_path / "two.yaml"], {"three": {}}))
-    assert "one.yaml: axes.Omega: is required" in found
-    assert "two.yaml: N: given twice, in lines 3 and 3" in found
-    assert "overrides.three: no such study (known: one, two)" in found
+    plot = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growth": "elsewhere"}}
+    texts = {
+        "one": "study: one\nquantity: outcome\n",
+        "two": "study: other\nquantity: floquet\naxes: {N: [1], Omega: [1], N: [2]}\n",
+        "three": json.dumps(study(study="three", figures={"f": plot})),
+        "four": json.dumps(study()),
+    }
+    for name, text in texts.items():
+        (tmp_path / f"{name}.yaml").write_text(text)
+    files = [tmp_path / f"{name}.yaml" for name in texts]
+    found = "\n".join(faults_of(load_grids, files, {"five": {}}, 1, ["three"]))
+    for fault in (
+        "one.yaml: axes.Omega: is required",
+        "two.yaml: N: given twice, in lines 3 and 3",
+        "study = 'three': is the name of another folder of results",
+        "three: figures.f.others.growth = 'elsewhere': no such study",
+        "study = 'small': must be the name of the file",
+        "overrides.five: no such study (known: four, one, three, two)",
+    ):
+        assert fault in found
 
 
 def test_overrides_are_laid_over_the_file(tmp_path: Path) -> None:
@@ -394,7 +419,13 @@ def test_the_studies_of_the_repository_are_right() -> None:
         ("hysteresis", {"scan": span(1, 2, 2), "dwell": 1, "late": 2}, "late must be <= dwell"),
         ("ramps", {"low": 9, "high": 9, "rates": span(1, 2, 2)}, "low must be < high"),
         ("ramps", {"low": 9, "high": 10, "rates": span(0, 2, 2)}, "rates must be > 0"),
-        ("stability_curves", {"x_range": [2, 1], "y_lines": span(1, 2, 2)}, "x_range must ascend"),
+        ("stability_curves", CURVES | {"x_range": [2, 1]}, "x_range must ascend"),
+        ("stability_curves", CURVES | {"y": "Omega"}, "x and y must differ"),
+        ("stability_curves", CURVES | {"y": "k"}, "axes.N: is required"),
+        ("basins", {"energies": [1.0, 0.1]}, "energies must ascend"),
+        ("basins", {"energies": [0.0, 0.1], "starts": 2}, "starts must be 1 where an energy is 0"),
+        ("basins", {"energies": [-0.1]}, "options.energies.0 = -0.1: must be >= 0"),
+        ("basins", {"seed": -1}, "options.seed = -1: must be >= 0"),
     ],
 )
 def test_rules_of_options(quantity: str, options: dict[str, Any], fault: str) -> None:
@@ -410,13 +441,3 @@ def test_a_resolution_is_a_whole_number(resolution: Any) -> None:
 def test_a_value_belongs_to_the_first_block_that_has_it() -> None:
     repeated = parse_grid(study(axes=ONE | {"N": {"blocks": [[1, 2], [2, 1], [3]]}}))
     assert repeated.values["N"] == ((1.0,), (2.0,), (3.0,))
-
-
-def test_names_of_files_and_of_studies_agree(tmp_path: Path) -> None:
-    plot = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growth": "elsewhere"}}
-    for name, raw in (("one", study(study="two")), ("three", study(study="three", figures={"f": plot}))):
-        (tmp_path / f"{name}.yaml").write_text(json.dumps(raw))
-    found = "\n".join(faults_of(load_grids, [tmp_path / "one.yaml", tmp_path / "three.yaml"], None, 1, ["three"]))
-    assert "study = 'two': must be the name of the file" in found
-    assert "study = 'three': is the name of another folder of results" in found
-    assert "three: figures.f.others.growth = 'elsewhere': no such study" in found

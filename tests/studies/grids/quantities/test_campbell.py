@@ -13,9 +13,7 @@ from scipy.optimize import brentq
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.campbell import frequencies
-from disc_model.studies.files import StudyError
 from disc_model.studies.grids.quantities.schema import CampbellOptions
-from disc_model.studies.grids.schema import parse_grid
 from disc_model.studies.grids.summaries import campbell
 from disc_model.studies.grids.summaries.campbell import bridged
 from tests.studies.grids.conftest import SMALL, computed
@@ -131,12 +129,6 @@ def test_the_rotation_meets_a_mode_at_its_critical_speed() -> None:
     found = campbell.of(cell, CampbellOptions())
     assert found["crossing_line"] == ["rotation"]
     assert found["crossing_Omega"][0] == pytest.approx(200 * np.pi, rel=1e-9)
-
-
-def test_a_diagram_needs_speeds() -> None:
-    raw = {"study": "s", "quantity": "campbell", "base": {"Omega": 15}, "axes": {"N": [200, 300]}}
-    with pytest.raises(StudyError, match=r"axes.Omega: is required: campbell looks along it"):
-        parse_grid(raw)
 
 
 def test_a_line_that_meets_the_cycles_frequency_and_not_slidings_is_a_crossing() -> None:

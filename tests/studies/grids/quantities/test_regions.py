@@ -19,7 +19,6 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.fate import Fate, Near
-from disc_model.studies.files import StudyError
 from disc_model.studies.grids.quantities import regions
 from disc_model.studies.grids.quantities.schema import RegionsOptions
 from disc_model.studies.grids.schema import parse_grid
@@ -249,12 +248,6 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
                 wrong.append((p.N, p.Omega, origin[i, j], whole.first_separation))
     assert drawn > 35
     assert len(wrong) <= MOST_WRONG * drawn, wrong
-
-
-@pytest.mark.parametrize("batch", [{"over": ["N"]}, {"over": ["N", "normalization"]}, {}])
-def test_a_tile_needs_two_numbers(batch: dict) -> None:
-    with pytest.raises(StudyError, match=r"batch.over.*two dimensions"):
-        parse_grid(raw(batch=batch))
 
 
 @pytest.mark.parametrize(("size", "coarse"), list(product([2, 3, 9, 34, 65], [1, 8, 50])))

@@ -8,8 +8,6 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.grids.growth_map import curves_of
-from disc_model.studies.files import StudyError
-from disc_model.studies.grids.schema import parse_grid
 from tests.stability.toy_map import fold_at, outside
 from tests.studies.grids.conftest import computed
 
@@ -61,17 +59,3 @@ def test_other_parameters_may_span_the_plane() -> None:
     one = computed(**raw).isel(normalization=0)
     assert int(one["n_curves"]) >= 1
     assert np.nanmin(one["x"]) > 40
-
-
-@pytest.mark.parametrize(
-    ("change", "fault"),
-    [
-        ({"base": {"Omega": 15}}, "Omega: is varied by the quantity stability_curves"),
-        ({"options": CURVES["options"] | {"y": "Omega"}}, "x and y must differ"),
-        ({"options": CURVES["options"] | {"y": "k"}}, "N.*is required"),
-    ],
-    ids=["base", "twice", "missing"],
-)
-def test_bad_planes_are_refused(change: dict, fault: str) -> None:
-    with pytest.raises(StudyError, match=fault):
-        parse_grid(CURVES | change)
