@@ -126,13 +126,9 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
 
 
 def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None, list[str]]:
-    """What files and command lines say of the choice of modes.
+    """What files and command lines say: the values without what asks for a choice of modes, that, and its faults.
 
-    Returns
-    -------
-    values : without what asks for a choice
-    asked : by what to choose; None if the number of modes is given, or what asks for a choice has faults
-    faults : in what asks for a choice
+    What is asked is None if the number of modes is given, or if there are faults.
     """
     rest = {name: value for name, value in values.items() if name not in CHOOSING}
     if rest.get("n_diameters") != AUTO:

@@ -7,6 +7,9 @@ import re
 import signal
 import time
 from collections.abc import Callable
+from pathlib import Path
+
+import pytest
 
 from tests.workflow.conftest import Project
 
@@ -38,6 +41,7 @@ PARTS = ("workflow/scripts/", "disc_model")
 """In the command of every job."""
 
 
+needs_proc = pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
 STUDY = {CONFIG: MAIN, "config/faulty_map.yaml": MAP}
 
 

@@ -22,10 +22,9 @@ import pytest
 from tests import needs
 from tests.tally import tried
 from tests.workflow.conftest import Project, copy_repository
-from tests.workflow.faulty import CONFIG, STUDY, check_same, jobs, kill, products, wait_until
+from tests.workflow.faulty import CONFIG, STUDY, check_same, jobs, kill, needs_proc, products, wait_until
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
-needs_proc = pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
 LOCKED = "Directory cannot be locked"
 
 

@@ -16,7 +16,7 @@ import xarray as xr
 
 from disc_model.studies.grids.schema import load_grid
 from tests.workflow.conftest import Project, copy_repository
-from tests.workflow.faulty import kill, wait_until
+from tests.workflow.faulty import kill, needs_proc, wait_until
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -309,20 +309,22 @@ def check_the_rest_is_done(project: Project, finished: dict[str, int]) -> None:
     assert planned(project) == set()
 
 
-@pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
-def test_a_killed_job_costs_only_its_own_batch(grid: Project) -> None:
-    process = start(grid)
-    finished = wait_for_batches(grid, process)
-    wait_until(lambda: sum(map(kill, running_batches(grid))) > 0, 5.0)
-    assert process.wait(timeout=900) != 0
-    check_the_rest_is_done(grid, finished)
+def kill_jobs(project: Project, _: subprocess.Popen[bytes]) -> None:
+    wait_until(lambda: sum(map(kill, running_batches(project))) > 0, 5.0)
 
 
-@pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
-def test_an_interrupted_run_loses_no_finished_batch(grid: Project) -> None:
-    process = start(grid)
-    finished = wait_for_batches(grid, process)
+def interrupt(_: Project, process: subprocess.Popen[bytes]) -> None:
     os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C in a terminal does
+
+
+@needs_proc
+@pytest.mark.parametrize("fault", [kill_jobs, interrupt])
+def test_a_fault_costs_only_batches_that_are_not_finished(
+    grid: Project, fault: Callable[[Project, subprocess.Popen[bytes]], None]
+) -> None:
+    process = start(grid)
+    finished = wait_for_batches(grid, process)
+    fault(grid, process)
     assert process.wait(timeout=900) != 0
     check_the_rest_is_done(grid, finished)
 

@@ -58,9 +58,8 @@ def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
 
 def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict[str, xr.Dataset]:
     """What stands for a case that raised an error: all its scalars, unknown but for its status."""
-    values: dict[str, Any] = dict.fromkeys(SCALARS, math.nan) | dict.fromkeys(COUNTS, 0)
-    values |= {"status": STATUSES.index("failed"), "t_end": t_end, "tol": tol}
-    return {"": scalars_dataset(p, values, "failed", message)}
+    known = {"status": STATUSES.index("failed"), "t_end": t_end, "tol": tol}
+    return {"": scalars_dataset(p, dict.fromkeys(COUNTS, 0) | known, "failed", message)}
 
 
 def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
