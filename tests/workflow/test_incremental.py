@@ -14,7 +14,6 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from disc_model.studies.grids.schema import load_grid
 from tests.workflow.conftest import Project, copy_repository
 from tests.workflow.faulty import kill, needs_proc, wait_until
 
@@ -327,10 +326,3 @@ def test_a_fault_costs_only_batches_that_are_not_finished(
     fault(grid, process)
     assert process.wait(timeout=900) != 0
     check_the_rest_is_done(grid, finished)
-
-
-def test_study_names_must_differ_from_the_cases_study(grid: Project) -> None:
-    grid.edit(CONFIG, "study: inc\n", "study: inc_map\n")
-    said = grid.refused("-n")
-    assert "study = 'inc_map': is the name of another folder of results" in said
-    assert load_grid(grid.folder / GRID).name == "inc_map"

@@ -145,11 +145,7 @@ class Record(Checked):
             try:
                 windows.append(window.resolved(start, t_end))
             except ParameterError as error:
-                found += [
-                    Fault(("record", "windows", str(i), *fault.path), fault.value, fault.rule)
-                    for fault in error.faults
-                    if isinstance(fault, Fault)
-                ]
+                found += [fault.inside(("record", "windows", str(i))) for fault in error.faults]
         room = _memory()
         for i, window in enumerate(windows):
             seconds = min(window.stop, t_end) - max(window.start, start)
