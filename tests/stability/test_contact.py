@@ -96,7 +96,6 @@ GROWING = {
 
 
 WITH_RESIDUAL: dict[str, dict[str, Any]] = {
-    "default": {},
     "residual": {"contact_compliance": "residual"},
     "residual_normal": {"contact_compliance": "residual", "contact_force": "normal"},
 }

@@ -13,7 +13,7 @@ from disc_model.stability.return_map import ReturnMap
 @pytest.mark.compiled
 def test_a_seed_met_on_the_way_to_another_modulus_is_a_cycle_there():
     """E scales the coordinates of the section."""
-    seed = curves._first_event(Parameters(N=385, Omega=15), "E", 1.4e11, -1, 1e-12, [])
+    seed = curves._first_event(Parameters(N=385, Omega=15), "E", 1.4e11, 1e-12, [])
     assert seed is not None
     assert seed.kind == "fold"
     # twice the stick-slip rate meets the mode's frequency, sqrt(E), at Omega = 15.0949 for 150 GPa

@@ -14,11 +14,11 @@ from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.return_map import PATIENT, ReturnMap, multipliers
 from tests.stability.test_return_map import central_differences
 
-# Derivatives take a minute to compile, and motions minutes of their own time to settle.
-pytestmark = [pytest.mark.slow, pytest.mark.compiled]
+pytestmark = pytest.mark.compiled
 
 LOCKED = {
     "2 releases": (Parameters(N=385, Omega=15.1), 300.0, 2, 2),
+    "damper": (Parameters(N=385, Omega=15.0, c_p=0.5), 200.0, 1, 2),
     "8 releases": (Parameters(N=200, Omega=15.0), 1300.0, 8, 59),
     # another law: a slope in the contact, an impact that changes the slider's speed
     "normal force": (Parameters(N=385, Omega=15.3, contact_force="normal"), 300.0, 1, 2),
@@ -36,7 +36,11 @@ def releases_of(p: Parameters, start: State, duration: float) -> np.ndarray:
     return events["time"].to_numpy()[events["kind"].to_numpy() == "stick_to_slip"]
 
 
-@pytest.fixture(scope="module", params=LOCKED)
+# derivatives of a law take a minute to compile, and long cycles minutes to settle
+PARAMS = [pytest.param(name, marks=() if name in ("2 releases", "damper") else pytest.mark.slow) for name in LOCKED]
+
+
+@pytest.fixture(scope="module", params=PARAMS)
 def cycle(request: pytest.FixtureRequest) -> tuple[Parameters, State, FloquetResult, int]:
     """The case, a settled state of its motion, the cycle found from there, and how often that separates."""
     p, time, releases, separations = LOCKED[request.param]
@@ -76,6 +80,7 @@ def test_its_multipliers_are_those_of_differences_of_the_map(cycle) -> None:
     assert found.stable
 
 
+@pytest.mark.slow
 def test_a_disturbance_dies_out_as_the_multipliers_say() -> None:
     p, time, releases, _ = LOCKED["2 releases"]
     found = floquet(p, near=settled(p, time), releases=releases)
@@ -91,10 +96,11 @@ def test_a_disturbance_dies_out_as_the_multipliers_say() -> None:
     assert np.linalg.norm(kicked - x - expected) < 1e-3 * np.linalg.norm(expected)
 
 
+@pytest.mark.slow
 def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     """N = 385 N, two releases: up to 15.9717 rad/s, where a stop is grazed and left out."""
-    p = Parameters(N=385, Omega=15.1)
-    late = settled(p, 300.0)
+    p, time, *_ = LOCKED["2 releases"]
+    late = settled(p, time)
     branch = continue_cycle(p, "Omega", (14.0, 18.0), near=late, releases=2, step=1e-2)
     end = float(branch.values[-1, 0])
     assert end == pytest.approx(15.97174, abs=1e-4)
@@ -115,10 +121,11 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
             assert times[2] - times[0] == pytest.approx(branch.period[point], rel=0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_branch_turns_at_the_period_doubling_that_it_came_from() -> None:
     """N = 385 N: below 14.2877 rad/s the motion repeats after each release, and the two releases become one."""
-    p = Parameters(N=385, Omega=15.1)
-    late = settled(p, 300.0)
+    p, time, *_ = LOCKED["2 releases"]
+    late = settled(p, time)
     branch = continue_cycle(p, "Omega", (14.0, 15.2), near=late, releases=2, step=1e-2, direction=-1)
     assert branch.folds == pytest.approx(np.array([[14.2877]]), abs=1e-3)
     below = p.replace(Omega=14.2)
@@ -132,6 +139,7 @@ def test_a_branch_turns_at_the_period_doubling_that_it_came_from() -> None:
     assert upward.values[crossing, 0] > branch.folds[0, 0] - 1e-6
 
 
+@pytest.mark.slow
 def test_the_locking_of_45_releases() -> None:
     """N = 300 N: 2.33387 s within 2.6e-3 rad/s around 20 rad/s; simulated motions lock there, and nowhere beside."""
     p = Parameters(N=300, Omega=20.0)
@@ -155,10 +163,11 @@ def test_the_locking_of_45_releases() -> None:
         assert (apart < 1e-8) == (ends[0] < Omega < ends[1])
 
 
+@pytest.mark.slow
 def test_patience_is_needed_where_the_slider_rarely_sticks() -> None:
     """N = 200 N, 15 rad/s: 0.126 s pass between two releases; waiting 0.075 s said that it does not stick."""
-    p = Parameters(N=200, Omega=15)
-    late = settled(p, 1300.0)
+    p, time, *_ = LOCKED["8 releases"]
+    late = settled(p, time)
     usual = ReturnMap(p)
     gaps = np.diff(releases_of(p, late, 1.0))
     assert gaps.max() > usual.longest

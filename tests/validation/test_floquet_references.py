@@ -183,26 +183,6 @@ def test_neutral_curves_in_other_pairs(start, names):
         assert floquet(here).growth_rate == pytest.approx(0, abs=1e-6)
 
 
-AFTER_SEPARATION = [
-    ({"N": 385, "Omega": 15.1}, 200, 2, 2),
-    ({"N": 385, "Omega": 15, "c_p": 0.5}, 200, 1, 2),
-]
-
-
-@pytest.mark.parametrize(("case", "t_end", "releases", "separations"), AFTER_SEPARATION)
-def test_cycles_that_lose_contact(case, t_end, releases, separations):
-    """The periodic motions of Figs. 14, 17 and 19 after separation are stable cycles."""
-    p = Parameters(**case)
-    late = simulate(p, t_end).final_state
-    result = floquet(p, near=late, releases=releases)
-    assert result.status is CycleStatus.OK
-    assert (result.releases, result.separations) == (releases, separations)
-    assert result.stable
-    run = simulate(p, late.time + 3 * result.period, initial_state=late)
-    releases_at = run.events.loc[run.events["kind"] == "stick_to_slip", "time"].to_numpy()
-    assert releases_at[releases] - releases_at[0] == pytest.approx(result.period, abs=1e-7)
-
-
 def test_a_map_has_no_blank():
     cases = [Parameters(N=N, Omega=Omega) for N in np.linspace(40, 800, 12) for Omega in np.linspace(4, 60, 12)]
     found = [floquet(p) for p in cases]

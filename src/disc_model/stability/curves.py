@@ -118,10 +118,10 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
     for i, (one, two) in enumerate(pairwise(growth)):
         if (np.isnan(one) and np.isnan(two)) or one * two > 0:
             continue
-        for begin, end, direction in ((i, i + 1, 1), (i + 1, i, -1)):
+        for begin, end in ((i, i + 1), (i + 1, i)):
             if np.isnan(growth[begin]):
                 continue
-            seed = _first_event(cases[begin], name, float(getattr(cases[end], name)), direction, tol, notes)
+            seed = _first_event(cases[begin], name, float(getattr(cases[end], name)), tol, notes)
             if seed is None:
                 continue
             yield seed
@@ -129,13 +129,14 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
                 break
 
 
-def _first_event(case: Parameters, name: str, end: float, direction: int, tol: float, notes: list[str]) -> _Seed | None:
+def _first_event(case: Parameters, name: str, end: float, tol: float, notes: list[str]) -> _Seed | None:
     """The first fold, or crossing of the unit circle, on the way from a case to another value of a parameter."""
     begin = float(getattr(case, name))
-    scale, low, high = abs(end - begin), min(begin, end), max(begin, end)
-    how = {"direction": direction, "scale": scale, "step": 0.02, "longest": 0.1, "max_points": 40}
+    bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
     try:
-        branch = continue_cycle(case, name, (low, high), tol=tol, **how)  # type: ignore[arg-type]
+        branch = continue_cycle(
+            case, name, bounds, direction=direction, scale=abs(end - begin), step=0.02, max_points=40, tol=tol
+        )
     except ParameterError as error:
         notes.append(f"{name}={begin:.6g}: {error}")
         return None

@@ -237,8 +237,6 @@ def releases(result: Result) -> Array:
     """
     events = result.events
     at = (events["kind"] == "stick_to_slip").to_numpy()
-    if not at.any():
-        return np.zeros((0, 4))
     p = result.parameters
     slider = np.stack([events[name].to_numpy()[at] for name in ("psi", "u", "u_velocity")], axis=1)
     return np.column_stack([_scaled(p, slider), events["P"].to_numpy()[at] / p.N])

@@ -126,17 +126,13 @@ class _Law:
         self.share = 1 - p.mu_k * self.beta  # V / R
         self.force = vertical / self.share
         mobility = 1 + p.m * S2
+        # by beta: of R, besides that of the numerator without B F: F r_0 = resistance R cancels for the vertical force
         if self.give:
-            self.denominator = self.share
-        elif self.normal:
-            self.denominator = mobility * self.share + self.resistance * self.beta
+            self.denominator, by_beta = self.share, p.mu_k * self.force
         else:
-            self.denominator = mobility + p.mu_k * beta
-        # of R by beta, besides that of the numerator without B F: F r_0 = resistance R cancels for the vertical force
-        if self.give:
-            self.by_beta = p.mu_k * self.force if self.normal else 0.0
-        else:
-            self.by_beta = self.force * (mobility * p.mu_k - self.beta) if self.normal else 0.0
+            self.denominator = mobility * self.share + self.resistance * beta
+            by_beta = self.force * (mobility * p.mu_k - self.beta)
+        self.by_beta = by_beta if self.normal else 0.0
 
 
 def _absent(status: SlidingStatus) -> SteadySliding:
