@@ -47,7 +47,6 @@ class Motions:
         self.quantity = quantity
 
     def coordinates(self, options: Any) -> dict[str, Any]:
-        """Numbers of the samples, evenly spread from the beginning to the end."""
         return {"sample": (np.arange(SAMPLES), Variable("1", "number of the sample"))}
 
     def at(self, p: Parameters, options: Any) -> tuple[dict[str, Any], str]:

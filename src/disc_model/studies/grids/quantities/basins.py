@@ -61,7 +61,6 @@ COLUMNS = {
 
 
 def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
-    """Energies of the kicks, numbers of the starts, what they may come to, and numbers of the attractors."""
     return {
         "energy": (np.array(options.energies), Variable("J", "energy of the kick")),
         "start": (np.arange(options.starts), Variable("1", "number of the start")),

@@ -16,7 +16,7 @@ from disc_model.simulation.result import State
 from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.cycle import cycle_neared
 from disc_model.stability.return_map import case_faults
-from disc_model.studies.grids.run import STATUS, STATUSES, Column
+from disc_model.studies.grids.run import STATUS, Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import BifurcationOptions
@@ -55,7 +55,6 @@ COLUMNS = {
 
 
 def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
-    """Numbers of the samples."""
     return {"sample": (np.arange(options.samples), Variable("1", "number of the turn after the transient"))}
 
 
@@ -73,8 +72,7 @@ def at(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]
         theta=options.theta,
         tol=options.tol,
     ).isel(Omega=0)
-    found = STATUS_NAMES[int(data["status"])]
-    status = found if found in STATUSES else "ok"
+    status = STATUS_NAMES[int(data["status"])]
     values: dict[str, Any] = {
         name: data[name].values for name in COLUMNS if name in data and name not in ("status", "phase")
     }

@@ -36,7 +36,6 @@ COLUMNS = {
 
 
 def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
-    """Numbers of the modes."""
     return {"mode": (np.arange(1, options.modes + 1), Variable("1", "number of the mode, lowest frequency first"))}
 
 

@@ -55,7 +55,6 @@ COLUMNS = {
 
 
 def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]]:
-    """Horizons, numbers of crossings, and speeds of the scan."""
     return {
         "horizon": (np.array(options.horizons), Variable("s", "time within which separation must occur")),
         "crossing_number": (

@@ -34,7 +34,6 @@ COLUMNS = {
 
 
 def coordinates(options: HysteresisOptions) -> dict[str, tuple[Any, Variable]]:
-    """Direction and speed of the sweep."""
     return {
         "direction": (np.array(DIRECTIONS), Variable("", "direction of the sweep")),
         "sweep_Omega": (

@@ -32,7 +32,6 @@ COLUMNS = {
 
 
 def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:
-    """Numbers of the exponents."""
     return {"exponent_number": (np.arange(options.exponents), Variable("1", "number of the exponent, largest first"))}
 
 

@@ -36,7 +36,6 @@ _TIME, _KIND = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
 
 
 def coordinates(options: RampsOptions) -> dict[str, tuple[Any, Variable]]:
-    """Rates of the ramps."""
     return {"rate": (np.array(values_of(options.rates)), Variable("rad s-2", "rate of the speed's ramps"))}
 
 

@@ -14,15 +14,14 @@ where it follows none on a strip thinner than the grid.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from itertools import pairwise, product
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.variables import SCALARS
-from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import RegionsOptions
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 Place = tuple[int, int]
 
 OUTCOMES = ("unknown", "stable", "unstable", "separation", "undecided")
@@ -139,12 +139,7 @@ class _Tile:
 
     def _start(self, place: Place) -> Near | FloquetResult | Exception:
         point = self.points[place[0]][place[1]]
-        if isinstance(point, DiscModelError):
-            return point
-        try:
-            return published_start_near(point)
-        except NUMERICAL as error:
-            return error
+        return point if isinstance(point, Exception) else _tried(lambda: published_start_near(point))
 
     def _own(self, place: Place) -> Near | None:
         """The cycle that the published start follows from its beginning."""
@@ -181,10 +176,7 @@ class _Tile:
         if isinstance(start, Exception):
             return start
         assert isinstance(point, Parameters)
-        try:
-            return fate(point, self.options.horizon, tol=self.options.tol, start=start)
-        except NUMERICAL as error:
-            return error
+        return _tried(lambda: fate(point, self.options.horizon, tol=self.options.tol, start=start))
 
     def _trend(self, place: Place) -> str:
         """What multipliers say of a point: "quiet", "slow" (it grows until the horizon, and no more), or "open"."""
@@ -237,10 +229,10 @@ class _Tile:
 
     def rows(self) -> list[list[tuple[Row, str]]]:
         others = self._others()
-        self.followed = {place: followed for place in self.starts if (followed := self._follow(place)) is not None}
+        self.followed = {place: self._follow(place) for place in self.starts}
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
-    def _follow(self, place: Place) -> _Followed | None:
+    def _follow(self, place: Place) -> _Followed | Near | None:
         """The cycle that the published start follows at a point, if that is known.
 
         Its own as long as it departs from that: where it has grown to is known at simulated points alone, and would
@@ -253,7 +245,7 @@ class _Tile:
                 return None
             map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
             return _Followed(found.cycle, map_, map_.point(found.cycle.state))
-        return None if own is None else _Followed(own.cycle, own.map, own.x)
+        return own
 
     def _joined(self, here: Place, ahead: Place) -> str:
         """Whether a point's cycle goes on into that of the next one."""
@@ -333,6 +325,13 @@ class _Tile:
             found = newton(start.map, scale * cycle, tol=CYCLE_TOL, releases=there.cycle.releases)
             if found is not None and min(np.linalg.norm(found.x - x) for x in known[here]) > SAME * size:
                 known[here].append(found.x)
+
+
+def _tried(compute: Callable[[], T]) -> T | Exception:
+    try:
+        return compute()
+    except NUMERICAL as error:
+        return error
 
 
 def _without(start: Near | FloquetResult, found: Fate | None) -> str:

@@ -43,7 +43,6 @@ COLUMNS = {
 
 
 def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
-    """Draws, distributed parameters, and variants of a sample."""
     return {
         "draw": (np.array(DRAWS), Variable("", "one of the two draws of a sample")),
         "parameter": (np.array(options.names), Variable("", "distributed parameter")),

@@ -39,7 +39,6 @@ COLUMNS = {
 
 
 def coordinates(options: StabilityCurvesOptions) -> dict[str, tuple[Any, Variable]]:
-    """Numbers of the curves and of their points."""
     return {
         "curve": (np.arange(options.max_curves), Variable("1", "number of the curve")),
         "curve_point": (np.arange(2 * options.max_points), Variable("1", "number of the point along the curve")),

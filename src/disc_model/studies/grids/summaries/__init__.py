@@ -1,9 +1,7 @@
 """What a merged study says beyond its points: a summary over one of its dimensions, for each value of the others.
 
-A summary is a module here, of its quantity's name, with ``COLUMNS`` and ``coordinates(options)`` as quantities have
-them, and ``of(cell, options)``: values by column, of a merged dataset of which only that dimension is left. It is
-worked out again at each merge, so that a change of it computes no batch anew. Which dimension it is, is said with the
-quantity's entry in `disc_model.studies.grids.quantities.schema`.
+A summary is a module here, of its quantity's name. It is worked out again at each merge, so that a change of it
+computes no batch anew.
 """
 
 from __future__ import annotations
@@ -22,7 +20,7 @@ class Summary(Described, Protocol):
     """A module of a summary."""
 
     def of(self, cell: xr.Dataset, options: Any) -> Row:
-        """Values by column over the one dimension that is left."""
+        """Values by column, of a merged dataset of which only the dimension is left that the summary is over."""
 
 
 def summary_of(quantity: str) -> Summary | None:

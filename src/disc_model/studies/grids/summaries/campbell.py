@@ -51,7 +51,6 @@ COLUMNS: Mapping[str, Column] = {
 
 
 def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
-    """Numbers of the crossings."""
     return {"crossing": (np.arange(1, options.max_crossings + 1), Variable("1", "number of the crossing"))}
 
 

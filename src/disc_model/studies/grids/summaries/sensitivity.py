@@ -52,7 +52,6 @@ COLUMNS: Mapping[str, Column] = {
 
 
 def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
-    """Classes of cycles and of outcomes, and outputs."""
     return {
         "cycle_class": (np.array(KNOWN), Variable("", "what there is near the published start")),
         "outcome_class": (np.array(FOLLOWED), Variable("", "what becomes of the published start")),
