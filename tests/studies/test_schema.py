@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from disc_model.studies.files import StudyError
-from disc_model.studies.schema import load_study, parse_study, study_from_config
+from disc_model.studies.schema import load_study, parse_study
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
@@ -150,6 +150,6 @@ def test_a_grid_without_what_its_figure_shows_names_what_there_is(tmp_path: Path
 
 def test_a_name_of_two_studies_is_refused(tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text("study: mine\nquantity: floquet\naxes: {N: [1, 2], Omega: [1, 2]}\n")
-    study = study_from_config(CASES | {"studies": ["*.yaml"]}, [])
+    study = parse_study(CASES | {"studies": ["*.yaml"]})
     with pytest.raises(StudyError, match="is the name of another folder of results"):
         study.grids([tmp_path])

@@ -410,7 +410,6 @@ def _found(pattern: str, folders: Sequence[Path]) -> list[str]:
 
 def _shown_besides(grid: GridStudy | None, asked: Sequence[str], folders: Sequence[Path]) -> list[str]:
     """Files of studies that figures of a grid show as well, and that nothing else asks for."""
-    if grid is None:
-        return []
-    wanted = {name for plot in grid.plots.values() for name in plot.others.values()} - set(asked)
+    plots = {} if grid is None else grid.plots
+    wanted = {name for plot in plots.values() for name in plot.others.values()} - set(asked)
     return [path for name in sorted(wanted) for path in _found(f"{name}.yaml", folders) if Path(path).is_file()]

@@ -46,12 +46,10 @@ def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
     fewer = parse_grid(STILL | {"axes": {"N": [100], "Omega": [10, 20]}})
     with pytest.raises(MergeError, match="do not belong to the grid"):
         merge_batches(batches, fewer.grid, {})
-    odd = [batches[0].assign_coords(sample=("sample", [1, 2])), *batches[1:]]
-    odd[0]["extra"] = ("sample", [0.0, 1.0])
-    other = batches[-1].assign_coords(sample=("sample", [3, 4]))
-    other["extra"] = ("sample", [0.0, 1.0])
+    extra = ("sample", [0.0, 1.0])
+    odd = [batch.assign(extra=extra).assign_coords(sample=[i, i + 1]) for i, batch in enumerate(batches)]
     with pytest.raises(MergeError, match="do not fit together"):
-        merge_batches([odd[0], other], study.grid, {})
+        merge_batches(odd, study.grid, {})
 
 
 @pytest.mark.compiled

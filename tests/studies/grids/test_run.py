@@ -54,16 +54,6 @@ def test_a_mistake_in_the_program_is_no_status() -> None:
         compute(quantity(at), [P], None)
 
 
-def test_a_point_without_parameters_is_one_that_failed() -> None:
-    table = compute(quantity(lambda *_: ({"status": "ok"}, "")), [DiscModelError("no modes")], None)
-    assert table.messages == ["DiscModelError: no modes"]
-    assert STATUSES[table.arrays["status"][0]] == "failed"
-
-
-class Unmade(DiscModelError):
-    """A point that could not be made."""
-
-
 @pytest.mark.parametrize(
     ("quantity", "options", "statuses"),
     [
@@ -75,10 +65,9 @@ class Unmade(DiscModelError):
 )
 def test_of_a_failed_point_nothing_is_known(quantity, options, statuses, fake_motions: None) -> None:
     """Nor is anything computed for what stands in the place of parameters that could not be made."""
-    table = compute(
-        quantity, [Unmade("no modes")], QUANTITIES[quantity.__name__.rpartition(".")[2]].options.model_validate(options)
-    )
-    assert table.messages == ["Unmade: no modes"]
+    entry = QUANTITIES[quantity.__name__.rpartition(".")[2]]
+    table = compute(quantity, [DiscModelError("no modes")], entry.options.model_validate(options))
+    assert table.messages == ["DiscModelError: no modes"]
     for name, array in table.arrays.items():
         flags = quantity.COLUMNS[name].flags
         if flags:

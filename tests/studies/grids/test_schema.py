@@ -77,14 +77,11 @@ def test_the_laws_of_contact_are_those_of_its_points() -> None:
     assert parse_grid(study(axes=axes, zip=both)).laws == ["rigid_vertical", "compliant_normal"]
 
 
-def test_spelling_and_order_do_not_matter() -> None:
+def test_spelling_order_and_the_sign_of_zero_do_not_matter() -> None:
     axes = {"Omega": ["20.0", 1.5e1, 10], "N": [300, 100, 200.0, 100]}
     other = parse_grid(study(axes=axes, title="called otherwise"))
     assert other.batches == parse_grid(study()).batches
     assert other.key == parse_grid(study()).key
-
-
-def test_minus_zero_is_zero() -> None:
     one, other = (parse_grid(study(axes={"N": [1], "Omega": [zero]})) for zero in (0.0, -0.0))
     assert one.batches == other.batches
 

@@ -273,6 +273,5 @@ def check_points(dims: Sequence[Dimension], base: Mapping[str, Any], faults: Fau
 
 def check_size(dims: Sequence[Dimension], faults: Faults) -> None:
     """A fault for a grid of more than `MOST_POINTS`."""
-    size = n_points(dims)
-    if size > MOST_POINTS:
+    if (size := n_points(dims)) > MOST_POINTS:
         faults.add(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")

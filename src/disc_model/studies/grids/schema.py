@@ -154,23 +154,22 @@ def _tiles(
     dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
 ) -> Iterator[dict[str, Any]]:
     """Points of each tile; and the values along its sides, with those of the next tiles that bound its last cells."""
-    asked_for = batch.over or ()
-    over = [dim for dim in dims if dim.name in asked_for[:2]]
-    gathered = {dim.name: list(dim.values) for dim in dims if dim.name in asked_for[2:]}
-    others = [dim for dim in dims if dim.name not in asked_for]
+    plane, gathered = (batch.over or ())[:2], (batch.over or ())[2:]
+    over = [dim for dim in dims if dim.name in plane]
+    others = [dim for dim in dims if dim.name not in plane]
     names = [dim.name for dim in over]
     sides = [_cuts([value for (value,) in dim.values], batch.tile) for dim in over]
-    for chosen in product(*(dim.values for dim in others)):
-        for tile in product(*sides):
-            own: dict[str, list[tuple[Value, ...]]] = {
-                name: [(value,) for value in kept] for name, (_, kept) in zip(names, tile, strict=True)
-            }
-            own |= gathered | {dim.name: [value] for dim, value in zip(others, chosen, strict=True)}
-            points = [[*chain.from_iterable(point)] for point in product(*(own[dim.name] for dim in dims))]
-            along = [values for values, _ in tile]
-            within = [[_at(mark[name], values) for name, values in zip(names, along, strict=True)] for mark in sampled]
-            kept = sorted(places for places in within if None not in places)
-            yield {"points": points, "tile": {"names": names, "along": along, "sampled": kept}}
+    shares = [[dim.values] if dim.name in gathered else [(value,) for value in dim.values] for dim in others]
+    for chosen, tile in product(product(*shares), product(*sides)):
+        own: dict[str, Sequence[tuple[Value, ...]]] = {
+            dim.name: share for dim, share in zip(others, chosen, strict=True)
+        }
+        own |= {name: [(value,) for value in kept] for name, (_, kept) in zip(names, tile, strict=True)}
+        points = [[*chain.from_iterable(point)] for point in product(*(own[dim.name] for dim in dims))]
+        along = [values for values, _ in tile]
+        within = [[_at(mark[name], values) for name, values in zip(names, along, strict=True)] for mark in sampled]
+        kept = sorted(places for places in within if None not in places)
+        yield {"points": points, "tile": {"names": names, "along": along, "sampled": kept}}
 
 
 def _at(value: float, along: Sequence[Value]) -> int | None:
@@ -532,7 +531,7 @@ def _plots(
             continue
         found: Iterable[PlotFault]
         if isinstance(plot, General):
-            found = () if options is None or quantity not in QUANTITIES else _general(plot, quantity, options, values)
+            found = () if options is None else _general(plot, quantity, options, values)
         elif quantity in plot.quantities:
             found = plot.faults(values)
         else:

@@ -24,9 +24,7 @@ def test_stretches_of_one_motion_are_alike() -> None:
     assert bifurcation.alike(many[0], many[1])
     assert not bifurcation.alike(many[0], 1.2 * many[1])
     assert not bifurcation.alike(many[0], many[1][:2000])
-
-
-def test_a_slow_drift_of_one_point_is_told_from_rest() -> None:
+    # a slow drift of one point is told from rest
     assert bifurcation.alike(np.full(50, 2.0), np.full(50, 2.0 + 1e-6))
     assert not bifurcation.alike(np.full(50, 2.0), np.full(50, 2.1))
 

@@ -19,11 +19,6 @@ CURVES = {
 }
 
 
-@pytest.fixture(scope="module")
-def curves() -> xr.Dataset:
-    return computed(**CURVES)
-
-
 def test_curves_are_stored_point_by_point(plane: xr.Dataset) -> None:
     one = plane.squeeze("normalization")
     assert one["n_curves"] == 2
@@ -39,8 +34,8 @@ def test_curves_are_stored_point_by_point(plane: xr.Dataset) -> None:
 
 
 @pytest.mark.compiled
-def test_the_fold_of_the_paper_is_found_once_and_named(curves: xr.Dataset) -> None:
-    one = curves.isel(normalization=0)
+def test_the_fold_of_the_paper_is_found_once_and_named() -> None:
+    one = computed(**CURVES).isel(normalization=0)
     assert flag_names(one["status"]) == "ok"
     folds = np.flatnonzero(flag_names(one["kind"]) == "fold")
     at = [

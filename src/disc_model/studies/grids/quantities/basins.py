@@ -75,11 +75,12 @@ def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     found = sample.found
     rows = [reached for row in found for reached in row]
     attractors = _by_starts(rows)
+    numbers = {attractor: i for i, attractor in enumerate([None, *attractors])}
     failed = [reached for reached in rows if reached.kind == "failed"]
     values: dict[str, Any] = {
         "status": failed[0].status if len(failed) == len(rows) else "ok",
         "kind": [[reached.kind for reached in row] for row in found],
-        "reached": [[_number(reached.attractor, attractors) for reached in row] for row in found],
+        "reached": [[numbers[reached.attractor] for reached in row] for row in found],
         "simulated": [[reached.simulated for reached in row] for row in found],
         "separated": [["yes" if reached.separated else "no" for reached in row] for row in found],
     }
@@ -153,10 +154,6 @@ def _by_starts(rows: Sequence[Reached]) -> list[Attractor]:
     """Attractors, that of most starts first; of those of as many the one that was reached first."""
     attractors = list(dict.fromkeys(reached.attractor for reached in rows if reached.attractor is not None))
     return sorted(attractors, key=lambda attractor: -sum(reached.attractor is attractor for reached in rows))
-
-
-def _number(attractor: Attractor | None, attractors: Sequence[Attractor]) -> int:
-    return 0 if attractor is None else attractors.index(attractor) + 1
 
 
 def _described(attractors: Sequence[Attractor], rows: Sequence[Reached]) -> dict[str, Any]:

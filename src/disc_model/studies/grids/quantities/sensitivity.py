@@ -8,7 +8,7 @@ seed and the sample's number alone.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -58,7 +58,8 @@ def at(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]
     shares = unit_draws(options.seed, len(options.names), options.number)
     given = [(options.distributions[name], float(getattr(p, name))) for name in options.names]
     drawn = np.array([[quantile(*one, part) for one, part in zip(given, row, strict=True)] for row in shares])
-    found = [_evaluated(p, options.names, row, options.tol) for row in variants(drawn)]
+    rows = [dict(zip(options.names, row, strict=True)) for row in variants(drawn).tolist()]
+    found = [_evaluated(p, row, options.tol) for row in rows]
     values: dict[str, Any] = {
         "status": "ok",
         "drawn": drawn,
@@ -68,7 +69,7 @@ def at(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]
     }
     messages = [one.message for one in found if one.message]
     if options.number < options.outcomes:
-        more, message = _followed(p.replace(**_named(options.names, drawn[0])), options)
+        more, message = _followed(p.replace(**rows[0]), options)
         values |= more
         messages += [message] if message else []
     return values, "; ".join(dict.fromkeys(messages))
@@ -129,13 +130,9 @@ class Evaluated(NamedTuple):
     message: str = ""
 
 
-def _named(names: Sequence[str], values: Array) -> dict[str, float]:
-    return dict(zip(names, map(float, values), strict=True))
-
-
-def _evaluated(p: Parameters, names: Sequence[str], values: Array, tol: float) -> Evaluated:
+def _evaluated(p: Parameters, values: Mapping[str, float], tol: float) -> Evaluated:
     try:
-        return evaluate(p, _named(names, values), tol)
+        return evaluate(p, values, tol)
     except NUMERICAL as error:
         return Evaluated("failed", float("nan"), f"{type(error).__name__}: {error}")
 
