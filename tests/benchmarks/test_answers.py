@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks.answers import maps, measure, modelled, questions, simulated, words
+from disc_model.benchmarks import failure_maps
+from disc_model.benchmarks.answers import measure, modelled, questions, simulated, words
 from disc_model.benchmarks.answers.questions import SIDE, Found, Status, Verdict, verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
@@ -128,7 +129,7 @@ def test_what_breaks_off_has_a_status_and_a_reason() -> None:
         return result(problem, [], outcome=Outcome.STALLED)
 
     for name in simulated.ASKED:
-        for _, found in simulated.ask(solve, (name,)):
+        for found in simulated.ask(solve, name).values():
             assert found.status is Status.STALLED
             assert found.message == "stalled"
 
@@ -193,8 +194,8 @@ def test_it_is_written_and_drawn(dataset: xr.Dataset) -> None:
 
 def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(METHODS, "late", Late())
-    monkeypatch.setattr(maps, "_right", lambda count: 54.42 if count < 4 else math.nan)
-    found = maps.answer_map("late", (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))
+    monkeypatch.setattr(failure_maps, "_right", lambda count: 54.42 if count < 4 else math.nan)
+    found = failure_maps.answer_map("late", (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))
     right, wrong, silent = Verdict.RIGHT, Verdict.WRONG, Verdict.NO_ANSWER
     assert found["verdict"].values.tolist() == [
         [wrong, wrong, right, silent, silent],
@@ -204,7 +205,7 @@ def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["modes"].values.tolist() == [3, 9]
     figure = figures.answer_maps([found, found])
     assert figure.axes[1].get_title(loc="left") == "(b) late"
-    assert len(maps._thinned(METHODS["RK4"].map_values)) == maps.VALUES
+    assert len(failure_maps._thinned(METHODS["RK4"].map_values)) == failure_maps.VALUES
 
 
 def test_what_is_asked_is_taken() -> None:
@@ -216,11 +217,9 @@ def test_what_is_asked_is_taken() -> None:
 def test_the_engine_gives_the_right_answers() -> None:
     """By methods that share no code with it; 1e-9 s and 1e-6 1/s leave room for rounding that grows and for the fit."""
 
-    def solve(problem: Problem, budget: float) -> MethodResult:
-        return METHODS["series"].solve(problem, 1e-12, budget)
-
-    asked = ("first_separation", "after_separation", "growth_rate")
-    found = dict(simulated.ask(solve, asked))
+    solve = simulated.by(METHODS["series"], 1e-12)
+    found = simulated.first_separation(solve, 10.0) | simulated.after_separation(solve, 6.0)
+    found |= simulated.growth_rate(solve, 6.0)
     for name, tolerance in (
         ("first_separation", 1e-9),
         ("separation_rate", 1e-9),

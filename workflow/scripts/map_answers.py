@@ -6,7 +6,7 @@ import argparse
 
 import xarray as xr
 
-from disc_model.benchmarks.answers.maps import answer_map
+from disc_model.benchmarks.failure_maps import answer_map
 from disc_model.benchmarks.register import RIVALS
 from disc_model.data.dataset import save
 

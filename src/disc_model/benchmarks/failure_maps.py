@@ -2,6 +2,7 @@
 
 The motion is that of the scene ``separating`` (or ``stick_slip``) for a short span, with modes dropped or added; the
 right answer comes from the series engine at `REFERENCE_TOL`, which the stored references confirm for the base model.
+`answer_map` is the same for an answer: whether it is right.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks import scenes
+from disc_model.benchmarks.answers import simulated
+from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, Found, Status, verdict
 from disc_model.benchmarks.grid import measured
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
@@ -23,6 +26,7 @@ from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT, FixedStep
 from disc_model.benchmarks.scenes import VERDICT, Answer, Verdict, separating_start, static_start
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
+from disc_model.truncation import real_modes
 
 TRUNCATIONS = (1, 2, 4, 6, 8)
 """Highest number of nodal diameters of each row."""
@@ -136,3 +140,82 @@ def observed_step_limit(diameters: int) -> float:
         unstable = scenes.errors(problem, answer, method.solve(problem, middle)).verdict is Verdict.UNSTABLE
         low, high = (low, middle) if unstable else (middle, high)
     return low
+
+
+# ----------------------------------------------------------------------------------------------------
+# Where an answer is wrong: the first separation in a case that loses contact within `HORIZON` s. Right is what the
+# engine finds at its tightest tolerance with the same modes; that it finds none can be right as well.
+
+CASE = Parameters(N=600.0, Omega=27.0)
+HORIZON = 25.0
+"""s"""
+ANSWER_TRUNCATIONS = (1, 2, 4, 8)
+BUDGET = 3.0
+"""s for a point; finer settings with the same modes are then not tried."""
+VALUES = 6
+"""Settings at most."""
+ANSWER_VARIABLES = {
+    "verdict": Variable("1", "whether the first separation is right", VERDICT_WORDS),
+    "status": Variable("1", "what became of the question", STATUS_WORDS),
+    "found": Variable("s", "first separation found"),
+    "error": Variable("s", "its error"),
+    "seconds": Variable("s", "wall time"),
+}
+
+
+@one_core()
+def answer_map(
+    method: str,
+    diameters: Sequence[int] = ANSWER_TRUNCATIONS,
+    values: Sequence[float] | None = None,
+) -> xr.Dataset:
+    """Verdicts of a method along (diameters, value), from coarse to fine.
+
+    Returns
+    -------
+    Dataset: `ANSWER_VARIABLES` along (diameters, value); along diameters ``modes`` (real modes) and ``right`` (s, nan
+    where contact is not lost).
+    """
+    own = METHODS[method].economical()
+    right = {count: _right(count) for count in diameters}
+    late: set[int] = set()
+
+    def measure(count: int, value: float) -> dict[str, float]:
+        found = Found(math.nan, math.nan, Status.TOO_SLOW)
+        if count not in late:
+            found = _first_separation(simulated.by(own, value), BUDGET, count)
+        if found.status is Status.TOO_SLOW:
+            late.add(count)
+        return {
+            "verdict": verdict("first_separation", found, right[count]),
+            "status": found.status,
+            "found": found.value,
+            "error": abs(found.value - right[count]),
+            "seconds": found.seconds,
+        }
+
+    dataset = map_of(
+        method, diameters, _thinned(own.map_values) if values is None else values, ANSWER_VARIABLES, measure
+    )
+    dataset.attrs |= {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
+    modes = [real_modes(count, 0) for count in diameters]
+    dataset["modes"] = ("diameters", modes, Variable("1", "number of real modes").attributes)
+    dataset["right"] = ("diameters", [*right.values()], Variable("s", "first separation").attributes)
+    return dataset
+
+
+def _thinned(values: Sequence[float]) -> Sequence[float]:
+    """So many at most, the first and the last among them."""
+    places = np.unique(np.linspace(0, len(values) - 1, min(VALUES, len(values))).round().astype(int))
+    return [values[place] for place in places]
+
+
+@lru_cache(maxsize=64)
+def _right(diameters: int) -> float:
+    """Time (s), nan if there is none."""
+    return _first_separation(simulated.by(METHODS["series"], REFERENCE_TOL), math.inf, diameters).value
+
+
+def _first_separation(solve: simulated.Solve, budget: float, diameters: int) -> Found:
+    case = CASE.replace(n_diameters=diameters)
+    return simulated.first_separation(solve, budget, case, HORIZON)["first_separation"]

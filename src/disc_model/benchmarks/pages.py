@@ -19,7 +19,7 @@ from disc_model.benchmarks.answers.questions import QUESTIONS, Verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED
 from disc_model.benchmarks.scenes import Verdict as EventVerdict
-from disc_model.benchmarks.table import DEFAULT, headline, measured_points
+from disc_model.benchmarks.table import at_default, headline, measured_points
 from disc_model.data.dataset import markdown_table
 from disc_model.errors import DiscModelError
 
@@ -44,7 +44,7 @@ def summary(work_precision: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
             f"the datasets are of one machine each, {' and '.join(sorted(machines))}: measure both anew"
         )
     points = measured_points(work_precision)
-    default = points[(points["solver"] == "series") & (points["value"] == DEFAULT) & points["scene"].isin(JUDGED)]
+    default = at_default(points[points["scene"].isin(JUDGED)])
     asked = [name for name in QUESTIONS if name in answers["answer"].values]
     return {
         "machine": machines.pop(),

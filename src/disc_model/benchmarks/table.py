@@ -43,7 +43,7 @@ def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
     found: dict[str, dict[str, float]] = {}
     good = points[points["right"] & points["scene"].isin(JUDGED)]
     for scene, part in good.groupby("scene", sort=False):
-        own = part["further"][(part["solver"] == "series") & (part["value"] == DEFAULT)]
+        own = at_default(part)["further"]
         if len(own):
             found[str(scene)] = (part.groupby("solver", sort=False)["further"].min() / own.iloc[0]).to_dict()
     return found
@@ -58,12 +58,13 @@ def _headline_text(points: pd.DataFrame) -> Iterator[str]:
             yield from (f"1e-10 s: {listed}.", "")
 
 
-def _arithmetic_text(dataset: xr.Dataset) -> Iterator[str]:
-    if "flops" not in dataset:
-        return
-    for scene in (str(name) for name in dataset["scene"].values if np.isfinite(dataset["flops"].sel(scene=name))):
-        line, flops = dataset.sel(scene=scene, solver="series"), float(dataset["flops"].sel(scene=scene))
-        cost = float(line["cost"].values[line["value"].values == DEFAULT][0])
+def at_default(points: pd.DataFrame) -> pd.DataFrame:
+    """Those of the series engine at its default."""
+    return points[(points["solver"] == "series") & (points["value"] == DEFAULT)]
+
+
+def _arithmetic_text(points: pd.DataFrame) -> Iterator[str]:
+    for scene, flops, cost in at_default(points)[["scene", "flops", "cost"]].dropna().to_numpy():
         yield f"{scenes.TITLES[scene]}: {flops / 1e6:.1f} MFlop in vectors per simulated second at tol=1e-10,"
         yield from (f"{flops / cost / 1e9:.1f} GFlop/s.", "")
 
@@ -109,7 +110,10 @@ def to_markdown(dataset: xr.Dataset) -> str:
     """The table as Markdown, a section a scene, with the machine above and the orders beside each method."""
     frame = table(dataset)
     text = ["# Speed against accuracy", "", f"Machine: {dataset.attrs['machine']}, one core. Medians of repeats.", ""]
-    text += [*_headline_text(measured_points(dataset)), *_arithmetic_text(dataset)]
+    points = measured_points(dataset)
+    text += _headline_text(points)
+    if "flops" in points:
+        text += _arithmetic_text(points)
     text += [
         "Cost is seconds of wall time per simulated second; `x series` is cost over that of the series engine at the",
         "same or a smaller event-time error, in the same run. A dash: events are missing or invented.",

@@ -123,12 +123,12 @@ def contact_study(
     named = SEPARATING if cases is None else cases
 
     def measure(case: str, contact: str, model: str) -> dict[str, float]:
-        diameters, circles = sizes[model]
+        diameters, circles = map(int, model.split(","))
         p = Parameters(**named[case], **CONTACTS[contact], n_diameters=diameters, n_circles=circles)
         return _through_separation(p, horizon)
 
-    sizes = {f"{diameters},{circles}": (diameters, circles) for diameters, circles in models}
-    coords = {"case": [*named], "contact": [*CONTACTS], "model": [*sizes]}
+    sizes = [f"{diameters},{circles}" for diameters, circles in models]
+    coords = {"case": [*named], "contact": [*CONTACTS], "model": sizes}
     return measured(coords, CONTACT_VARIABLES, measure).assign_attrs(
         _compared(),
         title="What residual flexibility changes",

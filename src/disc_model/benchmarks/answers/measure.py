@@ -106,7 +106,7 @@ def _of_method(name: str, values: Sequence[float], asked: Sequence[str]) -> Iter
         for question in asked:
             if question in hopeless:
                 continue
-            for answer, found in simulated.ask(simulated.by(METHODS[name], value), (question,)):
+            for answer, found in simulated.ask(simulated.by(METHODS[name], value), question).items():
                 yield Row(answer, name, value, questions.reference(answer).value, found)
                 if found.status is Status.TOO_SLOW:
                     hopeless.add(question)

@@ -7,7 +7,7 @@ gives the answers by name.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from disc_model.simulation.result import State
 
 Array = NDArray[np.float64]
 Solve = Callable[[Problem, float], MethodResult]
-Answers = Mapping[str, Found]
+Answers = dict[str, Found]
 
 
 def by(method: Method, value: float) -> Solve:
@@ -240,11 +240,10 @@ ASKED: Mapping[str, tuple[Callable[[Solve, float], Answers], float]] = {
 """By name: the question, and the seconds that a method may take for it at one setting."""
 
 
-def ask(solve: Solve, names: Sequence[str] = tuple(ASKED)) -> Iterator[tuple[str, Found]]:
-    """The answers to all these questions, one after the other."""
-    for name in names:
-        question, budget = ASKED[name]
-        yield from question(solve, budget).items()
+def ask(solve: Solve, name: str) -> Answers:
+    """The answers to one of these questions."""
+    question, budget = ASKED[name]
+    return question(solve, budget)
 
 
 def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult, float]:
