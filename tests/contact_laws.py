@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numba
+import numpy as np
 import pytest
 
-from tests.references import taylor
+from disc_model import Parameters
+from disc_model.engine import layout, machine
+from disc_model.flexibility import contact_give
+from disc_model.simulation.result import engine_case, write_state
+from tests.references import stored, taylor
+from tests.references.printed import lively
 
 LAWS: dict[str, dict[str, Any]] = {
     "compliant": {"contact_compliance": taylor.COMPLIANCE},
@@ -20,3 +27,56 @@ COMPILES = () if numba.config.DISABLE_JIT else (pytest.mark.slow,)
 
 # Kernels of each law take minutes to compile: the quick tests try the law that has both, the long ones all.
 EACH_LAW = [pytest.param(name, marks=() if name == "compliant_normal" else pytest.mark.slow, id=name) for name in LAWS]
+
+
+def classical_events(p, count):
+    """Releases and rests of a block on a belt under the constant load N, in closed form."""
+    rate = math.sqrt(p.k_p / p.m)
+    static, kinetic = (mu * p.N / (p.k_p * p.r_0) for mu in (p.mu_s, p.mu_k))
+    slip = 2 * (math.pi - math.atan(rate * (static - kinetic) / p.Omega)) / rate
+    stick = 2 * (static - kinetic) / p.Omega
+    first = static / p.Omega
+    return np.array([first + i // 2 * (slip + stick) + (slip if i % 2 else 0) for i in range(count)])
+
+
+def compare_series(law, phase, direction, n_diameters, rates=None):
+    """The engine's coefficients beside the reference's, in units of the largest: all dampers work.
+
+    rates : those of Omega (rad/s^2) and N (N/s), some way up the ramps
+    """
+    p = Parameters(
+        N=600.0, Omega=15.1, m=0.3, k=8e4, c=5.0, k_p=3e4, c_p=0.5, mu_s=0.5, mu_k=0.1, D_star=1e-3,
+        n_diameters=n_diameters, n_circles=1, **law,
+    )  # fmt: skip
+    start, order = lively(phase, direction, p).replace(time=1e-3 if rates else 0.0), 16
+    if p.contact_compliance:
+        start = start.replace(u=start.u - 500 * contact_give(p), u_velocity=start.u_velocity + 0.01)
+    step = taylor.Step(taylor.problem_of(p, rates or (0.0, 0.0)), phase, direction, stored.reference_state(start, p))
+    model = engine_case(p).model
+    if rates:
+        model = layout.on_ramp(model, 0.0, 0.0, Omega=p.Omega, Omega_rate=rates[0], N=p.N, N_rate=rates[1])
+    s, state = layout.build_series(model, order), layout.build_state(model)
+    write_state(engine_case(p), start, state)
+    if rates:
+        machine.set_course(model, state)
+    machine.expand(model, s, state, order)
+    powers = np.array([float(model.unit) ** k for k in range(order)])
+
+    def compare(own, wanted, rtol=1e-10):
+        wanted = np.array(wanted[:order], float) * powers
+        np.testing.assert_allclose(own[:order], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=rtol)
+
+    compare(s.f, step.f)
+    compare(s.psi, step.psi)
+    if phase != "separation":
+        compare(s.P, step.V if phase == "stick" else step.R)
+    if p.contact_compliance or phase == "separation":
+        compare(s.u, step.u)
+        compare(s.v, step.v)
+    if phase == "stick":
+        press, pull = step.V[:order], p.r_0 * step.F[:order]
+        if p.contact_force == "normal":  # over the denominator that both have
+            press = press + np.convolve(step.F, step.B)[:order]
+            pull = pull - np.convolve(step.V, step.B)[:order] / p.r_0
+        compare(s.switch, p.mu_s * press - pull, 1e-9)
+        compare(s.switch2, p.mu_s * press + pull, 1e-9)

@@ -15,13 +15,15 @@ Regenerate the stored data (about five minutes)::
 from __future__ import annotations
 
 import json
+from dataclasses import replace
+from functools import cache
 from math import comb
 
 import heyoka as hy
 import numpy as np
 
 from tests.references.modes import modes_mpmath
-from tests.references.stored import BASE, DATA, Case, State
+from tests.references.stored import BASE, DATA, Case, State, rounded
 
 LONG = np.longdouble
 
@@ -94,6 +96,7 @@ def equations(case, phase, real):
 
 
 # -------------------------------------------------------------------------- roots
+@cache
 def bernstein_matrix(degree, real):
     return np.array(
         [
@@ -103,9 +106,6 @@ def bernstein_matrix(degree, real):
     )
 
 
-_MATRICES: dict = {}
-
-
 def first_root(c, h):
     """Smallest t in (0, h] where the polynomial sum c_j t^j, positive at 0, reaches zero, or None."""
     scaled = c * h ** np.arange(len(c))
@@ -113,10 +113,7 @@ def first_root(c, h):
         return h * 0
     if scaled[0] + np.minimum(scaled[1:], 0).sum() > 0:
         return None
-    key = (len(c), c.dtype)
-    if key not in _MATRICES:
-        _MATRICES[key] = bernstein_matrix(len(c) - 1, c.dtype.type)
-    return _leftmost(_MATRICES[key] @ scaled, h * 0, h, c, 0)
+    return _leftmost(bernstein_matrix(len(c) - 1, c.dtype.type) @ scaled, h * 0, h, c, 0)
 
 
 def _leftmost(control, left, right, c, depth):
@@ -340,46 +337,44 @@ def published_case(N, Omega):
     return Case(N, Omega, [float(x) for x in omega], [float(x) for x in psi])
 
 
-def rounded(state):
-    """The state with every number a double (u, u' of the disc point in contact)."""
-    values = {k: [float(x) for x in v] if isinstance(v, list) else v for k, v in vars(state).items()}
-    return State(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
-
-
 def decimal(x, digits=20):
     return np.format_float_positional(LONG(x), precision=digits, unique=False)
 
 
-def _record(name, case, start, run, t_end, check, **extra):
-    """Write data/<name>.json; `check` is a second run that says how many digits hold."""
-    times = np.array([e["time"] for e in run.events])
-    other = np.array([LONG(e["time"]) for e in check.events])
-    same = [e["kind"] for e in run.events] == [e["kind"] for e in check.events]
-    difference = float(abs(times - other).max()) if same else float("nan")
-    data = dict(
-        parameters={"N": case.N, "Omega": case.Omega} | case.base,
-        modes={"circles": [0] * 5, "diameters": list(range(5)), "omega": case.omega, "psi": case.psi},
-        start=None if start is None else vars(start),
-        t_end=t_end,
-        largest_difference_to_check_run=difference,
-        **extra,
-        events=[
-            {
-                "time": float(e["time"]),
-                "time_decimal": decimal(e["time"]),
-                "kind": e["kind"],
-                "phase": e["phase"],
-                "psi": float(e["psi"]),
-                "f": float(e["f"]),
-                "P": float(e["P"]),
-            }
+def repeated(case, start, t_end):
+    """A run, and by how many s one of another order and step size differs."""
+    run, check = (Reference(case, start, tol=tol).run(t_end) for tol in (1e-21, 1e-23))
+    if [e["kind"] for e in run.events] != [e["kind"] for e in check.events]:
+        raise RuntimeError("two long-double runs disagree")
+    return run, float(max(abs(x["time"] - y["time"]) for x, y in zip(run.events, check.events, strict=True)))
+
+
+def parameters_of(case):
+    return {"N": case.N, "Omega": case.Omega} | case.base
+
+
+def modes_of(case):
+    return {"circles": [0] * 5, "diameters": list(range(5)), "omega": case.omega, "psi": case.psi}
+
+
+def _record(name, case, start, t_end):
+    """Write data/<name>.json."""
+    run, difference = repeated(case, start or equilibrium(case), t_end)
+    data = {
+        "parameters": parameters_of(case),
+        "modes": modes_of(case),
+        "start": None if start is None else vars(start),
+        "t_end": t_end,
+        "largest_difference_to_check_run": difference,
+        "events": [
+            {"time": float(e["time"]), "time_decimal": decimal(e["time"]), "kind": e["kind"], "phase": e["phase"]}
+            | {name: float(e[name]) for name in ("psi", "f", "P")}
             for e in run.events
         ],
-    )
+    }
     DATA.mkdir(exist_ok=True)
-    text = json.dumps(data, indent=1)
-    (DATA / f"{name}.json").write_text(text + "\n")
-    return len(times), difference
+    (DATA / f"{name}.json").write_text(json.dumps(data, indent=1) + "\n")
+    print(name, len(run.events), difference)
 
 
 def sensitivity(case, t_guess=60.0):
@@ -390,7 +385,7 @@ def sensitivity(case, t_guess=60.0):
         for l in range(len(case.omega)):
             values = list(getattr(case, name))
             values[l] = float(np.nextafter(values[l], np.inf))
-            other = Case(**(vars(case) | {name: values}))
+            other = replace(case, **{name: values})
             last = Reference(other, equilibrium(other)).run(t_guess, stop_at="separation").events[-1]["time"]
             shifts[f"{name}_{l}"] = float(last - base)
     return shifts
@@ -424,40 +419,29 @@ def regenerate_wild(base, runs=16, t_end=0.2, seed=1):
         stored = []
         for _ in range(runs):
             start = wild_start(case, base, rng)
-            run, check = (Reference(case, start, tol=tol).run(t_end) for tol in (1e-21, 1e-23))
-            kinds = [e["kind"] for e in run.events]
-            if kinds != [e["kind"] for e in check.events]:
-                raise RuntimeError("two long-double runs disagree")
-            difference = max(abs(x["time"] - y["time"]) for x, y in zip(run.events, check.events, strict=True))
+            run, difference = repeated(case, start, t_end)
             stored.append(
                 {
                     "start": vars(start),
-                    "largest_difference_to_check_run": float(difference),
-                    "kinds": kinds,
+                    "largest_difference_to_check_run": difference,
+                    "kinds": [e["kind"] for e in run.events],
                     "times": [decimal(e["time"]) for e in run.events],
                 }
             )
-        groups.append({"parameters": {"N": case.N, "Omega": case.Omega} | case.base, "t_end": t_end, "runs": stored})
-        print(
-            "wild",
-            sum(len(r["times"]) for r in stored),
-            max(r["largest_difference_to_check_run"] for r in stored),
-        )
-    modes = {"circles": [0] * 5, "diameters": list(range(5)), "omega": published.omega, "psi": published.psi}
-    (DATA / "wild.json").write_text(json.dumps({"modes": modes, "groups": groups}, indent=None) + "\n")
+        groups.append({"parameters": parameters_of(case), "t_end": t_end, "runs": stored})
+        worst = max(r["largest_difference_to_check_run"] for r in stored)
+        print("wild", sum(len(r["times"]) for r in stored), worst)
+    (DATA / "wild.json").write_text(json.dumps({"modes": modes_of(published), "groups": groups}, indent=None) + "\n")
 
 
 def regenerate():
     """Compute and store everything below data/, each run repeated with another order and step size."""
-    for name, case in (("A", published_case(385.0, 15.1)), ("B", published_case(300.0, 20.0))):
-        run, check = (Reference(case, equilibrium(case), tol=tol).run(1.0) for tol in (1e-21, 1e-23))
-        print(name, *_record(name, case, None, run, 1.0, check))
-
+    _record("A", published_case(385.0, 15.1), None, 1.0)
+    _record("B", published_case(300.0, 20.0), None, 1.0)
     case = published_case(385.0, 15.1)
     run, check = (Reference(case, equilibrium(case), tol=tol).run(54.4) for tol in (1e-21, 1e-23))
     start = rounded(run.state())
-    c_run, c_check = (Reference(case, start, tol=tol).run(55.4) for tol in (1e-21, 1e-23))
-    print("C", *_record("C", case, start, c_run, 55.4, c_check))
+    _record("C", case, start, 55.4)
     regenerate_wild(start)
 
     times = {"long_double": run, "long_double_check": check}
@@ -466,8 +450,8 @@ def regenerate():
     }
     found = {name: one.run(60.0, stop_at="separation") for name, one in times.items()}
     data = {
-        "parameters": {"N": case.N, "Omega": case.Omega} | case.base,
-        "modes": {"circles": [0] * 5, "diameters": list(range(5)), "omega": case.omega, "psi": case.psi},
+        "parameters": parameters_of(case),
+        "modes": modes_of(case),
         "events_before": len(run.events) - 1,
         "time": float(run.events[-1]["time"]),
         "time_decimal": {name: decimal(one.events[-1]["time"]) for name, one in found.items()},

@@ -31,6 +31,12 @@ class Start:
     u: float = 0.0
     u_rate: float = 0.0
 
+    @property
+    def vector(self):
+        """As `Literal` integrates it."""
+        modes = np.concatenate([self.q, self.q_rate]).astype(complex).view(float)
+        return np.concatenate([modes, [self.phi, self.phi_rate, self.u, self.u_rate]])
+
 
 def signed_diameters(diameters):
     """l of every complex mode (-d and d for d > 0) and the row it comes from."""
@@ -47,14 +53,9 @@ def literal_of(p, drive=0.0, **options):
     names = ("m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0", "D", "D_star", "N", "Omega")
     numbers = {name: getattr(p, name) for name in names}
     return Literal(
-        modes["diameters"].to_numpy(),
-        modes["omega"].to_numpy(),
-        Psi.to_numpy(),
-        numbers,
-        drive,
-        p.contact == "bonded",
-        **options,
-    )
+        modes["diameters"].to_numpy(), modes["omega"].to_numpy(), Psi.to_numpy(), numbers, drive,
+        p.contact == "bonded", **options,
+    )  # fmt: skip
 
 
 class Literal:
@@ -199,13 +200,11 @@ class Literal:
             for t in times:
                 value = function(t, dense(t))
                 if value < 0 and positive[name]:
-                    root = brentq(
-                        lambda s, g=function: g(s, self.fresh(phase, t0, y0, s)),
-                        previous,
-                        t,
-                        xtol=1e-16,
-                        rtol=1e-15,
-                    )
+
+                    def exact(s, g=function):
+                        return g(s, self.fresh(phase, t0, y0, s))
+
+                    root = brentq(exact, previous, t, xtol=1e-16, rtol=1e-15)
                     found.append((root, name))
                     break
                 positive[name] = positive[name] or value > 0
@@ -238,33 +237,20 @@ class Literal:
         while solver.status == "running":
             t0, y0 = solver.t, solver.y.copy()
             solver.step()
-            while hit := self.crossing({"gap": self.gap(order)}, phase, solver, t0, y0, positive):
+            if hit := self.crossing({"gap": self.gap(order)}, phase, solver, t0, y0, positive):
                 root, reached = hit[0], self.fresh(phase, t0, y0, hit[0])
                 if order == 0:
                     return "reattachment", root, reached
                 order, positive = order - 1, {"gap": True}
-                t0, y0 = root, reached
-                end = solver.t
-                solver = self.solver(phase, t0, y0, t_end)
-                while (
-                    solver.t < end and solver.status == "running"
-                ):  # one step that reaches what is left of the old one
-                    before = solver.t, solver.y.copy()
-                    solver.step()
-                    t0, y0 = before
-                    if solver.t < end:
-                        break
+                solver = self.solver(phase, root, reached, t_end)
         return None, solver.t, solver.y
 
     # ---- switching
     def impact(self, y):
         """Eqs. (36) and (37)."""
         q, v, phi, rate, _, u_rate = self.unpack(y)
-        shape, conjugate, m = (
-            self.Psi * np.exp(1j * self.l * phi),
-            self.Psi * np.exp(-1j * self.l * phi),
-            self.p["m"],
-        )
+        shape, m = self.Psi * np.exp(1j * self.l * phi), self.p["m"]
+        conjugate = shape.conj()
         moving = (shape * v + rate * 1j * self.l * shape * q).sum()
         below = 1 + m * (shape * conjugate).sum()
         after = y.copy()
@@ -274,13 +260,7 @@ class Literal:
 
     def run(self, start, t_end):
         """Events as a list of (local time, kind)."""
-        y = np.concatenate(
-            [
-                np.concatenate([start.q, start.q_rate]).astype(complex).view(float),
-                [start.phi, start.phi_rate, start.u, start.u_rate],
-            ]
-        )
-        phase, t, events = start.phase, 0.0, []
+        y, phase, t, events = start.vector, start.phase, 0.0, []
         while True:
             if phase == "separation":
                 kind, t, y = self.separated_phase(t, y, t_end)
@@ -322,12 +302,5 @@ def from_slider_frame(state, drive, diameters):
         return z * np.exp(-1j * l * phi)
 
     phase = state.phase if state.phase != "slip" else ("slip+" if state.direction > 0 else "slip-")
-    return Start(
-        phase,
-        complex_modes(a, b),
-        complex_modes(alpha, beta),
-        phi,
-        float(state.f),
-        float(state.u),
-        float(state.u_velocity),
-    )
+    rest = (phi, float(state.f), float(state.u), float(state.u_velocity))
+    return Start(phase, complex_modes(a, b), complex_modes(alpha, beta), *rest)

@@ -50,8 +50,24 @@ def _disc_rates(model, s, k):
     return acceleration
 
 
-def _apply_force(model, s, k, P):
-    """Velocities of order k + 1, once the contact force of order k is known."""
+def _slider_load(model, s, k):
+    """Order k of the in-plane force F, and of springs, damper and preload on the slider."""
+    F = model.k_p * s.psi[k] - model.c_p * s.f[k]
+    vertical = model.k * s.u[k] + model.c * s.v[k]
+    if k == 0:
+        F += model.c_p * model.Omega
+        vertical += model.N - model.k * model.u_0
+    return F, vertical
+
+
+def _advance(model, s, k, P, f_rate, v_rate):
+    """Order k + 1 of all velocities and of the slider's motion, once the contact force of order k is known."""
+    drive = model.Omega if k == 0 else 0.0
+    s.P[k] = P
+    s.f[k + 1] = f_rate * s.up[k]
+    s.psi[k + 1] = (drive - s.f[k]) * s.up[k]
+    s.u[k + 1] = s.v[k] * s.up[k]
+    s.v[k + 1] = v_rate * s.up[k]
     width, width0 = len(model.shift), len(model.force0)
     for j in range(width):
         s.e[(k + 1) * width + j] = (s.scratch[j] - model.force[j] * P) * s.up[k]
@@ -63,14 +79,10 @@ def _apply_force(model, s, k, P):
 
 def _disc_point(model, s):
     """u, u' and the slope B of the disc under the slider, from the coefficients 0."""
-    u, v, slope = 0.0, 0.0, 0.0
-    for j in range(len(model.shift)):
-        u += model.force[j] * s.z[j]
-        v += model.force[j] * s.e[j]
-        slope += model.slope[j] * s.z[j]
-    for j in range(len(model.force0)):
-        u += model.force0[j] * s.y[j]
-        v += model.force0[j] * s.g[j]
+    width, width0 = len(model.shift), len(model.force0)
+    slope = model.slope @ s.z[:width]
+    u = model.force @ s.z[:width] + model.force0 @ s.y[:width0]
+    v = model.force @ s.e[:width] + model.force0 @ s.g[:width0]
     return u, v + s.f[0] * slope, slope
 
 
@@ -81,21 +93,10 @@ def slip_series(model, s, order, direction):
     denominator = 1.0 + model.m * model.compliance + friction * slope
     for k in range(order):
         acceleration = _disc_rates(model, s, k)
-        F = model.k_p * s.psi[k] - model.c_p * s.f[k]
-        vertical = model.k * s.u[k] + model.c * s.v[k]
-        drive = 0.0
-        if k == 0:
-            F += model.c_p * model.Omega
-            vertical += model.N - model.k * model.u_0
-            drive = model.Omega
+        F, vertical = _slider_load(model, s, k)
         P = (vertical + model.m * acceleration + slope * F) / denominator
-        s.P[k] = P
         rate = (F - friction * P) / model.m
-        s.f[k + 1] = rate * s.up[k]
-        s.psi[k + 1] = (drive - s.f[k]) * s.up[k]
-        s.u[k + 1] = s.v[k] * s.up[k]
-        s.v[k + 1] = (acceleration + rate * slope - model.compliance * P) * s.up[k]
-        _apply_force(model, s, k, P)
+        _advance(model, s, k, P, rate, acceleration + rate * slope - model.compliance * P)
     s.P[order] = 0.0
     for k in range(order + 1):
         s.switch[k] = direction * s.f[k]
@@ -107,47 +108,23 @@ def stick_series(model, s, order):
     s.f[: order + 1] = 0.0
     s.u[0], s.v[0], _ = _disc_point(model, s)
     denominator = 1.0 + model.m * model.compliance
-    s.psi[1 : order + 1] = 0.0
-    s.psi[1] = model.Omega * model.unit
     s.P[order] = s.switch[order] = s.switch2[order] = 0.0
     for k in range(order):
         acceleration = _disc_rates(model, s, k)
-        vertical = model.k * s.u[k] + model.c * s.v[k]
-        F = model.k_p * s.psi[k]
-        if k == 0:
-            vertical += model.N - model.k * model.u_0
-            F += model.c_p * model.Omega
+        F, vertical = _slider_load(model, s, k)
         P = (vertical + model.m * acceleration) / denominator
-        s.P[k] = P
-        s.u[k + 1] = s.v[k] * s.up[k]
-        s.v[k + 1] = (acceleration - model.compliance * P) * s.up[k]
         s.switch[k] = model.mu_s * P - model.r_0 * F
         s.switch2[k] = model.mu_s * P + model.r_0 * F
-        _apply_force(model, s, k, P)
+        _advance(model, s, k, P, 0.0, acceleration - model.compliance * P)
 
 
 def separation_series(model, s, order):
     """No contact: P = 0, disc and slider each for themselves.  Fills the gap u - w."""
     for k in range(order):
         _disc_rates(model, s, k)
-        F = model.k_p * s.psi[k] - model.c_p * s.f[k]
-        vertical = model.k * s.u[k] + model.c * s.v[k]
-        drive = 0.0
-        if k == 0:
-            F += model.c_p * model.Omega
-            vertical += model.N - model.k * model.u_0
-            drive = model.Omega
-        s.P[k] = 0.0
-        s.f[k + 1] = F / model.m * s.up[k]
-        s.psi[k + 1] = (drive - s.f[k]) * s.up[k]
-        s.u[k + 1] = s.v[k] * s.up[k]
-        s.v[k + 1] = -vertical / model.m * s.up[k]
-        _apply_force(model, s, k, 0.0)
+        F, vertical = _slider_load(model, s, k)
+        _advance(model, s, k, 0.0, F / model.m, -vertical / model.m)
     width, width0 = len(model.shift), len(model.force0)
     for k in range(order + 1):
-        w = 0.0
-        for j in range(width):
-            w += model.force[j] * s.z[k * width + j]
-        for j in range(width0):
-            w += model.force0[j] * s.y[k * width0 + j]
+        w = model.force @ s.z[k * width : (k + 1) * width] + model.force0 @ s.y[k * width0 : (k + 1) * width0]
         s.switch[k] = s.u[k] - w

@@ -56,10 +56,7 @@ class Printed:
         self.sign = np.sign(plate_modes(p)["psi"].to_numpy())
         self.start = from_slider_frame(stored.reference_state(state, p), 0.0, self.diameters)
         self.phase = self.start.phase
-        s = self.start
-        self.y = np.concatenate(
-            [np.concatenate([s.q, s.q_rate]).astype(complex).view(float), [s.phi, s.phi_rate, s.u, s.u_rate]]
-        )
+        self.y = self.start.vector
 
     def at(self, t):
         """The state a time ``t`` (s) later, as a dict."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -73,12 +74,14 @@ class State:
     beta: list
 
 
+@cache
 def load(name):
-    """Stored reference `name` ("A", "B", "C", "first_separation") as a dict; `time` as floats."""
-    data = json.loads((DATA / f"{name}.json").read_text())
-    if data.get("start"):
-        data["start"] = State(**data["start"])
-    return data
+    """Stored reference `name`, a file of ``data``, as a dict; states as `State`, `time` as floats."""
+
+    def read(found):
+        return State(**found) if found.keys() == State.__annotations__.keys() else found
+
+    return json.loads((DATA / f"{name}.json").read_text(), object_hook=read)
 
 
 def case_of(data):
@@ -88,11 +91,11 @@ def case_of(data):
 
 def times_of(data):
     """Event times in long double: 20 decimals."""
-    return np.array([np.longdouble(e["time_decimal"]) for e in data["events"]])
+    return np.array([np.longdouble(time) for time in data.get("times") or [e["time_decimal"] for e in data["events"]]])
 
 
 def kinds_of(data):
-    return [e["kind"] for e in data["events"]]
+    return data.get("kinds") or [e["kind"] for e in data["events"]]
 
 
 def parameters_of(data):
@@ -114,3 +117,9 @@ def reference_state(state, p):
     modal = {k: [float(x) for x in sign * getattr(state, k)] for k in ("a", "b", "alpha", "beta")}
     plain = {k: getattr(state, k) for k in ("time", "phase", "direction", "psi", "f", "u", "u_velocity")}
     return State(**plain, **modal)
+
+
+def rounded(state):
+    """`State` with every number a double."""
+    values = {k: [float(x) for x in v] if isinstance(v, list) else v for k, v in vars(state).items()}
+    return State(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})

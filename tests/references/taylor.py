@@ -20,7 +20,7 @@ from math import comb
 
 import numpy as np
 
-from tests.references.stored import BASE, DATA, State, load
+from tests.references.stored import BASE, DATA, State, load, rounded
 
 LONG = np.longdouble
 ORDER = 32
@@ -62,6 +62,18 @@ class Problem:
         zero = np.zeros(len(self.s), LONG)
         o = LONG(0)
         return State(o, "stick", 0, o, o, self.u_0, o, -self.N * self.s / self.w2, zero, zero, zero)
+
+
+def problem_of(p, rates=(0.0, 0.0)):
+    """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
+    from disc_model import plate_modes
+    from disc_model.flexibility import contact_give
+
+    modes, law = plate_modes(p), Law(contact_give(p), p.contact_force)
+    base = {name: getattr(p, name) for name in BASE}
+    q = Problem(p.N, p.Omega, modes["omega"], np.abs(modes["psi"]), law, base, rates)
+    q.l = modes["diameters"].to_numpy().astype(LONG)
+    return q
 
 
 # ------------------------------------------------------------------------------------- series
@@ -317,12 +329,8 @@ class Reference:
     def __init__(self, q, state, truncation=TRUNCATION, audit=False):
         self.q, self.truncation, self.audit = q, truncation, audit
         self.events, self.defect, self.impacts = [], 0.0, []
-        self.phase, self.direction, self.start, self.local = (
-            state.phase,
-            int(state.direction),
-            LONG(state.time),
-            LONG(0),
-        )
+        self.phase, self.direction = state.phase, int(state.direction)
+        self.start, self.local = LONG(state.time), LONG(0)
         for name in ("a", "b", "alpha", "beta"):
             setattr(self, name, np.array([LONG(x) for x in getattr(state, name)]))
         self.psi, self.f = LONG(state.psi), LONG(state.f)
@@ -418,12 +426,13 @@ class Reference:
             return
         before, f = self.energy(), self.f
         _, velocity, B = self.disc()
-        p = (velocity - self.v) / (q.S2 + 1 / q.m + (B**2 / (q.m * q.r_0**2) if q.normal else 0))
+        give = q.S2 + 1 / q.m + (B**2 / (q.m * q.r_0**2) if q.normal else 0)
+        p = (velocity - self.v) / give
         self.alpha = self.alpha - q.s * p
         if q.normal:
             self.f = self.f - p * B / (q.m * q.r_0**2)
         self.u, self.v, _ = self.disc()
-        lost = -p * p / 2 * (q.S2 + 1 / q.m + (B**2 / (q.m * q.r_0**2) if q.normal else 0))
+        lost = -p * p / 2 * give
         self.impacts.append((self.energy() - before, lost if q.normal else lost + p * f * B))
         if self.f == 0:
             raise RuntimeError("impact at rest: not met in the stored cases")
@@ -460,12 +469,6 @@ def violent_start(scale):
     return State(0.0, "separation", 0, float(given.psi), f, float(s @ a) + 1e-5, velocity, *modal)
 
 
-def _rounded(state):
-    """The state with every number a double."""
-    values = {k: [float(x) for x in v] if isinstance(v, list) else v for k, v in vars(state).items()}
-    return State(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
-
-
 def _stored_run(q, start, t_end):
     """A run as it is stored, and its last state."""
     run = Reference(q, start or q.equilibrium(), audit=True).run(t_end)
@@ -483,7 +486,7 @@ def _stored_run(q, start, t_end):
         "P": [float(e["P"]) for e in run.events],
         "times": [np.format_float_positional(e["time"], precision=20, unique=False) for e in run.events],
     }
-    return data, _rounded(run.state())
+    return data, rounded(run.state())
 
 
 def regenerate():

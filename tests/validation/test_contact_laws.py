@@ -2,45 +2,35 @@
 
 from __future__ import annotations
 
-import functools
-import json
-import math
-
 import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, plate_modes, simulate
-from disc_model.engine import audit, layout, machine, switches
+from disc_model.engine import audit, layout, switches
 from disc_model.flexibility import contact_give, residual_flexibility
 from disc_model.simulation.api import published_start
 from disc_model.simulation.result import build_model, engine_case, write_state
-from tests.contact_laws import COMPILES, EACH_LAW, LAWS
+from tests.contact_laws import COMPILES, EACH_LAW, LAWS, classical_events, compare_series
 from tests.references import stored, taylor
-from tests.references.printed import lively
+from tests.references.printed import MOTIONS, lively
 
 #: s; what the issue asks for. Rounding of the engine's doubles alone is some 1e-15 s in quiet motion.
 EVENT_TIMES = 1e-13
 
 
-@functools.cache
-def _data(name):
-    return json.loads((stored.DATA / f"contact_{name}.json").read_text())
-
-
 def _difference(name, runs, tol, record=None):
     """Largest difference of event times (s) and of contact forces (N), all switches being there, in order."""
-    data, times, forces = _data(name), [0.0], [0.0]
+    data, times, forces = stored.load(f"contact_{name}"), [0.0], [0.0]
     p = Parameters(**data["parameters"])
     for run in data["runs"][runs]:
-        start = None if run["start"] is None else stored.engine_state(stored.State(**run["start"]), p)
+        start = stored.engine_state(run["start"], p) if run["start"] else None
         result = simulate(p, run["t_end"], tol=tol, initial_state=start, record=record)
         events = result.events
         if record is not None:
             assert result.statistics["energy_residual"] < 1e-13
         assert list(events["kind"]) == run["kinds"]
         if len(events):
-            wanted = np.array([np.longdouble(t) for t in run["times"]])
-            times.append(float(np.abs(events["time"].to_numpy() - wanted).max()))
+            times.append(float(np.abs(events["time"].to_numpy() - stored.times_of(run)).max()))
             forces.append(float(np.abs(events["P"].to_numpy() - run["P"]).max()))
     return max(times), max(forces)
 
@@ -116,46 +106,12 @@ def test_contact_ends_where_its_force_does_although_friction_ends_there_too(give
 
 
 # ------------------------------------------------------------------------ the series, coefficient by coefficient
-def _reference_step(p, start, law):
-    modes = plate_modes(p)
-    base = {name: getattr(p, name) for name in stored.BASE}
-    q = taylor.Problem(p.N, p.Omega, modes["omega"], np.abs(modes["psi"]), law, base)
-    q.l = modes["diameters"].to_numpy().astype(np.longdouble)
-    return taylor.Step(q, start.phase, start.direction, stored.reference_state(start, p))
-
-
 @pytest.mark.parametrize("name", EACH_LAW)
-@pytest.mark.parametrize(("phase", "direction"), [("stick", 0), ("slip", 1), ("slip", -1)])
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS[:3])
 @pytest.mark.parametrize("n_diameters", [2, 5])
 def test_series_against_the_reference(name, phase, direction, n_diameters):
-    """All dampers, both directions, one block of lanes and two; coefficients in units of their largest terms."""
-    p = Parameters(
-        N=600.0, Omega=15.1, m=0.3, k=8e4, c=5.0, k_p=3e4, c_p=0.5, mu_s=0.5, mu_k=0.1, D_star=1e-3,
-        n_diameters=n_diameters, n_circles=1, **LAWS[name],
-    )  # fmt: skip
-    start = lively(phase, direction, p)
-    if p.contact_compliance:
-        start = start.replace(u=start.u - 500 * contact_give(p), u_velocity=start.u_velocity + 0.01)
-    step = _reference_step(p, start, taylor.Law(contact_give(p), p.contact_force))
-    model, order = build_model(p), 16
-    s, state = layout.build_series(model, order), layout.build_state(model)
-    write_state(engine_case(p), start, state)
-    machine.expand(model, s, state, order)
-    powers = np.array([float(model.unit) ** k for k in range(order)])
-    for own, wanted in ((s.P, step.R), (s.f, step.f), (s.psi, step.psi)):
-        if phase == "stick" and p.contact_force == "normal" and own is s.P:
-            wanted = step.V
-        wanted = np.array(wanted[:order], float) * powers
-        np.testing.assert_allclose(own[:order], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=1e-10)
-    if p.contact_compliance:
-        for own, wanted in ((s.u, step.u), (s.v, step.v)):
-            wanted = np.array(wanted[:order], float) * powers
-            np.testing.assert_allclose(own[:order], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=1e-10)
-    if phase == "stick":
-        press = step.R if p.contact_force == "vertical" else None
-        if press is not None:
-            margin = np.array(p.mu_s * press[:order] - step.T[:order], float) * powers
-            np.testing.assert_allclose(s.switch[:order], margin, atol=1e-12 * np.abs(margin).max(), rtol=1e-9)
+    """Both directions, one block of lanes and two."""
+    compare_series(LAWS[name], phase, direction, n_diameters)
 
 
 # ------------------------------------------------------------------------ energy
@@ -203,16 +159,6 @@ def test_no_impact_of_the_normal_force_raises_the_energy():
 
 
 # ------------------------------------------------------------------------ limits
-def _classical_events(p, count):
-    """Releases and rests of a block on a belt under the constant load N, in closed form."""
-    rate = math.sqrt(p.k_p / p.m)
-    static, kinetic = (mu * p.N / (p.k_p * p.r_0) for mu in (p.mu_s, p.mu_k))
-    slip = 2 * (math.pi - math.atan(rate * (static - kinetic) / p.Omega)) / rate
-    stick = 2 * (static - kinetic) / p.Omega
-    first = static / p.Omega
-    return np.array([first + i // 2 * (slip + stick) + (slip if i % 2 else 0) for i in range(count)])
-
-
 ON_A_RIGID_DISC = {
     "default": {},
     "bonded": {"contact": "bonded"},
@@ -240,7 +186,7 @@ def test_a_rigid_disc_gives_the_classical_cycle(name):
     assert result.first_separation != result.first_separation
     assert list(events["kind"][:2]) == ["stick_to_slip", "slip_to_stick"]
     assert len(events) > 100
-    np.testing.assert_allclose(events["time"], _classical_events(p, len(events)), rtol=0, atol=1e-13)
+    np.testing.assert_allclose(events["time"], classical_events(p, len(events)), rtol=0, atol=1e-13)
     np.testing.assert_allclose(events["P"], p.N, rtol=1e-12)
 
 

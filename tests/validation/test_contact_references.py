@@ -2,26 +2,10 @@
 
 from __future__ import annotations
 
-import functools
-import json
-
 import numpy as np
 import pytest
 
 from tests.references import stored, taylor
-
-
-@functools.cache
-def _data(name):
-    return json.loads((stored.DATA / f"contact_{name}.json").read_text())
-
-
-def _start(run):
-    return None if run["start"] is None else stored.State(**run["start"])
-
-
-def _times(run):
-    return np.array([np.longdouble(t) for t in run["times"]])
 
 
 # ------------------------------------------------------------------------ the references themselves
@@ -41,20 +25,20 @@ def test_the_default_law_gives_the_stored_references(name, span):
 
 @pytest.mark.parametrize("name", taylor.LAWS)
 def test_stored_runs_can_be_regenerated(name):
-    runs = _data(name)["runs"]
+    runs = stored.load(f"contact_{name}")["runs"]
     q = taylor.problem(name)
-    for run, start in ((runs[0], q.equilibrium()), (runs[1], _start(runs[1]))):
+    for run, start in ((runs[0], q.equilibrium()), (runs[1], runs[1]["start"])):
         reference = taylor.Reference(q, start, audit=True).run(float(start.time) + 0.01)
         n = len(reference.events)
         assert [e["kind"] for e in reference.events] == run["kinds"][:n]
         if n:
-            assert abs(np.array([e["time"] for e in reference.events]) - _times(run)[:n]).max() < 1e-16
+            assert abs(np.array([e["time"] for e in reference.events]) - stored.times_of(run)[:n]).max() < 1e-16
         assert reference.defect < 1e-17
 
 
 @pytest.mark.parametrize("name", taylor.LAWS)
 def test_stored_runs_hold_what_they_are_for(name):
-    first, *pieces = _data(name)["runs"]
+    first, *pieces = stored.load(f"contact_{name}")["runs"]
     kinds = [kind for run in pieces for kind in run["kinds"]]
     assert first["kinds"].count("stick_to_slip") > 60
     assert pieces[-1]["t_end"] == pytest.approx(0.5)

@@ -10,13 +10,10 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
-from disc_model.engine import layout, machine
-from disc_model.flexibility import contact_give
-from disc_model.simulation.result import engine_case, write_state
-from tests.contact_laws import COMPILES, LAWS
+from tests.contact_laws import COMPILES, LAWS, compare_series
 from tests.references import stored, taylor
 from tests.references.literal import from_slider_frame, literal_of
-from tests.references.printed import lively
+from tests.references.printed import MOTIONS
 
 #: s, what is promised. The literal run is as good as 1e-14 s; motion that separates makes ten times that of it.
 EVENT_TIMES = 1e-12
@@ -77,57 +74,12 @@ def test_literal_with_both_and_dampers():
 
 
 # ------------------------------------------------------------------------ every law, coefficient by coefficient
-def _reference_problem(p, ramps):
-    modes = plate_modes(p)
-    base = {name: getattr(p, name) for name in stored.BASE}
-    law = taylor.Law(contact_give(p), p.contact_force)
-    q = taylor.Problem(p.N, p.Omega, modes["omega"], np.abs(modes["psi"]), law, base, _rates(p, ramps))
-    q.l = modes["diameters"].to_numpy().astype(np.longdouble)
-    return q
-
-
 @pytest.mark.parametrize("name", EVERY_LAW)
-@pytest.mark.parametrize(("phase", "direction"), [("stick", 0), ("slip", 1), ("slip", -1), ("separation", 0)])
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 @pytest.mark.parametrize("n_diameters", [2, pytest.param(5, marks=COMPILES)])
 def test_series_against_the_reference(name, phase, direction, n_diameters):
-    """All dampers, one block of lanes and two, some way up the ramps; in units of the largest coefficient."""
-    p = Parameters(
-        N=600.0, Omega=15.1, m=0.3, k=8e4, c=5.0, k_p=3e4, c_p=0.5, mu_s=0.5, mu_k=0.1, D_star=1e-3,
-        n_diameters=n_diameters, n_circles=1, **LAWS.get(name, {}),
-    )  # fmt: skip
-    rates, time, order = (-9e3, 7e5), 1e-3, 16
-    start = lively(phase, direction, p).replace(time=time)
-    if p.contact_compliance:
-        start = start.replace(u=start.u - 500 * contact_give(p), u_velocity=start.u_velocity + 0.01)
-    q = _reference_problem(p, ())
-    q.Omega_rate, q.N_rate = map(np.longdouble, rates)
-    step = taylor.Step(q, start.phase, start.direction, stored.reference_state(start, p))
-    plain = engine_case(p).model
-    model = layout.on_ramp(plain, 0.0, 0.0, Omega=p.Omega, Omega_rate=rates[0], N=p.N, N_rate=rates[1])
-    s, state = layout.build_series(model, order), layout.build_state(model)
-    write_state(engine_case(p), start, state)
-    machine.set_course(model, state)
-    machine.expand(model, s, state, order)
-    powers = np.array([float(model.unit) ** k for k in range(order)])
-
-    def compare(own, wanted):
-        wanted = np.array(wanted[:order], float) * powers
-        np.testing.assert_allclose(own[:order], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=1e-9)
-
-    compare(s.f, step.f)
-    compare(s.psi, step.psi)
-    if phase != "separation":
-        compare(s.P, step.V if phase == "stick" else step.R)
-    if p.contact_compliance or phase == "separation":
-        compare(s.u, step.u)
-        compare(s.v, step.v)
-    if phase == "stick":
-        press, pull = step.V[:order], p.r_0 * step.F[:order]
-        if p.contact_force == "normal":  # over the denominator that both have
-            press = press + np.convolve(step.F, step.B)[:order]
-            pull = pull - np.convolve(step.V, step.B)[:order] / p.r_0
-        compare(s.switch, p.mu_s * press - pull)
-        compare(s.switch2, p.mu_s * press + pull)
+    """One block of lanes and two."""
+    compare_series(LAWS.get(name, {}), phase, direction, n_diameters, rates=(-9e3, 7e5))
 
 
 @pytest.mark.parametrize("name", EVERY_LAW)
@@ -136,7 +88,7 @@ def test_every_law_against_long_double(name):
     p = Parameters(N=385.0, Omega=15.1, **LAWS.get(name, {}))
     ramps = (_ramp(p, "Omega", -128.0), _ramp(p, "N", -2048.0))
     start = taylor.violent_start(1.0 if p.contact_compliance else 1.3)
-    reference = taylor.Reference(_reference_problem(p, ramps), start, audit=True).run(0.02)
+    reference = taylor.Reference(taylor.problem_of(p, _rates(p, ramps)), start, audit=True).run(0.02)
     found = simulate(p, 0.02, tol=1e-15, initial_state=stored.engine_state(start, p), ramps=ramps)
     assert reference.defect < 1e-16
     assert list(found.events["kind"]) == [event["kind"] for event in reference.events]
@@ -151,10 +103,10 @@ BLOCK = Parameters(N=400.0, Omega=15.0, n_diameters=-1)
 
 
 class Belt:
-    """A block on a belt, stick and slip, by DOP853 and bracketed roots; `ramps` in order of time."""
+    """A block on a belt, stick and slip, by DOP853 and its events; `ramps` in order of time."""
 
     def __init__(self, p, ramps):
-        self.p, self.ramps, self.how = p, ramps, {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}
+        self.p, self.ramps = p, ramps
 
     def value(self, name, t):
         """Omega or N."""
@@ -181,20 +133,14 @@ class Belt:
 
     def switch(self, sticks, t, y, end):
         """First switch in (t, end], else end; the state there; whether it was a switch.  Rates are constant within."""
-        rates = self.rates(sticks)
-        dense = solve_ivp(rates, (t, end), y, dense_output=True, max_step=2e-4, **self.how)
-        times = np.linspace(t, end, 4001)
-        below = np.flatnonzero(self.margin(sticks, times[1:], dense.sol(times[1:])) < 0)
-        if not below.size:
-            return end, dense.y[:, -1], False
-        before, here = times[below[0]], dense.sol(times[below[0]])
 
-        def reached(time):
-            return solve_ivp(rates, (before, time), here, **self.how).y[:, -1] if time > before else here
+        def end_of_phase(t, y):
+            return self.margin(sticks, t, y)
 
-        after = times[below[0] + 1]
-        root = brentq(lambda time: self.margin(sticks, time, reached(time)), before, after, xtol=1e-16, rtol=1e-15)
-        return root, reached(root), True
+        end_of_phase.terminal, end_of_phase.direction = True, -1
+        how = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15, "max_step": 2e-4}
+        found = solve_ivp(self.rates(sticks), (t, end), y, events=end_of_phase, **how)
+        return found.t[-1], found.y[:, -1], found.status == 1
 
     def events(self, t_end):
         """Times of releases and rests, s."""

@@ -7,14 +7,13 @@ printed.
 
 from __future__ import annotations
 
-import functools
 import itertools
-import json
 
 import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, plate_modes, simulate
+from disc_model.simulation.api import published_start
 from tests import needs
 from tests.references import stored
 from tests.references.literal import from_slider_frame, literal_of
@@ -29,13 +28,8 @@ ERROR_PER_TOL = 1.0
 ROUNDING = 1e-13
 
 
-@functools.cache
-def _stored(name):
-    return stored.load(name)
-
-
 def _events(name, tol):
-    data = _stored(name)
+    data = stored.load(name)
     p = stored.parameters_of(data)
     start = stored.engine_state(data["start"], p) if data["start"] else None
     return simulate(p, data["t_end"], tol=tol, initial_state=start).events
@@ -43,7 +37,7 @@ def _events(name, tol):
 
 def _error(name, tol):
     """Largest event-time error (s) after checking that all the events are there, in order."""
-    data, events = _stored(name), _events(name, tol)
+    data, events = stored.load(name), _events(name, tol)
     assert list(events["kind"]) == stored.kinds_of(data)
     assert list(events["phase"]) == [e["phase"] for e in data["events"]]
     return float(np.abs(events["time"].to_numpy() - stored.times_of(data)).max())
@@ -51,7 +45,7 @@ def _error(name, tol):
 
 @pytest.mark.parametrize("name", ["A", "B", "C"])
 def test_modes_are_those_of_the_reference(name):
-    data = _stored(name)
+    data = stored.load(name)
     modes = plate_modes(stored.parameters_of(data))
     np.testing.assert_allclose(modes["omega"], data["modes"]["omega"], rtol=2e-15)
     np.testing.assert_allclose(np.abs(modes["psi"]), data["modes"]["psi"], rtol=4e-15)
@@ -59,7 +53,7 @@ def test_modes_are_those_of_the_reference(name):
 
 @pytest.mark.parametrize(("name", "count", "separations"), [("A", 135, 0), ("B", 140, 0), ("C", 398, 131)])
 def test_every_event_to_1e_13_at_the_tightest_tolerance(name, count, separations):
-    kinds = stored.kinds_of(_stored(name))
+    kinds = stored.kinds_of(stored.load(name))
     assert (len(kinds), kinds.count("separation")) == (count, separations)
     assert _error(name, 1e-15) <= 1e-13
 
@@ -80,7 +74,7 @@ def test_all_398_switches_of_the_separating_second(tol):
 
 
 def test_values_at_the_events():
-    data = _stored("C")
+    data = stored.load("C")
     events = _events("C", 1e-14)
     for name in ("psi", "f", "P"):
         wanted = np.array([e[name] for e in data["events"]])
@@ -93,14 +87,14 @@ def test_first_separation_at_15_1_rad_s(tol, allowed):
 
     Rounding of one unit in the last place of any mode shifts it by no more than 4e-16 s, see the stored data.
     """
-    data = _stored("first_separation")
+    data = stored.load("first_separation")
     result = simulate(stored.parameters_of(data), 60.0, tol=tol, stop_at="first_separation")
     assert result.first_separation == pytest.approx(data["time"], abs=allowed, rel=0)
     assert len(result.events) == data["events_before"] + 1
 
 
 def _wild():
-    groups = json.loads((stored.DATA / "wild.json").read_text())["groups"]
+    groups = stored.load("wild")["groups"]
     return [
         pytest.param(g["parameters"], g["t_end"], run, id=f"{name}-{i}")
         for name, g in zip(("published", "slippery"), groups, strict=True)
@@ -112,12 +106,11 @@ def _wild():
 def test_violent_motion(parameters, t_end, run):
     """Crowded switches, P < 0 after an impact, reversals, both directions, all dampers: 2076 events."""
     p = Parameters(**parameters)
-    start = stored.engine_state(stored.State(**run["start"]), p)
-    times = np.array([np.longdouble(t) for t in run["times"]])
+    start = stored.engine_state(run["start"], p)
     for tol in (1e-6, 1e-10, 1e-14):
         events = simulate(p, t_end, tol=tol, initial_state=start).events
         assert list(events["kind"]) == run["kinds"]
-        assert float(np.abs(events["time"].to_numpy() - times).max()) <= ERROR_PER_TOL * tol + ROUNDING
+        assert float(np.abs(events["time"].to_numpy() - stored.times_of(run)).max()) <= ERROR_PER_TOL * tol + ROUNDING
 
 
 def test_wild_runs_hold_what_they_are_for():
@@ -149,21 +142,16 @@ def _compare_with_literal(p, start, span, drive=0.0):
     return [kind for _, kind in wanted]
 
 
-def _equilibrium(p):
-    """The published start as a State: the end of a run too short to move."""
-    return simulate(p, 1e-12).final_state.replace(time=0.0, psi=0.0, time_low=0.0)
-
-
 @pytest.mark.parametrize(("span", "count"), [(0.05, 7), pytest.param(0.2, 27, marks=pytest.mark.slow)])
 def test_literal_from_equilibrium(span, count):
     p = Parameters(N=385.0, Omega=15.1)
-    assert len(_compare_with_literal(p, _equilibrium(p), span)) == count
+    assert len(_compare_with_literal(p, published_start(p), span)) == count
 
 
 @pytest.mark.parametrize("drive", [0.0, 2.0])
 def test_literal_with_separation_and_impact(drive):
     """The start angle does not matter."""
-    data = _stored("C")
+    data = stored.load("C")
     p = stored.parameters_of(data)
     kinds = _compare_with_literal(p, stored.engine_state(data["start"], p), 0.05, drive)
     assert kinds.count("reattachment") >= 3
@@ -185,7 +173,7 @@ def test_literal_other_parameters(variant):
     size = np.sign(modes["psi"].to_numpy()) / modes["omega"].to_numpy()
     pair = modes["diameters"].to_numpy() > 0
     a = -p.N * modes["psi"].to_numpy() / modes["omega"].to_numpy() ** 2
-    start = _equilibrium(p).replace(
+    start = published_start(p).replace(
         phase="slip",
         direction=1,
         f=2.0,
@@ -203,7 +191,7 @@ def test_literal_other_parameters(variant):
 
 def test_literal_bonded():
     """Contact kept by force: from the separating second of case C, P turns negative and nothing separates."""
-    data = _stored("C")
+    data = stored.load("C")
     p = Parameters(**data["parameters"], contact="bonded")
     start = stored.engine_state(data["start"], p)
     kinds = _compare_with_literal(p, start, 0.06)
@@ -217,7 +205,7 @@ def test_literal_bonded():
 def test_stored_data_can_be_regenerated():
     from tests.references import heyoka_reference
 
-    data = _stored("C")
+    data = stored.load("C")
     run = heyoka_reference.Reference(stored.case_of(data), data["start"]).run(54.5)
     n = len(run.events)
     assert n > 30
