@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import subprocess
 import sys
 
@@ -18,6 +19,9 @@ def test_every_rival_is_made_as_registered() -> None:
         assert bool(method.unavailable()) == bool(rival.missing())
         assert set(method.settings) <= set(SCENES)
         assert not rival.maps or method.map_values
+        assert method.label
+        assert method.setting in ("tol", "step", "epsilon")
+        assert math.isnan(method.order) or method.order > 0
 
 
 def test_every_scene_is_there() -> None:

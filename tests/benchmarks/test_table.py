@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
@@ -40,17 +41,14 @@ def test_headline_compares_the_default_with_the_cheapest_right_setting(dataset):
 
     Of it only the whole run was measured; of the series also a further second, which is what counts.
     """
-    cost = {"series": (2e-3, 5e-4), "RK4": (1e-3, 4e-3, 4e-2)}
-    further = {"series": (1.9e-3, 4e-4), "RK4": ()}
-    error = {"series": (1e-7, 2e-12), "RK4": (1e-5, 1e-11, 1e-13)}
-    value = {"series": (1e-6, 1e-10), "RK4": (1e-4, 1e-5, 1e-6)}
-    grids = {name: np.full((1, 2, 3), np.nan) for name in ("cost", "marginal_cost", "event_error", "value")}
-    for i, method in enumerate(("series", "RK4")):
-        for name, given in (("cost", cost), ("marginal_cost", further), ("event_error", error), ("value", value)):
-            grids[name][0, i, : len(given[method])] = given[method]
-    verdict = np.where(np.isfinite(grids["cost"]), int(Verdict.CONVERGED), int(Verdict.NOT_RUN))
-    made = xr.Dataset(
-        {name: (("scene", "solver", "point"), grid) for name, grid in (grids | {"verdict": verdict}).items()},
-        coords={"scene": ["stick_slip"], "solver": ["series", "RK4"]},
-    )
+    rows = [
+        ("series", 0, 1e-6, 2e-3, 1.9e-3, 1e-7),
+        ("series", 1, 1e-10, 5e-4, 4e-4, 2e-12),
+        ("RK4", 0, 1e-4, 1e-3, math.nan, 1e-5),
+        ("RK4", 1, 1e-5, 4e-3, math.nan, 1e-11),
+        ("RK4", 2, 1e-6, 4e-2, math.nan, 1e-13),
+    ]
+    frame = pd.DataFrame(rows, columns=["solver", "point", "value", "cost", "marginal_cost", "event_error"])
+    frame = frame.assign(scene="stick_slip", verdict=int(Verdict.CONVERGED))
+    made = frame.set_index(["scene", "solver", "point"]).to_xarray()
     assert headline(measured_points(made)) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(10.0)}}

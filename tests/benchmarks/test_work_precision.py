@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import work_precision
-from disc_model.benchmarks.scenes import Verdict
 from disc_model.data.dataset import load, save
 from disc_model.data.variables import flag_names
 from tests.benchmarks.conftest import CORES, SET_UP, SETTINGS, Known, available
@@ -92,14 +91,3 @@ def test_fitted_order():
     assert work_precision.fitted_order(n, rough) == pytest.approx(4.0, abs=0.05)
     assert math.isnan(work_precision.fitted_order(n[:1], n[:1]))
     assert math.isnan(work_precision.fitted_order(n, np.full(7, np.nan)))
-
-
-@pytest.mark.compiled
-def test_a_hopeless_method_is_not_tried_again():
-    tried = []
-    settings = {"many_modes": {"RK45": (1e-4, 1e-6, 1e-8)}}
-    found = work_precision.work_precision(
-        settings, rounds=1, budget=0.02, progress=lambda point, _: tried.append(point.value)
-    )
-    assert tried == [1e-4]
-    assert int(found["verdict"].values[0, 0, 0]) == Verdict.GAVE_UP

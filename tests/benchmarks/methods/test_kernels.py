@@ -24,18 +24,6 @@ def switched(start, cause, p=P):
 
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_numpy_and_compiled_right_hand_sides_agree(phase, direction):
-    p = P.replace(n_circles=1, c=3.0, c_p=0.5)
-    physics = Physics(p)
-    y = np.random.default_rng(1).normal(size=4 * physics.n + 4) * 1e-3
-    y[physics.f] = 0.0 if phase == "stick" else 20.0 * (direction or 1)
-    modes, c = kernels.tables(physics)
-    rate = np.empty_like(y)
-    kernels.rate(modes, c, PHASES.index(phase), direction, y, rate)
-    np.testing.assert_allclose(rate, physics.rate(phase, direction, y), rtol=1e-11, atol=1e-9)
-
-
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 @pytest.mark.parametrize("p", [P, BONDED], ids=["separable", "bonded"])
 def test_switch_functions_are_those_in_numpy(p, phase, direction):
     physics, y, modes, c = vector(lively(phase, direction, p), p)
