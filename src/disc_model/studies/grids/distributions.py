@@ -156,20 +156,15 @@ def _broken(options: Sampled, base: Mapping[str, Any], dims: Sequence[Dimension]
     wanted = [dim for dim in dims if not {*options.names, *RELATED}.isdisjoint(dim.names)]
     for point in points(wanted):
         here = {**base, **point}
-        ends = {name: drawn_ends(given, _own(name, here)) for name, given in options.distributions.items()}
-        for name, both in ends.items():
-            for end in both:
+        ends: dict[str, list[float]] = {}
+        for name, given in options.distributions.items():
+            scale = _own(name, here) if given.relative else 1.0
+            ends[name] = [scale * end for end in given.ends()]
+            for end in ends[name]:
                 yield from _refused(name, end)
         for corner in product(*(ends[name] for name in related)):
             values = {**here, **dict(zip(related, corner, strict=True))}
             yield from cross_faults(Parameters, values)
-
-
-def drawn_ends(given: Uniform | Normal | TruncatedNormal, own: float) -> tuple[float, float]:
-    """Least and greatest value that is drawn, of a parameter whose own value at the point is given."""
-    scale = own if given.relative else 1.0
-    low, high = given.ends()
-    return scale * low, scale * high
 
 
 def _own(name: str, values: Mapping[str, Any]) -> Any:

@@ -101,7 +101,7 @@ def batch_texts(
         "options": options.model_dump(),
         "base": base,
         "names": [name for dim in dims for name in dim.names],
-        "sources": source_hash(module_of(quantity), runner, *_chooser(base)),
+        "sources": source_hash(module_of(quantity), runner, *chooser(asked_modes(base)[1])),
     }
     parts: Iterator[dict[str, Any]]
     if QUANTITIES[quantity].tiled and runner == RUNNER:
@@ -110,13 +110,6 @@ def batch_texts(
         parts = ({**_used(starts, shared["names"], points), "points": points} for points in _chunks(dims, batch))
     texts = [canonical_json({**shared, **part}) for part in parts]
     return {content_key(text): text for text in texts}
-
-
-def _chooser(base: Mapping[str, Any]) -> tuple[str, ...]:
-    """What chooses the modes of each point, if a motion has to be looked at for that."""
-    if base.get("n_diameters") != AUTO:
-        return ()
-    return chooser(asked_modes(base)[1])
 
 
 def motion_texts(

@@ -70,34 +70,38 @@ def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]
 
 def at(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
     """Scan and bisect; the point's own Omega is not used."""
-    step, scale = _lattice(options)
+    scan = options.scan
+    step = round((scan.stop - scan.start) / scan.intervals / options.precision)
     motions: dict[int, Motion] = {}
     known: dict[int, float] = {}
     total = 0.0
 
+    def speed(i: int) -> float:
+        return float(f"{scan.start + i * options.precision:.12g}")
+
     def look(i: int) -> None:
         """The motion at the i-th speed of the lattice, at which none has been followed."""
         nonlocal total
-        found = motions[i] = motion(p.replace(Omega=scale(i)), options)
+        found = motions[i] = motion(p.replace(Omega=speed(i)), options)
         total += found.simulated
         none = math.isnan(found.first_separation) and found.status == "ok"
         known[i] = math.inf if none else found.first_separation
 
-    scan = [i * step for i in range(options.scan.intervals + 1)]
-    for i in scan:
+    scanned = [i * step for i in range(scan.intervals + 1)]
+    for i in scanned:
         look(i)
     for horizon in options.horizons:
         _bisect(known, look, horizon)
     failed = {i: found for i, found in motions.items() if found.status != "ok"}
     values: dict[str, Any] = {
         "status": next((found.status for found in failed.values()), "ok"),
-        "scan_first_separation": [motions[i].first_separation for i in scan],
-        "scan_status": [motions[i].status for i in scan],
+        "scan_first_separation": [motions[i].first_separation for i in scanned],
+        "scan_status": [motions[i].status for i in scanned],
         "simulations": len(motions),
         "simulated_time": total,
     }
-    values |= listed([_crossings(known, horizon, scale) for horizon in options.horizons])
-    return values, "; ".join(f"Omega={scale(i):g}: {found.message}" for i, found in failed.items())
+    values |= listed([_crossings(known, horizon, speed) for horizon in options.horizons])
+    return values, "; ".join(f"Omega={speed(i):g}: {found.message}" for i, found in failed.items())
 
 
 class Motion(NamedTuple):
@@ -131,13 +135,6 @@ def _doubtful(found: Fate, horizons: Sequence[float]) -> bool:
     return any(abs(found.first_separation - horizon) < doubt for horizon in horizons)
 
 
-def _lattice(options: CriticalSpeedOptions) -> tuple[int, Callable[[int], float]]:
-    """Lattice points between the scan's speeds, and the speed at a lattice point."""
-    scan = options.scan
-    step = round((scan.stop - scan.start) / scan.intervals / options.precision)
-    return step, lambda i: float(f"{scan.start + i * options.precision:.12g}")
-
-
 def _bisect(known: dict[int, float], look: Callable[[int], None], horizon: float) -> None:
     """Halve every interval over which separation within the horizon begins or ends, down to the lattice.
 
@@ -158,15 +155,15 @@ def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
     ]
 
 
-def _crossings(known: dict[int, float], horizon: float, scale: Callable[[int], float]) -> dict[str, Any]:
+def _crossings(known: dict[int, float], horizon: float, speed: Callable[[int], float]) -> dict[str, Any]:
     """What one horizon finds among the known speeds."""
-    found = [(scale(b), "begins" if known[b] <= horizon else "ends") for _, b in _changes(known, horizon)]
+    changes = [b for _, b in _changes(known, horizon)]
     # the first that separates; one of which it is not known hides those above it
     first = next((i for i in sorted(known) if not known[i] > horizon), None)
-    lowest = math.nan if first is None or math.isnan(known[first]) else scale(first)
+    lowest = math.nan if first is None or math.isnan(known[first]) else speed(first)
     return {
         "critical_speed": lowest,
-        "n_crossings": len(found),
-        "crossing": [speed for speed, _ in found],
-        "crossing_kind": [kind for _, kind in found],
+        "n_crossings": len(changes),
+        "crossing": [speed(b) for b in changes],
+        "crossing_kind": ["begins" if known[b] <= horizon else "ends" for b in changes],
     }
