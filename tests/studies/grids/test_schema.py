@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model import Parameters, floquet, mode_choice
 from disc_model.claims import SCANS
@@ -16,11 +17,9 @@ from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import choose_modes
 from disc_model.studies import modes
-from disc_model.studies.grids.merge import merge_batches
-from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import LAWS, GridStudy, load_grid, load_grids, parse_grid
 from disc_model.truncation import ModeChoice
-from tests.studies.grids.conftest import study
+from tests.studies.grids.conftest import computed, study
 from tests.studies.refused import faults_of
 
 STUDIES = sorted((Path(__file__).parents[3] / "config" / "studies").glob("*.yaml"))
@@ -248,20 +247,21 @@ def test_resolution_divides_the_ranges_in_blocks_too() -> None:
     assert coarse.batches.keys() < fine.batches.keys()
 
 
+def cycles(axes: dict[str, Any], **base: Any) -> xr.Dataset:
+    return computed(quantity="floquet", base={"N": 300} | base, axes=axes)
+
+
 @pytest.mark.compiled
 def test_the_modes_are_chosen_for_each_point() -> None:
     axes = {"normalization": ["as_published", "orthonormal"]}
-    base = {"N": 300, "Omega": 20, **AUTOMATIC}
-    grid = parse_grid(study(quantity="floquet", options={}, base=base, axes=axes, batch={}))
-    [done] = map(run_batch, grid.batches.values())
+    done = cycles(axes, Omega=20, **AUTOMATIC)
     for i, normalization in enumerate(axes["normalization"]):
         own = choose_modes({"N": 300, "Omega": 20, "normalization": normalization}, 1e-2).parameters
         assert (done["n_diameters"][i], done["n_circles"][i]) == (own.n_diameters, own.n_circles)
         assert done["growth_rate"][i] == pytest.approx(floquet(own).growth_rate, abs=1e-9)
     assert done["n_diameters"][0] < done["n_diameters"][1]
-    merged = merge_batches([done], grid.grid, {})
-    assert merged["n_diameters"].dims == ("normalization",)
-    assert json.loads(merged.attrs["base"])["n_diameters"] == "auto"
+    assert done["n_diameters"].dims == ("normalization",)
+    assert json.loads(done.attrs["base"])["n_diameters"] == "auto"
 
 
 @pytest.mark.compiled
@@ -274,9 +274,7 @@ def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pyte
         return choose(p, tolerance)
 
     monkeypatch.setattr(modes, "by_frequencies", not_on_a_wall)
-    base = {"N": 300, "Omega": 20, **AUTOMATIC}
-    grid = parse_grid(study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={}))
-    [done] = map(run_batch, grid.batches.values())
+    done = cycles({"k": [5e4, 1e12]}, Omega=20, **AUTOMATIC)
     assert flag_names(done["status"]).tolist() == ["ok", "failed"]
     assert done["n_diameters"].values.tolist() == [3, -1]
     assert "no model up to" in str(done["message"].values[1])
@@ -313,9 +311,7 @@ def test_modes_chosen_by_a_motion_are_chosen_for_each_point(monkeypatch: pytest.
     monkeypatch.setitem(
         mode_choice.MEASURES, "growth", lambda p: p.n_diameters if p.k > 1e6 else settled[p.n_diameters]
     )
-    base = {"N": 300, "Omega": 0, "n_diameters": "auto", "truncation_quantity": "growth"}
-    raw = study(quantity="floquet", options={}, base=base, axes={"k": [5e4, 1e12]}, batch={})
-    [done] = map(run_batch, parse_grid(raw).batches.values())
+    done = cycles({"k": [5e4, 1e12]}, Omega=0, n_diameters="auto", truncation_quantity="growth")
     assert done["n_diameters"].values.tolist() == [2, -1]
     assert "n_diameters: undecided: growth still changes by 0.5 of itself" in str(done["message"].values[1])
 

@@ -233,11 +233,9 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
     separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["origin"])
     beside = np.zeros_like(separates)
     for axis in (0, 1):
-        differs = np.diff(separates.astype(int), axis=axis) != 0
-        ahead = [slice(None), slice(None)]
-        for shift in (slice(1, None), slice(None, -1)):
-            ahead[axis] = shift
-            beside[tuple(ahead)] |= differs
+        differs = np.diff(separates, axis=axis)
+        for end in (0, differs.shape[axis]):
+            beside |= np.insert(differs, end, False, axis=axis)
     rng, wrong, drawn = np.random.default_rng(0), [], 0
     for there in (beside, (origin == "undivided_cell") & ~beside, (origin == "multipliers") & ~beside):
         for i, j in rng.permutation(np.argwhere(there))[:15]:
@@ -253,8 +251,7 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
 @pytest.mark.parametrize(("size", "coarse"), list(product([2, 3, 9, 34, 65], [1, 8, 50])))
 def test_coarse_cells_cover_a_side(size: int, coarse: int) -> None:
     edges = regions._edges(size, coarse)
-    assert edges[0] == 0
-    assert edges[-1] == size - 1
+    assert (edges[0], edges[-1]) == (0, size - 1)
     assert max(np.diff(edges)) <= coarse or len(edges) == 2
 
 

@@ -13,6 +13,7 @@ from scipy import stats
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import floquet
+from disc_model.studies.grids.draws import CYCLES
 from disc_model.studies.grids.merge import failures
 from disc_model.studies.grids.quantities import sensitivity
 from disc_model.studies.grids.quantities.schema import SensitivityOptions
@@ -69,21 +70,18 @@ def test_indices_of_ishigamis_function(monkeypatch: pytest.MonkeyPatch) -> None:
     np.testing.assert_allclose(own["total_index"], np.ravel(theirs.total_order), rtol=1e-10, atol=1e-12)
 
 
-WORDS = ("stable", "unstable", "no_cycle", "separates", "slides", "slips", "sticks", "failed")
-
-
 def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """Shares and probabilities against counting; what has no cycle is a class, and what failed widens intervals."""
 
     def function(values: dict[str, float]) -> Evaluated:
-        word = WORDS[min(int(8 * values["c"]), 7)]
+        word = CYCLES[min(int(8 * values["c"]), 7)]
         return Evaluated(word, values["c"] if word in ("stable", "unstable") else np.nan)
 
     evaluating(monkeypatch, function)
     spread = {"distribution": "uniform", "low": 0, "high": 1}
     found = computed(**study({"c": spread, "k": UNIFORM}, options={"samples": 64})).sel(N=385)
     c = found["drawn"].sel(parameter="c").values.ravel()
-    words = np.array(WORDS)[np.minimum((8 * c).astype(int), 7)]
+    words = np.array(CYCLES)[np.minimum((8 * c).astype(int), 7)]
     known = words[words != "failed"]
     assert len(known) < len(words) == 128
     assert found["n_draws"] == len(known)
