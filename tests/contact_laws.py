@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters
-from disc_model.engine import layout, machine
+from disc_model.engine import layout, machine, switches
 from disc_model.flexibility import contact_give
 from disc_model.simulation.result import engine_case, write_state
 from tests.references import stored, taylor
@@ -59,7 +59,7 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
     write_state(engine_case(p), start, state)
     if rates:
         machine.set_course(model, state)
-    machine.expand(model, s, state, order)
+    machine.expand(model.give, model.normal, model, s, state, order)
     powers = np.array([float(model.unit) ** k for k in range(order)])
 
     def compare(own, wanted, rtol=1e-10):
@@ -80,3 +80,5 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
             pull = pull - np.convolve(step.V, step.B)[:order] / p.r_0
         compare(s.switch, p.mu_s * press - pull, 1e-9)
         compare(s.switch2, p.mu_s * press + pull, 1e-9)
+        held = np.array([pull[0], press[0]], float)
+        np.testing.assert_allclose(switches.grip(model, state, switches.stick_force(model, state)), held, rtol=1e-10)

@@ -11,7 +11,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes, slider_at_rest_frequencies
 from disc_model.data.variables import SCALARS, SERIES, attributes
-from disc_model.simulation.result import build_model
+from disc_model.simulation.result import engine_case
 from tests.references import equations
 from tests.references.printed import MOTIONS, THETA, P, Printed, lively
 
@@ -137,7 +137,7 @@ def test_painleve_denominator_is_what_the_force_is_divided_by():
 def test_start_is_the_engines():
     p = Parameters(N=385, Omega=15.1)
     s, u_0 = equations.start(p, equations.modal_damping(p))
-    close(build_model(p).u_0, u_0)
+    close(engine_case(p).model.u_0, u_0)
     close(equations.stick(p, equations.modal_damping(p), s, u_0)[0], p.N)
 
 

@@ -40,8 +40,8 @@ class Full:
 
     @property
     def coordinates(self):
-        s = self.state
-        return np.concatenate([s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.U_VELOCITY + 1]])[self.rows]
+        slider = self.state.x[layout.PSI : layout.U_VELOCITY + 1]
+        return np.concatenate([self.state.disc[: self.n_rows - 4], slider])[self.rows]
 
     @property
     def rates(self):

@@ -11,8 +11,7 @@ from disc_model import Parameters, Record, Window, simulate
 from disc_model.engine import coasting, contact_series, dense_output, layout, outcomes, series, stick_modes
 from disc_model.engine.switches import stick_force
 from disc_model.simulation.api import _Run
-from disc_model.simulation.result import build_model
-from tests.engine.compiled import kernel
+from disc_model.simulation.result import engine_case
 
 ORDER = 40
 VARIANTS = {
@@ -26,30 +25,10 @@ VARIANTS = {
 COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
 
 
-@kernel
-def _coast(model, s, state, x):
+def _coast(model: layout.Model, s: layout.Series, state: layout.State, x: float) -> float:
     length = coasting.coast_length(model, s, state)
     coasting.coast_to(model, s, x, state)
-    return length
-
-
-@kernel
-def _follow(model, s, state, x):
-    dense_output.load_state(model, s, state)
-    series.stick_series(model, s, ORDER)
-    dense_output.state_at(model, s, ORDER, x, 0.0, state)
-
-
-@kernel
-def _follow_compliant(model, s, state, x):
-    dense_output.load_state(model, s, state)
-    contact_series.compliant_stick_series(model, s, ORDER)
-    dense_output.state_at(model, s, ORDER, x, 0.0, state)
-
-
-@kernel
-def _force(model, state):
-    return stick_force(model, state)
+    return float(length)
 
 
 def _lively(model: layout.Model, seed: int = 1) -> layout.State:
@@ -70,19 +49,17 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
 
     A velocity is rounded as the static deflection is, times the highest frequency.
     """
-    model = build_model(Parameters(N=385, Omega=15.1, **VARIANTS.get(variant, COMPLIANT)))
+    model = engine_case(Parameters(N=385, Omega=15.1, **VARIANTS.get(variant, COMPLIANT))).model
     closed, taylor = _lively(model), _lively(model)
     _coast(model, layout.build_series(model, ORDER), closed, x)
-    follow = _follow_compliant if variant == "compliant" else _follow
-    follow(model, layout.build_series(model, ORDER), taylor, x)
+    s = layout.build_series(model, ORDER)
+    dense_output.load_state(model, s, taylor)
+    expand = contact_series.compliant_stick_series if variant == "compliant" else series.stick_series
+    expand(model, s, ORDER)
+    dense_output.state_at(model, s, ORDER, x, 0.0, taylor)
     size = max(np.abs(taylor.z).max(), np.abs(taylor.y).max(initial=0.0))
-    for mine, theirs, unit in (
-        (closed.e, taylor.e, model.unit),
-        (closed.g, taylor.g, model.unit),
-        (closed.z, taylor.z, 1.0),
-        (closed.y, taylor.y, 1.0),
-    ):
-        np.testing.assert_allclose(mine, theirs, atol=1e-14 * size / unit, rtol=0)
+    for name, unit in {"e": model.unit, "g": model.unit, "z": 1.0, "y": 1.0}.items():
+        np.testing.assert_allclose(getattr(closed, name), getattr(taylor, name), atol=1e-14 * size / unit, rtol=0)
     assert closed.x[layout.PSI] == pytest.approx(taylor.x[layout.PSI], rel=1e-15)
     if variant == "compliant":
         assert closed.x[layout.U] == pytest.approx(taylor.x[layout.U], abs=1e-14 * size)
@@ -91,7 +68,7 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
 
 def test_coasts_compose() -> None:
     """Two coasts are one coast of their sum, however far: 300 units are 48 turns of the fastest mode."""
-    model = build_model(Parameters(N=385, Omega=1.0, **VARIANTS["dampers"]))
+    model = engine_case(Parameters(N=385, Omega=1.0, **VARIANTS["dampers"])).model
     s, once, twice = layout.build_series(model, ORDER), _lively(model), _lively(model)
     _coast(model, s, once, 300.3)
     _coast(model, s, twice, 123.1)
@@ -106,14 +83,14 @@ def test_coasts_compose() -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed: int) -> None:
     p = Parameters(N=385, Omega=5.0, **VARIANTS[variant])
-    model = build_model(p)
+    model = engine_case(p).model
     s, state = layout.build_series(model, ORDER), _lively(model, seed)
     length = _coast(model, s, state, 0.0)
     assert coasting.SHORTEST_COAST <= length < stick_modes.LONGEST_COAST
     swing, lowest = 0.0, np.inf
     for x in np.linspace(0.0, length, 2000):
         coasting.coast_to(model, s, x, state)
-        P = _force(model, state)
+        P = stick_force(model, state)
         pull = p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega)
         lowest = min(lowest, p.mu_s * P - abs(pull))
         swing = max(swing, abs(P - p.N))
@@ -129,12 +106,12 @@ def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed:
     ids=["near critical damping", "overdamped", "many modes", "faster than the series allows"],
 )
 def test_the_rest_is_left_to_the_series(parameters: dict[str, float]) -> None:
-    assert build_model(Parameters(N=385, Omega=15.1, **parameters)).modes.gain.size == 0
+    assert engine_case(Parameters(N=385, Omega=15.1, **parameters)).model.modes.gain.size == 0
 
 
 def test_nothing_is_promised_where_nothing_is_sure() -> None:
     """A spring beyond the friction limit, or a swing that could take P to zero."""
-    model = build_model(Parameters(N=385, Omega=15.1))
+    model = engine_case(Parameters(N=385, Omega=15.1)).model
     s, pulled, shaken = layout.build_series(model, ORDER), _lively(model), _lively(model)
     pulled.x[layout.PSI] = 0.1
     shaken.e[:] *= 1e4
@@ -144,9 +121,9 @@ def test_nothing_is_promised_where_nothing_is_sure() -> None:
 def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
     """At rest under the preload P stays: stick lasts until the spring, now at 0.9 of the limit, is at all of it."""
     p = Parameters(N=385, Omega=15.1)
-    limit, unit = p.mu_s * p.N / p.r_0, build_model(p).unit
+    limit, unit = p.mu_s * p.N / p.r_0, engine_case(p).model.unit
     # from no pull at all that would take as long as a coast may last
-    model = build_model(p.replace(Omega=limit / (p.k_p * unit * stick_modes.LONGEST_COAST)))
+    model = engine_case(p.replace(Omega=limit / (p.k_p * unit * stick_modes.LONGEST_COAST))).model
     s, state = layout.build_series(model, ORDER), layout.build_state(model)
     state.x[layout.PSI] = 0.9 * limit / p.k_p
     # 0.1 of it, right to the rounding of forces of which nine tenths cancel

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes, simulate
-from disc_model.engine import layout, machine, outcomes, switches
-from disc_model.simulation.result import engine_case, fresh_states
+from disc_model.engine import layout, outcomes, switches
+from disc_model.simulation.result import engine_case
 from disc_model.stability.return_map import ReturnMap
 
 STEEP = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7, n_diameters=1)
@@ -49,7 +49,7 @@ def test_a_slider_at_rest_on_a_still_drive_lands_in_stick() -> None:
 
 @pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="the limit is a constant of compiled code")
 def test_switches_without_the_clock_moving_end_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(machine, "MAX_EVENTS_IN_A_ROW", 0)
+    monkeypatch.setattr(switches, "MAX_EVENTS_IN_A_ROW", 0)
     # stick cannot hold from the start
     result = simulate(Parameters(N=200, Omega=10, k_p=0, c_p=100, n_diameters=1), 0.1)
     assert result.status == "stalled"
@@ -102,7 +102,7 @@ def test_a_flight_that_overflows_is_not_finite() -> None:
 def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known: int) -> None:
     """By the height alone, a small difference of large shares, a closed gap was taken for open: a run stalled."""
     case = engine_case(Parameters(N=600, Omega=30, normalization="orthonormal", contact_compliance="residual"))
-    here, _ = fresh_states(case)
+    here = layout.build_state(case.model)
     here.disc[:] = 0.0
     # two modes that lift the disc by 1 cm each, one up, one down
     here.z[0], here.z[1] = 0.01 / case.model.force[0], -0.01 / case.model.force[1]

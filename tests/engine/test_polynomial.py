@@ -9,21 +9,15 @@ from hypothesis import strategies as st
 
 from disc_model.engine import layout
 from disc_model.engine.polynomial import NO_ROOT, first_root, set_powers
-from tests.engine.compiled import kernel
 
 DEGREE = 24
 
 
-@kernel
-def _first(c, low, n, x_end, powers, work, hasty):
-    set_powers(powers, x_end)
-    return first_root(c, low, n, x_end, powers, work, hasty)
-
-
 def first(coefficients, x_end: float = 1.0, low: int = 0, hasty: bool = False) -> float:
-    c = layout.aligned(layout.ROWS)
+    c, powers = layout.aligned(layout.ROWS), layout.aligned(layout.ROWS)
     c[: len(coefficients)] = coefficients
-    return _first(c, low, DEGREE, x_end, layout.aligned(layout.ROWS), np.zeros((56, layout.ROWS)), hasty)
+    set_powers(powers, x_end)
+    return first_root(c, low, DEGREE, x_end, powers, np.zeros((56, layout.ROWS)), hasty)
 
 
 def from_roots(roots) -> np.ndarray:

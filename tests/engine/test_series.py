@@ -7,8 +7,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.engine import layout, series
-from disc_model.simulation.result import build_model
-from tests.engine.compiled import kernel
+from disc_model.simulation.result import engine_case
 from tests.references import plain
 
 ORDER = 23
@@ -19,21 +18,6 @@ SHAPES = {
     "no pairs": {"n_diameters": 0},
     "one pair": {"n_diameters": 1, "c_p": 0.2},
 }
-
-
-@kernel
-def _fast_slip(model, s, order, direction):
-    return series.slip_series(model, s, order, direction)
-
-
-@kernel
-def _fast_stick(model, s, order):
-    series.stick_series(model, s, order)
-
-
-@kernel
-def _fast_separation(model, s, order):
-    series.separation_series(model, s, order)
 
 
 def _filled(model: layout.Model, phase: str, order: int) -> layout.Series:
@@ -54,18 +38,14 @@ def _filled(model: layout.Model, phase: str, order: int) -> layout.Series:
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("order", [8, ORDER, ORDER + 1])
 def test_fast_and_plain_series_agree(shape: str, phase: str, order: int) -> None:
-    model = build_model(Parameters(N=385, Omega=15.1, **SHAPES[shape]))
+    model = engine_case(Parameters(N=385, Omega=15.1, **SHAPES[shape])).model
     fast, slow = _filled(model, phase, order), _filled(model, phase, order)
     if phase == "slip":
-        assert _fast_slip(model, fast, order, -1.0) == pytest.approx(
-            plain.slip_series(model, slow, order, -1.0), rel=1e-14
-        )
-    elif phase == "stick":
-        _fast_stick(model, fast, order)
-        plain.stick_series(model, slow, order)
+        denominator = plain.slip_series(model, slow, order, -1.0)
+        assert series.slip_series(model, fast, order, -1.0) == pytest.approx(denominator, rel=1e-14)
     else:
-        _fast_separation(model, fast, order)
-        plain.separation_series(model, slow, order)
+        getattr(series, f"{phase}_series")(model, fast, order)
+        getattr(plain, f"{phase}_series")(model, slow, order)
     width = len(model.shift)
     for name in ("z", "e", "f", "psi", "u", "v", "P", "switch", *(("switch2",) if phase == "stick" else ())):
         columns = width if name in ("z", "e") else 1

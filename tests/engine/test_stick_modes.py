@@ -9,7 +9,7 @@ from scipy.linalg import expm
 from disc_model import Parameters, plate_modes
 from disc_model.engine import layout
 from disc_model.engine.switches import stick_force
-from disc_model.simulation.result import build_model
+from disc_model.simulation.result import engine_case
 
 P = Parameters(N=300, Omega=5, n_diameters=2, c=20.0, D_star=1e-2)
 
@@ -28,7 +28,7 @@ def excited(model: layout.Model, mode: int, angle: float) -> layout.State:
 
 @pytest.fixture(params=[0.0, 2.5e-7], ids=["rigid", "compliant"])
 def model(request: pytest.FixtureRequest) -> layout.Model:
-    return build_model(P.replace(contact_compliance=request.param))
+    return engine_case(P.replace(contact_compliance=request.param)).model
 
 
 def used(model: layout.Model) -> np.ndarray:

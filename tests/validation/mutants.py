@@ -30,7 +30,8 @@ FUNCTIONS = {
     "engine/sampling.py": ("point_motion", "_write_row"),
     "engine/audit.py": ("transverse_energy", "inplane_energy", "_powers_in", "audit_impact"),
     "engine/series.py": (
-        *("_disc_point", "_inner_terms", "_pending", "_order", "_order_zero", "_axisymmetric", "_last_force"),
+        *("_weighed", "_disc_point", "_inner_terms", "_pending", "_order", "_order_zero", "_axisymmetric"),
+        *("_first_order", "_next_order", "_last_force"),
         *("slip_series", "_stick_order", "stick_series", "separation_series"),
     ),
     "engine/contact_series.py": (
@@ -40,14 +41,14 @@ FUNCTIONS = {
     "engine/coasting.py": ("coast_length", "coast_to", "_times"),
     "engine/stick_modes.py": ("_eigenmodes", "_compliant_eigenmodes", "_decomposed", "_under_unit_load", "_packed"),
     "engine/switches.py": (
-        *("disc_point", "spring_force", "_compliant_force", "_free_force", "stick_force", "grip", "force_in_stick"),
-        *("slip_force", "impact"),
+        *("disc_point", "spring_force", "_compliant_force", "_free_acceleration", "_free_force", "stick_force", "grip"),
+        *("force_in_stick", "slip_denominator", "slip_force", "impact"),
     ),
     "flexibility.py": (
         *("residual_flexibility", "harmonic_flexibility", "_point_load", "_moment", "_shear", "_power"),
         *("_high_harmonics", "_axisymmetric", "_first", "_logarithmic", "_with_edges"),
     ),
-    "engine/saltation.py": ("rates", "_force_change", "_pull_change", "_inertia", "switch_change", "impact_change"),
+    "engine/saltation.py": ("rates", "_force_change", "_pull_change", "switch_change", "impact_change"),
     "engine/tangent.py": (
         *("_convolve", "_motion_slope", "point_change", "_diametral_rates", "_axisymmetric_rates"),
         *("_slider_forces", "_path_change", "_apply_force", "tangent_series"),

@@ -9,7 +9,7 @@ from disc_model import Parameters, Record, Window, plate_modes, simulate
 from disc_model.engine import audit, layout, switches
 from disc_model.flexibility import contact_give, residual_flexibility
 from disc_model.simulation.api import published_start
-from disc_model.simulation.result import build_model, engine_case, write_state
+from disc_model.simulation.result import engine_case, write_state
 from tests.contact_laws import COMPILES, EACH_LAW, LAWS, classical_events, compare_series
 from tests.references import stored, taylor
 from tests.references.printed import MOTIONS, lively
@@ -130,7 +130,7 @@ def test_energy_balances_over_ten_thousand_switches(name):
 def _impact_changes(p, count=200):
     """Changes of energy in impacts of lively separated states, relative."""
     rng, changes, modes = np.random.default_rng(3), [], plate_modes(p)
-    model = build_model(p)
+    model = engine_case(p).model
     state = layout.build_state(model)
     sign, pair = np.sign(modes["psi"].to_numpy()), modes["diameters"].to_numpy() > 0
     for _ in range(count):

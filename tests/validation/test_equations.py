@@ -16,7 +16,7 @@ from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, switches
 from disc_model.plate import mode_arrays
-from disc_model.simulation.result import State, build_model, engine_case, read_state, write_state
+from disc_model.simulation.result import State, engine_case, read_state, write_state
 from disc_model.stability.sliding import _jacobian, _Law
 from tests.references.literal import literal_of
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
@@ -156,7 +156,7 @@ def test_energies():
 
 def test_static_equilibrium():
     """The published start: nothing moves, and the contact force is the preload."""
-    model = build_model(P)
+    model = engine_case(P).model
     start = read_state(engine_case(P), layout.build_state(model))
     assert (start.phase, start.f, start.psi) == ("stick", 0, 0)
     printed = Printed(P, start)

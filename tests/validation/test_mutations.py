@@ -53,6 +53,7 @@ NOTICED_BY = {
     "engine/layout.py": (*CLOSED_FORM, *RAMPS, "tests/engine/test_layout.py"),
     "engine/sampling.py": (*EQUATIONS, *RAMPS),
     "engine/stepping.py": RAMPS,
+    "engine/switches.py": (*EQUATIONS, "tests/engine/test_variational.py::test_rates_under_the_normal_force"),
     "simulation/ramps.py": RAMPS,
     "engine/coasting.py": CLOSED_FORM,
     "engine/stick_modes.py": CLOSED_FORM,

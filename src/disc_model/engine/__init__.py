@@ -34,39 +34,6 @@ def _cache_folder() -> str:
 
 
 with kept_in(_cache_folder()):
-    from . import (
-        audit,
-        coasting,
-        contact_series,
-        dense_output,
-        layout,
-        machine,
-        polynomial,
-        saltation,
-        sampling,
-        series,
-        stick_modes,
-        switches,
-        tangent,
-        variational,
-    )
+    from . import machine, variational  # and with them all that is compiled
 
-__all__ = [
-    "audit",
-    "coasting",
-    "contact_series",
-    "dense_output",
-    "layout",
-    "machine",
-    "outcomes",
-    "polynomial",
-    "saltation",
-    "sampling",
-    "series",
-    "source_hash",
-    "stepping",
-    "stick_modes",
-    "switches",
-    "tangent",
-    "variational",
-]
+__all__ = ["machine", "source_hash", "variational"]

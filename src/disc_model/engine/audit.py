@@ -12,24 +12,10 @@ import math
 
 import numpy as np
 
+from . import layout
 from .compile import kernel
 from .dense_output import force_at, move_to
-from .layout import (
-    PSI,
-    SEPARATION,
-    SLIP,
-    SPEED,
-    U_VELOCITY,
-    U,
-    drive_now,
-    give_of,
-    is_compliant,
-    is_normal,
-    is_ramped,
-    load_now,
-    ramp_of,
-)
-from .switches import disc_point, spring_force
+from .switches import disc_point, slider_motion, spring_force
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
@@ -41,17 +27,8 @@ _PANEL = 8.0
 # Where the sums stand in the audit's array.
 # TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy at stake in one step; *_TURNOVER: sum of the
 # moduli of all that was put in and taken out.
-(
-    STEPS,
-    WORST,
-    TRANSVERSE,
-    INPLANE,
-    TRANSVERSE_SCALE,
-    INPLANE_SCALE,
-    TRANSVERSE_TURNOVER,
-    INPLANE_TURNOVER,
-    N_SUMS,
-) = range(9)
+STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
+TRANSVERSE_TURNOVER, INPLANE_TURNOVER, N_SUMS = range(6, 9)
 
 
 @kernel
@@ -60,12 +37,12 @@ def transverse_energy(model, state, phase):
 
     u, u' are those of the disc's point in rigid contact.
     """
-    u, v = state.x[U], state.x[U_VELOCITY]
+    u, v = state.x[layout.U], state.x[layout.U_VELOCITY]
     energy = 0.0
-    if phase != SEPARATION:
-        if is_compliant(model):
+    if phase != layout.SEPARATION:
+        if layout.is_compliant(model):
             w, _, _ = disc_point(model, state)
-            energy += (w - u) ** 2 / give_of(model.give)
+            energy += (w - u) ** 2 / layout.give_of(model.give)
         else:
             u, v, _ = disc_point(model, state)
     for j in range(len(model.shift)):
@@ -73,23 +50,21 @@ def transverse_energy(model, state, phase):
     for j in range(len(model.force0)):
         energy += state.g[j] ** 2 + model.stiffness0[j] * state.y[j] ** 2
     raised = u - model.u_0
-    return 0.5 * energy + 0.5 * model.m * v * v + 0.5 * model.k * raised**2 + load_now(model, state) * raised
+    return 0.5 * energy + 0.5 * model.m * v * v + 0.5 * model.k * raised**2 + layout.load_now(model, state) * raised
 
 
 @kernel
 def inplane_energy(model, state):
     """Energy of the slider's motion in the plane, J."""
     x = state.x
-    return 0.5 * model.r_0**2 * (model.m * x[SPEED] ** 2 + model.k_p * x[PSI] ** 2)
+    return 0.5 * model.r_0**2 * (model.m * x[layout.SPEED] ** 2 + model.k_p * x[layout.PSI] ** 2)
 
 
 @kernel
 def _powers_in(model, state, phase, direction, P):
     """Power into the transverse and the in-plane motion, and the sums of the moduli of their parts, W."""
-    u, v, slope = disc_point(model, state)
-    if is_compliant(model) or phase == SEPARATION:
-        u, v = state.x[U], state.x[U_VELOCITY]
-    f, F, Omega = state.x[SPEED], spring_force(model, state), drive_now(model, state)
+    u, v, slope = slider_motion(model, state)
+    f, F, Omega = state.x[layout.SPEED], spring_force(model, state), layout.drive_now(model, state)
     lost = model.c * v * v
     for j in range(len(model.shift)):
         lost += model.damping[j] * state.e[j] ** 2
@@ -97,14 +72,14 @@ def _powers_in(model, state, phase, direction, P):
         lost += model.damping0[j] * state.g[j] ** 2
     driven = P * f * slope
     supplied = Omega * model.r_0**2 * F
-    rubbed = model.mu_k * model.r_0 * P * direction * f if phase == SLIP else 0.0
-    if is_normal(model):
+    rubbed = model.mu_k * model.r_0 * P * direction * f if phase == layout.SLIP else 0.0
+    if layout.is_normal(model):
         # P is R: V = R (1 - s mu_k B / r_0) is what acts vertically, and R B / r_0 acts in the plane
         rubbed += driven
         driven *= 1.0 - direction * model.mu_k * slope / model.r_0
     damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
-    if is_ramped(model):
-        driven += ramp_of(model.ramp, 3) * (u - model.u_0)
+    if layout.is_ramped(model):
+        driven += layout.ramp_of(model.ramp, 3) * (u - model.u_0)
     return driven - lost, supplied - rubbed - damped, abs(driven) + lost, abs(supplied) + abs(rubbed) + damped
 
 
@@ -153,7 +128,7 @@ def audit_impact(model, before, impulse, slope, state, audit):
 
     The normal force changes f: what the slope takes from the motion in the plane beyond p f B is lost.
     """
-    expected = -0.5 * impulse**2 * (model.compliance + 1.0 / model.m) + impulse * state.x[SPEED] * slope
-    after = transverse_energy(model, state, SEPARATION)
+    expected = -0.5 * impulse**2 * (model.compliance + 1.0 / model.m) + impulse * state.x[layout.SPEED] * slope
+    after = transverse_energy(model, state, layout.SEPARATION)
     book(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)
     audit[TRANSVERSE_TURNOVER] += abs(expected)

@@ -9,12 +9,13 @@ series with beta are the price.  Rigid stick moves as under the vertical force.
 from __future__ import annotations
 
 from .compile import inlined
-from .lanes import WIDTH, add, fma, item, mul, splat, total
+from .lanes import WIDTH, fma, item, mul, splat, total
 from .layout import (
     DOWN,
     DRIVE_SERIES,
     FORCE_ROW,
     LOAD_SERIES,
+    P_SERIES,
     PSI_SERIES,
     SLOPE,
     SLOPE_SERIES,
@@ -23,26 +24,25 @@ from .layout import (
     U_SERIES,
     UP,
     V_SERIES,
+    E,
     F,
+    Z,
     give_of,
     is_normal,
     is_ramped,
 )
-from .layout import P as P_
 from .series import (
     _CARRIED,
     _axisymmetric,
+    _block,
     _disc_point,
-    _e,
+    _first_block,
     _first_order,
-    _kept,
     _last_force,
-    _order,
-    _order_from_memory,
-    _order_zero,
+    _next_order,
     _row,
     _stick_order,
-    _z,
+    _weighed,
     drive,
     lane_count,
     load_at,
@@ -53,10 +53,7 @@ from .switches import slip_denominator
 @inlined
 def _deflection(model, s, k):
     """w of order k."""
-    width, n, lanes = lane_count(model), len(model.force0), splat(0.0)
-    for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, FORCE_ROW, b), _z(s, k * width + b), lanes)
-    w = total(lanes)
+    n, w = len(model.force0), _weighed(model, s, FORCE_ROW, k * lane_count(model))
     for j in range(n):
         w += model.force0[j] * s.y[k * n + j]
     return w
@@ -65,32 +62,26 @@ def _deflection(model, s, k):
 @inlined
 def _slope(model, s, k):
     """beta = B / r_0 of order k."""
-    width, lanes = lane_count(model), splat(0.0)
-    for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, SLOPE, b), _z(s, k * width + b), lanes)
-    return total(lanes) / model.r_0
+    return _weighed(model, s, SLOPE, k * lane_count(model)) / model.r_0
 
 
 @inlined
 def _disc_velocity(model, s):
     """Order 0 of the disc's velocity under the slider, but for f_0 B."""
-    width, lanes = lane_count(model), splat(0.0)
-    for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, FORCE_ROW, b), _e(s, width, b), lanes)
-    v = total(lanes)
+    v = _weighed(model, s, FORCE_ROW, E * lane_count(model))
     for j in range(len(model.force0)):
         v += model.force0[j] * s.g[j]
     return v
 
 
 @inlined
-def _closing(model, s, k, e, carried):
+def _closing(model, s, k, first):
     """Order k of the disc's velocity under the slider as the order before leaves it: without V_{k-1} and f_k."""
-    width, n = lane_count(model), len(model.force0)
+    width, n, (e, carried, _, _) = lane_count(model), len(model.force0), first
     lanes = fma(_row(model, FORCE_ROW, 0), e, mul(_row(model, SLOPE, 0), carried))
     for b in range(WIDTH, width, WIDTH):
-        lanes = fma(_row(model, FORCE_ROW, b), _e(s, width, k * width + b), lanes)
-        lanes = fma(_row(model, SLOPE, b), _kept(s, _CARRIED, width, b), lanes)
+        lanes = fma(_row(model, FORCE_ROW, b), _block(s, E, width, k * width + b), lanes)
+        lanes = fma(_row(model, SLOPE, b), _block(s, _CARRIED, width, b), lanes)
     v = total(lanes)
     for j in range(n):
         v += item(model.force0, j) * item(s.g, k * n + j)
@@ -120,10 +111,10 @@ def _leverage(s, k):
     """Order k of beta R without beta_0 R_k.  In two sums, so that neither waits for the other."""
     odd, even = 0.0, 0.0
     for j in range(1, k, 2):
-        odd += s.slider[SLOPE_SERIES + j] * s.slider[P_ + k - j]
-        even += s.slider[SLOPE_SERIES + j + 1] * s.slider[P_ + k - j - 1]
+        odd += s.slider[SLOPE_SERIES + j] * s.slider[P_SERIES + k - j]
+        even += s.slider[SLOPE_SERIES + j + 1] * s.slider[P_SERIES + k - j - 1]
     if k % 2 == 1:
-        odd += s.slider[SLOPE_SERIES + k] * s.slider[P_]
+        odd += s.slider[SLOPE_SERIES + k] * s.slider[P_SERIES]
     return odd + even
 
 
@@ -145,7 +136,7 @@ def _set_switch(s, order, direction):
     """The switch function of slip, and the order to which P is not known."""
     for k in range(order + 1):
         s.slider[SWITCH + k] = direction * s.slider[F + k]
-    s.slider[P_ + order] = 0.0
+    s.slider[P_SERIES + order] = 0.0
 
 
 @inlined
@@ -157,8 +148,9 @@ def compliant_slip_series(model, s, order, direction):
     width, stiffness, friction = lane_count(model), 1.0 / give_of(model.give), direction * model.mu_k
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
-    e, carried, e_last, z_last = _e(s, width, 0), splat(0.0), splat(0.0), splat(0.0)
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
+    _first_order(model, s, width, f0)
+    first = _first_block(s, width)
     for k in range(order):
         f = s.slider[F + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
@@ -175,20 +167,12 @@ def compliant_slip_series(model, s, order, direction):
             held = (friction + beta) * R + h
         else:
             R, held = V, friction * V
-        s.slider[P_ + k] = R
+        s.slider[P_SERIES + k] = R
         rate = _spring(model, s, k) * lightness - held * lever
         _move_slider(model, s, k, rate, (V - _weight(model, s, k)) * lightness)
-        if k == 0:
-            for b in range(0, width, WIDTH):
-                _order_zero(model, s, width, b, f0)
-            e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
-            e_last, z_last = _e(s, width, 0), _z(s, width)
-        else:
-            _, _, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last)
-            for b in range(WIDTH, width, WIDTH):
-                _order_from_memory(model, s, width, b, k, f, f0, impulse)
-        _axisymmetric(model, s, k, impulse)
-        closing = _closing(model, s, k + 1, e, carried)
+        if k > 0:
+            _, _, _, first = _next_order(model, s, width, k, f, f0, impulse, splat(0.0), first)
+        closing = _closing(model, s, k + 1, first)
         impulse = V * s.slider[UP + k]
     _last_force(model, s, order, impulse)
     _set_switch(s, order, direction)
@@ -206,16 +190,16 @@ def compliant_stick_series(model, s, order):
         s.slider[PSI_SERIES + 2] = s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
     for k in range(order):
         V, up = (_deflection(model, s, k) - s.slider[U_SERIES + k]) * stiffness, s.slider[UP + k]
-        s.slider[P_ + k] = V
+        s.slider[P_SERIES + k] = V
         s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
         s.slider[V_SERIES + k + 1] = (V - _weight(model, s, k)) * lightness * up
         for b in range(0, width, WIDTH):
             at = k * width + b
-            _stick_order(model, s, b, k, impulse, _e(s, width, at), _z(s, at))
+            _stick_order(model, s, b, k, impulse, _block(s, E, width, at), _block(s, Z, width, at))
         _axisymmetric(model, s, k, impulse)
         impulse = V * up
     _last_force(model, s, order, impulse)
-    s.slider[P_ + order] = 0.0
+    s.slider[P_SERIES + order] = 0.0
     release_series(model, s, order)
 
 
@@ -231,7 +215,7 @@ def release_series(model, s, order):
         growth += model.c_p * s.slider[DRIVE_SERIES + 1]
         bend = model.k_p * s.slider[PSI_SERIES + 2]
     for k in range(order):
-        press, pull = s.slider[P_ + k], 0.0
+        press, pull = s.slider[P_SERIES + k], 0.0
         if k < 2:
             pull = model.r_0 * (spring if k == 0 else growth)
         if is_ramped(model) and k == 2:
@@ -243,7 +227,7 @@ def release_series(model, s, order):
                 press += model.r_0 * growth * s.slider[SLOPE_SERIES + k - 1]
             if is_ramped(model) and k > 1:
                 press += model.r_0 * bend * s.slider[SLOPE_SERIES + k - 2]
-            pull -= _leverage(s, k) + s.slider[SLOPE_SERIES] * s.slider[P_ + k]
+            pull -= _leverage(s, k) + s.slider[SLOPE_SERIES] * s.slider[P_SERIES + k]
         s.slider[SWITCH + k] = model.mu_s * press - pull
         s.slider[SWITCH2 + k] = model.mu_s * press + pull
     if is_normal(model) and not model.bonded and spring == 0.0 and growth == 0.0:
@@ -269,34 +253,21 @@ def normal_slip_series(model, s, order, direction):
     denominator = slip_denominator(model, direction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
-    now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
-    coriolis = total(by_e)
-    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
-    # see slip_series
-    inertia = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
-    h, impulse = 0.0, 0.0
-    e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
-    e_last, z_last = _e(s, width, 0), _z(s, width)
+    inertia, pending, by_f, by_f_rate = _first_order(model, s, width, f0)
+    first, h, impulse = _first_block(s, width), 0.0, 0.0
     for k in range(order):
         f = s.slider[F + k]
         if k > 0:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             h = _leverage(s, k)
-            more, left, e, carried, e_last, z_last = _order(
-                model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last
-            )
-            part, pending = add(pending, more), left
-            for b in range(WIDTH, width, WIDTH):
-                more, left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
-                part, pending = add(part, more), add(pending, left)
-            single = _axisymmetric(model, s, k, impulse)
+            part, single, pending, first = _next_order(model, s, width, k, f, f0, impulse, pending, first)
             by_speed = by_f + by_f_rate * s.slider[DOWN + k]
             inertia = total(part) + single + f * by_speed + impulse * model.damped_compliance
         spring = _spring(model, s, k)
         top = _weight(model, s, k) + model.m * inertia + slope * spring
         R = (top + h * (mobility * friction - beta)) * inverse
         V = R * (1.0 - friction * beta) - friction * h
-        s.slider[P_ + k] = R
+        s.slider[P_SERIES + k] = R
         rate = spring * lightness - ((friction + beta) * R + h) * lever
         _move_slider(model, s, k, rate, inertia + rate * slope - model.compliance * V)
         impulse = V * s.slider[UP + k]

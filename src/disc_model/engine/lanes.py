@@ -57,72 +57,38 @@ def aligned_pieces(*sizes):
 
 
 if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
+    add, sub, mul = np.add, np.subtract, np.multiply
+    maximum, minimum, absolute, largest = np.maximum, np.minimum, np.abs, np.max
 
     def load(array, i):
-        """Lanes array[i:i+8]."""
         return array[i : i + WIDTH].copy()
 
     def store(array, i, v):
-        """array[i:i+8] = v."""
         array[i : i + WIDTH] = v
 
     def splat(x):
-        """All lanes equal to x."""
         return np.full(WIDTH, x)
 
     def spread(array, i):
-        """All lanes equal to array[i], i >= 0."""
         return np.full(WIDTH, array[i])
 
     def item(array, i):
-        """array[i], i >= 0."""
         return array[i]
 
     def put(array, i, x):
-        """array[i] = x, i >= 0."""
         array[i] = x
 
     def fma(a, b, c):
-        """a * b + c, lane by lane."""
         return a * b + c
 
-    def mul(a, b):
-        """a * b, lane by lane."""
-        return a * b
-
-    def add(a, b):
-        """a + b, lane by lane."""
-        return a + b
-
-    def sub(a, b):
-        """a - b, lane by lane."""
-        return a - b
-
     def swap_halves(v):
-        """Lanes 4..7, then 0..3."""
         return np.concatenate((v[4:], v[:4]))
 
     def total(v):
-        """Sum of the lanes, in the order of the compiled version."""
+        """Sum in the order of the compiled version."""
         w = v[:4] + v[4:]
         w = w[:2] + w[2:]
         return w[0] + w[1]
-
-    def maximum(a, b):
-        """Larger of a and b, lane by lane."""
-        return np.maximum(a, b)
-
-    def minimum(a, b):
-        """Smaller of a and b, lane by lane."""
-        return np.minimum(a, b)
-
-    def absolute(v):
-        """Lane by lane modulus."""
-        return np.abs(v)
-
-    def largest(v):
-        """Largest lane."""
-        return v.max()
 
 else:
     from llvmlite import ir
@@ -147,9 +113,14 @@ else:
         def __init__(self, dmm, fe_type):
             super().__init__(dmm, fe_type, _VECTOR)
 
-    def _pointer(context, builder, array_type, array, index):
-        data = context.make_array(array_type)(context, builder, array).data
-        return builder.bitcast(builder.gep(data, [index]), _VECTOR.as_pointer())
+    def _element(context, builder, sig, args):
+        """Pointer to the element of the array and the index that come first."""
+        data = context.make_array(sig.args[0])(context, builder, args[0]).data
+        return builder.gep(data, [args[1]])
+
+    def _block(context, builder, sig, args):
+        """Pointer to the lanes that begin there."""
+        return builder.bitcast(_element(context, builder, sig, args), _VECTOR.as_pointer())
 
     def _call(builder, name, result, *args):
         """Call of an LLVM intrinsic by its mangled name."""
@@ -160,14 +131,19 @@ else:
         mask = ir.Constant(ir.VectorType(_I32, len(indices)), indices)
         return builder.shuffle_vector(v, ir.Constant(v.type, ir.Undefined), mask)
 
-    def _fold(builder, v, combine):
+    def _copies(builder, x):
+        """All lanes equal to x."""
+        one = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), x, _I32(0))
+        return _shuffle(builder, one, [0] * WIDTH)
+
+    def _fold(builder, v, instruction):
         """Combine halves until one lane is left."""
         n = v.type.count
         while n > 1:
             n //= 2
             low = _shuffle(builder, v, list(range(n)))
             high = _shuffle(builder, v, list(range(n, 2 * n)))
-            v = combine(low, high)
+            v = instruction(builder, low, high)
         return builder.extract_element(v, _I32(0))
 
     @intrinsic
@@ -175,7 +151,7 @@ else:
         """Lanes array[i:i+8]."""
 
         def codegen(context, builder, sig, args):
-            return builder.load(_pointer(context, builder, sig.args[0], args[0], args[1]), align=8)
+            return builder.load(_block(context, builder, sig, args), align=8)
 
         return LANES(array, types.intp), codegen
 
@@ -184,8 +160,7 @@ else:
         """array[i:i+8] = v."""
 
         def codegen(context, builder, sig, args):
-            pointer = _pointer(context, builder, sig.args[0], args[0], args[1])
-            builder.store(args[2], pointer, align=8)
+            builder.store(args[2], _block(context, builder, sig, args), align=8)
             return context.get_dummy_value()
 
         return types.void(array, types.intp, LANES), codegen
@@ -195,8 +170,7 @@ else:
         """All lanes equal to x."""
 
         def codegen(context, builder, sig, args):
-            one = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), args[0], _I32(0))
-            return _shuffle(builder, one, [0] * WIDTH)
+            return _copies(builder, args[0])
 
         return LANES(types.float64), codegen
 
@@ -205,10 +179,7 @@ else:
         """All lanes equal to array[i], i >= 0: no check of the sign, unlike ``splat(array[i])``."""
 
         def codegen(context, builder, sig, args):
-            data = context.make_array(sig.args[0])(context, builder, args[0]).data
-            x = builder.load(builder.gep(data, [args[1]]))
-            one = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), x, _I32(0))
-            return _shuffle(builder, one, [0] * WIDTH)
+            return _copies(builder, builder.load(_element(context, builder, sig, args)))
 
         return LANES(array, types.intp), codegen
 
@@ -217,8 +188,7 @@ else:
         """array[i], i >= 0: no check of the sign, which took a third of the time where a loop counts down."""
 
         def codegen(context, builder, sig, args):
-            data = context.make_array(sig.args[0])(context, builder, args[0]).data
-            return builder.load(builder.gep(data, [args[1]]))
+            return builder.load(_element(context, builder, sig, args))
 
         return types.float64(array, types.intp), codegen
 
@@ -227,8 +197,7 @@ else:
         """array[i] = x, i >= 0: no check of the sign."""
 
         def codegen(context, builder, sig, args):
-            data = context.make_array(sig.args[0])(context, builder, args[0]).data
-            builder.store(args[2], builder.gep(data, [args[1]]))
+            builder.store(args[2], _element(context, builder, sig, args))
             return context.get_dummy_value()
 
         return types.void(array, types.intp, types.float64), codegen
@@ -242,32 +211,20 @@ else:
 
         return LANES(LANES, LANES, LANES), codegen
 
-    @intrinsic
-    def mul(typingctx, a, b):
-        """a * b, lane by lane."""
+    def _lane_by_lane(instruction):
+        """What gives two values' lanes, pair by pair, to an instruction of LLVM."""
 
-        def codegen(context, builder, sig, args):
-            return builder.fmul(*args)
+        @intrinsic
+        def operation(typingctx, a, b):
+            return LANES(LANES, LANES), lambda context, builder, sig, args: instruction(builder, *args)
 
-        return LANES(LANES, LANES), codegen
+        return operation
 
-    @intrinsic
-    def add(typingctx, a, b):
-        """a + b, lane by lane."""
-
-        def codegen(context, builder, sig, args):
-            return builder.fadd(*args)
-
-        return LANES(LANES, LANES), codegen
-
-    @intrinsic
-    def sub(typingctx, a, b):
-        """a - b, lane by lane."""
-
-        def codegen(context, builder, sig, args):
-            return builder.fsub(*args)
-
-        return LANES(LANES, LANES), codegen
+    mul = _lane_by_lane(ir.IRBuilder.fmul)
+    add = _lane_by_lane(ir.IRBuilder.fadd)
+    sub = _lane_by_lane(ir.IRBuilder.fsub)
+    maximum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", _VECTOR, a, b))
+    minimum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", _VECTOR, a, b))
 
     @intrinsic
     def swap_halves(typingctx, v):
@@ -283,27 +240,9 @@ else:
         """Sum of the lanes, by halves."""
 
         def codegen(context, builder, sig, args):
-            return _fold(builder, args[0], builder.fadd)
+            return _fold(builder, args[0], ir.IRBuilder.fadd)
 
         return types.float64(LANES), codegen
-
-    @intrinsic
-    def maximum(typingctx, a, b):
-        """Larger of a and b, lane by lane."""
-
-        def codegen(context, builder, sig, args):
-            return _call(builder, "llvm.maxnum.v8f64", _VECTOR, *args)
-
-        return LANES(LANES, LANES), codegen
-
-    @intrinsic
-    def minimum(typingctx, a, b):
-        """Smaller of a and b, lane by lane."""
-
-        def codegen(context, builder, sig, args):
-            return _call(builder, "llvm.minnum.v8f64", _VECTOR, *args)
-
-        return LANES(LANES, LANES), codegen
 
     @intrinsic
     def absolute(typingctx, v):
@@ -318,18 +257,7 @@ else:
     def largest(typingctx, v):
         """Largest lane."""
 
-        def codegen(context, builder, sig, args):
-            def combine(low, high):
-                return _call(builder, f"llvm.maxnum.v{low.type.count}f64", low.type, low, high)
+        def larger(builder, low, high):
+            return _call(builder, f"llvm.maxnum.v{low.type.count}f64", low.type, low, high)
 
-            def last(v2):
-                a = builder.extract_element(v2, _I32(0))
-                b = builder.extract_element(v2, _I32(1))
-                return _call(builder, "llvm.maxnum.f64", _DOUBLE, a, b)
-
-            v = args[0]
-            for n in (4, 2):
-                v = combine(_shuffle(builder, v, list(range(n))), _shuffle(builder, v, list(range(n, 2 * n))))
-            return last(v)
-
-        return types.float64(LANES), codegen
+        return types.float64(LANES), lambda context, builder, sig, args: _fold(builder, args[0], larger)

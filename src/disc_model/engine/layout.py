@@ -21,19 +21,14 @@ from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 STICK, SLIP, SEPARATION = 0, 1, 2
 
 # Rows of Model.lanes.
-LANE_ROWS = (
-    "shift", "stiffness", "damping", "force", "slope", "bend", "minus_force_damping", "minus_force_stiffness",
-)  # fmt: skip
-SHIFT, STIFFNESS, DAMPING, FORCE_ROW, SLOPE, BEND, MINUS_FORCE_DAMPING, MINUS_FORCE_STIFFNESS = range(len(LANE_ROWS))
+SHIFT, STIFFNESS, DAMPING, FORCE_ROW, SLOPE, BEND, MINUS_FORCE_DAMPING, MINUS_FORCE_STIFFNESS = range(8)
 
-# Coefficients that a series has room for; rows of Series.modes where e and scratch begin (z begins at 0); where the
-# slider's series begin in Series.slider.
+# Coefficients that a series has room for; rows of Series.modes where z, e and scratch begin; where the slider's series
+# begin in Series.slider, and where that ends.
 ROWS = 48
-E, SCRATCH = ROWS, 2 * ROWS
-SLIDER_ROWS = ("f", "psi", "P", "u", "v", "switch", "switch2", "powers", "up", "down", "slope", "drive", "load")
-F, PSI_SERIES, P, U_SERIES, V_SERIES, SWITCH, SWITCH2, POWERS, UP, DOWN, SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES = (
-    ROWS * i for i in range(len(SLIDER_ROWS))
-)
+Z, E, SCRATCH = 0, ROWS, 2 * ROWS
+F, PSI_SERIES, P_SERIES, U_SERIES, V_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
+SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, _SLIDER_END = (ROWS * i for i in range(10, 14))
 HALF = WIDTH // 2
 # Rows of Series.roots; the numbers that integrate and differentiate powers.
 ROOT_ROWS = 7 * WIDTH
@@ -45,8 +40,8 @@ _FROM_1 = np.arange(1.0, ROWS + 1.0)
 class Model(NamedTuple):
     """Constants of one case.  Lane arrays have shape (pair lanes,), those ending in 0 (axisymmetric modes,).
 
-    ``lanes`` holds the rows of ``LANE_ROWS`` one after the other: hot kernels address them through that one pointer.
-    The lane arrays are views of the first of them.  ``more_blocks`` is (0, 0) if there is one block of lanes, and
+    ``lanes`` holds the lane arrays one after the other, and two that are made of them: hot kernels address all through
+    that one pointer; the others are views of it.  ``more_blocks`` is (0, 0) if there is one block of lanes, and
     (number of further blocks,) otherwise: the length of a tuple is known when kernels are compiled, so the usual case
     has no loop over blocks.
     Likewise ``give`` is () if contact is rigid, else (compliance,), ``normal`` is () if the contact force is vertical,
@@ -212,30 +207,31 @@ def disc_size(width, n_single, compliant):
     return padded(2 * (width + n_single) + (2 if compliant else 0))
 
 
-def build_model(
-    diameters, omega, psi, damping, *, N, Omega, k, c, m, k_p, c_p, mu_s, mu_k, r_0, bonded, give=0.0, normal=False
-) -> Model:
+def build_model(diameters, omega, psi, damping, slider, *, bonded, give=0.0, normal=False) -> Model:
     """Constants of a case.
 
     diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`; none
-    for a rigid disc.  give: compliance of the contact, m/N, 0 if it is rigid; normal: whether its force is.
+    for a rigid disc.  slider: N to r_0 of the model.  give: compliance of the contact, m/N, 0 if it is rigid; normal:
+    whether its force is.
     """
+    N, k, c, m = (slider[name] for name in ("N", "k", "c", "m"))
     diameters = np.asarray(diameters)
     pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)
     width, lane = lanes_for(len(pairs)), pair_lanes(len(pairs))
-    lanes = aligned(len(LANE_ROWS) * width)
-    row = dict(zip(LANE_ROWS, lanes.reshape(-1, width), strict=True))
-    row["shift"][lane], row["shift"][lane + HALF] = diameters[pairs], -diameters[pairs]
-    row["stiffness"][lane] = row["stiffness"][lane + HALF] = omega[pairs] ** 2
-    row["damping"][lane] = row["damping"][lane + HALF] = damping[pairs]
-    row["force"][lane] = psi[pairs]
-    row["slope"][lane + HALF] = diameters[pairs] * psi[pairs]
-    row["bend"][lane] = -(diameters[pairs] ** 2) * psi[pairs]
-    row["minus_force_damping"][:] = -row["force"] * row["damping"]
-    row["minus_force_stiffness"][:] = -row["force"] * row["stiffness"]
+    lanes = aligned((MINUS_FORCE_STIFFNESS + 1) * width)
+    rows = lanes.reshape(-1, width)
+    rows[SHIFT, lane], rows[SHIFT, lane + HALF] = diameters[pairs], -diameters[pairs]
+    rows[STIFFNESS, lane] = rows[STIFFNESS, lane + HALF] = omega[pairs] ** 2
+    rows[DAMPING, lane] = rows[DAMPING, lane + HALF] = damping[pairs]
+    rows[FORCE_ROW, lane] = psi[pairs]
+    rows[SLOPE, lane + HALF] = diameters[pairs] * psi[pairs]
+    rows[BEND, lane] = -(diameters[pairs] ** 2) * psi[pairs]
+    rows[MINUS_FORCE_DAMPING] = -rows[FORCE_ROW] * rows[DAMPING]
+    rows[MINUS_FORCE_STIFFNESS] = -rows[FORCE_ROW] * rows[STIFFNESS]
     more, S2 = width // WIDTH - 1, float(np.sum(psi**2))
-    unit = _time_unit(omega, (1 / m + S2) / give if give else 0.0, max(k, k_p) / m)
-    free_unit = min(_time_unit(omega, 0.0, max(k, k_p) / m) / unit, MOST_FREE)
+    stiffest = max(k, slider["k_p"])
+    unit = _time_unit(omega, (1 / m + S2) / give if give else 0.0, stiffest / m)
+    free_unit = min(_time_unit(omega, 0.0, stiffest / m) / unit, MOST_FREE)
     modes = no_modes()
     if not normal:
         modes = build_stick_modes(
@@ -244,23 +240,15 @@ def build_model(
             slider=2 * (width + len(single)), length=disc_size(width, len(single), give > 0.0),
             N=N, k=k, c=c, m=m, unit=unit, give=give,
         )  # fmt: skip
+    views = dict(zip(("shift", "stiffness", "damping", "force", "slope", "bend"), rows, strict=False))
     return Model(
         lanes=lanes,
         more_blocks=(more,) if more else (0, 0),
-        **{name: row[name] for name in LANE_ROWS[:MINUS_FORCE_DAMPING]},
+        **views,
+        **slider,
         stiffness0=omega[single] ** 2,
         damping0=damping[single],
         force0=psi[single],
-        N=N,
-        Omega=Omega,
-        k=k,
-        c=c,
-        m=m,
-        k_p=k_p,
-        c_p=c_p,
-        mu_s=mu_s,
-        mu_k=mu_k,
-        r_0=r_0,
         u_0=-N * (float(np.sum(psi**2 / omega**2)) + give),
         compliance=S2,
         damped_compliance=float(np.sum(damping * psi**2)),
@@ -268,7 +256,7 @@ def build_model(
         free_unit=free_unit,
         velocity_scale=N * float(np.max(np.abs(psi) / omega, initial=0.0)),
         slider_scale=N * (float(np.sum(psi**2 / omega)) + give / unit),
-        speed_scale=Omega,
+        speed_scale=slider["Omega"],
         bonded=bonded,
         give=(give,) if give else (),
         normal=(True,) if normal else (),
@@ -307,7 +295,7 @@ def build_series(model: Model, order: int) -> Series:
     """Empty series of degree ``order`` for ``model``."""
     width, n0 = len(model.shift), len(model.force0)
     modes, slider, y, g, amplitudes, roots = aligned_pieces(
-        (2 * ROWS + 5) * width, len(SLIDER_ROWS) * ROWS, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
+        (2 * ROWS + 5) * width, _SLIDER_END, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
         ROOT_ROWS * (padded(order + 1) + WIDTH),
     )  # fmt: skip
     rows = slider.reshape(-1, ROWS)

@@ -10,39 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import layout, switches
 from .audit import audit_impact, audit_step, transverse_energy
 from .coasting import LONGEST_COAST, coast_length
 from .compile import inlined, kernel
 from .dense_output import COAST, move_to
-from .layout import (
-    COASTED,
-    DIRECTION,
-    FORCE,
-    KNOWN,
-    PHASE,
-    PSI,
-    SEPARATION,
-    SPEED,
-    STICK,
-    TIME,
-    TIME_LOW,
-    U_VELOCITY,
-    is_compliant,
-)
 from .outcomes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
 from .sampling import sample_step
 from .stepping import advance_time, expand, first_switch, set_course, step_size
-from .switches import (
-    AT_REST,
-    CONTACT_LOST,
-    GAP_CLOSED,
-    MAX_EVENTS_IN_A_ROW,
-    NOTHING,
-    PAINLEVE_MARGIN,
-    change_phase,
-    disc_point,
-    slider_motion,
-)
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
@@ -90,41 +65,41 @@ def _record(model, state, kind, kept):
     if len(rows) == 0:
         return
     row, x = rows[counters[EVENT_ROWS]], state.x
-    u, v = slider_motion(model, state)
-    row[0] = x[TIME] + x[TIME_LOW]
-    row[1], row[2], row[3] = kind, x[PHASE], x[DIRECTION]
-    row[4], row[5], row[6], row[7], row[8] = x[PSI], x[SPEED], u, v, x[FORCE]
+    u, v, _ = switches.slider_motion(model, state)
+    row[0] = x[layout.TIME] + x[layout.TIME_LOW]
+    row[1], row[2], row[3] = kind, x[layout.PHASE], x[layout.DIRECTION]
+    row[4], row[5], row[6], row[7], row[8] = x[layout.PSI], x[layout.SPEED], u, v, x[layout.FORCE]
     counters[EVENT_ROWS] += 1
 
 
 @inlined
 def _kind(state, cause):
     """Kind of the event that a switch was, from the state after it."""
-    if cause == GAP_CLOSED:
+    if cause == switches.GAP_CLOSED:
         return REATTACHMENT
-    if cause == CONTACT_LOST:
+    if cause == switches.CONTACT_LOST:
         return LOSS_OF_CONTACT
-    if cause == AT_REST:
-        return SLIP_TO_STICK if state.x[PHASE] == STICK else SLIP_REVERSAL
+    if cause == switches.AT_REST:
+        return SLIP_TO_STICK if state.x[layout.PHASE] == layout.STICK else SLIP_REVERSAL
     return STICK_TO_SLIP
 
 
 @inlined
 def _switch(model, state, cause, at_once, kept):
     """Carry out the switch and record its events; ``at_once``: after no time.  Returns its outcome."""
-    came_from, before, velocity, slope = state.x[DIRECTION], 0.0, 0.0, 0.0
-    hits = cause == GAP_CLOSED and not is_compliant(model)
+    came_from, before, velocity, slope = state.x[layout.DIRECTION], 0.0, 0.0, 0.0
+    hits = cause == switches.GAP_CLOSED and not layout.is_compliant(model)
     if hits:
-        before, velocity = transverse_energy(model, state, SEPARATION), state.x[U_VELOCITY]
-        _, _, slope = disc_point(model, state)
-    outcome = change_phase(model, state, cause, at_once)
+        before, velocity = transverse_energy(model, state, layout.SEPARATION), state.x[layout.U_VELOCITY]
+        _, _, slope = switches.disc_point(model, state)
+    outcome = switches.change_phase(model, state, cause, at_once)
     if hits:
-        audit_impact(model, before, model.m * (state.x[U_VELOCITY] - velocity), slope, state, kept.audit)
+        audit_impact(model, before, model.m * (state.x[layout.U_VELOCITY] - velocity), slope, state, kept.audit)
     if outcome == NO_SOLUTION:
         return outcome
     kind = _kind(state, cause)
-    lost = state.x[PHASE] == SEPARATION and kind != LOSS_OF_CONTACT
-    if not (kind == SLIP_REVERSAL and state.x[DIRECTION] == came_from) and not (kind == SLIP_REVERSAL and lost):
+    lost = state.x[layout.PHASE] == layout.SEPARATION and kind != LOSS_OF_CONTACT
+    if not (kind == SLIP_REVERSAL and state.x[layout.DIRECTION] == came_from) and not (kind == SLIP_REVERSAL and lost):
         _record(model, state, kind, kept)
     if lost:
         _record(model, state, LOSS_OF_CONTACT, kept)
@@ -134,18 +109,18 @@ def _switch(model, state, cause, at_once, kept):
 @inlined
 def _move(model, s, state, probe, order, x_end, audit_every, kept):
     """Carry the state and the clock over a step, or a coast (order ``COAST``), auditing and sampling on the way."""
-    x, phase, counters = state.x, state.x[PHASE], kept.counters
+    x, phase, counters = state.x, state.x[layout.PHASE], kept.counters
     counters[STEPS] += 1
     counters[FROM_AUDIT] += 1
     if counters[FROM_AUDIT] >= audit_every:
         counters[FROM_AUDIT] = 0
-        audit_step(model, s, order, x_end, phase, x[DIRECTION], probe, kept.audit)
+        audit_step(model, s, order, x_end, phase, x[layout.DIRECTION], probe, kept.audit)
     if len(kept.samplers) > 0:
         counters[SAMPLE_ROWS] = sample_step(
             model, s, order, state, x_end, kept.samplers, kept.sampled, probe, kept.sample_rows, counters[SAMPLE_ROWS]
         )
     move_to(model, s, order, x_end, phase, state)
-    x[KNOWN], x[FORCE], x[COASTED] = 0.0, 0.0, 1.0 if x_end < LONGEST_COAST else 0.0
+    x[layout.KNOWN], x[layout.FORCE], x[layout.COASTED] = 0.0, 0.0, 1.0 if x_end < LONGEST_COAST else 0.0
     advance_time(x, x_end * model.unit)
     set_course(model, state)
     kept.phase_times[int(phase)] += x_end * model.unit
@@ -170,26 +145,25 @@ def run(model, s, state, probe, limits, kept):
             return STEP_LIMIT
         if _full(kept) or counters[STEPS] >= pause:
             return PAUSED
-        phase = x[PHASE]
-        left = ((limits.t_end - x[TIME]) - x[TIME_LOW]) / model.unit
-        if phase == STICK and x[COASTED] == 0.0:
+        left = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
+        if x[layout.PHASE] == layout.STICK and x[layout.COASTED] == 0.0:
             x_end = min(coast_length(model, s, state), left)
             if x_end > 0.0:
                 _move(model, s, state, probe, COAST, x_end, limits.audit_every, kept)
                 if x_end >= left:
                     return TIME_OVER
                 continue
-        if expand(model, s, state, order) <= PAINLEVE_MARGIN:
+        if expand(model.give, model.normal, model, s, state, order) <= switches.PAINLEVE_MARGIN:
             return NO_SOLUTION
-        x_end = step_size(model, s, order, limits.tolerance, phase)
+        x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
         if not x_end > 0.0:
             return NON_FINITE
         x_end, cause = first_switch(model, s, state, order, min(x_end, left))
-        before = x[TIME]
+        before = x[layout.TIME]
         _move(model, s, state, probe, order, x_end, limits.audit_every, kept)
-        if cause != NOTHING:
-            counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[TIME] == before else 0
-            if counters[IN_A_ROW] > MAX_EVENTS_IN_A_ROW:
+        if cause != switches.NOTHING:
+            counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[layout.TIME] == before else 0
+            if counters[IN_A_ROW] > switches.MAX_EVENTS_IN_A_ROW:
                 return STALLED
             if _switch(model, state, cause, x_end == 0.0, kept) == NO_SOLUTION:
                 return NO_SOLUTION

@@ -8,23 +8,9 @@ from __future__ import annotations
 
 import math
 
+from . import layout
 from .compile import kernel
 from .dense_output import force_at, move_to
-from .layout import (
-    HALF,
-    PHASE,
-    PSI,
-    SEPARATION,
-    SPEED,
-    TIME,
-    TIME_LOW,
-    U_VELOCITY,
-    WIDTH,
-    U,
-    drive_angle,
-    drive_now,
-    is_compliant,
-)
 from .switches import disc_point
 
 # Columns of a row of samples.
@@ -40,11 +26,11 @@ def point_motion(model, state, angle):
     """Displacement and velocity of the disc's point (r_0, slider's angle + ``angle``)."""
     w, velocity = 0.0, 0.0
     for j in range(len(model.shift)):
-        if j % WIDTH < HALF:
+        if j % layout.WIDTH < layout.HALF:
             turn = model.shift[j] * angle
             cosine, sine = math.cos(turn), math.sin(turn)
-            w += model.force[j] * (state.z[j] * cosine + state.z[j + HALF] * sine)
-            velocity += model.force[j] * (state.e[j] * cosine + state.e[j + HALF] * sine)
+            w += model.force[j] * (state.z[j] * cosine + state.z[j + layout.HALF] * sine)
+            velocity += model.force[j] * (state.e[j] * cosine + state.e[j + layout.HALF] * sine)
     for j in range(len(model.force0)):
         w += model.force0[j] * state.y[j]
         velocity += model.force0[j] * state.g[j]
@@ -55,16 +41,16 @@ def point_motion(model, state, angle):
 def _write_row(model, s, order, x, time, phase, theta, probe, row):
     move_to(model, s, order, x, phase, probe)
     w, velocity, _ = disc_point(model, probe)
-    angle = theta - (drive_angle(model, time) - probe.x[PSI])
+    angle = theta - (layout.drive_angle(model, time) - probe.x[layout.PSI])
     row[1] = time
     row[2] = force_at(model, s, order, x, phase, probe)
-    apart = is_compliant(model) or phase == SEPARATION
-    row[3] = probe.x[U] if apart else w
-    row[4] = probe.x[U_VELOCITY] if apart else velocity
+    apart = layout.is_compliant(model) or phase == layout.SEPARATION
+    row[3] = probe.x[layout.U] if apart else w
+    row[4] = probe.x[layout.U_VELOCITY] if apart else velocity
     row[5] = w
     row[6], row[7] = point_motion(model, probe, angle)
-    row[8] = probe.x[PSI]
-    row[9] = drive_now(model, probe) - probe.x[SPEED]
+    row[8] = probe.x[layout.PSI]
+    row[9] = layout.drive_now(model, probe) - probe.x[layout.SPEED]
     row[10] = phase
 
 
@@ -76,7 +62,7 @@ def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, 
     samplers: shape (n, 5), columns first time, interval, number of samples, theta, end of run; progress: shape (n,),
     samples taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
     """
-    start, low = state.x[TIME], state.x[TIME_LOW]
+    start, low = state.x[layout.TIME], state.x[layout.TIME_LOW]
     last = x_end + SAME_INSTANT * (start / model.unit + x_end + 1.0)
     for i in range(len(samplers)):
         while progress[i] < samplers[i, 2]:
@@ -86,7 +72,7 @@ def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, 
             if x > last:
                 break
             rows[filled, 0] = i
-            _write_row(model, s, order, max(x, 0.0), time, state.x[PHASE], samplers[i, 3], probe, rows[filled])
+            _write_row(model, s, order, max(x, 0.0), time, state.x[layout.PHASE], samplers[i, 3], probe, rows[filled])
             filled += 1
             progress[i] += 1
     return filled

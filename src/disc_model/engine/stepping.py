@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from . import switches
 from .compile import inlined
 from .contact_series import compliant_slip_series, compliant_stick_series, normal_slip_series, release_series
 from .dense_output import load_state
@@ -16,7 +17,6 @@ from .layout import (
     PHASE,
     SEPARATION,
     SLIP,
-    STICK,
     TIME,
     TIME_LOW,
     E,
@@ -27,17 +27,6 @@ from .layout import (
 )
 from .polynomial import NO_ROOT, first_root, set_powers
 from .series import drive, lane_count, load_at, separation_series, slip_series, stick_series
-from .switches import (
-    AT_REST,
-    CONTACT_LOST,
-    GAP_CLOSED,
-    NOTHING,
-    RELEASE_BACKWARD,
-    RELEASE_FORWARD,
-    TOUCHING,
-    never_pulled,
-    usual_denominator,
-)
 
 # Longest step, in radians of the fastest motion: beyond it the terms of the series cancel more digits than they add.
 LONGEST_STEP = 8.0
@@ -106,41 +95,38 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
-def _expand_slip(give, normal, model, s, order, direction):
-    """Series of slip under the model's law of contact.  Returns the denominator of the contact force.
+def expand(give, normal, model, s, state, order):
+    """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1.
 
     give, normal: the model's; the compiler drops a branch unseen if its condition is the length of an argument.
     """
-    if len(give) == 1:
-        return compliant_slip_series(model, s, order, direction)
-    if len(normal) == 1:
-        return normal_slip_series(model, s, order, direction)
-    return slip_series(model, s, order, direction)
-
-
-@inlined
-def _expand_stick(give, normal, model, s, order):
-    """Series of stick, likewise."""
-    if len(give) == 1:
+    load_state(model, s, state)
+    phase, denominator = state.x[PHASE], switches.usual_denominator(model)
+    if phase == SLIP:
+        if len(give) == 1:
+            return compliant_slip_series(model, s, order, state.x[DIRECTION]) / denominator
+        if len(normal) == 1:
+            return normal_slip_series(model, s, order, state.x[DIRECTION]) / denominator
+        return slip_series(model, s, order, state.x[DIRECTION]) / denominator
+    if phase == SEPARATION:
+        separation_series(model, s, order)
+    elif len(give) == 1:
         compliant_stick_series(model, s, order)
     else:
         stick_series(model, s, order)
         if len(normal) == 1:
             release_series(model, s, order)
+    return 1.0
 
 
 @inlined
-def expand(model, s, state, order):
-    """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
-    load_state(model, s, state)
-    phase = state.x[PHASE]
-    if phase == SLIP:
-        return _expand_slip(model.give, model.normal, model, s, order, state.x[DIRECTION]) / usual_denominator(model)
-    if phase == STICK:
-        _expand_stick(model.give, model.normal, model, s, order)
-    else:
-        separation_series(model, s, order)
-    return 1.0
+def _sooner(s, c, known, n, x_end, cause, later, hasty):
+    """Where a switch function ends the phase, and this ``cause``; (x_end, ``later``) if it does not until then."""
+    x = first_root(c, known, n, x_end, s.powers, s.roots, hasty)
+    if x == NO_ROOT:
+        return x_end, later
+    set_powers(s.powers, x)
+    return x, cause
 
 
 @inlined
@@ -148,49 +134,32 @@ def first_switch(model, s, state, order, x_end):
     """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
     phase, known, known_force = state.x[PHASE], int(state.x[KNOWN]), 0
     if is_compliant(model):
-        known, known_force = known % TOUCHING, known // TOUCHING
+        known, known_force = known % switches.TOUCHING, known // switches.TOUCHING
     hasty = is_compliant(model)  # rigid contact keeps its bits
     set_powers(s.powers, x_end)
-    cause, known_release = NOTHING, known_force
-    if phase == STICK:
-        if not model.bonded and never_pulled(model, state):
-            # P = 0 and the friction limit coincide, and it is contact that ends
-            x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots, hasty)
-            if x != NO_ROOT:
-                x_end, cause = x, CONTACT_LOST
-                set_powers(s.powers, x_end)
-            if not is_normal(model):
-                return x_end, cause
-            # the slope of the disc may pull: P is no factor of the release functions here
-            known_release = 0
-        x = first_root(s.switch, known_release, order - 1, x_end, s.powers, s.roots, hasty)
-        if x != NO_ROOT:
-            x_end, cause = x, RELEASE_FORWARD
-            set_powers(s.powers, x_end)
-        # under the vertical force the pull only grows; the slope of a disc that bends can turn it, and so can a drive
-        # that slows down, by its damper
-        if is_normal(model) or is_ramped(model) or s.switch2[0] < s.switch[0]:
-            x = first_root(s.switch2, known_release, order - 1, x_end, s.powers, s.roots, hasty)
-            if x != NO_ROOT:
-                x_end, cause = x, RELEASE_BACKWARD
-                set_powers(s.powers, x_end)
-        if model.mu_s == 0.0 and not model.bonded:
-            # the friction limit is zero all along and says nothing of contact
-            x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots, hasty)
-            if x != NO_ROOT:
-                x_end, cause = x, CONTACT_LOST
-        return x_end, cause
     if phase == SEPARATION:
-        x = first_root(s.switch, known, order, x_end, s.powers, s.roots, hasty)
-        return (x, GAP_CLOSED) if x != NO_ROOT else (x_end, NOTHING)
-    x = first_root(s.switch, known, order, x_end, s.powers, s.roots, hasty)
-    if x != NO_ROOT:
-        x_end, cause = x, AT_REST
-        set_powers(s.powers, x_end)
-    if not model.bonded:
-        x = first_root(s.P, known_force, order - 1, x_end, s.powers, s.roots, hasty)
-        if x != NO_ROOT:
-            x_end, cause = x, CONTACT_LOST
+        return _sooner(s, s.switch, known, order, x_end, switches.GAP_CLOSED, switches.NOTHING, hasty)
+    if phase == SLIP:
+        x_end, cause = _sooner(s, s.switch, known, order, x_end, switches.AT_REST, switches.NOTHING, hasty)
+        if not model.bonded:
+            x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, switches.CONTACT_LOST, cause, hasty)
+        return x_end, cause
+    cause, known_release = switches.NOTHING, known_force
+    if not model.bonded and switches.never_pulled(model, state):
+        # P = 0 and the friction limit coincide, and it is contact that ends
+        x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, switches.CONTACT_LOST, cause, hasty)
+        if not is_normal(model):
+            return x_end, cause
+        # the slope of the disc may pull: P is no factor of the release functions here
+        known_release = 0
+    x_end, cause = _sooner(s, s.switch, known_release, order - 1, x_end, switches.RELEASE_FORWARD, cause, hasty)
+    # under the vertical force the pull only grows; the slope of a disc that bends can turn it, and so can a drive that
+    # slows down, by its damper
+    if is_normal(model) or is_ramped(model) or s.switch2[0] < s.switch[0]:
+        x_end, cause = _sooner(s, s.switch2, known_release, order - 1, x_end, switches.RELEASE_BACKWARD, cause, hasty)
+    if model.mu_s == 0.0 and not model.bonded:
+        # the friction limit is zero all along and says nothing of contact
+        x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, switches.CONTACT_LOST, cause, hasty)
     return x_end, cause
 
 

@@ -55,11 +55,11 @@ def disc_point(model, state):
 
 @inlined
 def slider_motion(model, state):
-    """u, u' of the slider, which in rigid contact are the disc's."""
+    """u, u' of the slider, which in rigid contact are the disc's; slope B of the disc under it."""
+    u, v, slope = disc_point(model, state)
     if is_compliant(model) or state.x[PHASE] == SEPARATION:
-        return state.x[U], state.x[U_VELOCITY]
-    u, v, _ = disc_point(model, state)
-    return u, v
+        u, v = state.x[U], state.x[U_VELOCITY]
+    return u, v, slope
 
 
 @inlined
@@ -92,11 +92,9 @@ def _compliant_force(model, state):
 
 
 @inlined
-def _free_force(model, state):
-    """N + k (u - u_0) + c u' + m A, which is P but for its denominator and the term with B; size of its terms."""
-    f = state.x[SPEED]
-    u, v, _ = disc_point(model, state)
-    acceleration, size = 0.0, 0.0
+def _free_acceleration(model, state):
+    """A: u'' of the disc under the slider but for P and f'; size of its terms."""
+    f, acceleration, size = state.x[SPEED], 0.0, 0.0
     for j in range(len(model.shift)):
         a = -model.damping[j] * state.e[j] - (model.stiffness[j] + (model.shift[j] * f) ** 2) * state.z[j]
         # 2 l f beta_l: slope is l psi_l in the lanes of b
@@ -107,6 +105,14 @@ def _free_force(model, state):
         part = -model.force0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
         acceleration += part
         size += abs(part)
+    return acceleration, size
+
+
+@inlined
+def _free_force(model, state):
+    """N + k (u - u_0) + c u' + m A, which is P but for its denominator and the term with B; size of its terms."""
+    u, v, _ = disc_point(model, state)
+    acceleration, size = _free_acceleration(model, state)
     spring, damper = model.k * (u - model.u_0), model.c * v
     N = load_now(model, state)
     value = N + spring + damper + model.m * acceleration
@@ -179,25 +185,15 @@ def slip_force(model, state, direction):
 
 
 @inlined
-def _impulse(normal, model, state):
-    """Impulse of the plastic impact; under the normal force the slope takes its share of it from f.
-
-    normal: the model's; the compiler drops a branch unseen if its condition is the length of an argument.
-    """
-    if len(normal) == 1:
-        _, v, slope = disc_point(model, state)
-        lever = slope / (model.m * model.r_0**2)
-        p = (v - state.x[U_VELOCITY]) / (model.compliance + 1.0 / model.m + slope * lever)
-        state.x[SPEED] -= p * lever
-        return p
-    _, v, _ = disc_point(model, state)
-    return (v - state.x[U_VELOCITY]) / (model.compliance + 1.0 / model.m)
-
-
-@inlined
 def impact(model, state):
-    """Plastic impact (Eqs. 29-37).  Returns the impulse p; the slider takes the disc's velocity."""
-    p = _impulse(model.normal, model, state)
+    """Plastic impact (Eqs. 29-37).  Returns the impulse p; the slider takes the disc's velocity.
+
+    Under the normal force the slope takes its share of the impulse from f.
+    """
+    _, v, slope = disc_point(model, state)
+    lever = slope / (model.m * model.r_0**2) if is_normal(model) else 0.0
+    p = (v - state.x[U_VELOCITY]) / (model.compliance + 1.0 / model.m + slope * lever)
+    state.x[SPEED] -= p * lever
     for j in range(len(model.shift)):
         state.e[j] -= model.force[j] * p
     for j in range(len(model.force0)):

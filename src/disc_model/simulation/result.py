@@ -18,7 +18,6 @@ from disc_model import errors
 from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.engine import layout
 from disc_model.engine.audit import N_SUMS
-from disc_model.engine.lanes import aligned_pieces
 from disc_model.engine.machine import EVENT_ROW, N_COUNTERS
 from disc_model.errors import Fault, ParameterError, Status, shown
 from disc_model.flexibility import contact_give
@@ -362,21 +361,13 @@ class Case(NamedTuple):
 def engine_case(p: Parameters) -> Case:
     """The engine's constants of a case; what equal parameters have found before is found again."""
     modes = mode_arrays(p)
+    names = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0")
     model = layout.build_model(
         modes.diameters,
         modes.omega,
         modes.psi,
         modal_damping(p),
-        N=p.N,
-        Omega=p.Omega,
-        k=p.k,
-        c=p.c,
-        m=p.m,
-        k_p=p.k_p,
-        c_p=p.c_p,
-        mu_s=p.mu_s,
-        mu_k=p.mu_k,
-        r_0=p.r_0,
+        {name: getattr(p, name) for name in names},
         bonded=p.contact == "bonded",
         give=contact_give(p) if p.contact_compliance == RESIDUAL else float(p.contact_compliance),
         normal=p.contact_force == "normal",
@@ -401,19 +392,6 @@ def _point(model: layout.Model) -> np.ndarray:
     return point
 
 
-def fresh_states(case: Case) -> tuple[layout.State, layout.State]:
-    """Two states at the published start, a run's own: where it is, and where it looks ahead."""
-    start, width, n0 = case.start, len(case.model.force), len(case.model.force0)
-    here, ahead = aligned_pieces(len(start.disc), len(start.disc))
-    here[:] = ahead[:] = start.disc
-    return _state(here, width, n0, start.x.copy()), _state(ahead, width, n0, start.x.copy())
-
-
-def _state(disc: np.ndarray, width: int, n0: int, x: np.ndarray) -> layout.State:
-    y, g, end = 2 * width, 2 * width + n0, 2 * (width + n0)
-    return layout.State(disc, disc[:width], disc[width:y], disc[y:g], disc[g:end], x)
-
-
 def take_workspace(case: Case, order: int) -> Workspace:
     """A workspace of the caller's own, at the published start, with nothing counted; for `give_back` in the end.
 
@@ -422,8 +400,9 @@ def take_workspace(case: Case, order: int) -> Workspace:
     try:
         found = case.idle[order].pop()
     except LookupError:
-        counters, phase_times, sums = np.zeros(N_COUNTERS, np.int64), np.zeros(3), np.zeros(N_SUMS)
-        return Workspace(*fresh_states(case), layout.build_series(case.model, order), counters, phase_times, sums)
+        state, probe = layout.build_state(case.model), layout.build_state(case.model)
+        series, counters = layout.build_series(case.model, order), np.zeros(N_COUNTERS, np.int64)
+        return Workspace(state, probe, series, counters, np.zeros(3), np.zeros(N_SUMS))
     for state in (found.state, found.probe):
         state.disc[:], state.x[:] = case.start.disc, case.start.x
     for counted in (found.counters, found.phase_times, found.sums):
@@ -434,11 +413,6 @@ def take_workspace(case: Case, order: int) -> Workspace:
 def give_back(case: Case, order: int, workspace: Workspace) -> None:
     """Leave a workspace to later runs."""
     case.idle.setdefault(order, []).append(workspace)
-
-
-def build_model(p: Parameters) -> layout.Model:
-    """The engine's constants of a case, not to be written."""
-    return engine_case(p).model
 
 
 def read_state(case: Case, state: layout.State) -> State:
