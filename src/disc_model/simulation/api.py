@@ -28,6 +28,7 @@ from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import (
     Result,
     State,
+    Workspace,
     engine_case,
     give_back,
     read_state,
@@ -149,8 +150,7 @@ class _Run:
         ramps: tuple[Ramp, ...],
     ) -> None:
         self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
-        steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
-        self.ramps, self.pieces = ramps, courses.pieces(p, ramps) if ramps else (steady,)
+        self.ramps, self.pieces = ramps, courses.pieces(p, ramps)
         self.case = case = engine_case(p)
         model = case.model
         self.order = series_order(tol)
@@ -164,6 +164,8 @@ class _Run:
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
         self.max_steps = _step_limit(model, t_end - start) if max_steps is None else min(max_steps, MOST_STEPS)
         self.pause_after = _pause_after(model, record.energy)
+        usual = AUDIT_EVERY_COMPLIANT if p.contact_compliance else AUDIT_EVERY
+        self.audit_every = 1 if record.energy else usual
         # each of them, the first last: all is compiled by then, and the wall time is the simulation's own
         for place, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < t_end:
@@ -210,7 +212,7 @@ class _Run:
         work, keep = self.workspace, self.collector
         limits = machine.Limits(
             self.order, self.tolerance, min(self.t_end, self.pieces[self.place[0]].end), self.stop_at is not None,
-            self.max_steps, self.pause_after, 1 if self.record.energy else _audit_every(self.p),
+            self.max_steps, self.pause_after, self.audit_every,
         )  # fmt: skip
         kept = machine.Kept(
             work.counters, work.phase_times, work.sums,
@@ -238,7 +240,6 @@ class _Run:
     def result(self, status: Status) -> Result:
         """What there is to return."""
         samples, poincare = self.collector.finish()
-        work = self.workspace
         return Result(
             parameters=self.p,
             t_end=self.t_end,
@@ -250,9 +251,7 @@ class _Run:
             first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state),
             u_0=self.model.u_0,
-            statistics=_statistics(
-                work.counters, work.phase_times, work.sums, self.record.energy, float(self.wall_time[0])
-            ),
+            statistics=_statistics(self.workspace, self.record.energy, float(self.wall_time[0])),
             samples=samples,
             poincare=poincare,
             ramps=self.ramps,
@@ -324,11 +323,6 @@ def _step_limit(model: layout.Model, duration: float) -> int:
     return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
 
 
-def _audit_every(p: Parameters) -> int:
-    """Steps between audits where not all are asked for."""
-    return AUDIT_EVERY_COMPLIANT if p.contact_compliance else AUDIT_EVERY
-
-
 def _pause_after(model: layout.Model, energy: bool) -> int:
     """Steps between pauses, fewer where they cost more: checkpoints, progress and Ctrl-C have their turn then."""
     cost = (1 + model.more_blocks[0]) * (6 if energy else 1)
@@ -344,9 +338,7 @@ def _message(status: Status, state: layout.State, model: layout.Model) -> str:
     return text
 
 
-def _statistics(
-    counters: np.ndarray, phase_times: np.ndarray, sums: np.ndarray, energy: bool, wall: float
-) -> dict[str, float]:
+def _statistics(work: Workspace, energy: bool, wall: float) -> dict[str, float]:
     def relative(residual: int, scale: int, turnover: int) -> float:
         """Sum of the residuals over the largest energy present plus all energy exchanged."""
         size = total[scale] + total[turnover]
@@ -354,8 +346,8 @@ def _statistics(
             return math.nan
         return abs(total[residual]) / size if size > 0 else 0.0
 
-    count, total = counters.tolist(), sums.tolist()
-    stick, slip, separation = phase_times.tolist()
+    count, total = work.counters.tolist(), work.sums.tolist()
+    stick, slip, separation = work.phase_times.tolist()
     return {
         "steps": count[machine.STEPS],
         "events": count[machine.EVENTS],

@@ -2,14 +2,15 @@
 
 A simulation that was interrupted goes on from its last checkpoint as if nothing had happened. The file of a run is a
 sequence of records, each with the state of the engine and the rows kept since the record before, so that a long run
-that keeps much writes all of it once and not again at every checkpoint. A record ends in a checksum: one that was cut
-off when the machine went down, or changed since, is not used, nor is any after it. The records before it are, but only
-by the very same run: same arguments, same sources, same versions. A checkpoint of another run, or a file that is none,
-is set aside under another name, with a warning that says why.
+that keeps much writes all of it once and not again at every checkpoint. A record has a checksum: one that was cut off
+when the machine went down, or changed since, is not used, nor is any after it. The records before it are, but only by
+the very same run: same arguments, same sources, same versions. A checkpoint of another run, or a file that is none, is
+set aside under another name, with a warning that says why.
 """
 
 from __future__ import annotations
 
+import io
 import json
 import logging
 import math
@@ -40,16 +41,15 @@ SET_ASIDE = ".other"
 
 Array = NDArray[Any]
 
-_MAGIC = b"discCkpt"
-_HEAD = struct.Struct("<8sQQ")  # magic, bytes of the table of contents, bytes of the arrays
-_CHECKSUM = struct.Struct("<I")
+_MAGIC = b"discArys"
+_HEAD = struct.Struct("<8sQI")  # magic, bytes of the arrays (as `numpy.savez` writes them) and their checksum
 
 
 class Contents(NamedTuple):
     """What a run needs to go on: ``state`` is replaced by each record, ``rows`` only ever grow."""
 
-    state: Mapping[str, Array]
-    rows: Mapping[str, Sequence[Array]]
+    state: dict[str, Array]
+    rows: dict[str, list[Array]]
 
 
 class _Damaged(Exception):
@@ -116,7 +116,7 @@ class Checkpoint:
 
     def load(self) -> Contents | None:
         """What the file's records hold that are whole and of this very run; None if there are none."""
-        state: Mapping[str, Array] = {}
+        state: dict[str, Array] = {}
         rows: dict[str, list[Array]] = {}
         differing: list[str] = []
         if _is_something_else(self.path):
@@ -181,23 +181,12 @@ class Checkpoint:
 
 def _write(file: BinaryIO, belongs_to: Mapping[str, str], contents: Contents) -> None:
     """Write one record.  Arrays of rows of one name become one array."""
-    state = {name: [array] for name, array in contents.state.items()}
-    rows = {name: arrays for name, arrays in contents.rows.items() if arrays}
-    pieces = [np.ascontiguousarray(array).data for arrays in (*state.values(), *rows.values()) for array in arrays]
-    table = json.dumps({"belongs_to": belongs_to, "state": _entries(state), "rows": _entries(rows)}).encode()
-    table += b" " * (-len(table) % 8)  # keeps the arrays aligned
-    head, checksum = _HEAD.pack(_MAGIC, len(table), sum(piece.nbytes for piece in pieces)), 0
-    for piece in (memoryview(head), memoryview(table), *pieces):
-        checksum = zlib.crc32(piece, checksum)
-        file.write(piece)
-    file.write(_CHECKSUM.pack(checksum))
-
-
-def _entries(named: Mapping[str, Sequence[Array]]) -> dict[str, tuple[str, list[int]]]:
-    """Types and shapes for the table of contents."""
-    return {
-        name: (arrays[0].dtype.str, [sum(map(len, arrays)), *arrays[0].shape[1:]]) for name, arrays in named.items()
-    }
+    arrays: dict[str, Any] = {f"state/{name}": array for name, array in contents.state.items()}
+    arrays |= {f"rows/{name}": np.concatenate(parts) for name, parts in contents.rows.items() if parts}
+    body = io.BytesIO()
+    np.savez(body, belongs_to=np.array(json.dumps(belongs_to)), **arrays)
+    file.write(_HEAD.pack(_MAGIC, body.tell(), zlib.crc32(body.getbuffer())))
+    file.write(body.getbuffer())
 
 
 def _records(path: Path) -> Iterator[tuple[int, dict[str, str], Contents]]:
@@ -205,28 +194,23 @@ def _records(path: Path) -> Iterator[tuple[int, dict[str, str], Contents]]:
     size = path.stat().st_size
     with open(path, "rb") as file:
         while file.tell() < size:
-            head = file.read(_HEAD.size)
-            magic, n_table, n_data = _HEAD.unpack(head.ljust(_HEAD.size))
+            magic, length, checksum = _HEAD.unpack(file.read(_HEAD.size).ljust(_HEAD.size))
             if magic != _MAGIC:
                 raise _Damaged("not a checkpoint, or damaged")
-            if file.tell() + n_table + n_data + _CHECKSUM.size > size:
+            if file.tell() + length > size:
                 raise _Damaged("cut off")
-            body = file.read(n_table + n_data)
-            if file.read(_CHECKSUM.size) != _CHECKSUM.pack(zlib.crc32(body, zlib.crc32(head))):
+            body = file.read(length)
+            if zlib.crc32(body) != checksum:
                 raise _Damaged("damaged, its checksum does not match")
-            table, data = json.loads(body[:n_table]), memoryview(body)[n_table:]
-            state, data = _arrays(table["state"], data)
-            rows, _ = _arrays(table["rows"], data)
-            yield file.tell(), table["belongs_to"], Contents(state, {name: [array] for name, array in rows.items()})
-
-
-def _arrays(table: Mapping[str, Any], data: memoryview) -> tuple[dict[str, Array], memoryview]:
-    """The arrays of one part of the table of contents, and the data that follow theirs."""
-    found: dict[str, Array] = {}
-    for name, (kind, shape) in table.items():
-        found[name] = np.ndarray(shape, kind, buffer=data)
-        data = data[found[name].nbytes :]
-    return found, data
+            held = dict(np.load(io.BytesIO(body)))
+            belongs_to, contents = json.loads(str(held.pop("belongs_to"))), Contents({}, {})
+            for entry, array in held.items():
+                part, _, name = entry.partition("/")
+                if part == "state":
+                    contents.state[name] = array
+                else:
+                    contents.rows[name] = [array]
+            yield file.tell(), belongs_to, contents
 
 
 # ----------------------------------------------------------------------------------------------------
