@@ -38,6 +38,14 @@ sys.modules["disc_model.engine.kernel_files"] = None  # its import fails
 """
 
 
+def asked_for(tmp_path: Path, before: str = "") -> subprocess.CompletedProcess[str]:
+    """A process that asks for a kernel, and prints 42 and how often it was found in the cache."""
+    script = tmp_path / "script.py"  # numba keeps nothing of code that has no file
+    script.write_text(before + textwrap.dedent(KERNEL))
+    command = [sys.executable, str(script), str(tmp_path / "cache")]
+    return subprocess.run(command, capture_output=True, text=True, check=True)
+
+
 @pytest.fixture
 def files(tmp_path: Path) -> KernelFiles:
     return KernelFiles(str(tmp_path), "module.kernel-1.py3", b"source")
@@ -109,20 +117,13 @@ def test_flush_forgets_this_kernel_only(files: KernelFiles, tmp_path: Path) -> N
 
 @pytest.mark.compiled
 def test_a_damaged_kernel_is_compiled_again(tmp_path: Path) -> None:
-    script = tmp_path / "script.py"
-    script.write_text(textwrap.dedent(KERNEL))
-
-    def run() -> str:
-        command = [sys.executable, str(script), str(tmp_path / "cache")]
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
-
-    assert run() == "42 0"
-    assert run() == "42 1"
+    assert asked_for(tmp_path).stdout == "42 0\n"
+    assert asked_for(tmp_path).stdout == "42 1\n"
     path = only(tmp_path / "cache")
     whole = path.read_bytes()
     path.write_bytes(whole[: len(whole) // 2])
-    assert run() == "42 0"
-    assert run() == "42 1"
+    assert asked_for(tmp_path).stdout == "42 0\n"
+    assert asked_for(tmp_path).stdout == "42 1\n"
     assert path.stat().st_size == len(whole)
 
 
@@ -204,11 +205,8 @@ def test_a_dispatcher_that_has_no_cache(another_numba: pytest.MonkeyPatch, tmp_p
 
 @pytest.mark.compiled
 def test_kernels_are_found_again_in_numbas_own_files(tmp_path: Path) -> None:
-    script = tmp_path / "script.py"
-    script.write_text(WITHOUT + textwrap.dedent(KERNEL))
     for hits in ("0", "1"):
-        command = [sys.executable, str(script), str(tmp_path / "cache")]
-        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        done = asked_for(tmp_path, before=WITHOUT)
         assert done.stdout.split() == ["42", hits]
         assert done.stderr.count("RuntimeWarning") == 1
     assert list((tmp_path / "cache").rglob("*.nbi"))

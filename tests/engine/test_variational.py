@@ -13,6 +13,7 @@ from disc_model.simulation.result import State, engine_case, write_state
 from disc_model.stability.return_map import PARAMETERS, ReturnMap
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.full_system import Full
+from tests.references import stored, taylor
 from tests.references.divergence import divergence
 from tests.references.printed import MOTIONS, SPAN, Printed, lively
 
@@ -89,17 +90,27 @@ class Disturbed(Full):
         super().__init__(p, start, scalars=4 if p.contact_compliance else scalars)
 
     def moved(self, change: np.ndarray) -> None:
-        s, all_ = self.state, np.zeros(self.n_rows)
-        all_[self.rows] = change
-        width, n0 = len(s.z), len(s.y)
-        parts = np.split(all_, np.cumsum([width, width, n0, n0]))
-        for array, part in zip((s.z, s.e, s.y, s.g, s.x[layout.PSI : layout.U_VELOCITY + 1]), parts, strict=True):
-            array += part
+        rows = np.zeros(self.n_rows)
+        rows[self.rows] = change
+        self.state.disc[: self.n_rows - 4] += rows[:-4]
+        self.state.x[layout.PSI : layout.U_VELOCITY + 1] += rows[-4:]
 
     def at_end(self, tangent: bool = False) -> np.ndarray:
         """The coordinates at the end of the span, or their derivatives by those at the start."""
         assert self.fly(SPAN, tangent=tangent) == outcomes.TIME_OVER
         return self.columns if tangent else self.coordinates
+
+
+def jacobian(p: Parameters, start: State, reached: Callable[[Disturbed], np.ndarray]) -> np.ndarray:
+    """Derivatives of what a disturbed start leads to by its coordinates: one column each."""
+
+    def moved(i: int, change: float) -> np.ndarray:
+        other = Disturbed(p, start)
+        other.moved(change * np.eye(len(other.rows))[i])
+        return reached(other)
+
+    steps = 1e-3 * np.maximum(np.abs(Disturbed(p, start).coordinates), 1e-4)
+    return np.array([differences(lambda h, i=i: moved(i, h), step) for i, step in enumerate(steps)]).T
 
 
 @pytest.mark.parametrize(("phase", "direction", "n_circles"), [*((*motion, 0) for motion in MOTIONS), ("slip", 1, 1)])
@@ -119,15 +130,7 @@ def test_columns_along_one_phase_under_other_laws_of_contact(law: str, phase: st
 
 def check_columns(p: Parameters, start: State) -> None:
     """Columns of all coordinates over a span, against differences of motions."""
-    got = Disturbed(p, start).at_end(tangent=True)
-
-    def end(change: np.ndarray) -> np.ndarray:
-        other = Disturbed(p, start)
-        other.moved(change)
-        return other.at_end()
-
-    steps = 1e-3 * np.maximum(np.abs(Disturbed(p, start).coordinates), 1e-4)
-    expected = np.array([differences(lambda s, i=i: end(s * np.eye(len(steps))[i]), h) for i, h in enumerate(steps)]).T
+    got, expected = Disturbed(p, start).at_end(tangent=True), jacobian(p, start, Disturbed.at_end)
     if start.phase == "stick" and p.contact_compliance:
         # f, which stands before u and u', is no coordinate then
         got, expected = np.delete(got, -3, axis=1), np.delete(expected, -3, axis=1)
@@ -142,20 +145,14 @@ def test_jacobian_of_an_impact() -> None:
     run = Disturbed(p, start)
     saltation.impact_change(run.model, run.state, run.tangent)
     n = len(run.rows) - 2  # u and u' are the disc's from now on
-    got = run.columns[:n]
 
-    def after(change: np.ndarray) -> np.ndarray:
-        other = Disturbed(p, start)
-        other.moved(change)
+    def after(other: Disturbed) -> np.ndarray:
         assert switches.touch_down(other.model, other.state) == outcomes.CONSISTENT
         return other.coordinates[:n]
 
-    steps = 1e-3 * np.maximum(np.abs(run.coordinates), 1e-4)
-    expected = np.array(
-        [differences(lambda s, i=i: after(s * np.eye(len(steps))[i]), h) for i, h in enumerate(steps)]
-    ).T
+    expected = jacobian(p, start, after)
     # bilinear: nothing but rounding of values over steps
-    np.testing.assert_allclose(got, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+    np.testing.assert_allclose(run.columns[:n], expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
@@ -170,19 +167,30 @@ def test_rates_are_those_of_the_paper(phase: str, direction: int) -> None:
     np.testing.assert_allclose(got, expected[: len(got)], rtol=1e-10, atol=1e-10)
 
 
+@pytest.mark.parametrize("law", ["normal", "compliant_normal"])
+@pytest.mark.parametrize(("phase", "direction"), [("stick", 0), ("slip", 1), ("slip", -1)])
+def test_rates_under_the_normal_force(law: str, phase: str, direction: int) -> None:
+    """Five pairs of modes fill one block of lanes and begin another."""
+    p = LIVELY.replace(n_diameters=5, n_circles=1, **LAWS[law])
+    start, case = lively(phase, direction, p), engine_case(p)
+    start = start.replace(u=start.u - 500 * p.contact_compliance)
+    run, reference = Full(p, start, scalars=4), stored.reference_state(start, p)
+    step = taylor.Step(taylor.problem_of(p), phase, direction, reference)
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
+    modal = np.concatenate([sign * x[1] for x in (step.a, step.b, step.alpha, step.beta)])
+    expected = np.zeros(run.n_rows)
+    expected[case.places] = modal[case.present]
+    expected[-4:] = step.psi[1], step.f[1], step.u[1], step.v[1]
+    # sums of terms that cancel: rounding of velocities' rates
+    np.testing.assert_allclose(run.rates, expected[run.rows], rtol=1e-9, atol=1e-9)
+
+
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_divergence_is_the_trace(phase: str, direction: int) -> None:
     start = lively(phase, direction, LIVELY)
     run = Disturbed(LIVELY, start)
     n = len(run.rows) - (2 if phase == "separation" else 0)
-
-    def rate(i: int, h: float) -> float:
-        other = Disturbed(LIVELY, start)
-        other.moved(h * np.eye(len(run.rows))[i])
-        return float(other.rates[i])
-
-    steps = 1e-3 * np.maximum(np.abs(run.coordinates), 1e-4)
-    trace = sum(differences(lambda h, i=i: rate(i, h), steps[i]) for i in range(n))
+    trace = np.trace(jacobian(LIVELY, start, lambda other: other.rates)[:n, :n])
     assert divergence(run.model, run.state) == pytest.approx(trace, rel=1e-7)
 
 

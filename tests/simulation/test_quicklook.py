@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Record, Window, simulate
-from disc_model.simulation.quicklook import quicklook
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 
@@ -21,11 +20,11 @@ def test_quicklook_marks_the_separation_and_draws_bands():
     windows = (Window(start=0, stop=0.02, rate=2000, envelope=4), Window(start=0.0, stop=0.02, rate=2000))
     result = simulate(p, 0.02, tol=1e-8, initial_state=kicked, record=Record(windows=windows))
     assert math.isfinite(result.first_separation)
-    figure = quicklook(result)
+    figure = result.plot()
     assert len(figure.axes) == 4
     assert "N = 60 N" in figure.get_suptitle()
     marks = [line for line in figure.axes[1].lines if line.get_linestyle() == "--"]
     assert marks[0].get_xdata()[0] == result.first_separation
     plt.close(figure)
-    with pytest.raises(ParameterError, match="must have one window or more to be drawn"):
-        quicklook(simulate(P, 1e-3))
+    with pytest.raises(ParameterError, match=r"record.windows: must have one window or more to be drawn"):
+        simulate(P, 1e-3).plot()

@@ -17,20 +17,11 @@ from disc_model.data.dataset import load
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.ramps import pieces, values_at
 from tests.contact_laws import LAWS
+from tests.simulation.equal import same
 
 P = Parameters(N=200.0, Omega=50.0, n_diameters=1)
 BRAKE = Ramp(parameter="Omega", to=20.0, start=0.01, end=0.03)
 RELIEF = Ramp(parameter="N", to=150.0, start=0.02, end=0.04)
-
-
-def _same(one, other) -> None:
-    np.testing.assert_array_equal(one.event_rows, other.event_rows)
-    for name in ("a", "b", "alpha", "beta"):
-        np.testing.assert_array_equal(getattr(one.final_state, name), getattr(other.final_state, name))
-    assert one.final_state.psi == other.final_state.psi
-    for a, b in zip(one.samples, other.samples, strict=True):
-        for name, values in a.items():
-            np.testing.assert_array_equal(values, b[name], err_msg=name)
 
 
 # ------------------------------------------------------------------------ what is asked for
@@ -43,11 +34,11 @@ def test_rate_zero_is_the_constant_parameter_to_the_last_bit(law):
         Ramp(parameter="N", to=200.0, start=0.0, end=0.02),
         Ramp(parameter="N", to=200.0, start=0.02, end=0.021),
     )
-    _same(simulate(p, 0.05, record=record, ramps=none), constant)
+    same(simulate(p, 0.05, record=record, ramps=none), constant)
 
 
 def test_a_ramp_after_the_end_changes_nothing():
-    _same(simulate(P, 0.05, ramps=Ramp(parameter="Omega", to=5.0, start=0.05, end=0.06)), simulate(P, 0.05))
+    same(simulate(P, 0.05, ramps=Ramp(parameter="Omega", to=5.0, start=0.05, end=0.06)), simulate(P, 0.05))
 
 
 def test_until_a_ramp_begins_all_is_as_without():

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -23,14 +22,6 @@ def test_a_result_is_saved_and_loaded_as_its_tree(tmp_path: Path) -> None:
     (tmp_path / "r.nc").write_bytes((tmp_path / "r.nc").read_bytes()[:-40])
     with pytest.raises(DamagedFile):
         load(tmp_path / "r.nc")
-
-
-def test_a_result_is_drawn() -> None:
-    figure = simulate(P, 0.05, record=Record(windows=(Window(last=0.02, rate=1000),))).plot()
-    assert len(figure.axes) == 2
-    plt.close(figure)
-    with pytest.raises(ParameterError, match=r"record.windows: must have one window or more to be drawn"):
-        simulate(P, 0.05).plot()
 
 
 def test_values_are_shown_in_a_line() -> None:
