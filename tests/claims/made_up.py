@@ -17,7 +17,6 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.claims.model import CaseView
 from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
@@ -388,12 +387,6 @@ def scans(least: float = 0.2, settled: bool = True, softest: str = "unstable") -
             {"base": '{"N": 200}'},
         ),
     }
-
-
-def views(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> dict[str, CaseView]:
-    """Cases, and grid studies among them, as claims look at them."""
-    nodes = dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()}
-    return {name: CaseView(name, node) for name, node in nodes.items()}
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from disc_model.claims import ledger
-from disc_model.claims.ledger import CLAIMS
+from disc_model.claims.ledger import CLAIMS, views
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim
 from tests.claims import made_up
 from tests.claims.damaged import DAMAGES, damaged
@@ -50,7 +50,7 @@ def test_damage_ends_no_claim(damage: str, told: xr.DataTree) -> None:
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_damaged_case_among_whole_ones_ends_no_claim(damage: str, told: xr.DataTree) -> None:
     """One at a time: what is missing first may hide what is missing next."""
-    cases = made_up.views(told)
+    cases = views(told)
     for name, view in cases.items():
         hurt = cases | {name: CaseView(name, damaged(view.node, DAMAGES[damage]))}
         verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.needs])

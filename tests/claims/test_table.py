@@ -13,13 +13,12 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.claims import SCANS, disc, measures
-from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims
+from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims, views
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Missing, Needed
 from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import events_dataset
 from disc_model.simulation.api import run_case
 from disc_model.studies.schema import parse_study
-from tests.claims.made_up import views
 
 
 def tree_of(**cases: dict[str, Any]) -> xr.DataTree:
@@ -139,7 +138,9 @@ def test_separation_durations_count_whole_separations() -> None:
         ],
         (0.0, 5.0),
     )
-    np.testing.assert_array_equal(measures.separation_durations(case), [0.5, 0.25])
+    durations, still_open = measures.separation_durations(case)
+    np.testing.assert_array_equal(durations, [0.5, 0.25])
+    assert still_open == 1.0
     assert measures.rate_of(case, "separation") == pytest.approx(3 / 5)
 
 

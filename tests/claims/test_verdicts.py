@@ -14,7 +14,7 @@ import xarray as xr
 from disc_model import Parameters
 from disc_model.analysis import classify
 from disc_model.claims import disc, ledger, measures, section44
-from disc_model.claims.ledger import CLAIMS, check_claims
+from disc_model.claims.ledger import CLAIMS, check_claims, views
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Finding, Missing
 from disc_model.claims.pages import to_markdown
 from disc_model.data.variables import EVENT_KINDS
@@ -47,7 +47,7 @@ class World:
             for name, function in self.disc.items():
                 for module in (disc, section44):
                     patch.setattr(module, name, function)
-            cases = made_up.views(made_up.made_up(self.stories), made_up.scans(self.stick, softest=self.softest))
+            cases = views(made_up.made_up(self.stories), made_up.scans(self.stick, softest=self.softest))
             return {
                 claim.id: claim.evaluate(cases).verdict
                 for claim in CLAIMS
@@ -233,7 +233,7 @@ def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.M
 def judged(claim: str, tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None, **damage: Damage) -> Finding:
     """What one claim makes of made-up cases, some of them changed."""
     changed = {name: damaged(tree[name], change) for name, change in damage.items()}
-    return next(one for one in CLAIMS if one.id == claim).evaluate(made_up.views(tree.assign(changed), scans))
+    return next(one for one in CLAIMS if one.id == claim).evaluate(views(tree.assign(changed), scans))
 
 
 def changed_root(**values: float) -> Damage:

@@ -61,7 +61,10 @@ def truncation(*cases: CaseView) -> Finding:
     first = [case["first_separation"] for case in cases]
     shift = float(np.ptp(first))  # nan if one does not separate
     coupled = [slider_at_rest_frequencies(BASE.replace(n_diameters=n))[0] for n in (4, 8)]
-    nine, more, circles = (_after_separation(cases[i]) for i in (0, 3, 4))
+    nine, more, circles = (
+        (rate_of(case, "separation"), phase_share(case, "separation"), phase_share(case, "stick"))
+        for case in (cases[0], *cases[3:])
+    )
     alike, alike_with_circles = (np.allclose(found, nine, rtol=0.1) for found in (more, circles))
     said = ", ".join(
         f"{rate:.0f} separations/s, {100 * apart:.1f} % of the time apart, {100 * stick:.1f} % sticking"
@@ -77,11 +80,6 @@ def truncation(*cases: CaseView) -> Finding:
         f"and with the last: {said}"
     )
     return finding(ours, shift <= 2.0 and alike and alike_with_circles, remark)
-
-
-def _after_separation(case: CaseView) -> tuple[float, float, float]:
-    """Separations per second, and the shares of time apart and in stick, late in the run."""
-    return rate_of(case, "separation"), phase_share(case, "separation"), phase_share(case, "stick")
 
 
 @Claim(

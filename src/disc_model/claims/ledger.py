@@ -37,13 +37,19 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     tree : merged cases, see `disc_model.simulation.api`
     scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that look at others are not computed
     """
-    cases = _views(dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()})
+    cases = views(tree, scans)
     rows = []
     for claim in CLAIMS:
         found = claim.evaluate(cases)
         said = (claim.id, claim.location, claim.text, claim.paper, found.ours, claim.tolerance, claim.reason)
         rows.append((*said, found.verdict, found.remark))
     return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def views(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> dict[str, CaseView]:
+    """Cases, and grid studies among them, as claims look at them."""
+    nodes = dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()}
+    return {name: CaseView(name, node) for name, node in nodes.items()}
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -68,13 +74,9 @@ class Comparison:
         return page(self.title, *body)
 
 
-def _views(nodes: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
-    return {name: CaseView(name, node) for name, node in nodes.items()}
-
-
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
     """Compare merged cases (see `disc_model.data.dataset`) of the two normalisations."""
-    old, new = _views(published.children), _views(orthonormal.children)
+    old, new = views(published), views(orthonormal)
     shared = [name for name in old if name in new and name not in AGAIN]
     failed = [name for name in shared if "failed" in (old[name].status, new[name].status)]
     lost = [name for name in shared if name not in failed and old[name].separates and not new[name].separates]
@@ -89,14 +91,14 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
     if failed:
         text += f" Without a result: {_listed(failed)}."
     only = [case for name, case in new.items() if name not in old]
-    sections = [
+    instead = [("Where instability goes instead", _INSTEAD, _elsewhere(only))] if only else []
+    sections = (
         ("The modes", _MODES_TEXT, _modes()),
         ("The cases of the paper", text, _cases([old[name] for name in shared], [new[name] for name in shared])),
-    ]
-    if only:
-        sections.append(("Where instability goes instead", _INSTEAD, _elsewhere(only)))
-    sections.append(("Statements of the paper whose verdict changes", _VERDICTS, _verdicts(published, orthonormal)))
-    return Comparison("What changes when the modes are normalised as Eq. (17) says", tuple(sections))
+        *instead,
+        ("Statements of the paper whose verdict changes", _VERDICTS, _verdicts(published, orthonormal)),
+    )
+    return Comparison("What changes when the modes are normalised as Eq. (17) says", sections)
 
 
 _MODES_TEXT = (

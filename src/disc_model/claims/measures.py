@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Kind, Motion, motion_of, stick_disappears
 from disc_model.analysis.poincare import distinct_points
+from disc_model.analysis.spectra import Line
 from disc_model.claims.cases import SEPARATED
 from disc_model.claims.model import STRETCH, CaseView, Finding, Missing, Range, finding, undecided
 from disc_model.data.variables import EVENT_KINDS, PHASES
@@ -133,9 +134,8 @@ def of_kind(kind: Kind, motion: Motion, ours: str, *, besides: bool = True, rema
 def is_intricate(case: CaseView, other: CaseView) -> Finding:
     """Whether the in-plane motion has no period of fewer than 4 releases; `other` as in `is_quasi_periodic`."""
     motion, ours = late_motion(case)
-    remark = "periodic all the same" if motion.period else ""
-    holds = motion.period == 0 or motion.period >= 4
-    return finding(ours, holds, joined(remark, another_motion((case, other))))
+    remark = joined("periodic all the same" if motion.period else "", another_motion((case, other)))
+    return finding(ours, not 0 < motion.period < 4, remark)
 
 
 def another_motion(*pairs: tuple[CaseView, CaseView]) -> str:
@@ -193,21 +193,14 @@ def kept_span(case: CaseView) -> Range:
     return Range(float(attrs["kept_from"]), min(float(attrs["kept_until"]), case["time_reached"]))
 
 
-def separation_durations(case: CaseView) -> Array:
-    """Durations of the separations that begin and end within the events kept, s."""
+def separation_durations(case: CaseView) -> tuple[Array, float]:
+    """Durations of the separations that begin and end within the events kept, s; and of a last one that lasts, or 0."""
     apart, together = times_of(case, "separation"), times_of(case, "reattachment")
-    apart = apart[: np.searchsorted(apart, together[-1])] if together.size else apart[:0]
-    if not apart.size:
+    ends = np.searchsorted(together, apart, side="right")
+    whole = ends < together.size
+    if not whole.any():
         raise Missing(f"case {case.name} keeps no whole separation")
-    return np.asarray(together[np.searchsorted(together, apart, side="right")] - apart)
-
-
-def open_separation(case: CaseView) -> float:
-    """How long the last separation of the events kept has lasted where they end without a reattachment, s; else 0."""
-    apart, together = times_of(case, "separation"), times_of(case, "reattachment")
-    if not apart.size or (together.size and together[-1] >= apart[-1]):
-        return 0.0
-    return kept_span(case).high - float(apart[-1])
+    return together[ends[whole]] - apart[whole], 0.0 if whole.all() else kept_span(case).high - float(apart[-1])
 
 
 def phase_share(case: CaseView, phase: str) -> float:
@@ -231,8 +224,7 @@ def early_range(case: CaseView, name: str) -> Range:
 
 def stretch(case: CaseView, window: str, start: float, stop: float) -> xr.Dataset:
     """The samples of a window between two times; raises `Missing` if there are none."""
-    samples = case.samples(window)
-    found = samples.sel(time=slice(start, stop))
+    found = case.samples(window).sel(time=slice(start, stop))
     if found.sizes["time"] < 100:
         raise Missing(f"case {case.name} has no samples in {window} from {start:g} to {stop:g} s")
     return found
@@ -240,7 +232,7 @@ def stretch(case: CaseView, window: str, start: float, stop: float) -> xr.Datase
 
 def lines(
     case: CaseView, window: str, start: float, stop: float, name: str = "w_point", **options: float
-) -> list[spectra.Line]:
+) -> list[Line]:
     """Lines of a variable between two times, see `disc_model.analysis.spectra.lines`; raises `Missing` without any."""
     part = stretch(case, window, start, stop)
     found = spectra.lines(part["time"].values, part[name].values, **options)
@@ -249,12 +241,12 @@ def lines(
     return found
 
 
-def loudest(found: Iterable[spectra.Line], count: int) -> list[spectra.Line]:
+def loudest(found: Iterable[Line], count: int) -> list[Line]:
     """So many lines at most, the strongest first."""
     return sorted(found, key=lambda line: -line.amplitude)[:count]
 
 
-def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -> spectra.Line:
+def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -> Line:
     """The strongest line of the disc's point no further than `within` Hz from a frequency; raises `Missing`."""
     try:
         return spectra.strongest(samples["time"].values, samples["w_point"].values, near, within)

@@ -232,9 +232,8 @@ def _needed(cases: Mapping[str, CaseView], name: str, needed: Needed) -> CaseVie
     case = cases[name]
     if case.status not in ("ok", "stopped"):
         raise Missing(f"{case.status} (case {name})")
-    wanted = Parameters(**needed.parameters)
     found = case.parameters
-    wanted = wanted.replace(normalization=found.normalization)  # the study's choice, not the claim's
+    wanted = Parameters(**needed.parameters, normalization=found.normalization)  # that is the study's choice
     if wanted != found:
         differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")

@@ -58,9 +58,9 @@ def _counts(table: pd.DataFrame) -> str:
     return ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
 
 
-def _claim(row: Mapping[Any, Any]) -> str:
+def _claim(row: Mapping[Any, Any]) -> list[str]:
     shown, _, missing = row["verdict"].partition(":")
-    return _row(
+    cells = (
         escape(row["id"]),
         escape(row["location"]),
         escape(row["claim"]),
@@ -69,6 +69,7 @@ def _claim(row: Mapping[Any, Any]) -> str:
         f'<span class="verdict {CLASSES.get(shown, "")}">{escape(shown)}</span>{_small(missing)}',
         escape(row["tolerance"]) + (_small(row["reason"]) if row["reason"] else ""),
     )
+    return [f"<td>{cell}</td>" for cell in cells]
 
 
 def _small(text: str) -> str:
@@ -82,7 +83,7 @@ def table_page(title: str, note: str, table: pd.DataFrame, names: Mapping[str, s
 
 def table_html(table: pd.DataFrame) -> str:
     """The table alone."""
-    rows = ["<tr>" + "".join(_cell(value) for value in row) + "</tr>" for row in table.itertuples(index=False)]
+    rows = [[_cell(value) for value in row] for row in table.itertuples(index=False)]
     return _table([str(name) for name in table.columns], rows)
 
 
@@ -92,15 +93,12 @@ def _cell(value: object) -> str:
     return f"<td>{escape(str(value))}</td>"
 
 
-def _row(*cells: str) -> str:
-    return "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
-
-
 CLAIM_WIDTHS = (5, 11, 18, 13, 30, 9, 14)
 """Of the columns of the ledger, in hundredths."""
 
 
-def _table(head: Sequence[str], rows: Iterable[str], widths: Sequence[int] = ()) -> str:
+def _table(head: Sequence[str], rows: Iterable[Iterable[str]], widths: Sequence[int] = ()) -> str:
     styles = [f' style="width: {width}%"' for width in widths] or [""] * len(head)
     top = "".join(f"<th{style}>{escape(name)}</th>" for name, style in zip(head, styles, strict=True))
-    return f"<table><thead><tr>{top}</tr></thead><tbody>\n" + "\n".join(rows) + "\n</tbody></table>"
+    body = "\n".join(f"<tr>{''.join(cells)}</tr>" for cells in rows)
+    return f"<table><thead><tr>{top}</tr></thead><tbody>\n{body}\n</tbody></table>"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 
@@ -68,16 +70,11 @@ def table_2(case: CaseView) -> pd.DataFrame:
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
     found = table_2_lines(case)
     names = [spectra.identify(line.frequency, rate, drive) for line in found]
-    return pd.DataFrame(
-        {
-            "symbol": list(TABLE_2),
-            "paper_Hz": LISTED,
-            "ours_Hz": [line.frequency for line in found],
-            "level_dB": [20 * np.log10(line.amplitude / found[0].amplitude) for line in found],
-            "ours_is": [str(name) for name in names],
-            "predicted_Hz": [name.frequency for name in names],
-            "paper_says": [said for _, said in TABLE_2.values()],
-        }
+    return _beside_the_papers(
+        ours_Hz=[line.frequency for line in found],
+        level_dB=[20 * np.log10(line.amplitude / found[0].amplitude) for line in found],
+        ours_is=[str(name) for name in names],
+        predicted_Hz=[name.frequency for name in names],
     )
 
 
@@ -86,9 +83,13 @@ def table_2_or_why(case: CaseView) -> tuple[pd.DataFrame, str]:
     try:
         return table_2(case), ""
     except Missing as reason:
-        table = pd.DataFrame({"symbol": list(TABLE_2), "paper_Hz": LISTED})
-        table = table.assign(ours_Hz=np.nan, level_dB=np.nan, ours_is="", predicted_Hz=np.nan)
-        return table.assign(paper_says=[said for _, said in TABLE_2.values()]), f"Not computed: {reason}."
+        nothing = _beside_the_papers(ours_Hz=np.nan, level_dB=np.nan, ours_is="", predicted_Hz=np.nan)
+        return nothing, f"Not computed: {reason}."
+
+
+def _beside_the_papers(**ours: Sequence[float] | Sequence[str] | float | str) -> pd.DataFrame:
+    table = pd.DataFrame({"symbol": list(TABLE_2), "paper_Hz": LISTED})
+    return table.assign(**ours, paper_says=[said for _, said in TABLE_2.values()])
 
 
 def table_2_lines(case: CaseView) -> list[spectra.Line]:

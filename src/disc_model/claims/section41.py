@@ -95,7 +95,7 @@ def contact_is_lost_upward(case: CaseView) -> Finding:
     needs=asked(separates=True, steady=True, F02=600),
 )
 def separations_are_short(case: CaseView) -> Finding:
-    durations, still_open = measures.separation_durations(case), measures.open_separation(case)
+    durations, still_open = measures.separation_durations(case)
     share = measures.phase_share(case, "separation")
     period = 1 / measures.rate_of(case, "separation")
     ours = (
@@ -227,8 +227,7 @@ def more_frequencies(*cases: CaseView) -> Finding:
     said, more = [], []
     for pair in pairs(cases):
         windows = [case.samples("late") for case in pair]
-        found = [(window["time"].values, window["w_point"].values) for window in windows]
-        lines = [len(spectra.lines(*each, above=1.0, floor=1e-3)) for each in found]
+        lines = [len(spectra.lines(w["time"].values, w["w_point"].values, above=1.0, floor=1e-3)) for w in windows]
         said.append(f"N = {pair[0]['N']:g} N: {lines[0]} lines against {lines[1]}")
         more.append(lines[0] > lines[1])
     return finding("; ".join(said), all(more), "the paper argues from the number of points: see S41p")

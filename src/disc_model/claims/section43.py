@@ -244,14 +244,14 @@ def undamped_trajectory(case: CaseView) -> Finding:
     needs=asked(F18=300, S43c10=WAITED, S43c11=WAITED, S43c12=WAITED) | repeated("S43z4"),
 )
 def undamped_separates_lower(*cases: CaseView) -> Finding:
-    undamped, slow = cases[0], cases[4:]
-    found = [(slow[0], slow), (undamped, [undamped]), *((case, [case]) for case in cases[1:4])]
+    undamped, damped, slow = cases[0], cases[1:4], cases[4:]
+    runs = [slow, [undamped], *([case] for case in damped)]
     ours = "; ".join(
-        f"D* = {case['D_star']:g}, {case['Omega']:g} rad/s: {first_separation(*runs)}" for case, runs in found
+        f"D* = {case['D_star']:g}, {case['Omega']:g} rad/s: {first_separation(case, *again)}" for case, *again in runs
     )
     lowest = [
         min((case["Omega"] for case in group if case["first_separation"] <= WAITED), default=math.inf)
-        for group in ((undamped, slow[0]), cases[1:4])
+        for group in ((undamped, slow[0]), damped)
     ]
     return finding(ours, lowest[0] < lowest[1])
 
@@ -571,12 +571,9 @@ def quasi_periodic_at_first(case: CaseView) -> Finding:
     needs=asked(separates=True, F02=600, F07=190, F17=850, F13=110),
 )
 def bounded(*cases: CaseView) -> Finding:
-    said, bounded = [], []
-    for case in cases:
-        late, before = case.last_quarters("w_point")
-        said.append(f"{case.name}: {1e3 * late:.1f} mm")
-        bounded.append(late <= 1.02 * before)
-    return finding("range of the disc in the end, " + ", ".join(said), all(bounded))
+    widths = [case.last_quarters("w_point") for case in cases]
+    said = ", ".join(f"{case.name}: {1e3 * late:.1f} mm" for case, (late, _) in zip(cases, widths, strict=True))
+    return finding(f"range of the disc in the end, {said}", all(late <= 1.02 * before for late, before in widths))
 
 
 @Claim(

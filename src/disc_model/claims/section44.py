@@ -18,10 +18,6 @@ EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("sp
 """Windows of N = 385 N, 15.1 rad/s, and the stretches of them that are compared, s."""
 LOW, HIGH = 20.0, 700.0
 """Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
-SIGNIFICANT = 1e-3
-"""Probability that any of several lines is a whim of noise."""
-PROMINENT = 0.1
-"""Amplitude beside the strongest line from which a line is a prominent one."""
 COMBINED = 0.3
 """Hz; a line no further than this from n f_s + m f_Omega is one of these."""
 FUZZ = "share of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: little for lines, much for fuzz"
@@ -55,7 +51,7 @@ def lines(case: CaseView) -> Finding:
     remark = "combinations of the stick-slip rate and the drive's, not natural frequencies: see T2c"
     if others:
         remark += f"; no weaker than the weakest of them, but not in the table: {many(others)} Hz"
-    return finding(ours, bool(off.max() <= bound) and chance * len(found) <= SIGNIFICANT, remark)
+    return finding(ours, bool(off.max() <= bound) and chance * len(found) <= 1e-3, remark)
 
 
 @Claim(
@@ -410,7 +406,7 @@ def erratic(case: CaseView) -> Finding:
     found = measures.lines(case, "spectrum_d", 465, 475, above=LOW, below=600, floor=1e-2)
     strongest = max(line.amplitude for line in found)
     every = _further(found, rate, case["Omega"] / (2 * np.pi))
-    further = [line for line in every if line.amplitude >= PROMINENT * strongest]
+    further = [line for line in every if line.amplitude >= 0.1 * strongest]
     seen = ", ".join(f"{line.frequency:.2f} Hz ({line.amplitude / strongest:.2g})" for line in further)
     motion, said = measures.late_motion(case)
     ours = (
@@ -418,7 +414,7 @@ def erratic(case: CaseView) -> Finding:
         f"independent frequencies, seen at {seen or 'none'}, and {len(every) - len(further)} weak ones; "
         f"in-plane motion {said}"
     )
-    several = len(further) >= 2.0
+    several = len(further) >= 2
     second = further[1].amplitude / further[0].amplitude if several else 1.0
     remark = f"mainly one of them: the next is {second:.2g} times as strong" if second < 0.5 else ""
     return measures.of_kind(Kind.IRREGULAR, motion, ours, besides=several, remark=remark)
