@@ -14,7 +14,7 @@ import yaml
 
 from disc_model import Parameters, residual_flexibility
 from disc_model.claims import SURVIVAL_GRIDS
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim, Finding
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Finding
 from disc_model.claims.survival import CONCLUSIONS, MODELS, Evidence, judge, page_of
 from disc_model.data.dataset import events_dataset
 from disc_model.data.variables import STATUSES
@@ -57,29 +57,8 @@ def outcome(letters: str) -> xr.Dataset:
 NAN = float("nan")
 
 
-@pytest.mark.parametrize(
-    ("letters", "rates", "verdict"),
-    [
-        ("qqsqgs", (-0.1, -0.2, 0.1, -0.1, 0.05, NAN), HOLDS),
-        ("qssqgs", (-0.1, -0.2, 0.1, -0.1, 0.05, NAN), FAILS),  # one from a stable cycle
-        ("qssqgs", (-0.1, -5e-4, 0.1, -0.1, 0.05, NAN), HOLDS),  # too slow a growth to tell
-        ("qqqqgg", (-0.1, -0.2, 0.1, -0.1, 0.05, 0.1), UNDECIDED),  # nothing separates
-        ("ssssss", (0.1, 0.2, 0.1, 0.1, 0.05, 0.1), UNDECIDED),  # nothing is stable
-        ("qqqqqs", (-0.1, -0.2, -0.1, -0.1, -0.05, NAN), UNDECIDED),  # only where there is no cycle
-    ],
-)
-def test_onset(letters: str, rates: Sequence[float], verdict: str) -> None:
-    folds = curves("fold", (29.0, 29.0))
-    assert judged("Onset", outcome=outcome(letters), growth=growth(*rates), curves=folds).verdict == verdict
-
-
-def test_onset_needs_every_point() -> None:
-    rates = growth(-0.1, -0.2, 0.1, -0.1, 0.05, NAN)
-    found = judged("Onset", outcome=outcome("qqsqgx"), growth=rates)
-    assert found.verdict == f"{NOT_COMPUTED}: study survival_outcome has points that failed"
-    found = judged("Onset", outcome=outcome("qqsqgs"), growth=rates.isel(Omega=[0, 1]))
-    assert found.verdict.startswith(f"{NOT_COMPUTED}: study survival_growth lacks points of survival_outcome")
-    assert judged("Onset", outcome=outcome("qqsqgs")).verdict.startswith(f"{NOT_COMPUTED}: study survival_growth")
+def onset(letters: str, *rates: float, fold: float = 29.0) -> dict[str, xr.Dataset]:
+    return {"outcome": outcome(letters), "growth": growth(*rates), "curves": curves("fold", (fold, fold))}
 
 
 def curves(
@@ -101,15 +80,6 @@ def curves(
     )
 
 
-def test_separation_just_below_a_fold_is_a_remark() -> None:
-    grids = {"outcome": outcome("qqsqss"), "growth": growth(-0.1, -0.2, 0.1, -0.1, -0.05, NAN)}
-    found = judged("Onset", curves=curves("fold", (20.05, 20.05)), **grids)
-    assert found.verdict == REMARK
-    assert found.remark.endswith("at a fold, too: 385 N, 20 rad/s")
-    assert judged("Onset", curves=curves("fold", (20.2, 20.2)), **grids).verdict == FAILS  # the cycle goes on
-    assert judged("Onset", curves=curves("fold", (19.95, 19.95)), **grids).verdict == FAILS  # it begins there
-
-
 QUIET, UNSTABLE = growth(*[-0.1] * 5, 0.1), growth(*[0.1] * 6)
 
 
@@ -128,62 +98,19 @@ def speeds(*begins: float, status: str = "ok") -> xr.Dataset:
     return grid.assign_attrs(options=json.dumps({"precision": 0.1}))
 
 
-@pytest.mark.parametrize(
-    ("found", "begins", "rates", "verdict"),
-    [
-        (curves("fold", (14.9, 15.2)), (15.1,), QUIET, HOLDS),  # at 15.05, within 15.0 .. 15.1
-        (curves("fold", (15.0, 15.28)), (15.1,), QUIET, HOLDS),  # at 15.14
-        (curves("fold", (15.0, 15.34)), (15.1,), QUIET, FAILS),  # at 15.17
-        (curves("fold", (14.9, 15.2), border="no"), (15.1,), QUIET, FAILS),
-        (curves("neutral", (14.9, 15.2)), (15.1,), QUIET, FAILS),
-        (curves("neutral", (14.9, 15.2), missed=2), (15.1,), QUIET, UNDECIDED),  # one of them may be the fold
-        (curves("neutral", (14.9, 15.2), missed=2), (15.1,), UNSTABLE, FAILS),  # the cycle goes on, unstable
-        (curves("neutral", (14.9, 15.2), missed=2), (15.1,), growth(*[0.1] * 4, NAN, 0.1), UNDECIDED),
-        (curves("fold", (14.9, 15.2)), (), QUIET, UNDECIDED),
-    ],
-)
-def test_fold(found: xr.Dataset, begins: tuple[float, ...], rates: xr.Dataset, verdict: str) -> None:
-    assert judged("Fold at N = 385 N", curves=found, speed=speeds(*begins), growth=rates).verdict == verdict
+def at_fold(found: xr.Dataset, *begins: float, rates: xr.Dataset = QUIET) -> dict[str, xr.Dataset]:
+    return {"curves": found, "speed": speeds(*begins), "growth": rates}
 
 
-def test_a_map_that_ends_too_soon_does_not_judge_a_fold() -> None:
-    found = judged("Fold at N = 385 N", curves=curves("neutral", (14, 16)), speed=speeds(35.0), growth=QUIET)
-    assert found.verdict == f"{NOT_COMPUTED}: study survival_growth does not reach as far as survival_speed"
+def critical(*found: float) -> dict[str, xr.Dataset]:
+    study = {
+        "critical_speed": (("N", "horizon"), np.array(found)[:, None]),
+        "status": flag(np.full(4, "ok"), ("ok", "failed"), ["N"]),
+    }
+    return {"speed": xr.Dataset(study, {"N": [50.0, 100.0, 200.0, 385.0]})}
 
 
-def test_a_fold_is_not_judged_by_what_failed() -> None:
-    good = curves("fold", (14.9, 15.2))
-    for name, grids in (
-        ("curves", {"curves": curves("fold", (14.9, 15.2), status="failed"), "speed": speeds(15.1)}),
-        ("speed", {"curves": good, "speed": speeds(15.1, status="failed")}),
-    ):
-        found = judged("Fold at N = 385 N", **grids)
-        assert found.verdict == f"{NOT_COMPUTED}: study survival_{name} has points that failed"
-
-
-@pytest.mark.parametrize(
-    ("critical", "verdict"),
-    [
-        ((NAN, 20.0, 12.0, 15.0), HOLDS),
-        ((30.0, 20.0, 12.0, NAN), HOLDS),
-        ((30.0, 20.0, 12.0, 12.2), FAILS),  # no more than speeds are known to
-        ((NAN, 20.0, 12.0, 11.0), FAILS),
-        ((10.0, 11.0, 12.0, 13.0), FAILS),
-        ((NAN, 20.0, NAN, 15.0), UNDECIDED),
-    ],
-)
-def test_critical_speed(critical: tuple[float, ...], verdict: str) -> None:
-    study = xr.Dataset(
-        {
-            "critical_speed": (("N", "horizon"), np.array(critical)[:, None]),
-            "status": flag(np.full(4, "ok"), ("ok", "failed"), ["N"]),
-        },
-        {"N": [50.0, 100.0, 200.0, 385.0]},
-    )
-    assert judged("Critical speed", speed=study).verdict == verdict
-
-
-def damping(name: str, without: np.ndarray, damped: np.ndarray, status: str = "ok") -> xr.Dataset:
+def damping(name: str, without: np.ndarray, damped: np.ndarray, status: str = "ok") -> dict[str, xr.Dataset]:
     """Growth rates over preload and speed without and with one damper."""
     rates = np.stack([without, damped])
     values = {"c": [0.0, 0.0], "c_p": [0.0, 0.0]}
@@ -192,29 +119,14 @@ def damping(name: str, without: np.ndarray, damped: np.ndarray, status: str = "o
     dims = ("c_c_p", "N", "Omega")
     coords = {key: ("c_c_p", value) for key, value in values.items()}
     meanings = ("ok", "no_cycle", "no_stick_slip")
-    return xr.Dataset(
+    study = xr.Dataset(
         {"growth_rate": (dims, rates), "status": flag(words, meanings, dims)},
         coords | {"N": [50.0, 385.0], "Omega": np.linspace(10, 50, rates.shape[2])},
     )
+    return {"damping": study}
 
 
 GROWING = np.array([[-0.1, 0.1, 0.2], [0.05, 0.1, NAN]])
-
-
-@pytest.mark.parametrize(
-    ("without", "damped", "verdict"),
-    [
-        (GROWING, GROWING - 0.15, HOLDS),
-        (GROWING, GROWING + np.array([[0.1, -0.1, -0.1], [-0.1, -0.1, 0.0]]), HOLDS),  # a stable one may do as it likes
-        (GROWING, GROWING + np.array([[0.0, -0.1, 0.01], [-0.1, -0.1, 0.0]]), FAILS),
-        (-np.abs(GROWING), GROWING, UNDECIDED),
-        (GROWING, np.full((2, 3), NAN), UNDECIDED),
-    ],
-)
-def test_damper_normal_to_the_disc(without: np.ndarray, damped: np.ndarray, verdict: str) -> None:
-    assert judged("Damper normal to the disc", damping=damping("c", without, damped)).verdict == verdict
-
-
 MANY = np.tile(np.linspace(-0.1, 0.1, 12), (2, 1))
 
 
@@ -224,30 +136,91 @@ def raised(row: int, column: int, to: float) -> np.ndarray:
     return found
 
 
+ONSET, FOLD, CRITICAL = "Onset", "Fold at N = 385 N", "Critical speed"
+NORMAL, IN_PLANE = "Damper normal to the disc", "Damper in the disc's plane"
+FAILED = f"{NOT_COMPUTED}: study survival_{{}} has points that failed"
+
+
 @pytest.mark.parametrize(
-    ("damped", "status", "verdict"),
+    ("title", "grids", "verdict"),
     [
-        (MANY - 0.05, "ok", FAILS),
-        (raised(1, 0, 0.05), "ok", HOLDS),  # a stable cycle grows
-        (raised(1, 11, 0.15), "ok", HOLDS),  # a growing one grows faster
-        (raised(0, 0, 0.05), "ok", FAILS),  # at a small preload only
-        (raised(1, 0, -0.05), "ok", FAILS),  # dies out more slowly, but does
-        (raised(1, 0, NAN), "no_cycle", HOLDS),
-        (raised(1, 0, NAN), "no_stick_slip", FAILS),  # it slides, which is no instability
-        (raised(1, 11, NAN), "no_cycle", FAILS),  # it was not stable without, either
+        (ONSET, onset("qqsqgs", -0.1, -0.2, 0.1, -0.1, 0.05, NAN), HOLDS),
+        (ONSET, onset("qssqgs", -0.1, -0.2, 0.1, -0.1, 0.05, NAN), FAILS),  # one from a stable cycle
+        (ONSET, onset("qssqgs", -0.1, -5e-4, 0.1, -0.1, 0.05, NAN), HOLDS),  # too slow a growth to tell
+        (ONSET, onset("qqqqgg", -0.1, -0.2, 0.1, -0.1, 0.05, 0.1), UNDECIDED),  # nothing separates
+        (ONSET, onset("ssssss", 0.1, 0.2, 0.1, 0.1, 0.05, 0.1), UNDECIDED),  # nothing is stable
+        (ONSET, onset("qqqqqs", -0.1, -0.2, -0.1, -0.1, -0.05, NAN), UNDECIDED),  # only where there is no cycle
+        (ONSET, onset("qqsqss", -0.1, -0.2, 0.1, -0.1, -0.05, NAN, fold=20.2), FAILS),  # the cycle goes on
+        (ONSET, onset("qqsqss", -0.1, -0.2, 0.1, -0.1, -0.05, NAN, fold=19.95), FAILS),  # it begins there
+        (ONSET, onset("qqsqgx", -0.1, -0.2, 0.1, -0.1, 0.05, NAN), FAILED.format("outcome")),
+        (FOLD, at_fold(curves("fold", (14.9, 15.2)), 15.1), HOLDS),  # at 15.05, within 15.0 .. 15.1
+        (FOLD, at_fold(curves("fold", (15.0, 15.28)), 15.1), HOLDS),  # at 15.14
+        (FOLD, at_fold(curves("fold", (15.0, 15.34)), 15.1), FAILS),  # at 15.17
+        (FOLD, at_fold(curves("fold", (14.9, 15.2), border="no"), 15.1), FAILS),
+        (FOLD, at_fold(curves("neutral", (14.9, 15.2)), 15.1), FAILS),
+        (FOLD, at_fold(curves("neutral", (14.9, 15.2), missed=2), 15.1), UNDECIDED),  # one of them may be the fold
+        # the cycle goes on, unstable
+        (FOLD, at_fold(curves("neutral", (14.9, 15.2), missed=2), 15.1, rates=UNSTABLE), FAILS),
+        (FOLD, at_fold(curves("neutral", (14.9, 15.2), missed=2), 15.1, rates=growth(*[0.1] * 4, NAN, 0.1)), UNDECIDED),
+        (FOLD, at_fold(curves("fold", (14.9, 15.2))), UNDECIDED),
+        (FOLD, at_fold(curves("fold", (14.9, 15.2), status="failed"), 15.1), FAILED.format("curves")),
+        (
+            FOLD,
+            at_fold(curves("fold", (14.9, 15.2))) | {"speed": speeds(15.1, status="failed")},
+            FAILED.format("speed"),
+        ),
+        (
+            FOLD,
+            at_fold(curves("neutral", (14, 16)), 35.0),
+            f"{NOT_COMPUTED}: study survival_growth does not reach as far as survival_speed",
+        ),
+        (CRITICAL, critical(NAN, 20.0, 12.0, 15.0), HOLDS),
+        (CRITICAL, critical(30.0, 20.0, 12.0, NAN), HOLDS),
+        (CRITICAL, critical(30.0, 20.0, 12.0, 12.2), FAILS),  # no more than speeds are known to
+        (CRITICAL, critical(NAN, 20.0, 12.0, 11.0), FAILS),
+        (CRITICAL, critical(10.0, 11.0, 12.0, 13.0), FAILS),
+        (CRITICAL, critical(NAN, 20.0, NAN, 15.0), UNDECIDED),
+        (NORMAL, damping("c", GROWING, GROWING - 0.15), HOLDS),
+        # a stable one may do as it likes
+        (NORMAL, damping("c", GROWING, GROWING + np.array([[0.1, -0.1, -0.1], [-0.1, -0.1, 0.0]])), HOLDS),
+        (NORMAL, damping("c", GROWING, GROWING + np.array([[0.0, -0.1, 0.01], [-0.1, -0.1, 0.0]])), FAILS),
+        (NORMAL, damping("c", -np.abs(GROWING), GROWING), UNDECIDED),
+        (NORMAL, damping("c", GROWING, np.full((2, 3), NAN)), UNDECIDED),
+        (IN_PLANE, damping("c_p", MANY, MANY - 0.05), FAILS),
+        (IN_PLANE, damping("c_p", MANY, raised(1, 0, 0.05)), HOLDS),  # a stable cycle grows
+        (IN_PLANE, damping("c_p", MANY, raised(1, 11, 0.15)), HOLDS),  # a growing one grows faster
+        (IN_PLANE, damping("c_p", MANY, raised(0, 0, 0.05)), FAILS),  # at a small preload only
+        (IN_PLANE, damping("c_p", MANY, raised(1, 0, -0.05)), FAILS),  # dies out more slowly, but does
+        (IN_PLANE, damping("c_p", MANY, raised(1, 0, NAN), "no_cycle"), HOLDS),
+        (
+            IN_PLANE,
+            damping("c_p", MANY, raised(1, 0, NAN), "no_stick_slip"),
+            FAILS,
+        ),  # it slides, which is no instability
+        (IN_PLANE, damping("c_p", MANY, raised(1, 11, NAN), "no_cycle"), FAILS),  # it was not stable without, either
+        (IN_PLANE, damping("c_p", MANY[:, :3], MANY[:, :3] - 0.05), UNDECIDED),  # few cycles say nothing
+        (
+            IN_PLANE,
+            damping("c", MANY, MANY),
+            f"{NOT_COMPUTED}: study survival_damping lacks a pair of points without and with c_p",
+        ),
     ],
 )
-def test_damper_in_the_discs_plane(damped: np.ndarray, status: str, verdict: str) -> None:
-    assert judged("Damper in the disc's plane", damping=damping("c_p", MANY, damped, status)).verdict == verdict
+def test_conclusions_about_grids(title: str, grids: dict[str, xr.Dataset], verdict: str) -> None:
+    assert judged(title, **grids).verdict == verdict
 
 
-def test_few_cycles_say_nothing_of_the_damper_in_the_plane() -> None:
-    few = damping("c_p", MANY[:, :3], MANY[:, :3] - 0.05)
-    assert judged("Damper in the disc's plane", damping=few).verdict == UNDECIDED
-    other = damping("c", MANY, MANY)
-    assert judged("Damper in the disc's plane", damping=other).verdict == (
-        f"{NOT_COMPUTED}: study survival_damping lacks a pair of points without and with c_p"
-    )
+def test_onset_needs_growth_at_every_point() -> None:
+    rates = growth(-0.1, -0.2, 0.1, -0.1, 0.05, NAN)
+    found = judged(ONSET, outcome=outcome("qqsqgs"), growth=rates.isel(Omega=[0, 1]))
+    assert found.verdict.startswith(f"{NOT_COMPUTED}: study survival_growth lacks points of survival_outcome")
+    assert judged(ONSET, outcome=outcome("qqsqgs")).verdict.startswith(f"{NOT_COMPUTED}: study survival_growth")
+
+
+def test_separation_just_below_a_fold_is_a_remark() -> None:
+    found = judged(ONSET, **onset("qqsqss", -0.1, -0.2, 0.1, -0.1, -0.05, NAN, fold=20.05))
+    assert found.verdict == REMARK
+    assert found.remark.endswith("at a fold, too: 385 N, 20 rad/s")
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -387,10 +360,7 @@ def test_each_model_is_judged_by_its_own_data() -> None:
 
 def test_conclusions_say_how_they_are_judged() -> None:
     assert len(BY_TITLE) == len(CONCLUSIONS) == 8
-    for one in CONCLUSIONS:
-        assert isinstance(one, Claim)
-        assert one.tolerance
-        assert one.reason
+    assert all(one.tolerance and one.reason for one in CONCLUSIONS)
 
 
 def test_the_files_ask_for_the_four_models() -> None:
