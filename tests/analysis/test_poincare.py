@@ -27,23 +27,21 @@ def test_stages_without_separation_are_halves() -> None:
     assert not found.separated.any()
 
 
-@pytest.mark.parametrize("period", [1, 2, 5])
-def test_a_periodic_motion_has_as_many_points(period: int) -> None:
-    angle = 2 * np.pi * np.arange(500) / period
-    points = np.column_stack([np.cos(angle), 30 * np.sin(angle)]) + 1e-5
-    assert distinct_points(points) == period
+def around(turns: float, count: int) -> np.ndarray:
+    """Points of an ellipse, so many turns apart."""
+    angle = 2 * np.pi * turns * np.arange(count)
+    return np.column_stack([np.cos(angle), 30 * np.sin(angle)]) + 1e-5
 
 
-def test_a_quasi_periodic_motion_has_a_curve_of_points() -> None:
-    angle = 2 * np.pi * 0.618034 * np.arange(3000)
-    count = distinct_points(np.column_stack([np.cos(angle), np.sin(angle)]))
-    assert 150 < count < 400
-
-
-def test_a_cloud_has_more_points_than_a_curve() -> None:
-    cloud = np.random.default_rng(0).random((3000, 2))
-    assert distinct_points(cloud) > 1000
-
-
-def test_no_points() -> None:
-    assert distinct_points(np.empty((0, 2))) == 0
+@pytest.mark.parametrize(
+    ("points", "least", "most"),
+    [
+        (np.empty((0, 2)), 0, 0),
+        *((around(1 / period, 500), period, period) for period in (1, 2, 5)),
+        (around(0.618034, 3000), 151, 399),
+        (np.random.default_rng(0).random((3000, 2)), 1001, 3000),
+    ],
+    ids=["none", "period 1", "period 2", "period 5", "closed curve", "cloud"],
+)
+def test_a_section_has_as_many_points_as_its_motion_shows(points: np.ndarray, least: int, most: int) -> None:
+    assert least <= distinct_points(points) <= most

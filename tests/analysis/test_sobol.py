@@ -22,12 +22,16 @@ def test_indices_are_those_of_scipy() -> None:
     np.testing.assert_allclose(total, np.ravel(theirs.total_order), rtol=1e-12)
 
 
-def linear(n: int, seed: int) -> np.ndarray:
-    """Outputs of 3 x + 2 y + z over the unit cube: indices 9/14, 4/14, 1/14, first-order and total."""
+def design(n: int, seed: int) -> list[np.ndarray]:
+    """Points of the unit cube: A, B, and A with each of three inputs in turn taken from B."""
     unit = qmc.Sobol(6, rng=np.random.default_rng(seed)).random(n)
     a, b = unit[:, :3], unit[:, 3:]
-    mixed = [np.where(np.arange(3) == i, b, a) for i in range(3)]
-    return np.stack([x @ [3, 2, 1] for x in (a, b, *mixed)], axis=1)
+    return [a, b, *(np.where(np.arange(3) == i, b, a) for i in range(3))]
+
+
+def linear(n: int, seed: int) -> np.ndarray:
+    """Outputs of 3 x + 2 y + z: indices 9/14, 4/14, 1/14, first-order and total."""
+    return np.stack([x @ [3, 2, 1] for x in design(n, seed)], axis=1)
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say() -> None:
@@ -79,10 +83,8 @@ def test_shares_of_quasi_random_samples_are_within_the_interval_at_least_as_ofte
 
 def test_ishigamis_indices_are_approached() -> None:
     """a = 7, b = 0.1; closed form."""
-    unit = 2 * np.pi * qmc.Sobol(6, rng=np.random.default_rng(2)).random(2**14) - np.pi
-    a, b = unit[:, :3], unit[:, 3:]
-    mixed = [np.where(np.arange(3) == i, b, a) for i in range(3)]
-    outputs = [np.sin(x) + 7 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x) for x, y, z in (m.T for m in (a, b, *mixed))]
+    angles = [2 * np.pi * points.T - np.pi for points in design(2**14, 2)]
+    outputs = [np.sin(x) + 7 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x) for x, y, z in angles]
     first, total = sobol_indices(np.stack(outputs, axis=1))
     # independent samples would leave some 2 / sqrt(2^14) = 0.016
     np.testing.assert_allclose(first, [0.31391, 0.44241, 0.0], atol=0.01)

@@ -102,17 +102,6 @@ def test_the_map_is_iterated_until_it_does_not_return(monkeypatch):
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("releases", [1, 2])
-def test_jacobian_through_separation_and_impact(releases):
-    map_, x = after_separation(Parameters(N=385, Omega=15.1), 60.0)
-    flight, _, jacobian, _ = map_.evaluate(x, releases=releases, may_separate=True)
-    assert flight.outcome == RETURNED
-    assert flight.counts.separations > 0
-    expected = central_differences(map_, x, releases=releases, may_separate=True)
-    assert np.max(np.abs(jacobian - expected)) < 1e-6 * np.max(np.abs(expected))
-
-
-@pytest.mark.compiled
 @pytest.mark.parametrize("where", ["cycle", "separation"])
 def test_derivatives_by_parameters_agree_with_central_differences(where):
     if where == "cycle":

@@ -67,10 +67,6 @@ class CycleError(DiscModelError):
     """There is no cycle to speak of; the message says what was found instead."""
 
 
-def _no_numbers() -> ComplexArray:
-    return np.zeros(0, complex)
-
-
 @dataclass(frozen=True, eq=False)
 class FloquetResult:
     """The stick-slip cycle of a case.
@@ -98,8 +94,8 @@ class FloquetResult:
     status: CycleStatus
     message: str
     period: float = math.nan
-    multipliers: ComplexArray = field(default_factory=_no_numbers)
-    exponents: ComplexArray = field(default_factory=_no_numbers)
+    multipliers: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
+    exponents: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
     growth_rate: float = math.nan
     stick_fraction: float = math.nan
     state: State | None = None
