@@ -59,10 +59,6 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
     return Frequencies(cycle, frequency, growth_rate, diameters, forward, *found)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Steady sliding
-
-
 def _sliding_modes(
     p: Parameters, sliding: SteadySliding
 ) -> tuple[Array, Array, NDArray[np.int64], Array, ComplexArray]:
@@ -95,10 +91,6 @@ def _sliding_modes(
         np.asarray(waves[0] / (waves[0] + waves[1]), dtype=float),
         np.vstack([a, alpha, b, beta, u]),
     )
-
-
-# ----------------------------------------------------------------------------------------------------
-# The cycle
 
 
 def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexArray, tol: float) -> Array:

@@ -1,9 +1,4 @@
-"""Where the cycle loses stability and where it ceases to exist, in the plane of two parameters.
-
-Along a few lines across the plane, cycles are looked for; between those that differ in stability, or of which one is
-missing, the cycle is followed to where its leading multiplier leaves the unit circle or to its fold. From there the
-curve is traced by continuation in both parameters, both ways.  What no line meets is not found.
-"""
+"""Where the cycle loses stability and where it ceases to exist, in the plane of two parameters; see docs/method.md."""
 
 from __future__ import annotations
 

@@ -1,8 +1,6 @@
-"""`floquet`: the stick-slip cycle as a periodic orbit, and its stability.
+"""`floquet`: the stick-slip cycle as a fixed point of `disc_model.stability.return_map`, and its stability.
 
-In the slider's frame the model is autonomous, so that the cycle is a fixed point of the return map of the section
-"stick is about to be released" (`disc_model.stability.return_map`) and its multipliers are the eigenvalues of that
-map's Jacobian.  Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, which stick forgets.
+Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, which stick forgets.
 """
 
 from __future__ import annotations
@@ -173,9 +171,7 @@ def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) ->
     """The cycle Newton's method finds from `start` (a point of the section), the static equilibrium by default.
 
     Where it finds none from the equilibrium, the motion from there is simulated for some returns, and cycles of up to
-    three releases are looked for from where it has come to.  Beyond a fold there may be cycles far from the quiet
-    motion, in resonance and violently unstable; `disc_model.stability.continuation` finds them from the fold's other
-    side, and this function leaves them alone.
+    three releases are looked for from where it has come to.
     """
     if not may_stick_and_slip(p):
         return _degenerate(p, tol)

@@ -182,7 +182,9 @@ class _Course:
                 self.shown = self.shown or near.cycle
                 if near.cycle.stable:
                     self.shown = near.cycle
-                    return self._ended("stable" if self.left is None or self._quiet(near.x) else "unstable")
+                    # a motion between the start and a cycle so near to it counts as quiet
+                    apart, size = (np.linalg.norm(x) for x in (near.x - self.map.static, self.map.static))
+                    return self._ended("stable" if self.left is None or apart <= NEAR * size else "unstable")
                 if self._depart(near) >= self.horizon:
                     return self._ended("unstable")
             elif self.time >= self.horizon:
@@ -214,10 +216,6 @@ class _Course:
         self.simulated += result.final_state.time - self.time
         self.state, self.time = result.final_state, result.final_state.time
         return result
-
-    def _quiet(self, x: Array) -> bool:
-        """Whether a cycle is so near the start that a motion between them counts as quiet."""
-        return bool(np.linalg.norm(x - self.map.static) <= NEAR * np.linalg.norm(self.map.static))
 
     def _ended(self, outcome: str, **more: Any) -> Fate:
         departed = None if self.left is None else self.left.cycle
