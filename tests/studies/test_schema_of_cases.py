@@ -188,12 +188,18 @@ def test_keys_given_twice(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"), [("a: [1", r"broken\.yaml"), ("a: b: c", r"broken\.yaml"), (None, "cannot be read")]
+    ("content", "said"),
+    [
+        (b"a: [1", r"broken\.yaml"),
+        (b"a: b: c", r"broken\.yaml"),
+        (b"study: \xff", r"broken\.yaml: .*\n.*cannot be read: byte 7 is no UTF-8"),
+        (None, "cannot be read"),
+    ],
 )
-def test_a_file_that_cannot_be_read(tmp_path: Path, text: str | None, said: str) -> None:
+def test_a_file_that_cannot_be_read(tmp_path: Path, content: bytes | None, said: str) -> None:
     path = tmp_path / "broken.yaml"
-    if text is not None:
-        path.write_text(text)
+    if content is not None:
+        path.write_bytes(content)
     with pytest.raises(StudyError, match=said):
         load_study(path)
 

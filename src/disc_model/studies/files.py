@@ -143,11 +143,11 @@ def with_more_faults(parse: Callable[[Any], T], raw: Any, more: Sequence[str], s
 def read_file(path: Path) -> tuple[Any, list[str]]:
     """A YAML file's content and the keys that it gives twice; raises `StudyError` if it cannot be read."""
     try:
-        return read_yaml(path.read_text(encoding="utf-8"))
+        return read_yaml(path.read_text(encoding="utf-8"), str(path))
     except OSError as error:
         raise StudyError(f"cannot be read: {error.strerror}", source=str(path)) from None
-    except StudyError as error:
-        raise StudyError(*error.faults, source=str(path)) from None
+    except UnicodeDecodeError as error:
+        raise StudyError(f"cannot be read: byte {error.start} is no UTF-8", source=str(path)) from None
 
 
 def shown_path(path: Path) -> str:
@@ -205,7 +205,7 @@ def _marked(error: yaml.MarkedYAMLError) -> str:
     return place + ", ".join(part for part in (error.context, error.problem) if part)
 
 
-def read_yaml(text: str) -> tuple[Any, list[str]]:
+def read_yaml(text: str, source: str = "study") -> tuple[Any, list[str]]:
     """A YAML document and the keys that it gives twice; raises `StudyError` if the text is none."""
     try:
         loader = _UniqueKeyLoader(text)
@@ -218,10 +218,10 @@ def read_yaml(text: str) -> tuple[Any, list[str]]:
         finally:
             loader.dispose()
     except yaml.MarkedYAMLError as error:
-        raise StudyError(_marked(error)) from None
+        raise StudyError(_marked(error), source=source) from None
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # ValueError: numbers and dates that look like one but are none
-        raise StudyError(" ".join(str(error).split())) from None
+        raise StudyError(" ".join(str(error).split()), source=source) from None
     except (AttributeError, KeyError, TypeError) as error:
         # so ends a tag such as !!timestamp or !!bool before a value that is none
-        raise StudyError(f"a value does not fit its tag ({' '.join(str(error).split())})") from None
+        raise StudyError(f"a value does not fit its tag ({' '.join(str(error).split())})", source=source) from None

@@ -218,13 +218,7 @@ class Table(NamedTuple):
 
 
 def compute(quantity: Quantity, points: Sequence[Point], options: Any) -> Table:
-    """A quantity at each point; one that fails (see `NUMERICAL`) gets the status `failed` and a message.
-
-    Parameters
-    ----------
-    points : parameters; an error stands for a point that could not be made, and is its message
-    options : as `schema` says for this quantity
-    """
+    """A quantity at each point; one that fails (see `NUMERICAL`), or could not be made, is `failed`, with a message."""
     return table_of(quantity, [_at(quantity, point, options) for point in points], options)
 
 

@@ -129,11 +129,7 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
 def _period(p: Parameters, events: Any, kind: str, state: State) -> tuple[int, float]:
     """Number of switches after which the motion repeats, and how nearly it does so by now (s); 0 and nan if none.
 
-    Parameters
-    ----------
-    events : of the last stretch
-    kind : of the switches that count
-    state : where the stretch ends
+    events : of the last stretch, which ends at `state`; those of the kind count
     """
     at = (events["kind"] == kind).to_numpy()
     intervals = np.diff(events["time"].to_numpy()[at])

@@ -83,13 +83,7 @@ TOLD = {"quiet": "stable", "slow": "unstable"}
 def over(
     points: Sequence[Sequence[Point]], options: RegionsOptions, sampled: Collection[Place]
 ) -> list[list[tuple[Row, str]]]:
-    """Rows and messages of a tile.
-
-    Parameters
-    ----------
-    points : rows of the tile, parameters or why there are none
-    sampled : places at which the outcome is worked out in any case
-    """
+    """Of a tile; the outcome is worked out at the places `sampled` in any case."""
     return _Tile(points, options, sampled).rows()
 
 

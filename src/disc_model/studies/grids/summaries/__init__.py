@@ -38,12 +38,7 @@ def summary_of(quantity: str) -> Summary | None:
 
 
 def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> xr.Dataset:
-    """A merged study with the summary of its quantity, if this has one.
-
-    Parameters
-    ----------
-    options : of the study, as its batches hold them
-    """
+    """A merged study with the summary of its quantity, if this has one; its options are as its batches hold them."""
     summary = summary_of(quantity)
     if summary is None:
         return study
