@@ -33,10 +33,13 @@ def study_schema() -> Schema:
     defs: Schema = {}
     whole = _of(Document, defs)
     properties = whole["properties"]
-    properties["base"] = _parameters(defs)
-    properties["tol"] = _of(Case, {})["properties"]["tol"]
-    properties["record"] = _partial(_of(RecordSpec, defs), defs)
-    properties["cases"] = {"type": "object", "minProperties": 1, "additionalProperties": _case(defs)}
+    parameters = _parameters(defs)
+    case, start, record = _of(Case, defs), _of(Start, defs), _partial(_of(RecordSpec, defs), defs)
+    case["properties"] |= {"parameters": parameters, "record": record, "start": start}
+    properties["base"] = parameters
+    properties["tol"] = case["properties"]["tol"]
+    properties["record"] = record
+    properties["cases"] = {"type": "object", "minProperties": 1, "additionalProperties": case}
     properties["resolution"] = {"type": "integer", "minimum": 1}
     properties["figures"] = _figures(defs)
     properties["quantity"] = {"enum": list(QUANTITIES)}
@@ -46,14 +49,15 @@ def study_schema() -> Schema:
     properties["axes"] = {**columns, "minProperties": 1}
     properties["zip"] = {"anyOf": [columns, {"type": "array", "items": columns}]}
     properties["batch"] = _of(BatchSpec, defs)
-    properties["starts"] = {"type": "object", "additionalProperties": _start(defs)}
+    properties["starts"] = {"type": "object", "additionalProperties": start}
     defs["Axis"] = _axis(defs)
+    options = {name: _of(quantity.options, defs) for name, quantity in QUANTITIES.items()}
     whole |= {
         "$schema": DIALECT,
         "title": "A study of disc_model",
         "description": "A grid, named cases, or both, and figures of either: docs/studies.md.",
         "anyOf": [{"required": [key]} for key in ("cases", "quantity", "studies")],
-        "allOf": [_options_of(name, defs) for name in QUANTITIES],
+        "allOf": [_where("quantity", name, {"properties": {"options": said}}) for name, said in options.items()],
         "$defs": dict(sorted(defs.items())),
     }
     return whole
@@ -116,22 +120,6 @@ def _or_null(schema: Schema) -> Schema:
     return {"anyOf": [schema, {"type": "null"}]}
 
 
-def _case(defs: Schema) -> Schema:
-    found = _of(Case, defs)
-    found["properties"] |= {
-        "parameters": _parameters(defs),
-        "record": _partial(_of(RecordSpec, defs), defs),
-        "start": _start(defs),
-    }
-    return found
-
-
-def _start(defs: Schema) -> Schema:
-    found = _of(Start, defs)
-    defs["Preparation"]["properties"]["parameters"] = _parameters(defs)
-    return found
-
-
 def _axis(defs: Schema) -> Schema:
     """Values along an axis: a list, a range, or blocks of these."""
     values = {"type": "array", "minItems": 1, "items": {"type": ["number", "string"]}}
@@ -156,10 +144,7 @@ def _figures(defs: Schema) -> Schema:
         "type": "object",
         "properties": {"kind": {"enum": list(kinds)}},
         "required": ["kind"],
-        "allOf": [
-            {"if": {"properties": {"kind": {"const": name}}, "required": ["kind"]}, "then": schema}
-            for name, schema in kinds.items()
-        ],
+        "allOf": [_where("kind", name, schema) for name, schema in kinds.items()],
     }
     return {
         "anyOf": [
@@ -169,13 +154,9 @@ def _figures(defs: Schema) -> Schema:
     }
 
 
-def _options_of(quantity: str, defs: Schema) -> Schema:
-    """What a quantity's options are, where it is the one asked for."""
-    options = _of(QUANTITIES[quantity].options, defs)
-    return {
-        "if": {"properties": {"quantity": {"const": quantity}}, "required": ["quantity"]},
-        "then": {"properties": {"options": options}},
-    }
+def _where(key: str, word: str, schema: Schema) -> Schema:
+    """What holds where a key says this word."""
+    return {"if": {"properties": {key: {"const": word}}, "required": [key]}, "then": schema}
 
 
 if __name__ == "__main__":
