@@ -110,9 +110,8 @@ def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.
     axes, attrs = {"N": ("N", [1.0, 2, 3], {"units": "N"})}, {"base": json.dumps({"normalization": normalization})}
     samples = {"phase": (("N", "sample"), np.ones((3, 2), np.int8)), "psi": (("N", "sample"), np.ones((3, 2)))}
     exponents = {name: (("N", "exponent_number"), np.ones((3, 1))) for name in ("exponent", "exponent_error")}
-    return xr.Dataset(samples | {"status": status}, axes, attrs), xr.Dataset(
-        exponents | {"status": status}, axes, attrs
-    )
+    one, other = (xr.Dataset(values | {"status": status}, axes, attrs) for values in (samples, exponents))
+    return one, other
 
 
 def in_base(study: xr.Dataset) -> xr.Dataset:

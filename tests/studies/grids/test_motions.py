@@ -36,9 +36,7 @@ def test_few_values_of_an_axis_are_taken_both_ends_among_them():
     assert thinned(dim, 4).values == ((0.0,), (3.0,), (7.0,), (10.0,))
     assert thinned(dim, 11).values == thinned(dim, 99).values == dim.values
     assert thinned(dim, 1).values == ((0.0,),)
-
-
-def test_words_are_all_taken():
+    # words are all taken
     dim = Dimension(("start",), (tuple((word,) for word in "abcde"),))
     assert thinned(dim, 2).values == dim.values
 

@@ -47,6 +47,7 @@ def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
         ({"start": 0, "stop": 0.3, "step": 0.1}, [0.0, 0.1, 0.2, 0.3]),
         ({"start": 0.1, "stop": 10, "count": 3, "scale": "log"}, [0.1, 1.0, 10.0]),
         ({"blocks": [[1, 2], {"start": 1, "stop": 3, "count": 5}]}, [1.0, 1.5, 2.0, 2.5, 3.0]),
+        ({"blocks": [[1, 2], [2, 1], [3]]}, [1.0, 2.0, 3.0]),
     ],
 )
 def test_values_of_an_axis(given: Any, values: list[float]) -> None:
@@ -429,8 +430,3 @@ def test_rules_of_options(quantity: str, options: dict[str, Any], fault: str) ->
 @pytest.mark.parametrize("resolution", ["fine", 0, -2, 1.5])
 def test_a_resolution_is_a_whole_number(resolution: Any) -> None:
     assert faults_of(parse_grid, study(), resolution) == [f"resolution = {resolution!r}: must be a whole number >= 1"]
-
-
-def test_a_value_belongs_to_the_first_block_that_has_it() -> None:
-    repeated = parse_grid(study(axes=ONE | {"N": {"blocks": [[1, 2], [2, 1], [3]]}}))
-    assert repeated.values["N"] == ((1.0,), (2.0,), (3.0,))

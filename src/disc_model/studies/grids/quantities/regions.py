@@ -140,23 +140,19 @@ class _Tile:
         start = self.starts[place]
         return start if isinstance(start, Near) and start.own else None
 
-    def _beside(self, place: Place) -> list[Place]:
-        i, j = place
-        return [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
-
     def _check_what_is_filled(self) -> None:
         """Work out what corners say little of.
 
         That is where the start follows a cycle that grows, and yet would stay quiet; and where it follows none,
         although it does at most points beside.
         """
-        for place, outcome in (self.presumed | self.filled).items():
-            if self._own(place) is None:
-                doubtful = sum(self._own(there) is None for there in self._beside(place)) <= SCATTERED
-            else:
-                doubtful = outcome == "stable"
+        for (i, j), outcome in (self.presumed | self.filled).items():
+            beside = [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
+            doubtful = outcome == "stable"
+            if self._own((i, j)) is None:
+                doubtful = sum(self._own(there) is None for there in beside) <= SCATTERED
             if doubtful:
-                self.outcome(place)
+                self.outcome((i, j))
 
     def outcome(self, place: Place) -> str:
         """Of the published start at a point, worked out once."""
