@@ -14,7 +14,7 @@ from contextlib import nullcontext
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
-from rich.table import Table
+from rich.table import Column, Table
 
 from disc_model.cli.progress import compiling
 from disc_model.errors import Fault, ParameterError, shown
@@ -115,9 +115,7 @@ def case_lines(p: Parameters, choice: str) -> list[tuple[str, str]]:
 
 def table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], **column: Any) -> Table:
     """A table for the terminal; ``column``: how rich shows each column."""
-    made = Table(title=title)
-    for head in heads:
-        made.add_column(head, **column)
+    made = Table(*(Column(head, **column) for head in heads), title=title)
     for row in rows:
         made.add_row(*row)
     return made

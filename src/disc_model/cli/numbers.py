@@ -20,27 +20,27 @@ TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOL
 def modes(*, case: dict[str, str]) -> None:
     """Print the disc's modes, its give under the slider, and the frequencies of both with the slider at rest."""
     from disc_model.flexibility import residual_flexibility
-    from disc_model.plate import plate_modes, slider_at_rest_frequencies
+    from disc_model.plate import mode_arrays, slider_at_rest_frequencies
 
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
     refuse(faults)
     if choice:
         tell([("modes chosen", choice)])
-    rows = []
-    for row in plate_modes(parameters).itertuples():
-        omega, psi = float(row.omega), float(row.psi)  # type: ignore[arg-type]
-        numbers = (f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6g}")
-        rows.append((str(row.circles), str(row.diameters), *numbers))
+    found = mode_arrays(parameters)
+    rows = [
+        (str(circles), str(diameters), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6g}")
+        for circles, diameters, omega, psi in zip(found.circles, found.diameters, found.omega, found.psi, strict=True)
+    ]
     columns = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)")
     modes = table(f"Modes of the disc ({parameters.normalization})", columns, rows, justify="right")
-    found = residual_flexibility(parameters)
-    flexibility = (f"{found.total:.7g}", f"{found.remainder:.1e}", f"{found.kept:.7g}", f"{found.residual:.7g}")
+    give = residual_flexibility(parameters)
+    numbers = (f"{give.total:.7g}", f"{give.remainder:.1e}", f"{give.kept:.7g}", f"{give.residual:.7g}")
     heads = ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)")
-    give = table("Static give of the disc under the slider", heads, [flexibility], justify="right")
+    static = table("Static give of the disc under the slider", heads, [numbers], justify="right")
     at_rest = [(f"{value:.3f}", f"{value / math.tau:.3f}") for value in slider_at_rest_frequencies(parameters)]
     shifted = table("Disc and slider at rest", ("lambda (rad/s)", "f (Hz)"), at_rest, justify="right")
-    for one in (modes, give, shifted):
+    for one in (modes, static, shifted):
         Console().print(one)
 
 

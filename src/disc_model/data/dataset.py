@@ -65,10 +65,7 @@ def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict
 def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
     """The root of a case: what has no dimension.
 
-    Parameters
-    ----------
-    values : of `SCALARS`, nan where not given; the status by its place in `STATUSES`
-    status, message : in words
+    values : of `SCALARS`, nan where not given; the status by its place in `STATUSES`, and once more in words
     """
     data: dict[str, Any] = {}
     for name in SCALARS:
