@@ -59,7 +59,9 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
     ModeError
         If the modes cannot be told apart or an amplitude overflows.
     """
-    return _frame(mode_arrays(p)).copy()
+    import pandas as pd
+
+    return pd.DataFrame(vars(mode_arrays(p)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,14 +90,6 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
     radial = np.column_stack([shapes.at(float(x), p.normalization == "orthonormal") for x in r / p.b])
     return np.where(shapes.l > 0, np.sqrt(2), 1.0)[:, None] * radial / np.sqrt(p.rho * p.h * p.b**2)
-
-
-@lru_cache(maxsize=64)
-def _frame(modes: Modes) -> pd.DataFrame:
-    """The table of `plate_modes`, kept because pandas takes long to build it."""
-    import pandas as pd
-
-    return pd.DataFrame(vars(modes))
 
 
 def slider_at_rest_frequencies(p: Parameters) -> Array:

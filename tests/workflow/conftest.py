@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Self
 
 import pytest
 
@@ -160,7 +161,7 @@ class Project:
         assert old in text
         file.write_text(text.replace(old, new))
 
-    def copy(self, folder: Path) -> Project:
+    def copy(self, folder: Path) -> Self:
         """A copy to change, times of files included."""
         shutil.copytree(self.folder, folder, symlinks=True)
         return replace(self, folder=folder)

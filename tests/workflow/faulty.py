@@ -6,11 +6,13 @@ import os
 import re
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
 
+from tests.tally import tried
 from tests.workflow.conftest import Project
 
 CONFIG = "config/faulty.yaml"
@@ -55,12 +57,24 @@ def products(project: Project) -> dict[str, bytes]:
     }
 
 
-def check_same(project: Project, undisturbed: dict[str, bytes]) -> None:
-    """Every file has the same bytes. Inputs of finished files may be missing: nothing asks for them."""
-    found = products(project)
-    assert set(found) <= set(undisturbed)
-    assert {name for name in set(undisturbed) - set(found) if not INPUT.search(name)} == set()
-    assert [name for name in found if found[name] != undisturbed[name]] == []
+@dataclass(frozen=True)
+class Copy(Project):
+    """A copy of the study that is treated badly, and what the files of an undisturbed run hold."""
+
+    undisturbed: Mapping[str, bytes] = field(default_factory=dict)
+
+    def recovers(self, what: str, count: int = 1) -> None:
+        """A run after faults gives the same bytes."""
+        self.complete("-j2")
+        self.recovered(what, count)
+
+    def recovered(self, what: str, count: int = 1) -> None:
+        """The run after faults has been: same bytes. Inputs of finished files may be missing: nothing asks for them."""
+        found, wanted = products(self), self.undisturbed
+        assert set(found) <= set(wanted)
+        assert {name for name in set(wanted) - set(found) if not INPUT.search(name)} == set()
+        assert [name for name in found if found[name] != wanted[name]] == []
+        tried("faults, after which a rerun gave the same bytes", what, count)
 
 
 def jobs(project: Project) -> list[int]:

@@ -20,47 +20,29 @@ from pathlib import Path
 import pytest
 
 from tests import needs
-from tests.tally import tried
 from tests.workflow.conftest import Project, copy_repository
-from tests.workflow.faulty import CONFIG, STUDY, check_same, jobs, kill, needs_proc, products, wait_until
+from tests.workflow.faulty import CONFIG, STUDY, Copy, jobs, kill, needs_proc, products, wait_until
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 LOCKED = "Directory cannot be locked"
 
 
-def recovers(project: Project, undisturbed: dict[str, bytes], what: str, count: int = 1) -> None:
-    """A run after faults gives the bytes of an undisturbed one."""
-    project.complete("-j2")
-    recovered(project, undisturbed, what, count)
-
-
-def recovered(project: Project, undisturbed: dict[str, bytes], what: str, count: int = 1) -> None:
-    """The run after faults has been, and gave the bytes of an undisturbed one."""
-    check_same(project, undisturbed)
-    tried("faults, after which a rerun gave the same bytes", what, count)
-
-
 @pytest.fixture(scope="module")
-def done(tmp_path_factory: pytest.TempPathFactory) -> Project:
+def done(tmp_path_factory: pytest.TempPathFactory) -> Copy:
     """The study, undisturbed."""
     project = copy_repository(tmp_path_factory.mktemp("undisturbed"), STUDY)
     project.complete("-j2")
-    return project
-
-
-@pytest.fixture(scope="module")
-def undisturbed(done: Project) -> dict[str, bytes]:
-    return products(done)
+    return Copy(project.folder, project.config, undisturbed=products(project))
 
 
 @pytest.fixture
-def finished(done: Project, tmp_path: Path) -> Project:
+def finished(done: Copy, tmp_path: Path) -> Copy:
     """A copy of it, times included."""
     return done.copy(tmp_path / "project")
 
 
 @pytest.fixture
-def fresh(done: Project, tmp_path: Path) -> Project:
+def fresh(done: Copy, tmp_path: Path) -> Copy:
     """The study before its first run."""
     project = done.copy(tmp_path / "project")
     for made in ("results", ".snakemake"):
@@ -72,7 +54,7 @@ def fresh(done: Project, tmp_path: Path) -> Project:
 
 
 @needs_proc
-def test_jobs_killed_at_random(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+def test_jobs_killed_at_random(fresh: Copy) -> None:
     wanted, killed, chance = 8, 0, random.Random(7)
     while killed < wanted:
         process = fresh.start("-j2")
@@ -82,11 +64,11 @@ def test_jobs_killed_at_random(fresh: Project, undisturbed: dict[str, bytes]) ->
             if running and killed < wanted:
                 killed += kill(chance.choice(running))
         assert process.returncode or not killed
-    recovers(fresh, undisturbed, "jobs killed", killed)
+    fresh.recovers("jobs killed", killed)
 
 
 @needs_proc
-def test_whole_runs_killed_at_random(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+def test_whole_runs_killed_at_random(fresh: Copy) -> None:
     """What a power failure does: Snakemake and its jobs are gone at once, and its lock stays."""
     chance = random.Random(3)
     for number in range(4):
@@ -99,11 +81,11 @@ def test_whole_runs_killed_at_random(fresh: Project, undisturbed: dict[str, byte
         assert LOCKED in told
         assert "--unlock" in told
         fresh.complete("-j2", "--unlock")
-    recovers(fresh, undisturbed, "whole runs killed", 4)
+    fresh.recovers("whole runs killed", 4)
 
 
 @needs_proc
-def test_snakemake_killed_while_its_jobs_go_on(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+def test_snakemake_killed_while_its_jobs_go_on(fresh: Copy) -> None:
     """The next run makes the same files at the same time."""
     process = fresh.start("-j2")
     wait_until(lambda: bool(jobs(fresh)))
@@ -113,7 +95,7 @@ def test_snakemake_killed_while_its_jobs_go_on(fresh: Project, undisturbed: dict
     fresh.complete("-j2", "--unlock")
     fresh.complete("-j2")
     wait_until(lambda: not jobs(fresh))
-    recovered(fresh, undisturbed, "Snakemake alone killed")
+    fresh.recovered("Snakemake alone killed")
 
 
 # ---- disk full
@@ -137,7 +119,7 @@ CAN_MOUNT = shutil.which("unshare") is not None and subprocess.run([*NAMESPACE, 
 
 @pytest.mark.skipif(not CAN_MOUNT, reason="needs a mount namespace of its own")
 @pytest.mark.parametrize("room", [0, 150, 300])
-def test_disk_full(fresh: Project, done: Project, undisturbed: dict[str, bytes], tmp_path: Path, room: int) -> None:
+def test_disk_full(fresh: Copy, done: Copy, tmp_path: Path, room: int) -> None:
     """So many kB are left for everything: results, logs, Snakemake's records."""
     disk = tmp_path / "disk"
     disk.mkdir()
@@ -148,10 +130,10 @@ def test_disk_full(fresh: Project, done: Project, undisturbed: dict[str, bytes],
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert "No space left on device" in (fresh.folder / "full.log").read_text()
-    recovered(fresh, undisturbed, "disk full")
+    fresh.recovered("disk full")
 
 
-def test_files_may_not_grow(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+def test_files_may_not_grow(fresh: Copy) -> None:
     """A limit to the size of files, as quotas impose: the library that writes them only says "HDF error"."""
     limit = 80_000
     ran = fresh.snakemake("-j2", prepare=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
@@ -159,8 +141,8 @@ def test_files_may_not_grow(fresh: Project, undisturbed: dict[str, bytes]) -> No
     assert "results/faulty/cases/F13.nc: cannot be written: File too large" in ran.stdout
     found = products(fresh)
     assert found
-    assert all(found[name] == undisturbed[name] for name in found)
-    recovers(fresh, undisturbed, "file size limited")
+    assert all(found[name] == fresh.undisturbed[name] for name in found)
+    fresh.recovers("file size limited")
 
 
 # ---- damaged files
@@ -207,9 +189,7 @@ def damage(paths: Iterable[Path], seed: int, *, keep_times: bool = False) -> lis
         (("faulty/cases.nc", "faulty_map/merged/*.nc"), 2, "merged datasets damaged"),
     ],
 )
-def test_damaged_files(
-    finished: Project, undisturbed: dict[str, bytes], patterns: tuple[str, ...], count: int, what: str
-) -> None:
+def test_damaged_files(finished: Copy, patterns: tuple[str, ...], count: int, what: str) -> None:
     """Every damaged file that a job reads is named, and the same command again computes it anew."""
     results = finished.folder / "results"
     damaged = damage((path for pattern in patterns for path in results.glob(pattern)), count)
@@ -219,10 +199,10 @@ def test_damaged_files(
     for path in damaged:
         assert f"{path.relative_to(finished.folder)}: damaged" in told
     assert "Run snakemake again" in told
-    recovers(finished, undisturbed, what, len(damaged))
+    finished.recovers(what, len(damaged))
 
 
-def test_damage_that_left_the_times_is_found_by_check(finished: Project, undisturbed: dict[str, bytes]) -> None:
+def test_damage_that_left_the_times_is_found_by_check(finished: Copy) -> None:
     results = finished.folder / "results"
     damaged = damage(results.rglob("*.nc"), 3, keep_times=True)
     (results / "faulty" / "cases" / ".F11.nc.abc.tmp").write_text("left by a killed job")
@@ -230,10 +210,10 @@ def test_damage_that_left_the_times_is_found_by_check(finished: Project, undistu
     for path in damaged:
         assert f"{path.relative_to(finished.folder)}: damaged" in checked
     assert not list(results.rglob(".*.tmp"))
-    recovers(finished, undisturbed, "datasets damaged without a change of times", len(damaged))
+    finished.recovers("datasets damaged without a change of times", len(damaged))
 
 
-def test_damaged_kernels(fresh: Project, undisturbed: dict[str, bytes], tmp_path: Path) -> None:
+def test_damaged_kernels(fresh: Copy, tmp_path: Path) -> None:
     """What is damaged in the cache of compiled kernels is compiled again: no crash, no other numbers."""
     kept = cache_of(fresh)
     cache = tmp_path / "cache" / kept.name
@@ -244,7 +224,7 @@ def test_damaged_kernels(fresh: Project, undisturbed: dict[str, bytes], tmp_path
     damaged = damage([*by_size[:11], *solvers], 4)
     bad = {path: path.read_bytes() for path in damaged}
     damaging = replace(fresh, variables={"NUMBA_CACHE_DIR": str(cache.parent)})
-    recovers(damaging, undisturbed, "compiled kernels damaged", len(damaged))
+    damaging.recovers("compiled kernels damaged", len(damaged))
     assert any(path.read_bytes() != bad[path] for path in solvers)
 
 
@@ -257,13 +237,13 @@ def cache_of(project: Project) -> Path:
 # ---- Snakemake's records
 
 
-def test_records_in_a_database(finished: Project) -> None:
+def test_records_in_a_database(finished: Copy) -> None:
     """There they are not looked for: Snakemake does as it does by itself, and it is said once."""
     said = finished.complete("-n", "--persistence-backend", "db")
     assert said.count("(they are in a database)") == 1
 
 
-def test_lost_records(finished: Project, undisturbed: dict[str, bytes]) -> None:
+def test_lost_records(finished: Copy) -> None:
     """Without its records Snakemake would take everything for up to date."""
     shutil.rmtree(finished.folder / ".snakemake")
     finished.edit(CONFIG, "Omega: 15.1", "Omega: 15.2")
@@ -271,10 +251,10 @@ def test_lost_records(finished: Project, undisturbed: dict[str, bytes]) -> None:
     assert "`snakemake -j1 check` removes them" in told
     finished.complete("-j1", "check")
     finished.edit(CONFIG, "Omega: 15.2", "Omega: 15.1")
-    recovers(finished, undisturbed, "all records lost")
+    finished.recovers("all records lost")
 
 
-def test_a_damaged_record(finished: Project, undisturbed: dict[str, bytes]) -> None:
+def test_a_damaged_record(finished: Copy) -> None:
     records = finished.folder / ".snakemake" / "metadata"
     record = records / urlsafe_b64encode(b"results/faulty/cases/F13.nc").decode()
     os.truncate(record, record.stat().st_size // 2)
@@ -282,13 +262,13 @@ def test_a_damaged_record(finished: Project, undisturbed: dict[str, bytes]) -> N
     assert "results/faulty/cases/F13.nc and 0 more are there" in told
     finished.complete("-j1", "check")
     (finished.folder / "results" / "faulty" / "cases.nc").unlink()
-    recovers(finished, undisturbed, "record damaged")
+    finished.recovers("record damaged")
 
 
 # ---- two at once
 
 
-def test_a_second_workflow_is_told_and_leaves_the_first_alone(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+def test_a_second_workflow_is_told_and_leaves_the_first_alone(fresh: Copy) -> None:
     first = fresh.start("-j2")
     wait_until(lambda: any((fresh.folder / ".snakemake" / "locks").glob("*")))
     second = fresh.refused("-j2")
@@ -296,38 +276,38 @@ def test_a_second_workflow_is_told_and_leaves_the_first_alone(fresh: Project, un
     assert second.count(LOCKED) == 1
     assert "Traceback" not in second
     assert first.wait(timeout=900) == 0, (fresh.folder / "run.log").read_text()
-    recovered(fresh, undisturbed, "second workflow started")
+    fresh.recovered("second workflow started")
 
 
-def test_two_workflows_without_lock(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+def test_two_workflows_without_lock(fresh: Copy) -> None:
     """They remove each other's files and may fail, but no file is ever half one's and half the other's."""
     both = [fresh.start("-j2", "--nolock", log=f"run{i}.log") for i in range(2)]
     for process in both:
         process.wait(timeout=900)
     found = {name: content for name, content in products(fresh).items() if name.endswith(".nc")}
-    assert all(content == undisturbed[name] for name, content in found.items())
-    recovers(fresh, undisturbed, "two workflows without lock")
+    assert all(content == fresh.undisturbed[name] for name, content in found.items())
+    fresh.recovers("two workflows without lock")
 
 
 # ---- the clock
 
 
-def test_clock_set_back_between_two_runs(finished: Project, undisturbed: dict[str, bytes]) -> None:
+def test_clock_set_back_between_two_runs(finished: Copy) -> None:
     """A case computed anew by an earlier clock looks older than what was made of its former self."""
     finished.edit(CONFIG, "Omega: 15.1", "Omega: 15.2")
     finished.complete("-j2", "--until", "simulate_case", "compute_batch")
     case = finished.folder / "results" / "faulty" / "cases" / "F13.nc"
-    assert case.read_bytes() != undisturbed["faulty/cases/F13.nc"]
+    assert case.read_bytes() != finished.undisturbed["faulty/cases/F13.nc"]
     set_times(case, days=-2)
     finished.complete("-j2")
-    assert products(finished)["faulty/cases.nc"] != undisturbed["faulty/cases.nc"]
+    assert products(finished)["faulty/cases.nc"] != finished.undisturbed["faulty/cases.nc"]
     finished.edit(CONFIG, "Omega: 15.2", "Omega: 15.1")
     finished.complete("-j2", "--until", "simulate_case", "compute_batch")
     set_times(case, days=-4)
-    recovers(finished, undisturbed, "clock set back between runs", 2)
+    finished.recovers("clock set back between runs", 2)
 
 
-def test_results_from_the_future(finished: Project, undisturbed: dict[str, bytes]) -> None:
+def test_results_from_the_future(finished: Copy) -> None:
     """Snakemake says so and stops; `check` puts the times right."""
     results = finished.folder / "results"
     files = [*results.glob("faulty/cases/*.nc"), *results.glob("faulty_map/batches/*.nc")]
@@ -339,7 +319,7 @@ def test_results_from_the_future(finished: Project, undisturbed: dict[str, bytes
     told = finished.refused("-j2")
     assert "has older modification time" in told
     finished.complete("-j1", "check")
-    recovers(finished, undisturbed, "files from the future", len(files))
+    finished.recovers("files from the future", len(files))
 
 
 def set_times(path: Path, days: float) -> None:
@@ -349,7 +329,7 @@ def set_times(path: Path, days: float) -> None:
 
 @needs.FAKETIME.mark
 @needs_proc
-def test_clock_set_back_during_a_run(fresh: Project, undisturbed: dict[str, bytes]) -> None:
+def test_clock_set_back_during_a_run(fresh: Copy) -> None:
     """The first part is made tomorrow, and killed; the rest today."""
     process = fresh.start("-j2", wrapper=("faketime", "+1 day"))
     wait_until(lambda: bool(list((fresh.folder / "results").rglob("*.nc"))) or process.poll() is not None)
@@ -359,4 +339,4 @@ def test_clock_set_back_during_a_run(fresh: Project, undisturbed: dict[str, byte
     fresh.snakemake("-j2", "--unlock")
     assert "has older modification time" in fresh.refused("-j2")
     fresh.complete("-j1", "check")
-    recovers(fresh, undisturbed, "clock set back within a run")
+    fresh.recovers("clock set back within a run")
