@@ -134,7 +134,7 @@ class Project:
                 continue
             try:
                 words = (entry / "cmdline").read_bytes().split(b"\0")
-                if (entry / "cwd").resolve() == self.folder.resolve():
+                if words[1:] and (entry / "cwd").resolve() == self.folder.resolve():  # none while it ends
                     found[int(entry.name)] = [os.fsdecode(word) for word in words]
             except OSError:  # gone, or another user's
                 continue

@@ -39,8 +39,6 @@ batch: {over: [Omega], size: 3}
 """
 KINDS = {".nc", ".csv", ".md", ".html", ".pdf", ".png"}
 INPUT = re.compile("/(cases|batches|merged)/")
-PARTS = ("workflow/scripts/", "disc_model")
-"""In the command of every job."""
 
 
 needs_proc = pytest.mark.skipif(not Path("/proc/self").exists(), reason="finds jobs in /proc")
@@ -78,9 +76,11 @@ class Copy(Project):
 
 
 def jobs(project: Project) -> list[int]:
-    """Processes of the project's jobs."""
+    """Processes of the project's jobs: scripts, by their whole path, and the package itself."""
     commands = project.processes().items()
-    return [process for process, words in commands if any(word.startswith(PARTS) for word in words[1:3])]
+    return [
+        process for process, words in commands if "workflow/scripts/" in words[1] or words[1:3] == ["-m", "disc_model"]
+    ]
 
 
 def kill(process: int) -> bool:

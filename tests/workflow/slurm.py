@@ -191,17 +191,11 @@ def _free_ports() -> tuple[int, int]:
 
 
 def _start(slurm: Cluster) -> None:
-    here = {name: str(slurm.folder / f"munge.{name}") for name in ("key", "socket", "pid", "seed")}
-    slurm.start(
-        "munged",
-        "--foreground",
-        "--force",  # temporary folders are closed to others, which munge takes for a mistake
-        f"--key-file={here['key']}",
-        f"--socket={here['socket']}",
-        f"--pid-file={here['pid']}",
-        f"--seed-file={here['seed']}",
-    )
-    slurm.wait_until(Path(here["socket"]).exists, "munged")
+    options = {"key-file": "key", "socket": "socket", "pid-file": "pid", "seed-file": "seed"}
+    files = [f"--{option}={slurm.folder}/munge.{ending}" for option, ending in options.items()]
+    # by force: temporary folders are closed to others, which munge takes for a mistake
+    slurm.start("munged", "--foreground", "--force", *files)
+    slurm.wait_until((slurm.folder / "munge.socket").exists, "munged")
     slurm.start_controller()
     slurm.start("slurmd", "-D", "-f", str(slurm.folder / "slurm.conf"))
     slurm.wait_until(lambda: "State=IDLE" in slurm.call("scontrol", "show", "node", "localhost"), "slurmd")

@@ -269,7 +269,7 @@ def resume(project: Project) -> subprocess.Popen[bytes]:
 def running_batches(project: Project) -> list[int]:
     """Processes that are computing batches in the project."""
     commands = project.processes().items()
-    return [process for process, words in commands if "workflow/scripts/compute_batch.py" in words]
+    return [process for process, words in commands if "workflow/scripts/compute_batch.py" in words[1]]
 
 
 def wait_for_batches(project: Project, process: subprocess.Popen[bytes]) -> dict[str, int]:

@@ -16,6 +16,7 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 SIMULATIONS = {"simulate_case:F11", "simulate_case:F13", "simulate_case:X"}
 FIGURES = {"draw_figure:fig11", "draw_figure:fig13"}
 TABLES = {"merge_cases", "check_claims", "describe_study"}
+EVERYTHING = {"warm_cache", "warm_studies"} | SIMULATIONS | FIGURES | TABLES
 
 
 def test_the_study_is_complete(finished: Project) -> None:
@@ -81,12 +82,6 @@ def test_a_removed_case_leaves_the_merged_file(project: Project) -> None:
         assert list(table["case"].values) == ["F11", "F13"]
 
 
-@pytest.mark.parametrize("source", ["engine/machine.py", "plate.py", "simulation/api.py", "parameters.py"])
-def test_solver_sources_run_everything(project: Project, source: str) -> None:
-    project.change(f"src/disc_model/{source}")
-    assert project.planned() == {"warm_cache", "warm_studies"} | SIMULATIONS | FIGURES | TABLES
-
-
 def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
     """Neither their times nor comments nor docstrings."""
     for folder in ("src", "workflow/scripts"):
@@ -101,6 +96,10 @@ def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
+        ("src/disc_model/engine/machine.py", EVERYTHING),
+        ("src/disc_model/plate.py", EVERYTHING),
+        ("src/disc_model/simulation/api.py", EVERYTHING),
+        ("src/disc_model/parameters.py", EVERYTHING),
         ("src/disc_model/figures/paper/histories.py", FIGURES),
         ("src/disc_model/figures/disc_model.mplstyle", FIGURES),
         ("src/disc_model/figures/parts.py", FIGURES),
@@ -114,7 +113,7 @@ def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
         ("src/disc_model/studies/schema.py", set()),
     ],
 )
-def test_other_sources_run_only_what_uses_them(project: Project, source: str, jobs: set[str]) -> None:
+def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: set[str]) -> None:
     project.change(source)
     assert project.planned() == jobs
 
