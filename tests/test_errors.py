@@ -114,14 +114,14 @@ def test_a_fault_is_its_text_and_knows_its_parts() -> None:
 
 
 @pytest.mark.parametrize("make", [Parameters, Window, Poincare, Record])
-@pytest.mark.parametrize("text", ["{", "", "nul", b"\xff", '{"N": 1,}'])
+@pytest.mark.parametrize("text", ["{", "", "nul", b"\xff", '{"N": 1,}', "[" * 10**5, None])
 def test_what_is_no_json_is_said_to_be_none(make: Any, text: Any) -> None:
     with pytest.raises(ParameterError, match=r"^json_data=.*: must be JSON"):
         make.model_validate_json(text)
 
 
 @pytest.mark.parametrize("make", [Parameters, Window, Poincare, Record])
-@pytest.mark.parametrize("value", [3, None, [], "text"])
+@pytest.mark.parametrize("value", [3, None, [], [1, 2], "text"])
 def test_what_is_no_mapping_is_said_to_be_none(make: Any, value: Any) -> None:
     with pytest.raises(ParameterError, match=f"^{make.__name__.lower()}=.*: must be a mapping"):
         make.model_validate(value)
