@@ -150,7 +150,9 @@ class _Run:
         ramps: tuple[Ramp, ...],
     ) -> None:
         self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
-        self.ramps, self.pieces = ramps, courses.pieces(p, ramps)
+        # who follows a case without ramps need not look at them: the one piece that there is is said here
+        steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
+        self.ramps, self.pieces = ramps, courses.pieces(p, ramps) if ramps else (steady,)
         self.case = case = engine_case(p)
         model = case.model
         self.order = series_order(tol)

@@ -96,12 +96,13 @@ def batch_texts(
     runner : the module that will compute it
     sampled : points of a plane at which a tiled quantity is worked out in any case
     """
+    choosing = chooser(asked_modes(base)[1]) if leaves_modes(base) else ()
     shared: dict[str, Any] = {
         "quantity": quantity,
         "options": options.model_dump(),
         "base": base,
         "names": [name for dim in dims for name in dim.names],
-        "sources": source_hash(module_of(quantity), runner, *chooser(asked_modes(base)[1])),
+        "sources": source_hash(module_of(quantity), runner, *choosing),
     }
     parts: Iterator[dict[str, Any]]
     if QUANTITIES[quantity].tiled and runner == RUNNER:
