@@ -20,7 +20,7 @@ from matplotlib.colors import BoundaryNorm, Colormap, ListedColormap, LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
-from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
+from matplotlib.ticker import NullFormatter, NullLocator
 
 from disc_model.data.variables import said_values
 from disc_model.figures import parts
@@ -61,14 +61,12 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
 
     Where a method has no fixed order, the number is q of error ~ tol^q.
     """
-    figure = new_figure(PAGE, 3.0)
-    axes = figure.subplots(1, 2, sharey=True)
+    figure, axes = _panels(2, "Time per simulated second (s)", columns=2, row=3.0, sharey=True)
     part = dataset.sel(scene=scene)
     for ax, error, letter in zip(axes, ERRORS, "ab", strict=True):
         _cost_panel(ax, part, error, orders=True)
         parts.letter(ax, letter)
         ax.set_xlabel(ERRORS[error])
-    axes[0].set_ylabel("Time per simulated second (s)")
     figure.legend(handles=_method_handles(part), loc="outside right center", title=TITLES[scene])
     return figure
 
@@ -123,7 +121,6 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
             text = f"{order:.1f}" if fixed else rf"$tol^{{{order:.1f}}}$"
             labels.append((float(x[finest]), float(cost[finest]), text, look["color"]))
     ax.set_xlim(1e-18, 300.0)
-    ax.xaxis.set_major_locator(LogLocator(numticks=20))
     ax.set_xticks(10.0 ** np.arange(-15, 1, 3))
     ax.xaxis.set_minor_locator(NullLocator())
     if error == "event":

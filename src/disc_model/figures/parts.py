@@ -30,16 +30,10 @@ COLUMN = 89 / 25.4
 PAGE = 183 / 25.4
 """Width of both columns, inch."""
 
-BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK = (
-    "#0072B2",
-    "#D55E00",
-    "#009E73",
-    "#CC79A7",
-    "#E69F00",
-    "#56B4E9",
-    "#000000",
-)
-GREY, BROWN = "#8a8a8a", "#7A4B12"
+BLUE, SKY = "#0072B2", "#56B4E9"
+VERMILION, ORANGE, BROWN = "#D55E00", "#E69F00", "#7A4B12"
+GREEN, PURPLE = "#009E73", "#CC79A7"
+BLACK, GREY = "#000000", "#8a8a8a"
 
 # One colour a quantity in the whole set; what is lost with contact is always vermilion.
 DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"
@@ -302,6 +296,12 @@ def sampled(name: str, window: xr.Dataset) -> tuple[str, float]:
     if name == "w_point_velocity":
         return rf"Disc velocity at $r_0$, $\theta$ = {float(window.attrs['theta']):g} (m/s)", 1.0
     return SAMPLED[name]
+
+
+def stretches(there: np.ndarray) -> list[tuple[int, int]]:
+    """Runs of True: the first place of each, and the one after its last."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], there, [0]])))
+    return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
 
 
 def mark_first_separation(ax: Axes, time: float) -> None:

@@ -118,8 +118,8 @@ def test_points_unlike_all_beside_them_are_counted() -> None:
     study["outcome"][:] = regions.OUTCOMES.index("stable")
     for row, column in ((0, 0), (2, 1), (1, 3), (2, 3)):
         study["outcome"][row, column] = regions.OUTCOMES.index("unstable")
-    assert maps.standing_alone(study, PLOT) == ["Points unlike all beside them: 2."]
-    assert maps.standing_alone(study.isel(N=[1, 2], Omega=[3, 4]), PLOT) == []
+    assert maps.standing_alone(study, PLOT) == 2
+    assert maps.standing_alone(study.isel(N=[1, 2], Omega=[3, 4]), PLOT) == 0
 
 
 def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> None:

@@ -105,9 +105,8 @@ def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
     """Ranges of speeds without a cycle, to half a step beyond the last ones, and how many speeds they hold."""
     speeds = study["Omega"].values
     edges = np.concatenate([speeds[:1], (speeds[1:] + speeds[:-1]) / 2, speeds[-1:]])
-    gone = ~np.isfinite(study["growth_rate"].values)
-    for first, last in np.flatnonzero(np.diff(np.concatenate([[0], gone, [0]]))).reshape(-1, 2):
-        yield float(edges[first]), float(edges[last]), int(last - first)
+    for first, last in parts.stretches(~np.isfinite(study["growth_rate"].values)):
+        yield float(edges[first]), float(edges[last]), last - first
 
 
 _HALO = parts.halo()

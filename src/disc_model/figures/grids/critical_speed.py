@@ -101,9 +101,8 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
     load = json.loads(basins.attrs["base"])["N"]
     speeds = basins["Omega"].values
     both = (basins["share_low"].sel(fate=["quiet", "separating"]) > 0).all("fate").values
-    stretches = np.split(np.arange(len(speeds)), np.flatnonzero(np.diff(both)) + 1)
-    for i, stretch in enumerate([stretch for stretch in stretches if both[stretch[0]]]):
-        low, high = speeds[stretch[[0, -1]]]
+    for i, (first, after) in enumerate(parts.stretches(both)):
+        low, high = speeds[first], speeds[after - 1]
         ax.bar(
             load, high - low, WIDTH, low, color=ORANGE, alpha=0.6, linewidth=0.8, edgecolor=ORANGE,
             label="_nolegend_" if i else f"quiet or separating,\nmeasured at {load:g} N",
@@ -132,7 +131,6 @@ def _horizons(ax: Axes, study: xr.Dataset) -> None:
 
 
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset) -> None:
-    """Where separation is found on the way up and on the way down."""
     N = sweep["N"].values
     onset, last = sweep["onset"].values, sweep["persists_to"].values
     ax.plot(N, onset, color=ONSET, marker="^", markersize=3.5, label="sweep up: separation begins", clip_on=False)

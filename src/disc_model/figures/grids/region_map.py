@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -139,43 +139,37 @@ def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap, kinds: Collecti
         above += paper_rings(plot)
     figure.legend(handles=above, loc="outside upper center", ncols=min(len(above), 4))
     below: list[Artist] = list(cycle_patches(set(flag_names(study["cycle"]).flat)))
-    said = _computed(study, plot) + standing_alone(study, plot) + _quiet_unfollowed(study)
-    said += contradictions(study, plot)
+    said = [*_said(study, plot)]
     said += ["A, B, ...: branches, on which one cycle goes on from point to point."] * are_named
     below.append(Line2D([], [], linestyle="", label="\n".join(said)))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)
 
 
-def _computed(study: xr.Dataset, plot: RegionMap) -> list[str]:
-    """What did not vary, the horizon, how much was simulated, and what the names of the marks are."""
-    horizon = json.loads(study.attrs["options"])["horizon"]
-    simulated = (flag_names(study["origin"]) == "simulation").sum()
-    fixed = parts.fixed(study)
+def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
+    """What did not vary, how it was computed, what the names of the marks are, and what does not fit."""
+    outcome, cycle, origin = (flag_names(study[name]) for name in ("outcome", "cycle", "origin"))
+    horizon, fixed = json.loads(study.attrs["options"])["horizon"], parts.fixed(study)
+    yield f"{fixed}. " * bool(fixed) + f"Within {horizon:g} s of the published start."
     figures = next((name[1:] for name in plot.marks if re.fullmatch(r"F\d+", name)), "")
-    return [
-        f"{fixed}. " * bool(fixed) + f"Within {horizon:g} s of the published start.",
-        f"{simulated} of {study['outcome'].size} points simulated."
-        + f" F{figures}: in Fig. {figures} of the paper." * bool(figures),
-    ]
+    named = f" F{figures}: in Fig. {figures} of the paper." * bool(figures)
+    yield f"{(origin == 'simulation').sum()} of {outcome.size} points simulated.{named}"
+    if alone := standing_alone(study, plot):
+        yield f"Points unlike all beside them: {alone}."
+    quiet = (outcome == "stable") & (origin == "undivided_cell") & np.isin(cycle, ["only_near", "none_found"])
+    if quiet.any():
+        yield f"Inferred to stay quiet, though the start was followed to no cycle: {quiet.sum()}."
+    yield from contradictions(study, plot)
 
 
-def _quiet_unfollowed(study: xr.Dataset) -> list[str]:
-    """A sentence on points that are inferred to stay quiet, though the start was not seen to come to a cycle."""
-    cycle, inferred = flag_names(study["cycle"]), flag_names(study["origin"]) == "undivided_cell"
-    quiet = (flag_names(study["outcome"]) == "stable") & inferred
-    count = int((quiet & np.isin(cycle, ["only_near", "none_found"])).sum())
-    return [f"Inferred to stay quiet, though the start was followed to no cycle: {count}."] if count else []
-
-
-def standing_alone(study: xr.Dataset, plot: RegionMap) -> list[str]:
-    """A sentence on points whose outcome none of those beside them has, if there are any."""
+def standing_alone(study: xr.Dataset, plot: RegionMap) -> int:
+    """Number of points whose outcome none of those beside them has."""
     count = 0
     for norm in parts.normalizations(study):
         words = np.pad(words_of(parts.of(study, norm), "outcome", plot.x, plot.y), 1)
         own = words[1:-1, 1:-1]
         beside = (words[:-2, 1:-1], words[2:, 1:-1], words[1:-1, :-2], words[1:-1, 2:])
         count += int(np.sum(np.all([own != other for other in beside], axis=0)))
-    return [f"Points unlike all beside them: {count}."] if count else []
+    return count
 
 
 def contradictions(study: xr.Dataset, plot: RegionMap) -> list[str]:

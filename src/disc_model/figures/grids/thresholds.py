@@ -37,7 +37,10 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Thresholds) 
     """
     norm, study, others = parts.of_one(study, others)
     lost = parts.failed(study).values
-    cycle = _scanned(others["cycle"], study) if "cycle" in others else None
+    if (cycle := others.get("cycle")) is not None:
+        # beyond the scan nothing is known of separation
+        cycle = cycle.sel(Omega=slice(*span(study["scan_Omega"].values)))
+        cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
     horizon = horizon_of(study, cycle)
     figure = new_figure(COLUMN, 3.8)
     ax = figure.subplots()
@@ -67,13 +70,6 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Thresholds) 
     ax.set_title(f"{parts.MODES[norm]}, within {horizon:g} s", loc="left", pad=9)
     figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=1.0)
     return figure
-
-
-def _scanned(cycle: xr.Dataset, study: xr.Dataset) -> xr.Dataset | None:
-    """What lies within the scan of speeds, beyond which nothing is known of separation; None if that is no plane."""
-    scan = study["scan_Omega"].values
-    within = cycle.sel(Omega=slice(scan[0], scan[-1]))
-    return within if min(within["growth_rate"].shape) > 1 else None
 
 
 def _growing(ax: Axes, cycle: xr.Dataset, study: xr.Dataset, horizon: float) -> list[Patch]:

@@ -239,27 +239,27 @@ def lacking(figure: str, specs: Mapping[str, CaseSpec]) -> Iterator[tuple[str, s
             if window == "poincare":
                 if specs[case].poincare is None:
                     yield case, f"needs cases.{case}.record.poincare"
-                continue
-            if window not in recorded:
+            elif window not in recorded:
                 yield case, f"needs a window {window} in cases.{case}.record.windows"
-                continue
-            for fault in _faults_of(figure, window, recorded[window]):
-                yield case, f"cases.{case}.record.windows.{window} {fault}"
+            else:
+                for fault in _faults_of(figure, window, recorded[window]):
+                    yield case, f"cases.{case}.record.windows.{window} {fault}"
 
 
-def _faults_of(figure: str, name: str, window: Window) -> list[str]:
-    """What keeps a window from being drawn in a figure, each as the end of a sentence; nothing if it can be."""
+def _faults_of(figure: str, name: str, window: Window) -> Iterator[str]:
+    """What keeps a window from being drawn in a figure, each as the end of a sentence."""
     if name in RANGES:
         if window.envelope is None:
-            return ["needs an envelope"]
-        return [] if window.count >= 2 * window.envelope else ["must be two envelopes long or more"]
-    faults = [] if window.envelope is None else ["must have no envelope"]
+            yield "needs an envelope"
+        elif window.count < 2 * window.envelope:
+            yield "must be two envelopes long or more"
+    elif window.envelope is not None:
+        yield "must have no envelope"
     if name.startswith("spectrum"):
-        faults += spectrum_faults(window, HIGHEST)
+        yield from spectrum_faults(window, HIGHEST)
     for zoomed, start in CATALOGUE[figure].options.get("zooms", ()):
         if zoomed == name and not (window.start <= start and start + ZOOM <= window.stop):
-            faults.append(f"must contain {start:g} to {start + ZOOM:g} s")
-    return faults
+            yield f"must contain {start:g} to {start + ZOOM:g} s"
 
 
 def spectrum_faults(window: Window, highest: float) -> Iterator[str]:

@@ -123,8 +123,8 @@ def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 def _between_losses(motion: Motion) -> list[int]:
     """Samples equally far apart from the first loss of contact to the next; over the whole stretch without them."""
-    losses = np.flatnonzero(np.diff((motion.phase == SEPARATION).astype(int)) == 1) + 1
-    first, last = (losses[0], losses[1]) if losses.size > 1 else (0, motion.time.size - 1)
+    losses = [first for first, _ in parts.stretches(motion.phase == SEPARATION) if first > 0]
+    first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
     return [int(first + share * (last - first)) for share in np.arange(INSTANTS) / INSTANTS]
 
 

@@ -190,10 +190,10 @@ def _angle(ax: Axes, low: float, high: float, text: str, colour: str, radius: fl
     _write(ax, _at((low + high) / 2, radius + 0.13), text, color=colour, fontsize=13)
 
 
-def _spring(ax: Axes, start: Point, end: Point, coils: int = 5, width: float = 0.1) -> None:
+def _spring(ax: Axes, start: Point, end: Point, width: float = 0.1) -> None:
     """A zigzag between two points."""
-    places = np.concatenate([[0, 0.2], np.linspace(0.2, 0.8, 2 * coils + 1)[1:-1], [0.8, 1]])
-    swings = np.concatenate([[0, 0], [(-1) ** i for i in range(2 * coils - 1)], [0, 0]])
+    places = np.concatenate([[0, 0.2], np.linspace(0.2, 0.8, 11)[1:-1], [0.8, 1]])
+    swings = np.array([0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])
     ax.plot(*_beside(start, end, places, width * swings), color=BLACK, lw=1.2)
 
 

@@ -35,10 +35,8 @@ def displacements(ax: Axes, part: xr.Dataset, zero: float, rest: float) -> None:
 
 def separations(window: xr.Dataset) -> list[tuple[float, float]]:
     """Stretches of separation in a window of samples, s; those that the window cuts off included."""
-    apart = np.concatenate([[False], window["phase"].values == SEPARATION, [False]])
-    edges = np.flatnonzero(np.diff(apart.astype(int)))
-    time = window["time"].values
-    return [(float(time[a]), float(time[b - 1])) for a, b in edges.reshape(-1, 2)]
+    time = window["time"].values.tolist()
+    return [(time[a], time[b - 1]) for a, b in parts.stretches(window["phase"].values == SEPARATION)]
 
 
 def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
