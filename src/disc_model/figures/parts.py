@@ -277,24 +277,22 @@ def disc_label(*windows: xr.Dataset) -> str:
 
 
 SAMPLED = {
-    "P": ("Contact force P (N)", 1.0),
-    "u": ("Slider u (mm)", 1e3),
-    "u_velocity": ("Slider du/dt (m/s)", 1.0),
-    "w": ("Disc under the slider w (mm)", 1e3),
-    "psi": ("ψ (rad)", 1.0),
-    "psi_velocity": ("dψ/dt (rad/s)", 1.0),
+    "P": ("Contact force P (N)", 1.0, FORCE),
+    "u": ("Slider u (mm)", 1e3, SLIDER),
+    "u_velocity": ("Slider du/dt (m/s)", 1.0, SLIDER),
+    "w": ("Disc under the slider w (mm)", 1e3, DISC),
+    "psi": ("ψ (rad)", 1.0, SLIDER),
+    "psi_velocity": ("dψ/dt (rad/s)", 1.0, SLIDER),
 }
-"""Label and factor from SI of what is sampled; those of the disc's fixed point also say where it is."""
-SAMPLED_COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}
-"""All others have that of the slider."""
+"""Label, factor from SI and colour of what is sampled; labels of the disc's fixed point also say where it is."""
 
 
-def sampled(name: str, window: xr.Dataset) -> tuple[str, float]:
-    """Label of the axis of a variable that was sampled in a window, and the factor from SI to its unit."""
+def sampled(name: str, window: xr.Dataset) -> tuple[str, float, str]:
+    """Label of the axis of a variable that was sampled in a window, the factor from SI to its unit, and its colour."""
     if name == "w_point":
-        return disc_label(window), 1e3
+        return disc_label(window), 1e3, DISC
     if name == "w_point_velocity":
-        return rf"Disc velocity at $r_0$, $\theta$ = {float(window.attrs['theta']):g} (m/s)", 1.0
+        return rf"Disc velocity at $r_0$, $\theta$ = {float(window.attrs['theta']):g} (m/s)", 1.0, DISC
     return SAMPLED[name]
 
 

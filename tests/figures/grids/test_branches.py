@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from disc_model.figures.grids.branches import branches, named
+from disc_model.figures.grids.region_map import branches, named
 
 # two columns of one cycle, a cut, and three of another one; nothing is followed at a corner
 FOLLOWED = np.ones((4, 5), dtype=bool)

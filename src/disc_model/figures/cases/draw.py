@@ -13,7 +13,7 @@ from disc_model.figures import parts
 from disc_model.figures.cases.kinds import CASE_PLOTS, History, Spectrogram
 from disc_model.figures.paper.sections import portrait, sections
 from disc_model.figures.paper.spectra import spectrum, spectrum_in_time
-from disc_model.figures.parts import COLUMN, PAGE, SLIDER, new_figure, styled
+from disc_model.figures.parts import COLUMN, PAGE, new_figure, styled
 
 
 @styled()
@@ -41,8 +41,7 @@ def _history(case: xr.DataTree, plot: History) -> Figure:
         if time.size < 2:  # the run ended before it
             raise dataset.Missing(f"has {time.size} samples in {plot.window}, at least 2 are needed")
         for ax, name in zip(axes, plot.variables, strict=True):
-            label, factor = parts.sampled(name, window)
-            colour = parts.SAMPLED_COLOURS.get(name, SLIDER)
+            label, factor, colour = parts.sampled(name, window)
             if f"{name}_min" in window:
                 parts.envelope(ax, window, name, scale=factor, color=colour)
             else:

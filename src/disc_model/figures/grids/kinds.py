@@ -332,19 +332,17 @@ class General(Plot):
             yield from self._wrong_place(place, name, own)
         used = [*places.values()]
         for name in sorted({name for name in used if used.count(name) > 1}):
-            yield Fault(
-                ("y" if self.axes.get("y") == name else "by",), name, "must differ from the other dimensions shown"
-            )
+            place = "y" if self.axes.get("y") == name else "by"
+            yield Fault((place,), name, "must differ from the other dimensions shown")
+        left = {name: values for name, values in own.items() if name not in used}
         for name, value in self.at.items():
-            if name not in own or name in used:
-                rest = ", ".join(other for other in own if other not in used)
-                yield Fault(("at", name), value, f"is no dimension that remains (known: {rest or 'none'})")
-            elif own[name] and not any(_same(value, one) for one in own[name]):
-                yield Fault(("at", name), value, f"must be one of {_listed(own[name])}")
-        for name, values in own.items():
-            if name not in used and name not in self.at and len(values) > 1:
-                if self.by is None and name == NORM and len(values) <= self.room:
-                    continue
+            if name not in left:
+                yield Fault(("at", name), value, f"is no dimension that remains (known: {', '.join(left) or 'none'})")
+            elif left[name] and not any(_same(value, one) for one in left[name]):
+                yield Fault(("at", name), value, f"must be one of {_listed(left[name])}")
+        for name, values in left.items():
+            panels = self.by is None and name == NORM and len(values) <= self.room
+            if name not in self.at and len(values) > 1 and not panels:
                 yield Fault(("at", name), "", f"is required, or by: {name}; one of {_listed(values)}")
 
     def _wrong_place(self, place: str, name: str, own: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:

@@ -15,27 +15,22 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.branches import Mask, branches, named
-from disc_model.figures.grids.cells import (
-    OUTCOMES,
-    cycle_patches,
-    edges_of,
-    fill,
-    growth_bar,
-    growth_cells,
-    paler,
-    patch,
-    words_of,
-)
+from disc_model.figures.grids import cells
 from disc_model.figures.grids.kinds import RegionMap
 from disc_model.figures.grids.stability_map import paper_ring, paper_rings, set_scales
 from disc_model.figures.parts import PAGE, new_figure, styled
 
 PALER = 0.35
 """How far the colours of what is inferred are from the others' towards white."""
+LARGE = 0.02
+"""Share of a map's points from which on a branch is named."""
+NAMES = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+Mask = NDArray[np.bool_]
 
 
 @styled()
@@ -49,7 +44,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
     for column, norm in enumerate(norms):
         one = parts.of(study, norm)
         _outcomes(axes[0, column], one, plot)
-        mesh = growth_cells(axes[1, column], one, plot.x, plot.y)
+        mesh = cells.growth_cells(axes[1, column], one, plot.x, plot.y)
         are_named |= _branches(axes[1, column], one, plot)
         for row in range(2):
             parts.letter(axes[row, column], "abcd"[row * len(norms) + column], "" if row else parts.MODES[norm])
@@ -58,22 +53,49 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
     for ax, norm in zip(axes[0], norms, strict=True):
         if norm == "as_published":
             _marks(ax, plot)
-    growth_bar(figure, mesh, list(axes[1]))
+    cells.growth_bar(figure, mesh, list(axes[1]))
     _legends(figure, study, plot, kinds, are_named)
     return figure
 
 
 def _outcomes(ax: Axes, data: xr.Dataset, plot: RegionMap) -> None:
     """Outcomes, paler where they were not worked out."""
-    edges, words = edges_of(data, plot.x, plot.y), words_of(data, "outcome", plot.x, plot.y)
-    inside = words_of(data, "origin", plot.x, plot.y) == "undivided_cell"
-    fill(ax, edges, np.where(inside, "", words), OUTCOMES)
-    fill(ax, edges, np.where(inside, words, ""), {name: paler(look, PALER) for name, look in OUTCOMES.items()})
+    edges, words = cells.edges_of(data, plot.x, plot.y), cells.words_of(data, "outcome", plot.x, plot.y)
+    inside = cells.words_of(data, "origin", plot.x, plot.y) == "undivided_cell"
+    cells.fill(ax, edges, np.where(inside, "", words), cells.OUTCOMES)
+    inferred = {name: cells.paler(look, PALER) for name, look in cells.OUTCOMES.items()}
+    cells.fill(ax, edges, np.where(inside, words, ""), inferred)
+
+
+def branches(followed: Mask, up: Mask, right: Mask) -> NDArray[np.int64]:
+    """Number of the branch at each point, the largest 0; -1 where no cycle is followed: shape (rows, columns).
+
+    up, right : whether the cycle goes on into the point of the next row, or column; shape (rows, columns)
+    """
+    number = np.arange(followed.size).reshape(followed.shape)
+    here = np.concatenate([number[:-1][up[:-1]], number[:, :-1][right[:, :-1]]])
+    there = np.concatenate([number[1:][up[:-1]], number[:, 1:][right[:, :-1]]])
+    graph = coo_array((np.ones(len(here)), (here, there)), shape=(followed.size,) * 2)
+    _, labels = connected_components(graph, directed=False)
+    sizes = np.bincount(labels[followed.ravel()], minlength=labels.max() + 1)
+    rank = np.empty_like(sizes)
+    rank[np.argsort(-sizes, kind="stable")] = np.arange(len(sizes))
+    return np.where(followed, rank[labels].reshape(followed.shape), -1)
+
+
+def named(labels: NDArray[np.int64]) -> Iterator[tuple[str, int, int]]:
+    """Names of the large branches, the largest A, each with row and column of the point nearest to its middle."""
+    for label, name in enumerate(NAMES):
+        places = np.argwhere(labels == label)
+        if len(places) < LARGE * labels.size:
+            return
+        row, column = places[np.argmin(np.sum((places - places.mean(axis=0)) ** 2, axis=1))]
+        yield name, int(row), int(column)
 
 
 def _branches(ax: Axes, data: xr.Dataset, plot: RegionMap) -> bool:
     """Name the branches of the cycle; whether there are any that are large enough."""
-    followed = words_of(data, "cycle", plot.x, plot.y) == "followed"
+    followed = cells.words_of(data, "cycle", plot.x, plot.y) == "followed"
     x, y = (data[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
     found = list(named(branches(followed, *_joined(data, plot))))
     look: dict[str, Any] = {"ha": "center", "va": "center", "zorder": 4, "path_effects": parts.halo(2.0)}
@@ -88,11 +110,11 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> set[str]:
     It ends where no cycle is found in the next cell, and the motion does not stay quiet there either. That the start
     follows none, or another one, does not say that.
     """
-    x, y = edges_of(data, plot.x, plot.y)
+    x, y = cells.edges_of(data, plot.x, plot.y)
     growth = data["growth_rate"].transpose(plot.y, plot.x).values
     stable, unstable = growth < 0, growth > 0
-    gone = words_of(data, "cycle", plot.x, plot.y) == "none_found"
-    gone &= words_of(data, "outcome", plot.x, plot.y) != "stable"
+    gone = cells.words_of(data, "cycle", plot.x, plot.y) == "none_found"
+    gone &= cells.words_of(data, "outcome", plot.x, plot.y) != "stable"
     lines: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
     up, right = _joined(data, plot)
 
@@ -115,7 +137,7 @@ def _joined(data: xr.Dataset, plot: RegionMap) -> tuple[Mask, Mask]:
     """Whether the cycle goes on upwards, and to the right; the study's plane may lie the other way round."""
     first = str(data["outcome"].dims[0])
     names = ("joined_first", "joined_second") if first == plot.y else ("joined_second", "joined_first")
-    up, right = (words_of(data, name, plot.x, plot.y) == "yes" for name in names)
+    up, right = (cells.words_of(data, name, plot.x, plot.y) == "yes" for name in names)
     return up, right
 
 
@@ -130,15 +152,15 @@ def _marks(ax: Axes, plot: RegionMap) -> None:
 def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap, kinds: Collection[str], are_named: bool) -> None:
     """Outcomes and lines above, what stands for no cycle below; and what is to be said of how it was computed."""
     outcomes = set(np.unique(flag_names(study["outcome"])))
-    above: list[Artist] = [patch(look) for name, look in OUTCOMES.items() if name in outcomes]
+    above: list[Artist] = [cells.patch(look) for name, look in cells.OUTCOMES.items() if name in outcomes]
     if (flag_names(study["origin"]) == "undivided_cell").any():
-        look = paler(OUTCOMES["separation"], PALER)
-        above.append(patch(look._replace(label="paler: inferred from the corners of a cell")))
+        look = cells.paler(cells.OUTCOMES["separation"], PALER)
+        above.append(cells.patch(look._replace(label="paler: inferred from the corners of a cell")))
     above += [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
     if "as_published" in parts.normalizations(study):
         above += paper_rings(plot)
     figure.legend(handles=above, loc="outside upper center", ncols=min(len(above), 4))
-    below: list[Artist] = list(cycle_patches(set(flag_names(study["cycle"]).flat)))
+    below: list[Artist] = list(cells.cycle_patches(set(flag_names(study["cycle"]).flat)))
     said = [*_said(study, plot)]
     said += ["A, B, ...: branches, on which one cycle goes on from point to point."] * are_named
     below.append(Line2D([], [], linestyle="", label="\n".join(said)))
@@ -165,7 +187,7 @@ def standing_alone(study: xr.Dataset, plot: RegionMap) -> int:
     """Number of points whose outcome none of those beside them has."""
     count = 0
     for norm in parts.normalizations(study):
-        words = np.pad(words_of(parts.of(study, norm), "outcome", plot.x, plot.y), 1)
+        words = np.pad(cells.words_of(parts.of(study, norm), "outcome", plot.x, plot.y), 1)
         own = words[1:-1, 1:-1]
         beside = (words[:-2, 1:-1], words[2:, 1:-1], words[1:-1, :-2], words[1:-1, 2:])
         count += int(np.sum(np.all([own != other for other in beside], axis=0)))
@@ -180,9 +202,9 @@ def contradictions(study: xr.Dataset, plot: RegionMap) -> list[str]:
     for name, mark in plot.marks.items():
         here = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
         outcome, rate = str(flag_names(here["outcome"])), float(here["growth_rate"])
-        found = OUTCOMES[outcome].label
+        found = cells.OUTCOMES[outcome].label
         if outcome != mark.paper:
-            said.append(f"{name}: the paper says “{OUTCOMES[mark.paper].label}”, the published start: {found}.")
+            said.append(f"{name}: the paper says “{cells.OUTCOMES[mark.paper].label}”, the published start: {found}.")
         if (outcome == "stable") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"

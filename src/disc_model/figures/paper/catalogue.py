@@ -61,7 +61,7 @@ def _section(section: str, case: str, title: str, what: str) -> Entry:
 
 def _ranges(case: str, title: str, options: Mapping[str, Any]) -> Entry:
     text = "(a) Contact force, (b) disc at r_0 and {theta}, as ranges."
-    return Entry("4.2", title, text, {case: ("history",)}, "histories.force_and_disc", options)
+    return Entry("4.2", title, text, {case: ("history",)}, "separations.force_and_disc", options)
 
 
 def _response(case: str, title: str, text: str, variable: str, window: str, **options: Any) -> Entry:
@@ -131,7 +131,7 @@ CATALOGUE: Mapping[str, Entry] = {
         "Disc, with separation and without",
         "Range of the disc's displacement at r_0 and {theta}, with separation ignored and with separation.",
         {"F02": ("history",), "F04": ("history",)},
-        "histories.with_and_without",
+        "separations.with_and_without",
     ),
     "fig11": _ranges("F11", "Histories below the critical speed", {}),
     "fig12": _section("4.2", "F11", "below the critical speed", QUIET),

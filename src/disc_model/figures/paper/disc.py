@@ -202,18 +202,9 @@ FILM, FILM_DPI, FRAME_RATE = (6.0, 2.5), 100, 12
 
 
 def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
-    """Write the motion of disc and slider as a picture that moves.
+    """Write the motion of disc and slider as a picture that moves, .gif or .webp, of so many frames at most.
 
-    Parameters
-    ----------
-    case : with the windows `around0`, ...
-    path : file to write, .gif or .webp
-    frames : how many, at most
-
-    Raises
-    ------
-    Missing
-        If the case does not hold these windows.
+    Raises `Missing` if the case does not hold the windows `around0`, ...
     """
     from matplotlib.animation import FuncAnimation, PillowWriter
 
@@ -229,18 +220,12 @@ def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
             for ax in (disc, circle):
                 ax.cla()
             _disc(disc, motion, i, scale)
-            _still(circle, motion, i, scale)
+            _around(circle, motion, i, 7)
+            circle.set_ylim(scale.vmin, scale.vmax)
+            colour = SEPARATED if motion.phase[i] == SEPARATION else BLACK
+            circle.set_title(f"{1e3 * (motion.time[i] - motion.time[0]):5.1f} ms, {_phase(motion, i)}", color=colour)
             return [disc, circle]
 
         animation = FuncAnimation(figure, draw, frames=range(0, motion.time.size, step), blit=False)
         path.parent.mkdir(parents=True, exist_ok=True)
         animation.save(path, writer=PillowWriter(fps=FRAME_RATE), dpi=FILM_DPI)
-
-
-def _still(ax: Axes, motion: Motion, i: int, scale: Normalize) -> None:
-    """The circle of radius r_0 and the slider at one instant, with axes that do not move."""
-    _around(ax, motion, i, 7)
-    ax.set_ylim(scale.vmin, scale.vmax)
-    after = 1e3 * (motion.time[i] - motion.time[0])
-    colour = SEPARATED if motion.phase[i] == SEPARATION else BLACK
-    ax.set_title(f"{after:5.1f} ms, {_phase(motion, i)}", color=colour, loc="left")

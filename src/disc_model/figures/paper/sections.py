@@ -82,7 +82,7 @@ def portrait(
     ax = figure.subplots()
     with parts.or_say_why(ax):
         samples = dataset.samples(case, window)
-        (across, in_x), (up, in_y) = (parts.sampled(name, samples) for name in (x, y))
+        (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
         _orbit(ax, samples["phase"].values, samples[x].values * in_x, samples[y].values * in_y)
         ax.set(xlabel=across, ylabel=up)
     return figure

@@ -1,4 +1,4 @@
-"""The slider leaves the disc and meets it again, over a run and close up; figures 2, 3 and 23 of the paper."""
+"""The slider leaves the disc and meets it again, over a run and close up; figures 2, 3, 10, 11, 13 and 23."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.figures import parts
-from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, PAGE, SEPARATED, SLIDER, new_figure, styled
+from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
 
 SEPARATION = PHASES.index("separation")
 
@@ -143,4 +143,39 @@ def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
             ax.plot(time, height, "o", color=SEPARATED, markersize=3.5, label="contact lost")
         ax.set_xlabel(f"Time after {start:.4f} s (ms)")
         parts.legend_above(ax)
+    return figure
+
+
+@styled()
+def force_and_disc(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
+    """Figures 11 and 13: ranges of (a) contact force, (b) disc at r_0 and a fixed angle, until a time in s."""
+    (case,) = cases.values()
+    figure = new_figure(COLUMN, 3.4)
+    force, disc = figure.subplots(2, 1, sharex=True)
+    with parts.or_say_why(force, disc):
+        history = parts.history(case, until)
+        parts.envelope(force, history, "P", color=FORCE)
+        parts.envelope(disc, history, "w_point", scale=1e3, color=DISC)
+        force.set(ylabel="Contact force (N)")
+        disc.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
+        for ax, letter in ((force, "a"), (disc, "b")):
+            parts.mark_first_separation(ax, float(case["first_separation"]))
+            parts.letter(ax, letter)
+    figure.align_ylabels()
+    return figure
+
+
+@styled()
+def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Figure 10: range of the disc at r_0 and a fixed angle over the run, contact enforced and separable."""
+    figure = new_figure(COLUMN, 2.4)
+    ax = figure.subplots()
+    with parts.or_say_why(ax):
+        ignored, separating = (parts.history(cases[name]) for name in ("F04", "F02"))
+        for history, color, label in ((ignored, GREY, "separation ignored"), (separating, DISC, "with separation")):
+            parts.envelope(ax, history, "w_point", scale=1e3, color=color, label=label)
+        ax.set(xlabel="Time (s)", ylabel=parts.disc_label(ignored, separating))
+        low, high = ax.get_ylim()
+        ax.set_ylim(low, high + 0.25 * (high - low))
+        ax.legend(loc="upper left")
     return figure

@@ -17,7 +17,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
-from disc_model.figures.parts import BLACK, DISC, PAGE, SKY, SLIDER, new_figure, styled
+from disc_model.figures.parts import BLACK, DISC, PAGE, SKY, new_figure, styled
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
@@ -202,14 +202,14 @@ def response(
 
 def _whole_run(ax: Axes, case: xr.DataTree, variable: str, marked: tuple[float, float] | None, until: float) -> None:
     history = parts.history(case, until)
-    label, scale = parts.sampled(variable, history)
+    label, scale, colour = parts.sampled(variable, history)
     if marked is not None:
         ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
         if marked[1] - marked[0] < 0.02 * float(history["time"][-1]):
             # a line where the stretch of (b) is too narrow to be seen
             ax.axvline(sum(marked) / 2, color=BLACK, linewidth=0.8)
             parts.say_above(ax, sum(marked) / 2, "(b)")
-    parts.envelope(ax, history, variable, scale=scale, color=parts.SAMPLED_COLOURS.get(variable, SLIDER))
+    parts.envelope(ax, history, variable, scale=scale, color=colour)
     parts.mark_first_separation(ax, float(case["first_separation"]))
     ax.set(xlabel="Time (s)", ylabel=label)
     parts.letter(ax, "a")
@@ -219,9 +219,8 @@ def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first:
     part = window.sel(time=slice(start, start + ZOOM))
     if part.sizes["time"] < 2:
         raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
-    label, scale = parts.sampled(variable, window)
-    time, colour = (part["time"].values - start) * 1e3, parts.SAMPLED_COLOURS.get(variable, SLIDER)
-    ax.plot(time, part[variable].values * scale, color=colour, linewidth=0.6)
+    label, scale, colour = parts.sampled(variable, window)
+    ax.plot((part["time"].values - start) * 1e3, part[variable].values * scale, color=colour, linewidth=0.6)
     ax.set_xlabel(f"Time after {start:g} s (ms)")
     ax.set_xlim(0, ZOOM * 1e3)
     if first:
