@@ -461,7 +461,8 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
         _gone(axes["growth_rate"], line, color)
     axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
     cases = json.loads(dataset.attrs["cases"])
-    labels = [_case_said(cases[str(name)]) for name in dataset["case"].values]
+    shown = [{"normalization": "as_published"} | cases[name] for name in dataset["case"].values]
+    labels = [f"{case['normalization'].replace('_', ' ')}, {said_values(case)}" for case in shown]
     gone = Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found")
     handles = _look_handles(labels, gone, filled="residual", hollow="rigid")
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
@@ -481,12 +482,6 @@ def _gone(ax: Axes, line: xr.Dataset, color: str) -> None:
     if gone.any():
         at_foot: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "clip_on": False}
         ax.plot(line["modes"][gone], np.zeros(gone.sum()), "x", color=color, markersize=3.5, zorder=4, **at_foot)
-
-
-def _case_said(parameters: Mapping[str, Any]) -> str:
-    """A case in words, with units."""
-    norm = str(parameters.get("normalization", "as_published"))
-    return f"{norm.replace('_', ' ')}, {said_values(parameters)}"
 
 
 @styled()

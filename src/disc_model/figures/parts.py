@@ -22,9 +22,6 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, said_values
 from disc_model.figures import STYLE
 
-# ----------------------------------------------------------------------------------------------------
-# Style: widths, colours, and saving without time stamps
-
 COLUMN = 89 / 25.4
 """Width of one column, inch."""
 PAGE = 183 / 25.4
@@ -93,9 +90,6 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
         figure.savefig(path, metadata=metadata)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Parts
-
 SYMBOLS = {
     "N": ("Preload N", "N", 1.0),
     "Omega": ("Speed Ω", "rad/s", 1.0),
@@ -122,16 +116,6 @@ SYMBOLS = {
     "n_circles": ("Nodal circles", "", 1.0),
 }
 """Name, unit and factor to it from SI of each parameter that is a number."""
-
-
-MOTION = {
-    "psi": "Angle ψ",
-    "psi_velocity": "dψ/dt",
-    "P": "Contact force",
-    "u": "Slider",
-    "w_point": "Disc",
-}
-"""What is sampled of a motion."""
 
 
 @contextmanager

@@ -18,13 +18,7 @@ from disc_model.figures.parts import COLUMN, PAGE, new_figure, styled
 
 @styled()
 def draw(cases: Mapping[str, xr.DataTree], **said: Any) -> Figure:
-    """One figure of one case.
-
-    Parameters
-    ----------
-    cases : the one that it shows, as `disc_model.data.dataset.load` reads it
-    said : what the study file says of it, see `disc_model.figures.cases.kinds`
-    """
+    """One figure of one case, from what the study file says of it, see `disc_model.figures.cases.kinds`."""
     plot = CASE_PLOTS[said["kind"]].model_validate(said)
     figure = DRAWN[said["kind"]](cases[plot.case], plot)
     if plot.title:

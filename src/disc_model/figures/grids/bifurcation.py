@@ -17,6 +17,8 @@ from disc_model.figures import parts
 from disc_model.figures.grids.kinds import Bifurcation
 from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, PHASE_COLOURS, new_figure, styled
 
+MOTION = {"psi": "Angle ψ", "psi_velocity": "dψ/dt", "P": "Contact force", "u": "Slider", "w_point": "Disc"}
+"""What is sampled of a motion."""
 SWITCHES = {"stick": "at release of stick", "separation": "at loss of contact"}
 """What samples at switches are called, by the phase that ends or begins there."""
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
@@ -63,7 +65,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     unit = study[plot.variable].attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(xlabel)
-    ax.set_ylabel(f"{parts.MOTION[plot.variable]} ({prefix}{unit.replace(' s-1', '/s')})")
+    ax.set_ylabel(f"{MOTION[plot.variable]} ({prefix}{unit.replace(' s-1', '/s')})")
     if "lyapunov" in others:
         exponents = parts.without_failed(others["lyapunov"], "exponent", "exponent_error")
         _exponents(axes[1], exponents, plot.x)

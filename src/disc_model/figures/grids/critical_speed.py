@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Mapping
 from typing import Any
@@ -115,18 +116,13 @@ def _horizons(ax: Axes, study: xr.Dataset) -> None:
     Marks of longer horizons are smaller, and lie on those of shorter ones.
     """
     horizons, ended = study["horizon"].values, False
-    for i, horizon in enumerate(horizons):
-        style: dict[str, Any] = {
-            "color": COLORS[i % len(COLORS)],
-            "marker": MARKERS[i % len(MARKERS)],
-            "markersize": LARGEST - (LARGEST - SMALLEST) * i / max(1, len(horizons) - 1),
-            "linewidth": 1.0,
-            "zorder": 3 + 0.1 * i,
-        }
+    for i, (horizon, color, marker) in enumerate(zip(horizons, itertools.cycle(COLORS), itertools.cycle(MARKERS))):
+        size = LARGEST - (LARGEST - SMALLEST) * i / max(1, len(horizons) - 1)
+        style: dict[str, Any] = {"color": color, "marker": marker, "markersize": size, "zorder": 3 + 0.1 * i}
         draw_onsets(ax, study, horizon, load_along="x", label=f"begins within {horizon:g} s", **style)
         ended |= draw_ends(ax, study, horizon, load_along="x", **style)
     if ended:
-        ax.add_line(ends_handle(MARKERS[(len(horizons) - 1) % len(MARKERS)]))
+        ax.add_line(ends_handle(marker))
     parts.mark_failed(ax, study["N"].values[parts.failed(study).values])
 
 

@@ -161,13 +161,7 @@ def _mm(length: float) -> str:
 
 
 def _arrow(
-    ax: Axes,
-    start: Point,
-    end: Point,
-    text: str = "",
-    offset: Point = (0.0, 0.0),
-    colour: str = BLACK,
-    style: str = "-|>",
+    ax: Axes, start: Point, end: Point, text: str = "", offset: Point = (0, 0), colour: str = BLACK, style: str = "-|>"
 ) -> None:
     """An arrow from `start` to `end`, with a text at its middle, moved by `offset`."""
     look = {"arrowstyle": style, "color": colour, "lw": 1.5, "shrinkA": 0, "shrinkB": 0}
