@@ -7,7 +7,7 @@ import json
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import PHASES, Variable
+from disc_model.data.variables import PHASES
 from disc_model.explorer.contents import study_contents
 from disc_model.studies.grids.motions import SAMPLES, Motions
 from disc_model.studies.grids.run import describe
@@ -75,8 +75,8 @@ def motions() -> xr.Dataset:
         "u": np.full((3, SAMPLES), -0.0088, np.float32),
         "psi": np.tile(np.linspace(0, 0.05, SAMPLES, dtype=np.float32), (3, 1)),
     }
-    data = {name: (("point", "sample"), values, _attributes(Motions.COLUMNS[name].variable))
-            for name, values in rows.items()}  # fmt: skip
+    about = {name: Motions.COLUMNS[name].variable.attributes for name in rows}
+    data = {name: (("point", "sample"), values, about[name]) for name, values in rows.items()}
     names = " ".join(("none", *PHASES))
     data |= {
         "status": ("point", status, flagged("status", "ok failed")),
@@ -90,7 +90,3 @@ def motions() -> xr.Dataset:
 def contents() -> list[dict[str, object]]:
     """What the page is told of both studies."""
     return [study_contents("plane", plane(), motions(), "After the transient."), study_contents("line", line())]
-
-
-def _attributes(variable: Variable) -> dict[str, str]:
-    return {"long_name": variable.long_name, "units": variable.units}

@@ -28,11 +28,8 @@ def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
     assert "wrong\nevents" in texts
     save(figure, tmp_path / "scene.png")
     save(figures.overview(dataset), tmp_path / "overview.png")
-    assert figures._spread([(1e-8, 1.0, "a", "k"), (1e-8, 1.1, "b", "k"), (1e-3, 1.1, "c", "k")]) == [
-        (1e-8, 1.0, "a", "k"),
-        (1e-8, 1.5, "b", "k"),
-        (1e-3, 1.1, "c", "k"),
-    ]
+    near, moved, far = (1e-8, 1.0, "a", "k"), (1e-8, 1.5, "b", "k"), (1e-3, 1.1, "c", "k")
+    assert figures._spread([near, (1e-8, 1.1, "b", "k"), far]) == [near, moved, far]
 
 
 def test_every_method_looks_otherwise_and_every_scene_has_a_title():

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+
+ON_EACH_SCALE = pytest.mark.parametrize(
+    ("x", "values", "scale"),
+    [("Omega", [5.0, 10, 20], "linear"), ("D_star", [0, 1e-6, 1e-4], "symlog"), ("m", [0.01, 0.1, 1], "log")],
+)
+"""A parameter that maps show on each, with three values."""
 
 
 def crosses(ax: Axes) -> list[list[float]]:

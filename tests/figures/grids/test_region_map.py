@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 
 import numpy as np
-import pytest
 import xarray as xr
 from matplotlib.collections import LineCollection, QuadMesh
 
@@ -13,7 +12,7 @@ from disc_model.figures.grids import region_map as maps
 from disc_model.figures.grids.kinds import Mark, RegionMap
 from disc_model.figures.parts import axis_of, save
 from disc_model.studies.grids.quantities import regions
-from tests.figures.grids.reading import labels
+from tests.figures.grids.reading import ON_EACH_SCALE, labels
 
 PLOT = RegionMap(x="Omega", y="N")
 
@@ -42,10 +41,7 @@ def lengths(ax) -> list[int]:
     return [len(lines.get_segments()) for lines in ax.collections if isinstance(lines, LineCollection)]
 
 
-@pytest.mark.parametrize(
-    ("x", "values", "scale"),
-    [("Omega", [5.0, 10, 20], "linear"), ("D_star", [0, 1e-6, 1e-4], "symlog"), ("m", [0.01, 0.1, 1], "log")],
-)
+@ON_EACH_SCALE
 def test_cells_borders_and_marks(x: str, values: list[float], scale: str, tmp_path) -> None:
     study = made_up(x, values, ["as_published", "orthonormal"])
     marks = {"F2": Mark(x=values[0], y=100, paper="stable"), "b": Mark(x=values[-1], y=400, paper="separation")}

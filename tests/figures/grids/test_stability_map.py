@@ -12,15 +12,12 @@ from disc_model.figures.grids import stability_map as maps
 from disc_model.figures.grids.kinds import Mark, StabilityMap
 from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import outcome
-from tests.figures.grids.reading import labels
+from tests.figures.grids.reading import ON_EACH_SCALE, labels
 
 OUTCOMES = {"flag_meanings": " ".join(outcome.OUTCOMES)}
 
 
-@pytest.mark.parametrize(
-    ("x", "values", "scale"),
-    [("Omega", [5.0, 10, 20], "linear"), ("D_star", [0, 1e-6, 1e-4], "symlog"), ("m", [0.01, 0.1, 1], "log")],
-)
+@ON_EACH_SCALE
 def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str, tmp_path) -> None:
     loads, norms = [100.0, 200.0], ["as_published", "orthonormal"]
     axes = {"N": loads, x: values, "normalization": norms}

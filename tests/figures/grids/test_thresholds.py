@@ -20,8 +20,6 @@ from tests.studies.grids.conftest import growth_over
 SPEEDS, LOADS = np.linspace(5, 50, 10), np.array([100.0, 200, 300])
 NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
 FOLD = Curve(SPEEDS, SPEEDS * 6, "fold", "2 f_s = 135.42 Hz")
-OUTCOMES = {"flag_meanings": "unknown stable unstable separation undecided"}
-KINDS = {"flag_meanings": "none begins ends"}
 
 
 def scanned() -> xr.Dataset:
@@ -30,15 +28,14 @@ def scanned() -> xr.Dataset:
     crossing[1, 0, 0], crossing[2, 0, :3] = 30.0, [10.0, 20.0, 40.0]
     kind = np.where(np.isfinite(crossing), 1, 0)
     kind[2, 0, 1] = 2
-    return xr.Dataset(
-        {
-            "critical_speed": (("N", "horizon"), np.array([[np.nan], [30.0], [10.0]])),
-            "crossing": (("N", "horizon", "crossing_number"), crossing),
-            "crossing_kind": (("N", "horizon", "crossing_number"), kind, KINDS),
-            "status": ("N", np.zeros(3, np.int8), {"flag_meanings": "ok failed"}),
-        },
-        {"N": LOADS, "horizon": [1000.0], "scan_Omega": SPEEDS, "normalization": ["as_published"]},
-    )
+    data = {
+        "critical_speed": (("N", "horizon"), np.array([[np.nan], [30.0], [10.0]])),
+        "crossing": (("N", "horizon", "crossing_number"), crossing),
+        "crossing_kind": (("N", "horizon", "crossing_number"), kind, {"flag_meanings": "none begins ends"}),
+        "status": ("N", np.zeros(3, np.int8), {"flag_meanings": "ok failed"}),
+    }
+    axes = {"N": LOADS, "horizon": [1000.0], "scan_Omega": SPEEDS, "normalization": ["as_published"]}
+    return xr.Dataset(data, axes)
 
 
 def chart(monkeypatch: pytest.MonkeyPatch, **others: xr.Dataset) -> Figure:
@@ -71,18 +68,11 @@ def test_no_separation_is_presumed_between_loads(monkeypatch: pytest.MonkeyPatch
 
 
 def test_areas_are_the_outcomes_of_a_map_where_there_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    loads, codes = np.array([100.0, 200, 300]), np.repeat([[1], [2], [3]], 10, axis=1)
-    cycle = xr.Dataset(
-        {
-            "growth_rate": (("N", "Omega"), np.where(codes == 1, -0.1, 0.1)),
-            "outcome": (("N", "Omega"), codes, OUTCOMES),
-        },
-        {"N": loads, "Omega": SPEEDS},
-        {"options": json.dumps({"horizon": 1000.0})},
-    )
+    codes, words = np.repeat([[0], [1], [2]], 10, axis=1), {"flag_meanings": "stable unstable separation"}
+    data = {"growth_rate": (("N", "Omega"), codes - 0.1), "outcome": (("N", "Omega"), codes, words)}
+    cycle = xr.Dataset(data, {"N": LOADS, "Omega": SPEEDS}, {"options": json.dumps({"horizon": 1000.0})})
     figure = chart(monkeypatch, cycle=cycle)
-    named = {"stays quiet", "grows, no separation", "separation"}
-    assert named <= set(labels(figure))
+    assert {"stays quiet", "grows, no separation", "separation"} <= set(labels(figure))
     (mesh,) = (one for one in figure.axes[0].collections if isinstance(one, QuadMesh))
     assert not np.ma.getmaskarray(mesh.get_array()).any()
 
@@ -90,8 +80,6 @@ def test_areas_are_the_outcomes_of_a_map_where_there_is_one(monkeypatch: pytest.
 def test_thresholds_are_drawn(plane: xr.Dataset, speeds: xr.Dataset, tmp_path) -> None:
     growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
     chart = thresholds.draw(speeds, {"curves": plane, "cycle": growth}, Thresholds(claim={"a": (200, 12.6)}))
-    said = [text.get_text() for text in chart.legends[0].get_texts()]
-    assert {"separation begins", "what the paper says"} <= set(said)
+    assert {"separation begins", "what the paper says"} <= set(labels(chart))
     save(chart, tmp_path / "chart.png")
-    without = thresholds.draw(speeds, {"curves": plane}, Thresholds())
-    assert len(without.axes) == 1
+    assert len(thresholds.draw(speeds, {"curves": plane}, Thresholds()).axes) == 1

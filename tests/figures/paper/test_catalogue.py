@@ -95,8 +95,7 @@ OPTIONS = {
 
 
 def draw(name: str, *, separates: bool = True) -> Figure:
-    cases = {case: made_up_case(separates=separates) for case in CATALOGUE[name].cases}
-    return drawn(name, cases)
+    return drawn(name, {case: made_up_case(separates=separates) for case in CATALOGUE[name].cases})
 
 
 def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
