@@ -13,10 +13,9 @@ from disc_model.data.dataset import save
 
 
 def report(row: Row) -> None:
-    found = row.found
     logging.info(
         "%s %s %g: %.10g, error %.3g, %.4g s, %s %s",
-        *(row.answer, row.line, row.setting, found.value, row.error, found.seconds, found.status.name, found.message),
+        *(row.answer, row.line, row.setting, row.found, row.error, row.seconds, row.status.name, row.message),
     )
 
 

@@ -23,7 +23,7 @@ from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT, FixedStep
-from disc_model.benchmarks.scenes import VERDICT, Answer, Verdict, separating_start, static_start
+from disc_model.benchmarks.scenes import VERDICT, Answer, Verdict
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.truncation import real_modes
@@ -115,7 +115,7 @@ def _facts(scene: str, diameters: int, *, observed: bool) -> dict[str, float]:
 def short_problem(scene: str, diameters: int) -> Problem:
     """The scene's motion with modes up to ``diameters`` for the span of the maps."""
     p = Parameters(N=385.0, Omega=15.1, n_diameters=diameters)
-    start = separating_start(p) if scene == "separating" else static_start(p)
+    start = scenes.MOTIONS[scene][1](p)
     return Problem(p, start, start.time + SPANS[scene])
 
 

@@ -15,6 +15,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks.answers import words
+from disc_model.benchmarks.answers.measure import Row
 from disc_model.benchmarks.answers.questions import QUESTIONS, Verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED
@@ -58,7 +59,7 @@ def summary(work_precision: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def _prices(found: list[words.Point]) -> dict[str, dict[str, Any]]:
+def _prices(found: list[Row]) -> dict[str, dict[str, Any]]:
     """By line in words: its cheapest right answer, and where it answers wrongly without a warning."""
     right = {p.line: p for p in words.cheapest_right(found)}
     table: dict[str, dict[str, Any]] = {}

@@ -19,7 +19,7 @@ from __future__ import annotations
 import enum
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, chain, cycle, islice, takewhile
@@ -115,21 +115,21 @@ def read_state(stored: Mapping[str, Any]) -> State:
     return State(**values)
 
 
+MOTIONS: Mapping[str, tuple[dict[str, Any], Callable[[Parameters], State], float]] = {
+    "stick_slip": ({}, static_start, 1.0),
+    "separating": ({}, separating_start, 55.4),
+    "many_modes": ({"n_diameters": 12}, static_start, 0.2),
+    "rigid": ({"E": 1e20, "n_diameters": 1}, static_start, 0.02),
+}
+"""By scene: parameters beside N = 385 N and Omega = 15.1 rad/s, the start, and the end (s)."""
+
+
 @lru_cache(maxsize=8)
 def problem(name: str) -> Problem:
     """The problem of a scene."""
-    p = Parameters(N=385.0, Omega=15.1)
-    if name == "stick_slip":
-        return Problem(p, static_start(p), 1.0)
-    if name == "separating":
-        return Problem(p, separating_start(p), 55.4)
-    if name == "many_modes":
-        p = p.replace(n_diameters=12)
-        return Problem(p, static_start(p), 0.2)
-    if name == "rigid":
-        p = p.replace(E=1e20, n_diameters=1)
-        return Problem(p, static_start(p), 0.02)
-    raise KeyError(name)
+    changes, start, t_end = MOTIONS[name]
+    p = Parameters(N=385.0, Omega=15.1, **changes)
+    return Problem(p, start(p), t_end)
 
 
 @lru_cache(maxsize=8)

@@ -17,7 +17,6 @@ from disc_model.data.dataset import markdown_table
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) that the others have to reach as well."""
-HEAD = ("method", "setting", "verdict", "cost", "event-time error (s)", "state error", "events", "order", "x series")
 
 
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
@@ -119,23 +118,24 @@ def to_markdown(dataset: xr.Dataset) -> str:
         "same or a smaller event-time error, in the same run. A dash: events are missing or invented.",
         "",
     ]
-    for scene in dict.fromkeys(frame["scene"]):
-        text += [f"## {scenes.TITLES[scene]}", ""]
-        rows = (
-            (
-                METHODS[row.method].label,
-                row.setting,
-                row.verdict.replace("_", " "),
-                _short(row.seconds_per_simulated_second),
-                _short(row.event_time_error),
-                _short(row.state_error),
-                row.events,
-                _order_text(row.order_event, row.order_theory),
-                _short(row.times_series),
-            )
-            for row in frame[frame["scene"] == scene].itertuples()
-        )
-        text += [*markdown_table(HEAD, rows), ""]
+    for scene, part in frame.groupby("scene", sort=False):
+        columns = {
+            "method": [METHODS[name].label for name in part["method"]],
+            "setting": part["setting"],
+            "verdict": part["verdict"].str.replace("_", " "),
+            "cost": part["seconds_per_simulated_second"].map(_short),
+            "event-time error (s)": part["event_time_error"].map(_short),
+            "state error": part["state_error"].map(_short),
+            "events": part["events"],
+            "order": [*map(_order_text, part["order_event"], part["order_theory"])],
+            "x series": part["times_series"].map(_short),
+        }
+        text += [
+            f"## {scenes.TITLES[str(scene)]}",
+            "",
+            *markdown_table(columns, zip(*columns.values(), strict=True)),
+            "",
+        ]
     return "\n".join(text)
 
 

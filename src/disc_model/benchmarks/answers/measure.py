@@ -13,13 +13,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks.answers import modelled, questions, simulated
-from disc_model.benchmarks.answers.questions import QUESTIONS, STATUS_WORDS, VERDICT_WORDS, Found, Status, verdict
+from disc_model.benchmarks.answers.questions import Found, Status, Verdict, verdict
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
@@ -42,18 +42,40 @@ LINES: Mapping[str, tuple[str, str, tuple[str, str, str]]] = {
 
 
 class Row(NamedTuple):
-    """One measured point."""
+    """One measured point, see `VARIABLES`; from ``found`` on as in `Found`."""
 
     answer: str
     line: str
+    label: str
+    varies: str
     setting: float
     right: float
-    found: Found
+    error: float
+    verdict: Verdict
+    found: float
+    seconds: float
+    status: Status
+    message: str
+    low: float
+    high: float
+    cells: int
 
     @property
-    def error(self) -> float:
-        """Distance from the right answer, nan without one."""
-        return abs(self.found.value - self.right)
+    def at(self) -> str:
+        """The setting in words."""
+        if self.varies == "diameters":
+            return f"{self.setting:.0f} diameters"
+        return f"{self.varies}={self.setting:g}"
+
+    @property
+    def became(self) -> str:
+        """Its status in words."""
+        return self.status.name.lower().replace("_", " ")
+
+    @property
+    def says(self) -> str:
+        """The answer in words."""
+        return f"{self.found:.6g}" if self.status is Status.FOUND else self.became
 
 
 @one_core()
@@ -107,18 +129,16 @@ def _of_method(name: str, values: Sequence[float], asked: Sequence[str]) -> Iter
             if question in hopeless:
                 continue
             for answer, found in simulated.ask(simulated.by(METHODS[name], value), question).items():
-                yield Row(answer, name, value, questions.reference(answer).value, found)
+                yield _row(answer, name, value, questions.reference(answer).value, found)
                 if found.status is Status.TOO_SLOW:
                     hopeless.add(question)
 
 
 def _of_the_cycle() -> Iterator[Row]:
     for tol in TOLERANCES:
-        for answer, right, found in (
-            ("onset", "fold", modelled.onset(questions.SEPARATING, tol)),
-            ("growth_rate", "growth_rate", modelled.growth_rate(questions.GROWING, tol)),
-        ):
-            yield Row(answer, "cycle", tol, questions.reference(right).value, found)
+        onset, growth = modelled.onset(questions.SEPARATING, tol), modelled.growth_rate(questions.GROWING, tol)
+        yield _row("onset", "cycle", tol, questions.reference("fold").value, onset)
+        yield _row("growth_rate", "cycle", tol, questions.reference("growth_rate").value, growth)
 
 
 def _of_models(models: Sequence[int]) -> Iterator[Row]:
@@ -126,12 +146,27 @@ def _of_models(models: Sequence[int]) -> Iterator[Row]:
     for contact, fields in CONTACTS.items():
         for count in models:
             for answer, found in modelled.ask({"n_diameters": count} | fields):
-                yield Row(answer, contact, count, right[answer], found)
+                yield _row(answer, contact, count, right[answer], found)
+
+
+def _row(answer: str, line: str, setting: float, right: float, found: Found) -> Row:
+    label, varies, _ = _known(line)
+    error = abs(found.value - right)
+    return Row(answer, line, label, varies, setting, right, error, verdict(answer, found, right), *found)
+
+
+def _known(line: str) -> tuple[str, str, tuple[str, str, str]]:
+    """Its name in words, what its setting is, how it is drawn."""
+    if line in LINES:
+        return LINES[line]
+    return METHODS[line].label, METHODS[line].setting, METHODS[line].look
 
 
 VARIABLES: Mapping[str, Variable] = {
     "answer": Variable("", "what is asked"),
     "line": Variable("", "method; cycle; rigid or residual, where the number of modes varies"),
+    "label": Variable("", "line in words"),
+    "varies": Variable("", "what the setting is"),
     "setting": Variable("", "tolerance, step (s), regularisation (rad/s); number of nodal diameters"),
     "found": Variable("", "answer in its own unit; nan if there was none"),
     "right": Variable("", "right answer"),
@@ -140,31 +175,22 @@ VARIABLES: Mapping[str, Variable] = {
     "high": Variable("", "upper bound of the answer"),
     "cells": Variable("1", "cells of the region that were looked at"),
     "seconds": Variable("s", "processor time"),
-    "status": Variable("1", "what became of the question", STATUS_WORDS),
-    "verdict": Variable("1", "whether the answer is right", VERDICT_WORDS),
+    "status": Variable("1", "what became of the question", questions.STATUS_WORDS),
+    "verdict": Variable("1", "whether the answer is right", questions.VERDICT_WORDS),
     "message": Variable("", "why there is no answer"),
 }
 
 
 def _dataset(rows: Sequence[Row]) -> xr.Dataset:
-    records: list[dict[str, Any]] = [
-        row._asdict()
-        | row.found._asdict()
-        | {"found": row.found.value, "error": row.error, "verdict": verdict(row.answer, row.found, row.right)}
-        for row in rows
-    ]
     dataset = xr.Dataset()
     for name, own in VARIABLES.items():
-        values = np.array([record[name] for record in records], np.int8 if own.flags else None)
+        values = np.array([getattr(row, name) for row in rows], np.int8 if own.flags else None)
         dataset[name] = ("row", values, own.attributes)
-    known = {name: (METHODS[name].label, METHODS[name].setting, METHODS[name].look) for name in METHODS} | dict(LINES)
-    dataset["label"] = ("row", [known[row.line][0] for row in rows], {"long_name": "line in words"})
-    dataset["varies"] = ("row", [known[row.line][1] for row in rows], {"long_name": "what the setting is"})
     for i, (name, text) in enumerate(LOOK.items()):
-        dataset[name] = ("row", [known[row.line][2][i] for row in rows], {"long_name": text})
+        dataset[name] = ("row", [_known(row.line)[2][i] for row in rows], {"long_name": text})
     about = {
         name: {"title": own.title, "units": own.units, "enough": own.enough, "error": _error(name)}
-        for name, own in QUESTIONS.items()
+        for name, own in questions.QUESTIONS.items()
     }
     title = "What each answer costs"
     return dataset.assign_attrs(

@@ -44,20 +44,14 @@ TRIED = 4
 FEWEST = 16
 """Cells below which nothing is said."""
 
-_STATUS = {
-    Outcome.TOO_SLOW: Status.TOO_SLOW,
-    Outcome.NON_FINITE: Status.UNSTABLE,
-    Outcome.STALLED: Status.STALLED,
-    Outcome.FAILED: Status.FAILED,
-}
-
 
 class Broken(Exception):
     """A run on which an answer depends did not reach its end."""
 
     def __init__(self, result: MethodResult) -> None:
         super().__init__(result.message or f"{result.outcome}")
-        self.status = _STATUS[result.outcome]
+        name = result.outcome.name
+        self.status = Status["UNSTABLE" if name == "NON_FINITE" else name]
 
     def found(self, seconds: float) -> Found:
         """No answer, and why."""

@@ -5,62 +5,27 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import xarray as xr
 
+from disc_model.benchmarks.answers.measure import Row
 from disc_model.benchmarks.answers.questions import Status, Verdict
 from disc_model.data.dataset import markdown_table
 
 MODELS = ("rigid", "residual")
 
 
-class Point(NamedTuple):
-    """A row of the dataset."""
-
-    line: str
-    label: str
-    varies: str
-    setting: float
-    found: float
-    error: float
-    low: float
-    high: float
-    cells: int
-    seconds: float
-    status: Status
-    verdict: Verdict
-    message: str
-
-    @property
-    def at(self) -> str:
-        """The setting in words."""
-        if self.varies == "diameters":
-            return f"{self.setting:.0f} diameters"
-        return f"{self.varies}={self.setting:g}"
-
-    @property
-    def became(self) -> str:
-        """Its status in words."""
-        return self.status.name.lower().replace("_", " ")
-
-    @property
-    def says(self) -> str:
-        """The answer in words."""
-        return f"{self.found:.6g}" if self.status is Status.FOUND else self.became
-
-
-def points(dataset: xr.Dataset, question: str) -> list[Point]:
+def points(dataset: xr.Dataset, question: str) -> list[Row]:
     """The rows of a question, in the order in which they were measured."""
-    part = dataset[[*Point._fields]].isel(row=dataset["answer"].values == question)
-    rows = [Point(*row) for row in part.to_dataframe().itertuples(index=False)]
+    part = dataset[[*Row._fields]].isel(row=dataset["answer"].values == question)
+    rows = [Row(*row) for row in part.to_dataframe().itertuples(index=False)]
     return [row._replace(status=Status(row.status), verdict=Verdict(row.verdict)) for row in rows]
 
 
-def cheapest_right(found: Sequence[Point]) -> list[Point]:
+def cheapest_right(found: Sequence[Row]) -> list[Row]:
     """Of every line the point that is right and costs least, cheapest line first; models are left out."""
     right = [p for p in found if p.verdict is Verdict.RIGHT and p.line not in MODELS]
-    best: dict[str, Point] = {}
+    best: dict[str, Row] = {}
     for point in sorted(right, key=lambda p: p.seconds):
         best.setdefault(point.line, point)
     return [*best.values()]
@@ -86,9 +51,8 @@ def sentences(dataset: xr.Dataset, question: str) -> str:
         if enough:
             text.append(f"Modes, {model} contact: right with {_listed(f'{n:.0f}' for n in enough)} nodal diameters.")
         elif own_points:
-            text.append(
-                f"Modes, {model} contact: with no number of nodal diameters up to {own_points[-1].setting:.0f}."
-            )
+            most = own_points[-1].setting
+            text.append(f"Modes, {model} contact: with no number of nodal diameters up to {most:.0f}.")
     return " ".join(text)
 
 
@@ -110,7 +74,7 @@ def to_markdown(dataset: xr.Dataset) -> str:
     return "\n".join(text)
 
 
-def _row(p: Point) -> tuple[str, ...]:
+def _row(p: Row) -> tuple[str, ...]:
     value = _short(p.found)
     if math.isfinite(p.low) and math.isfinite(p.found) and p.low < p.high:
         value += f" ({_short(p.low)} to {_short(p.high)})"
@@ -124,7 +88,7 @@ def _short(number: float, digits: int = 8) -> str:
     return f"{number:.{digits}g}" if math.isfinite(number) else "-"
 
 
-def _time(p: Point) -> str:
+def _time(p: Row) -> str:
     if p.seconds < 0.1:
         return f"{1e3 * p.seconds:.2g} ms"
     return f"{p.seconds:.2g} s" if p.seconds < 100.0 else f"{p.seconds:.0f} s"

@@ -165,7 +165,7 @@ def _system(physics: Physics, phase: Phase) -> tuple[list[Any], list[Any]]:
     if phase.name == "separation":
         rows += [(u, v), (v, -(load + p.k * (u - rest) + p.c * v) / p.m)]
         return rows, [u - w]
-    contact = 1.0 + f * f if p.contact == "bonded" else P  # never zero, and no constant, which heyoka refuses
+    contact = hy.sigmoid(f) if p.contact == "bonded" else P  # never zero, and no constant, which heyoka refuses
     if phase.name == "slip":
         return rows, [contact, phase.direction * f]
     return rows, [contact, p.mu_s * P - p.r_0 * F, p.mu_s * P + p.r_0 * F]
