@@ -8,7 +8,6 @@ import sys
 
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.register import RIVALS, SCENES
-from disc_model.benchmarks.scenes import problem
 
 
 def test_every_rival_is_made_as_registered() -> None:
@@ -22,11 +21,6 @@ def test_every_rival_is_made_as_registered() -> None:
         assert method.label
         assert method.setting in ("tol", "step", "epsilon")
         assert math.isnan(method.order) or method.order > 0
-
-
-def test_every_scene_is_there() -> None:
-    for scene in SCENES:
-        assert problem(scene).span > 0
 
 
 def test_nothing_heavy_is_imported_to_read_it() -> None:

@@ -35,44 +35,44 @@ def test_the_stored_answers_are_those_of_the_references(scene, name):
     assert answer(scene).error < 1e-15
 
 
-def _result(scene, times, kinds, outcome=Outcome.FINISHED, final=None):
-    right = answer(scene)
-    return MethodResult(np.asarray(times, float), tuple(kinds), final or right.final, 0.1, 1, outcome)
+TASK, RIGHT = problem("stick_slip"), answer("stick_slip")
+
+
+def _result(**changes):
+    right = {"times": RIGHT.times, "kinds": RIGHT.kinds, "final": RIGHT.final, "seconds": 0.1, "work": 1}
+    return MethodResult(**(right | {"outcome": Outcome.FINISHED} | changes))
 
 
 def test_the_right_answer_has_no_error():
-    right = answer("stick_slip")
-    found = errors(problem("stick_slip"), right, _result("stick_slip", right.times, right.kinds))
+    found = errors(TASK, RIGHT, _result())
     assert (found.state, found.verdict) == (0.0, Verdict.CONVERGED)
     assert found.event_time < 1e-15
 
 
 def test_an_event_too_few_is_wrong_unless_it_is_late():
-    right, t_end = answer("stick_slip"), problem("stick_slip").t_end
-    times = right.times.astype(float)
-    missing = _result("stick_slip", np.delete(times, 7), np.delete(right.kinds, 7))
-    assert math.isnan(event_time_error(right, missing, t_end))
-    short = _result("stick_slip", times[:-1], right.kinds[:-1])
-    assert math.isnan(event_time_error(right, short, t_end))
-    late = t_end - times[-1]
-    delayed = _result("stick_slip", times[:-1] + late, right.kinds[:-1])
-    assert event_time_error(right, delayed, t_end) == pytest.approx(late)
+    times = RIGHT.times.astype(float)
+    missing = _result(times=np.delete(times, 7), kinds=tuple(np.delete(RIGHT.kinds, 7)))
+    assert math.isnan(event_time_error(RIGHT, missing, TASK.t_end))
+    short = _result(times=times[:-1], kinds=RIGHT.kinds[:-1])
+    assert math.isnan(event_time_error(RIGHT, short, TASK.t_end))
+    late = TASK.t_end - times[-1]
+    delayed = _result(times=times[:-1] + late, kinds=RIGHT.kinds[:-1])
+    assert event_time_error(RIGHT, delayed, TASK.t_end) == pytest.approx(late)
 
 
-def test_verdicts():
-    task, right = problem("stick_slip"), answer("stick_slip")
-
-    def verdict(**changes):
-        return errors(
-            task, right, _result("stick_slip", **({"times": right.times, "kinds": right.kinds} | changes))
-        ).verdict
-
-    assert verdict(times=right.times + 1e-4) is Verdict.INACCURATE
-    assert verdict(kinds=("separation",) * 135) is Verdict.MISSED
-    assert verdict(outcome=Outcome.NON_FINITE) is Verdict.UNSTABLE
-    assert verdict(outcome=Outcome.TOO_SLOW) is Verdict.GAVE_UP
-    assert verdict(outcome=Outcome.STALLED) is Verdict.GAVE_UP
-    assert verdict(final=right.final.replace(alpha=right.final.alpha + 100.0)) is Verdict.UNSTABLE
+@pytest.mark.parametrize(
+    ("changes", "verdict"),
+    [
+        ({"times": RIGHT.times + 1e-4}, Verdict.INACCURATE),
+        ({"kinds": ("separation",) * 135}, Verdict.MISSED),
+        ({"outcome": Outcome.NON_FINITE}, Verdict.UNSTABLE),
+        ({"outcome": Outcome.TOO_SLOW}, Verdict.GAVE_UP),
+        ({"outcome": Outcome.STALLED}, Verdict.GAVE_UP),
+        ({"final": RIGHT.final.replace(alpha=RIGHT.final.alpha + 100.0)}, Verdict.UNSTABLE),
+    ],
+)
+def test_verdicts(changes, verdict):
+    assert errors(TASK, RIGHT, _result(**changes)).verdict is verdict
 
 
 @pytest.mark.compiled

@@ -21,6 +21,7 @@ from math import comb
 
 import heyoka as hy
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 
 from tests.references.modes import modes_mpmath
 from tests.references.stored import BASE, DATA, Case, State, rounded
@@ -98,12 +99,8 @@ def equations(case, phase, real):
 # -------------------------------------------------------------------------- roots
 @cache
 def bernstein_matrix(degree, real):
-    return np.array(
-        [
-            [real(comb(i, j)) / real(comb(degree, j)) if j <= i else real(0) for j in range(degree + 1)]
-            for i in range(degree + 1)
-        ]
-    )
+    rows, columns = range(degree + 1), range(degree + 1)
+    return np.array([[real(comb(i, j)) / real(comb(degree, j)) for j in columns] for i in rows])
 
 
 def first_root(c, h):
@@ -134,20 +131,12 @@ def _leftmost(control, left, right, c, depth):
     return found if found is not None else _leftmost(np.array(right_half[::-1]), middle, right, c, depth + 1)
 
 
-def horner(c, t):
-    """Polynomial with coefficients along the last axis."""
-    value = c[..., -1]
-    for j in range(c.shape[-1] - 2, -1, -1):
-        value = value * t + c[..., j]
-    return value
-
-
 def _bisect(c, left, right):
     for _ in range(80):
         middle = (left + right) / 2
         if middle in (left, right):
             break
-        if horner(c, middle) > 0:
+        if polyval(middle, c) > 0:
             left = middle
         else:
             right = middle
@@ -159,8 +148,7 @@ class Reference:
     """Event-driven run from a State; `tol` 1e-21 in long double puts truncation far below rounding."""
 
     def __init__(self, case, state, real=LONG, tol=1e-21):
-        self.case, self.real = case, real
-        self.q = case.numbers(real)
+        self.real, self.q = real, case.numbers(real)
         self.n = len(case.omega)
         self.shape = np.array(self.q["shape"], dtype=real)
         self.ordinal = np.arange(self.n).astype(real)
@@ -174,11 +162,6 @@ class Reference:
             for phase in ("stick", "slip", "separation")
         }
         self.events: list[dict] = []
-        self.steps = 0
-        self._start(state)
-
-    # -- state in and out
-    def _start(self, state):
         self.start_time, self.local = LONG(state.time), self.real(0)
         self.phase, self.direction = state.phase, int(state.direction)
         array = lambda x: np.array([self.real(y) for y in x], dtype=self.real)  # noqa: E731
@@ -188,21 +171,14 @@ class Reference:
         self.divide = {"f": 0, "gap": 0}
         self._load()
 
+    # -- state in and out
     def state(self):
         """The current State."""
         if self.phase != "separation":
             self.u = (self.shape * self.a).sum()
             self.v = self.disc_velocity()
-        return State(
-            self.time,
-            self.phase,
-            self.direction,
-            self.psi,
-            self.f,
-            self.u,
-            self.v,
-            *(list(x) for x in (self.a, self.b, self.alpha, self.beta)),
-        )
+        modal = [list(x) for x in (self.a, self.b, self.alpha, self.beta)]
+        return State(self.time, self.phase, self.direction, self.psi, self.f, self.u, self.v, *modal)
 
     @property
     def time(self):
@@ -252,7 +228,6 @@ class Reference:
         if self.phase != "separation":
             lane.state[-1] = self.real(0)
         lane.step(max_delta_t=self.real(t_end - self.local), write_tc=True)
-        self.steps += 1
         h, tc = self.real(lane.last_h), lane.tc
         found = [(t, kind) for kind, t in self._switches(tc, h) if t is not None]
         if not found:
@@ -261,7 +236,7 @@ class Reference:
             self.divide = {"f": 0, "gap": 0}
             return None
         t, kind = min(found)
-        self._unload(horner(tc, t))
+        self._unload(polyval(t, tc.T))
         self.local += t
         return kind
 
@@ -395,10 +370,7 @@ def wild_start(case, base, rng):
     """A separated state of violent vibration: crowded switches, impacts with P < 0 after them, reversals."""
     scale, n = rng.uniform(0.2, 3), len(case.omega)
     a, b = np.array(base.a) * scale * rng.normal(1, 0.3, n), np.array(base.b) * scale * rng.normal(1, 5, n)
-    alpha, beta = (
-        np.array(base.alpha) * scale * rng.normal(0, 4, n),
-        np.array(base.beta) * scale * rng.normal(0, 4, n),
-    )
+    alpha, beta = (np.array(x) * scale * rng.normal(0, 4, n) for x in (base.alpha, base.beta))
     height = float(np.dot(case.psi, a)) + 1e-3 * abs(rng.normal())
     psi, f, fall = 0.03 * rng.normal(), 25 * rng.normal(), rng.normal()
     return rounded(

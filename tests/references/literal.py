@@ -18,6 +18,8 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
+from disc_model import plate_modes
+
 
 @dataclass
 class Start:
@@ -44,36 +46,24 @@ def signed_diameters(diameters):
     return np.array([l for l, _ in pairs]), np.array([row for _, row in pairs])
 
 
-def literal_of(p, drive=0.0, **options):
-    """`Literal` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
-    from disc_model import plate_modes
-
-    modes = plate_modes(p)
-    Psi = modes["psi"].abs() / np.where(modes["diameters"] == 0, 1.0, np.sqrt(2.0))
-    names = ("m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0", "D", "D_star", "N", "Omega")
-    numbers = {name: getattr(p, name) for name in names}
-    return Literal(
-        modes["diameters"].to_numpy(), modes["omega"].to_numpy(), Psi.to_numpy(), numbers, drive,
-        p.contact == "bonded", **options,
-    )  # fmt: skip
-
-
 class Literal:
-    """`diameters`, `omega`, `Psi` = R_kl(r0)/sqrt(rho h b^2), one row per circles k x diameters l >= 0.
+    """A case of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive).
 
-    `p` has m, k, c, k_p, c_p, mu_s, mu_k, r_0, D, D_star, N, Omega. `drive` is the drive point's angle at
-    the local time 0; the preload's u_0 = w_0 is that of the static equilibrium. `bonded` ignores separation:
-    P may be negative. `rates` are those of Omega (rad/s^2) and N (N/s).
+    `drive` is the drive point's angle at the local time 0; the preload's u_0 = w_0 is that of the static
+    equilibrium. In bonded contact separation is ignored: P may be negative. `rates` are those of Omega (rad/s^2) and
+    N (N/s).
     """
 
     SAMPLES = 16
 
-    def __init__(self, diameters, omega, Psi, p, drive=0.0, bonded=False, rates=(0.0, 0.0), rtol=1e-13, max_step=1e-4):
-        self.l, rows = signed_diameters(diameters)
-        self.omega, self.Psi, self.bonded = np.asarray(omega)[rows], np.asarray(Psi)[rows], bonded
-        self.damping = p["D_star"] / p["D"] * self.omega**2  # 2 xi omega
-        self.p, self.drive, self.rates, self.rtol, self.max_step = p, drive, rates, rtol, max_step
-        self.w_0 = -p["N"] * float((self.Psi**2 / self.omega**2).sum())
+    def __init__(self, p, drive=0.0, rates=(0.0, 0.0)):
+        modes = plate_modes(p)
+        self.l, rows = signed_diameters(modes["diameters"])
+        self.omega = modes["omega"].to_numpy()[rows]
+        self.Psi = modes["psi"].abs().to_numpy()[rows] / np.where(self.l == 0, 1.0, np.sqrt(2.0))
+        self.damping = p.D_star / p.D * self.omega**2  # 2 xi omega
+        self.p, self.drive, self.rates, self.bonded = p.model_dump(), drive, rates, p.contact == "bonded"
+        self.w_0 = -p.N * float((self.Psi**2 / self.omega**2).sum())
 
     # ---- pieces of the equations
     def unpack(self, y):
@@ -180,7 +170,7 @@ class Literal:
 
     # ---- integration of one phase
     def solver(self, phase, t, y, t_end):
-        return DOP853(self.derivative(phase), t, y, t_end, rtol=self.rtol, atol=1e-19, max_step=self.max_step)
+        return DOP853(self.derivative(phase), t, y, t_end, rtol=1e-13, atol=1e-19, max_step=1e-4)
 
     def fresh(self, phase, t0, y0, t):
         """y(t) integrated from (t0, y0), to the end of one accepted step or more: no dense output."""

@@ -14,7 +14,7 @@ from disc_model import plate_modes
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from tests.references import stored
-from tests.references.literal import from_slider_frame, literal_of
+from tests.references.literal import Literal, from_slider_frame
 
 P = Parameters(
     N=600.0, Omega=15.1, m=0.3, k=8e4, c=5.0, k_p=3e4, c_p=0.5, mu_s=0.5, mu_k=0.1, D_star=1e-3,
@@ -24,6 +24,12 @@ SPAN = 4e-4
 """s; a dozen radians of the highest mode, several steps."""
 THETA = 0.7
 MOTIONS = [("stick", 0), ("slip", 1), ("slip", -1), ("separation", 0)]
+
+
+def literal_events(p, start, span, drive=0.0, **options):
+    """Events of the paper's equations from a `State` on: (local time, kind); `options` are those of `Literal`."""
+    start = from_slider_frame(stored.reference_state(start, p), drive, plate_modes(p)["diameters"].to_numpy())
+    return Literal(p, drive, **options).run(start, span)
 
 
 def lively(phase, direction=0, p=P):
@@ -51,7 +57,7 @@ class Printed:
     """The paper's equations of one phase: motion and forces from a `State`, in this package's variables."""
 
     def __init__(self, p, state):
-        self.p, self.literal = p, literal_of(p)
+        self.p, self.literal = p, Literal(p)
         self.diameters = plate_modes(p)["diameters"].to_numpy()
         self.sign = np.sign(plate_modes(p)["psi"].to_numpy())
         self.start = from_slider_frame(stored.reference_state(state, p), 0.0, self.diameters)
@@ -69,23 +75,18 @@ class Printed:
             u, u_rate = w, velocity
         l = self.literal.l
         point = self.literal.Psi * np.exp(1j * l * THETA)
-        across = {
-            "a": self._modal(q, phi).real,
-            "b": -self._modal(q, phi).imag,
-            "alpha": self._modal(v, phi).real,
-            "beta": -self._modal(v, phi).imag,
-        }
-        return across | {
+        return self._across(q, v, phi) | {
             "psi": self.literal.psi(t, phi), "f": rate, "u": u, "u_velocity": u_rate, "w": w,
             "P": self.literal.contact(t, y, self.phase),
             "w_point": (point * q).sum().real, "w_point_velocity": (point * v).sum().real,
         }  # fmt: skip
 
-    def _modal(self, z, phi):
-        """a - i b of every row of `plate_modes` from complex modes; the inverse of `from_slider_frame`."""
+    def _across(self, q, v, phi):
+        """a, b, alpha and beta of every row of `plate_modes`; the inverse of `from_slider_frame`."""
         l = self.literal.l
-        turned = z * np.exp(1j * l * phi) * np.where(l > 0, math.sqrt(2), 1.0)
-        return self.sign * turned[l >= 0]
+        turning = np.exp(1j * l * phi) * np.where(l > 0, math.sqrt(2), 1.0)
+        along, rates = (self.sign * (z * turning)[l >= 0] for z in (q, v))
+        return {"a": along.real, "b": -along.imag, "alpha": rates.real, "beta": -rates.imag}
 
     def force(self):
         """Contact force at the start, N."""
@@ -96,8 +97,6 @@ class Printed:
         q, v, phi, rate, _, u_rate = self.literal.unpack(self.y)
         acceleration, phi_acc, u_acc, _ = self.literal.accelerations(0.0, self.y, self.phase)
         turning = 1j * self.literal.l * rate
-        displacement, velocity = self._modal(v + turning * q, phi), self._modal(acceleration + turning * v, phi)
-        return {
-            "a": displacement.real, "b": -displacement.imag, "alpha": velocity.real, "beta": -velocity.imag,
+        return self._across(v + turning * q, acceleration + turning * v, phi) | {
             "psi": self.p.Omega - rate, "f": phi_acc, "u": u_rate, "u_velocity": u_acc,
         }  # fmt: skip

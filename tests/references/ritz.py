@@ -14,11 +14,8 @@ def _basis(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Gauss nodes and weights (k,), and P_0..P_{count-1} with two derivatives there, (3, count, k)."""
     nodes, weights = legendre.leggauss(2 * count + 20)
     rows = np.eye(count)
-    return (
-        nodes,
-        weights,
-        np.array([[legendre.legval(nodes, legendre.legder(row, d)) for row in rows] for d in range(3)]),
-    )
+    polynomials = [[legendre.legval(nodes, legendre.legder(row, d)) for row in rows] for d in range(3)]
+    return nodes, weights, np.array(polynomials)
 
 
 def ritz_lambdas(inner: float, nu: float, l: int, count: int, n_basis: int = 60) -> np.ndarray:

@@ -98,6 +98,13 @@ def kinds_of(data):
     return data.get("kinds") or [e["kind"] for e in data["events"]]
 
 
+def largest_difference(events, data):
+    """Of the times (s) of a reference's events from stored ones, after checking that they are the first of these."""
+    kinds, times = [e["kind"] for e in events], np.array([e["time"] for e in events], np.longdouble)
+    assert kinds == kinds_of(data)[: len(events)]
+    return abs(times - times_of(data)[: len(events)]).max(initial=0.0)
+
+
 def parameters_of(data):
     return Parameters(**data["parameters"])
 

@@ -19,6 +19,7 @@ from functools import cache
 from math import comb
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 
 from tests.references.stored import BASE, DATA, State, load, rounded
 
@@ -213,7 +214,7 @@ class Step:
     def at(self, h):
         """State values at h as a dict."""
         names = ["a", "b", "alpha", "beta", "psi", "f", "u", "v"]
-        return {name: horner(getattr(self, name), h) for name in names}
+        return {name: polyval(h, getattr(self, name)) for name in names}
 
     def energy_defects(self, h):
         """Largest coefficient of both energy balances over the step, relative to the energy at its start.
@@ -257,14 +258,6 @@ class Step:
         return worst
 
 
-def horner(c, t):
-    """Polynomial with coefficients along the first axis."""
-    value = c[-1]
-    for j in range(len(c) - 2, -1, -1):
-        value = value * t + c[j]
-    return value
-
-
 # ------------------------------------------------------------------------------------- roots
 @cache
 def _pascal(n):
@@ -298,11 +291,11 @@ def _search(c, left, right, depth):
     slope = here[1:] * np.arange(1, len(c))
     single = abs(slope[0]) > (abs(slope[1:]) * width[1:-1]).sum()
     if single:
-        if horner(c, left) <= 0:
+        if polyval(left, c) <= 0:
             return left
-        return None if horner(c, right) > 0 else _bisect(c, left, right)
+        return None if polyval(right, c) > 0 else _bisect(c, left, right)
     if depth > 60:
-        return right if horner(c, right) <= 0 else None
+        return right if polyval(right, c) <= 0 else None
     found = _search(c, left, m, depth + 1)
     return found if found is not None else _search(c, m, right, depth + 1)
 
@@ -312,7 +305,7 @@ def _bisect(c, left, right):
         m = (left + right) / 2
         if m in (left, right):
             return m
-        if horner(c, m) > 0:
+        if polyval(m, c) > 0:
             left = m
         else:
             right = m

@@ -18,7 +18,7 @@ from disc_model.engine import audit, layout, switches
 from disc_model.plate import mode_arrays
 from disc_model.simulation.result import State, engine_case, read_state, write_state
 from disc_model.stability.sliding import _jacobian, _Law
-from tests.references.literal import literal_of
+from tests.references.literal import Literal
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
 
 ACCURACY = 1e-10
@@ -144,7 +144,7 @@ def test_reattachment_in_a_run():
 def test_energies():
     """Of all modes, of the slider, and of both springs, from complex modes."""
     start = lively("separation")
-    literal, s = literal_of(P), Printed(P, start).start
+    literal, s = Literal(P), Printed(P, start).start
     disc = 0.5 * np.sum(np.abs(s.q_rate) ** 2 + (literal.omega * np.abs(s.q)) ** 2)
     height = start.u - literal.w_0
     slider = 0.5 * P.m * start.u_velocity**2 + 0.5 * P.k * height**2 + P.N * height

@@ -122,10 +122,8 @@ def test_stick_is_the_coupled_linear_system():
 
     damping = p.D_star / p.D * omega**2
     inverse = np.linalg.inv(np.eye(n) + p.m * np.outer(psi, psi))
-    stiffness, damper = (
-        np.diag(omega**2) + p.k * np.outer(psi, psi),
-        np.diag(damping) + p.c * np.outer(psi, psi),
-    )
+    stiffness = np.diag(omega**2) + p.k * np.outer(psi, psi)
+    damper = np.diag(damping) + p.c * np.outer(psi, psi)
     matrix = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ stiffness, -inverse @ damper]])
     equilibrium = -p.N * psi / omega**2
     x = expm(matrix * t) @ np.concatenate([start.a - equilibrium, kick])
@@ -247,19 +245,13 @@ def test_reflection():
 def test_rotation():
     """A later start is a start at another angle: the same motion, seen from a point turned with it."""
     shift, t_end = 0.375, 0.25  # a binary fraction, so that the shifted clock adds no rounding of its own
-    runs = [
-        simulate(
-            P_A,
-            delay + t_end,
-            tol=1e-14,
-            initial_state=_separating_start(delay),
-            record=Record(
-                windows=(Window(start=delay, stop=delay + t_end, rate=1000.0, theta=1.0 + delay * P_A.Omega),)
-            ),
-        )
-        for delay in (0.0, shift)
-    ]
-    one, other = runs
+
+    def run(delay):
+        window = Window(start=delay, stop=delay + t_end, rate=1000.0, theta=1.0 + delay * P_A.Omega)
+        start, record = _separating_start(delay), Record(windows=(window,))
+        return simulate(P_A, delay + t_end, tol=1e-14, initial_state=start, record=record)
+
+    one, other = run(0.0), run(shift)
     assert list(one.events["kind"]) == list(other.events["kind"])
     np.testing.assert_allclose(other.events["time"] - shift, one.events["time"], atol=1e-12, rtol=0)
     for name in ("w_point", "w_point_velocity", "w", "psi", "P"):

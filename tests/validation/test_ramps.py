@@ -12,8 +12,7 @@ from scipy.optimize import brentq
 from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
 from tests.contact_laws import COMPILES, LAWS, compare_series
 from tests.references import stored, taylor
-from tests.references.literal import from_slider_frame, literal_of
-from tests.references.printed import MOTIONS
+from tests.references.printed import MOTIONS, literal_events
 
 #: s, what is promised. The literal run is as good as 1e-14 s; motion that separates makes ten times that of it.
 EVENT_TIMES = 1e-12
@@ -48,9 +47,7 @@ def _separating():
 
 # ------------------------------------------------------------------------ the paper's equations, literally
 def _compare_with_literal(p, start, span, ramps):
-    reference = stored.reference_state(start, p)
-    literal = literal_of(p, rates=_rates(p, ramps))
-    wanted = literal.run(from_slider_frame(reference, 0.0, plate_modes(p)["diameters"].to_numpy()), span)
+    wanted = literal_events(p, start, span, rates=_rates(p, ramps))
     found = simulate(p, span, tol=1e-14, initial_state=start, ramps=ramps, record=Record(energy=True))
     assert list(found.events["kind"]) == [kind for _, kind in wanted]
     np.testing.assert_allclose(found.events["time"], [t for t, _ in wanted], atol=EVENT_TIMES, rtol=0)

@@ -121,11 +121,7 @@ def test_a_reversal_into_a_direction_without_solution_is_a_paradox() -> None:
     check_paradox(result)
 
 
-@pytest.mark.compiled
-@ROBUST
-@given(parameters(), st.floats(10, 3000), magnitude(1e-14, 1e-4))
-@example(NO_WAY_BACK, 10.0, 1e-4)
-def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: float, tol: float) -> None:
+def check_run(p: Parameters, radians: float, tol: float) -> None:
     result = run(p, radians, tol)
     assert isinstance(result.status, Status)
     assert result.statistics["steps"] <= 20_000
@@ -133,13 +129,19 @@ def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: 
     check_ending(result)
 
 
+@pytest.mark.compiled
+@ROBUST
+@given(parameters(), st.floats(10, 3000), magnitude(1e-14, 1e-4))
+@example(NO_WAY_BACK, 10.0, 1e-4)
+def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: float, tol: float) -> None:
+    check_run(p, radians, tol)
+
+
 @pytest.mark.slow
 @settings(ROBUST, max_examples=3000)
 @given(parameters(), st.floats(10, 3000), magnitude(1e-14, 1e-4))
 def test_every_run_ends_at_length(p: Parameters, radians: float, tol: float) -> None:
-    result = run(p, radians, tol)
-    check_laws(result)
-    check_ending(result)
+    check_run(p, radians, tol)
 
 
 @st.composite

@@ -55,13 +55,6 @@ def test_theoretical_order_on_smooth_motion(name, values, order, margin):
 
 
 @pytest.mark.compiled
-def test_the_series_engine_reaches_rounding_on_smooth_motion():
-    task, exact = _smooth()
-    result = METHODS["series"].solve(task, 1e-13)
-    assert Physics(P).distance(result.final, exact) < 1e-12
-
-
-@pytest.mark.compiled
 @pytest.mark.parametrize(
     "scene",
     ["stick_slip", "separating", pytest.param("many_modes", marks=pytest.mark.slow)],  # compiles for a minute

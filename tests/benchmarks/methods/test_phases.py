@@ -42,27 +42,17 @@ def test_what_ends_a_run_of_phases(what, outcome, words):
 
 
 def test_an_integrator_that_gives_up_is_reported(monkeypatch):
-    def failing(function, span, y, **_):
-        return SimpleNamespace(
-            t=np.array([0.0]), y=y[:, None], status=-1, message="step too small", t_events=([], []), y_events=([], [])
-        )
+    def pretending(factor, status):
+        def solved(function, span, y, **_):
+            found = {"t": np.array([0.0]), "y": factor * y[:, None], "status": status, "message": "step too small"}
+            return SimpleNamespace(**found, t_events=([], []), y_events=([], []))
 
-    monkeypatch.setattr(solve_ivp_module, "solve_ivp", failing)
-    result = METHODS["RK45"].solve(task(), 1e-6)
-    assert (result.outcome, result.message) == (Outcome.FAILED, "step too small")
-    monkeypatch.setattr(regularised_module, "solve_ivp", failing)
-    result = METHODS["regularised"].solve(task(), 1.0)
-    assert (result.outcome, result.message) == (Outcome.FAILED, "step too small")
+        return solved
 
-    def overflowing(function, span, y, **_):
-        return SimpleNamespace(
-            t=np.array([0.0, 1.0]),
-            y=np.full((len(y), 2), np.nan),
-            status=0,
-            message="",
-            t_events=([], []),
-            y_events=([], []),
-        )
-
-    monkeypatch.setattr(regularised_module, "solve_ivp", overflowing)
+    monkeypatch.setattr(solve_ivp_module, "solve_ivp", pretending(1.0, -1))
+    monkeypatch.setattr(regularised_module, "solve_ivp", pretending(1.0, -1))
+    for name, value in (("RK45", 1e-6), ("regularised", 1.0)):
+        result = METHODS[name].solve(task(), value)
+        assert (result.outcome, result.message) == (Outcome.FAILED, "step too small")
+    monkeypatch.setattr(regularised_module, "solve_ivp", pretending(math.nan, 0))
     assert METHODS["regularised"].solve(task(), 1.0).outcome is Outcome.NON_FINITE

@@ -71,6 +71,18 @@ def test_stick_breaks_on_both_sides(name, side):
 
 
 @pytest.mark.parametrize("name", SHORT)
+def test_contact_is_lost_when_it_must(name):
+    """The disc, thrown up, pulls away; the run ends before it is back."""
+    start, up = lively("slip", 1), np.sign(Physics(P).shape)
+    start = start.replace(a=start.a + 1e-4 * up, alpha=start.alpha + 2.0 * up)
+    start = start.replace(u=Physics(P).disc_point(Physics(P).pack(start))[0])
+    expected = simulate(P, 1e-4, tol=1e-13, initial_state=start).events
+    result = solved(name, Problem(P, start, 1e-4), 1e-10)
+    assert result.kinds == tuple(expected["kind"]) == ("separation",)
+    assert result.times[0] == pytest.approx(expected["time"][0], abs=1e-9)
+
+
+@pytest.mark.parametrize("name", SHORT)
 def test_a_falling_slider_lands_when_it_must(name):
     start = lively("separation")
     start = start.replace(u=start.u - 1e-3 + 5e-5, u_velocity=start.u_velocity - 0.5)
