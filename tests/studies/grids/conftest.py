@@ -12,7 +12,6 @@ import pytest
 import xarray as xr
 
 from disc_model.errors import Status
-from disc_model.parameters import Parameters
 from disc_model.stability.settling import Late
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.quantities import critical_speed, hysteresis
@@ -41,20 +40,15 @@ def computed(**raw) -> xr.Dataset:
     return merge_batches([run_batch(text) for text in study.batches.values()], study.grid, {})
 
 
-def separates_at(p: Parameters) -> float:
-    """First separation, s: never below 12.35 rad/s nor from 14.15 to 14.45, sooner at higher speed and load."""
-    if p.Omega < 12.35 or 14.15 < p.Omega < 14.45:
-        return math.inf
-    return 2e5 / p.N - 50 * (p.Omega - 12)
-
-
 SCAN = {"start": 12, "stop": 15, "step": 0.5}
 
 
 @pytest.fixture
 def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
     def motion(p, options):
-        first, horizon = separates_at(p), options.horizons[-1]
+        """Separation never comes below 12.35 rad/s nor from 14.15 to 14.45, sooner at higher speed and load."""
+        never = p.Omega < 12.35 or 14.15 < p.Omega < 14.45
+        first, horizon = math.inf if never else 2e5 / p.N - 50 * (p.Omega - 12), options.horizons[-1]
         return critical_speed.Motion(first if first <= horizon else math.nan, min(first, horizon), "ok", "")
 
     def late_stretch(p, state, duration, late, tol):
