@@ -200,7 +200,9 @@ class Study:
         paths = [path for pattern in self.studies for path in _found(pattern, folders)]
         own = {} if self.grid is None else {self.name: self.grid}
         asked = (*own, *(Path(path).stem for path in paths))
-        helpers = _shown_besides(self.grid, asked, folders)
+        plots = {} if self.grid is None else self.grid.plots
+        shown = {name for plot in plots.values() for name in plot.others.values()}.difference(asked)
+        helpers = [path for name in sorted(shown) for path in _found(f"{name}.yaml", folders) if Path(path).is_file()]
         taken = {*TAKEN} if self.grid is not None else {self.name, *TAKEN}
         grids = load_grids([*paths, *helpers], self.overrides, self.resolution, taken=taken, own=own, asked=asked)
         return grids, asked
@@ -406,10 +408,3 @@ def _found(pattern: str, folders: Sequence[Path]) -> list[str]:
         if matches := sorted(glob(str(folder / pattern))):
             return matches
     return [pattern]
-
-
-def _shown_besides(grid: GridStudy | None, asked: Sequence[str], folders: Sequence[Path]) -> list[str]:
-    """Files of studies that figures of a grid show as well, and that nothing else asks for."""
-    plots = {} if grid is None else grid.plots
-    wanted = {name for plot in plots.values() for name in plot.others.values()} - set(asked)
-    return [path for name in sorted(wanted) for path in _found(f"{name}.yaml", folders) if Path(path).is_file()]

@@ -7,6 +7,7 @@ its list, and i.  All first starts come first, then all second ones: further sta
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -74,7 +75,8 @@ def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     sample = _Sample(p, options)
     found = sample.found
     rows = [reached for row in found for reached in row]
-    attractors = _by_starts(rows)
+    starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
+    attractors = [attractor for attractor, _ in starts.most_common()]
     numbers = {attractor: i for i, attractor in enumerate([None, *attractors])}
     failed = [reached for reached in rows if reached.kind == "failed"]
     values: dict[str, Any] = {
@@ -86,7 +88,7 @@ def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     }
     values |= _shares("energy_share", found, options.confidence)
     values |= {name: one for name, (one,) in _shares("share", [rows], options.confidence).items()}
-    values |= sample.least_kick() | _described(attractors, rows)
+    values |= sample.least_kick() | _described(starts)
     message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
     return values, message
 
@@ -150,22 +152,17 @@ def _shares(name: str, found: Sequence[Sequence[Reached]], confidence: float) ->
     return dict(zip((name, f"{name}_low", f"{name}_high"), np.moveaxis(np.array(shares), -1, 0), strict=True))
 
 
-def _by_starts(rows: Sequence[Reached]) -> list[Attractor]:
+def _described(starts: Counter[Attractor]) -> dict[str, Any]:
     """Attractors, that of most starts first; of those of as many the one that was reached first."""
-    attractors = list(dict.fromkeys(reached.attractor for reached in rows if reached.attractor is not None))
-    return sorted(attractors, key=lambda attractor: -sum(reached.attractor is attractor for reached in rows))
-
-
-def _described(attractors: Sequence[Attractor], rows: Sequence[Reached]) -> dict[str, Any]:
     described = [
         {
             "attractor_kind": attractor.kind,
-            "attractor_starts": sum(reached.attractor is attractor for reached in rows),
+            "attractor_starts": count,
             "attractor_releases": attractor.releases,
             "attractor_period": attractor.period,
             "attractor_growth_rate": attractor.growth_rate,
             **{f"attractor_{name}": value for name, value in attractor.signature._asdict().items()},
         }
-        for attractor in attractors
+        for attractor, count in starts.most_common()
     ]
     return listed(described)
