@@ -66,13 +66,10 @@ def test_table_1_is_what_is_computed_with() -> None:
     assert table.loc["E", "unit"] == "Pa"
 
 
-def ledger_of(*verdicts: str) -> pd.DataFrame:
-    rows = [{name: f"{name} <{i}>" for name in COLUMNS} | {"verdict": v} for i, v in enumerate(verdicts)]
-    return pd.DataFrame(rows, columns=list(COLUMNS))
-
-
 def test_the_ledger_counts_and_escapes() -> None:
-    text = ledger(ledger_of(HOLDS, HOLDS, REMARK, FAILS, f"{NOT_COMPUTED}: no case"))
+    verdicts = (HOLDS, HOLDS, REMARK, FAILS, f"{NOT_COMPUTED}: no case")
+    rows = [{name: f"{name} <{i}>" for name in COLUMNS} | {"verdict": v} for i, v in enumerate(verdicts)]
+    text = ledger(pd.DataFrame(rows))
     assert f"5 statements; {HOLDS}: 2" in text
     assert f"{FAILS}: 1" in text
     assert "&lt;3&gt;" in text

@@ -71,11 +71,9 @@ AGAIN = {*OTHERS.values(), *(again for names in REPEATS.values() for again in na
 
 
 def asked(*, separates: bool = False, steady: bool = False, **until: float) -> dict[str, Needed]:
-    """Some of these cases, each with the time in s to which it must have run.
+    """Some of these cases, each with the time in s to which it must have run; for the rest see `Needed`.
 
-    Parameters
-    ----------
-    separates, steady : see `Needed`; cases in which separation is ignored need not separate
+    Cases in which separation is ignored need not separate.
     """
     return {
         name: Needed(own := PARAMETERS[name], time, separates and "contact" not in own, steady)

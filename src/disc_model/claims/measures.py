@@ -91,10 +91,7 @@ def release_intervals(case: CaseView) -> Array:
 
 
 def late_motion(case: CaseView) -> tuple[Motion, str]:
-    """What the in-plane motion is within the events kept, see `disc_model.analysis.classify`; and that in words.
-
-    They tell its period, in releases, separations and seconds, or what stands against one.
-    """
+    """What the in-plane motion is within the events kept, see `disc_model.analysis.classify`; and that in words."""
     intervals = release_intervals(case)
     motion = motion_of(intervals)
     if not motion.period:
@@ -292,13 +289,9 @@ def slope(case: CaseView, name: str, start: float, stop: float) -> float:
     return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
 
 
-# ----------------------------------------------------------------------------------------------------
-# Growth rates of the stick-slip cycle, computed once per case and process
-
-
 @lru_cache(maxsize=256)
 def cycle_of(p: Parameters) -> FloquetResult:
-    """The stick-slip cycle near the published start, stable or not; raises `Missing` if there is none."""
+    """The stick-slip cycle near the published start, stable or not, computed once; raises `Missing` without one."""
     from disc_model.stability.cycle import CycleStatus, floquet
 
     found = floquet(p)

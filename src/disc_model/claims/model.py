@@ -142,9 +142,8 @@ class CaseView:
 
 def finding(ours: str, holds: bool, remark: str = "") -> Finding:
     """What was found, with the verdict that follows: for a statement that holds or not, with or without a remark."""
-    if not holds:
-        return Finding(ours, FAILS, remark)
-    return Finding(ours, REMARK if remark else HOLDS, remark)
+    kept = REMARK if remark else HOLDS
+    return Finding(ours, kept if holds else FAILS, remark)
 
 
 def undecided(ours: str, why: str) -> Finding:

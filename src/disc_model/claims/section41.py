@@ -18,8 +18,7 @@ from disc_model.claims.model import CaseView, Claim, Finding, Missing, finding, 
 PAIRED = asked(
     separates=True, steady=True, F02=600, F04=790, F06=200, F07=190, F08=500, F09=190, F13=110, F13bonded=110
 ) | asked(separates=True, steady=True, F17=850, F17bonded=850)
-"""With separation and without it: three pairs that the paper shows, and two more of its cases, with counterparts of
-ours."""
+"""With separation and without it: three pairs that the paper shows, and two cases of it with counterparts of ours."""
 INTRICATE = "no period of fewer than 4 releases"
 PERIODIC = "a periodic motion repeats to rounding; 1e-6 leaves room for a slow approach to it"
 POINTS = 500

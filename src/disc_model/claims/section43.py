@@ -134,8 +134,7 @@ def critical_speed(known: CaseView, *cases: CaseView) -> Finding:
     needs=asked(F18=300),
 )
 def more_disc_damping(case: CaseView) -> Finding:
-    damped = [case.parameters.replace(D_star=value) for value in (0.0, 1e-5, 2e-5)]
-    rates = [measures.cycle_of(p).growth_rate for p in damped]
+    rates = [measures.cycle_of(case.parameters.replace(D_star=value)).growth_rate for value in (0.0, 1e-5, 2e-5)]
     said = ", ".join(f"{rate:+.4f}/s" for rate in rates)
     ours = f"growth at N = 200 N, 10 rad/s for D* = 0, 1e-5, 2e-5 N m s: {said}"
     return finding(ours, rates[0] > rates[1] > rates[2])
@@ -590,8 +589,7 @@ def stick_may_vanish(*cases: CaseView) -> Finding:
     said = "; ".join(
         f"N = {measures.place_of(case)}: {100 * share:.1f} %" for case, share in zip(cases[:5], shares, strict=True)
     )
-    again = [cases[0], cases[1], cases[4]]
-    remark = measures.another_motion(*zip(again, cases[5:], strict=True))
+    remark = measures.another_motion(*zip((*cases[:2], cases[4]), cases[5:], strict=True))
     return finding(f"time sticking long after the first separation: {said}", min(shares) <= 1e-3, remark)
 
 
