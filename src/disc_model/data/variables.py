@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
@@ -32,6 +34,37 @@ class Variable(NamedTuple):
             found["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
             found["flag_meanings"] = " ".join(self.flags)
         return found
+
+
+class Column(NamedTuple):
+    """A `Variable` of what is worked out at the points of a grid, and its dimensions beyond the grid's."""
+
+    units: str
+    long_name: str
+    flags: tuple[str, ...] = ()
+    dims: tuple[str, ...] = ()
+    whole: bool = False
+
+    @property
+    def variable(self) -> Variable:
+        return Variable(self.units, self.long_name, self.flags)
+
+    @property
+    def dtype(self) -> type[np.generic]:
+        if self.flags:
+            return np.int8
+        return np.int64 if self.whole else np.float64
+
+    @property
+    def missing(self) -> float:
+        """What stands where nothing is known: of a status `failed`, of other flags their first."""
+        if "failed" in self.flags:
+            return self.flags.index("failed")
+        return 0 if self.flags or self.whole else math.nan
+
+    def empty(self, shape: Sequence[int]) -> NDArray[Any]:
+        """An array of nothing but `missing`."""
+        return np.full(shape, self.missing, dtype=self.dtype)
 
 
 SERIES = {

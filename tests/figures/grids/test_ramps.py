@@ -10,8 +10,8 @@ from disc_model.figures.grids import ramps as drawn
 from disc_model.figures.grids.growth_map import Curve, crossings
 from disc_model.figures.grids.kinds import RampedSpeeds
 from disc_model.figures.parts import save
+from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import ramps
-from disc_model.studies.grids.run import STATUSES
 from tests.figures.grids.reading import lines
 from tests.studies.grids.conftest import computed
 

@@ -14,8 +14,9 @@ import xarray as xr
 from disc_model.errors import Status
 from disc_model.stability.settling import Late
 from disc_model.studies.grids.merge import merge_batches
+from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import critical_speed, hysteresis
-from disc_model.studies.grids.run import STATUSES, run_batch
+from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import parse_grid
 from tests.stability.toy_map import fold_at, outside, toy
 

@@ -9,11 +9,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from disc_model.data.variables import Column
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
+from disc_model.studies.grids.points import STATUS, STATUSES
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
 from disc_model.studies.grids.quantities.schema import QUANTITIES
-from disc_model.studies.grids.run import STATUS, STATUSES, Column, compute
+from disc_model.studies.grids.run import compute
 from tests.studies.grids.conftest import SCAN
 
 P = Parameters(N=1, Omega=1)

@@ -20,7 +20,8 @@ import xarray as xr
 from disc_model.data.dataset import CONVENTIONS, agreed, json_attribute
 from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
-from disc_model.studies.grids.run import POINT, STATUSES, describe
+from disc_model.studies.grids.points import STATUSES
+from disc_model.studies.grids.run import POINT, describe
 from disc_model.studies.grids.summaries import summarised
 
 

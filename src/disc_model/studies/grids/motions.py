@@ -13,12 +13,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import PHASES, SERIES, Variable
+from disc_model.data.variables import PHASES, SERIES, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import State
-from disc_model.studies.grids.run import STATUS, Column, quantity_of, run_as
+from disc_model.studies.grids.points import STATUS
+from disc_model.studies.grids.run import quantity_of, run_as
 
 SAMPLES = 256
 """In a history: nearly four in an oscillation of the disc's fastest mode of the paper over the longest."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import json
 import logging
-import math
 import time
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, cast
@@ -16,10 +15,11 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
-from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Variable, attributes
-from disc_model.errors import DiscModelError, Status
+from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Column, attributes
+from disc_model.errors import DiscModelError
 from disc_model.parameters import AUTO, Parameters, leaves_modes
 from disc_model.simulation.case import START, Start
+from disc_model.studies.grids.points import NUMERICAL, Point, Row
 from disc_model.studies.modes import chosen
 from disc_model.truncation import read_asked
 
@@ -134,47 +134,6 @@ def describe(name: str) -> dict[str, Any]:
 # ----------------------------------------------------------------------------------------------------
 # Quantities: rows of results, one for each point, as arrays
 
-STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
-"""What became of a point. `failed`: it raised an error, or was not reached."""
-STATUS = Variable("1", "what became of the computation", STATUSES)
-
-Row = Mapping[str, Any]
-Point = Parameters | DiscModelError
-"""Parameters, or why there are none."""
-NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
-"""What a point may fail of: this package's errors, division by zero and overflow, matrices that cannot be solved."""
-
-
-class Column(NamedTuple):
-    """A variable of a quantity, see `disc_model.data.variables.Variable`, and its dimensions beyond the grid's."""
-
-    units: str
-    long_name: str
-    flags: tuple[str, ...] = ()
-    dims: tuple[str, ...] = ()
-    whole: bool = False
-
-    @property
-    def variable(self) -> Variable:
-        return Variable(self.units, self.long_name, self.flags)
-
-    @property
-    def dtype(self) -> type[np.generic]:
-        if self.flags:
-            return np.int8
-        return np.int64 if self.whole else np.float64
-
-    @property
-    def missing(self) -> float:
-        """What stands where nothing is known: of a status `failed`, of other flags their first."""
-        if "failed" in self.flags:
-            return self.flags.index("failed")
-        return 0 if self.flags or self.whole else math.nan
-
-    def empty(self, shape: Sequence[int]) -> NDArray[Any]:
-        """An array of nothing but `missing`."""
-        return np.full(shape, self.missing, dtype=self.dtype)
-
 
 class Described(Protocol):
     """What every module of a quantity has; those with dimensions of their own also have `coordinates`."""
@@ -254,9 +213,3 @@ def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Colu
         array[place][tuple(map(slice, kept.shape))] = kept
     elif value is not None:
         array[place] = column.flags.index(value) if isinstance(value, str) else value
-
-
-def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
-    """Rows along a dimension of a quantity's own as its columns; what some rows lack is None, which is missing."""
-    names = dict.fromkeys(name for row in rows for name in row)
-    return {name: [row.get(name) for row in rows] for name in names}

@@ -9,9 +9,10 @@ import pytest
 
 from disc_model.parameters import Parameters
 from disc_model.stability.basins import Attractor, Reached, Signature
+from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import basins
 from disc_model.studies.grids.quantities.schema import BasinsOptions
-from disc_model.studies.grids.run import STATUSES, compute
+from disc_model.studies.grids.run import compute
 from tests.studies.grids.conftest import computed
 
 QUIET = Attractor("quiet", Signature(1e-5, 0, 0.3, 0), 0.015, 1, -0.1, np.zeros((1, 2)))

@@ -10,9 +10,10 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
+from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import critical_speed
 from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions
-from disc_model.studies.grids.run import STATUSES, compute
+from disc_model.studies.grids.run import compute
 
 
 def speeds_at(

@@ -14,9 +14,10 @@ from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.settling import Settling, follow
+from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import floquet, outcome
 from disc_model.studies.grids.quantities.schema import FloquetOptions, OutcomeOptions
-from disc_model.studies.grids.run import STATUSES, compute
+from disc_model.studies.grids.run import compute
 from tests.stability.test_settling import impatient
 from tests.studies.grids.conftest import SMALL, computed
 

@@ -12,9 +12,10 @@ from disc_model.engine.machine import EVENT_ROW, LOSS_OF_CONTACT
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.ramps import values_at
+from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import ramps
 from disc_model.studies.grids.quantities.schema import RampsOptions
-from disc_model.studies.grids.run import STATUSES, compute
+from disc_model.studies.grids.run import compute
 
 SPAN = {"low": 10, "high": 20, "stay": 7}
 EVERY = 0.125

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.analysis.sobol import share
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared, published_start
 from disc_model.simulation.result import State
 from disc_model.stability.basins import KINDS, Attractor, Basins, Reached, random_kick
-from disc_model.studies.grids.run import STATUS, Column, listed
+from disc_model.studies.grids.points import STATUS, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import BasinsOptions

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.analysis.classify import closure, shortest_period
-from disc_model.data.variables import PHASES, SCALARS, SERIES, Variable
+from disc_model.data.variables import PHASES, SCALARS, SERIES, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import after, prepared, simulate
 from disc_model.simulation.case import Record
@@ -16,7 +16,7 @@ from disc_model.simulation.result import State
 from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.cycle import cycle_neared
 from disc_model.stability.return_map import case_faults
-from disc_model.studies.grids.run import STATUS, Column
+from disc_model.studies.grids.points import STATUS
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import BifurcationOptions

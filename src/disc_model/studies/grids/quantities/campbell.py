@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.campbell import frequencies
 from disc_model.stability.cycle import CycleStatus
 from disc_model.studies.grids.quantities.floquet import STATUSES
-from disc_model.studies.grids.run import Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import CampbellOptions

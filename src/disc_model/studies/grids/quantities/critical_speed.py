@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from disc_model.data.variables import SCALARS, Variable
+from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.fate import Fate, fate
 from disc_model.stability.return_map import case_faults
 from disc_model.stability.settling import follow
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.run import STATUS, Column, listed
+from disc_model.studies.grids.points import STATUS, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from disc_model.data.variables import Column
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, floquet
-from disc_model.studies.grids.run import Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import FloquetOptions

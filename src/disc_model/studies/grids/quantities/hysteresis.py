@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.settling import late_stretch
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.run import STATUS, STATUSES, Column
+from disc_model.studies.grids.points import STATUS, STATUSES
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import HysteresisOptions

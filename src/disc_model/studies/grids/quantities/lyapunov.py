@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import after, prepared
 from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
-from disc_model.studies.grids.run import STATUS, Column
+from disc_model.studies.grids.points import STATUS
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import LyapunovOptions

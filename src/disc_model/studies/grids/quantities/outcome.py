@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from disc_model.data.variables import SCALARS
+from disc_model.data.variables import SCALARS, Column
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared
 from disc_model.simulation.result import Result, State
 from disc_model.stability.settling import Followed, Late, follow, late_stretch
-from disc_model.studies.grids.run import STATUS, Column
+from disc_model.studies.grids.points import STATUS
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import OutcomeOptions

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Column, Variable
 from disc_model.engine.machine import EVENT_ROW, LOSS_OF_CONTACT
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -15,7 +15,7 @@ from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import Result, State
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.run import STATUS, Column, listed
+from disc_model.studies.grids.points import STATUS, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import RampsOptions

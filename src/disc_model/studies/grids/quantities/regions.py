@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.data.variables import SCALARS
+from disc_model.data.variables import SCALARS, Column
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
@@ -29,7 +29,7 @@ from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.fate import CYCLE_TOL, Fate, Near, departs_after, fate, published_start_near
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import ReturnMap, newton
-from disc_model.studies.grids.run import NUMERICAL, STATUS, Column, Point, Row
+from disc_model.studies.grids.points import NUMERICAL, STATUS, Point, Row
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import RegionsOptions

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
 
-from disc_model.data.variables import SCALARS, Variable
+from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.stability.fate import fate
 from disc_model.studies.grids.draws import CYCLES, DRAWS, OUTCOMES
-from disc_model.studies.grids.run import NUMERICAL, STATUS, Column
+from disc_model.studies.grids.points import NUMERICAL, STATUS
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.distributions import Distribution

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.curves import StabilityCurve, stability_curves
 from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.run import STATUS, Column, listed
+from disc_model.studies.grids.points import STATUS, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import StabilityCurvesOptions

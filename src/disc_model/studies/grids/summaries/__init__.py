@@ -12,8 +12,9 @@ from typing import Any, Protocol
 import numpy as np
 import xarray as xr
 
+from disc_model.studies.grids.points import Row
 from disc_model.studies.grids.quantities.schema import QUANTITIES
-from disc_model.studies.grids.run import Described, Row, own_coordinates, table_of
+from disc_model.studies.grids.run import Described, own_coordinates, table_of
 
 
 class Summary(Described, Protocol):

@@ -17,8 +17,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import Variable
-from disc_model.studies.grids.run import Column, listed
+from disc_model.data.variables import Column, Variable
+from disc_model.studies.grids.points import listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import CampbellOptions

@@ -16,9 +16,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import share, sobol_intervals
-from disc_model.data.variables import Variable, flag_names
+from disc_model.data.variables import Column, Variable, flag_names
 from disc_model.studies.grids.draws import CYCLES, DRAWS, OUTCOMES, UNSTABLE
-from disc_model.studies.grids.run import Column
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import SensitivityOptions

@@ -1,0 +1,28 @@
+"""What a quantity says of points: rows of values by column, a status, and what a point may fail of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from disc_model.data.variables import Variable
+from disc_model.errors import DiscModelError, Status
+from disc_model.parameters import Parameters
+
+STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
+"""What became of a point. `failed`: it raised an error, or was not reached."""
+STATUS = Variable("1", "what became of the computation", STATUSES)
+
+Row = Mapping[str, Any]
+Point = Parameters | DiscModelError
+"""Parameters, or why there are none."""
+NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
+"""What a point may fail of: this package's errors, division by zero and overflow, matrices that cannot be solved."""
+
+
+def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
+    """Rows along a dimension of a quantity's own as its columns; what some rows lack is None, which is missing."""
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: [row.get(name) for row in rows] for name in names}
