@@ -59,7 +59,7 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
     write_state(engine_case(p), start, state)
     if rates:
         machine.set_course(model, state)
-    machine.expand(model.give, model.normal, model, s, state, order)
+    machine.expand(model, s, state, order)
     powers = np.array([float(model.unit) ** k for k in range(order)])
 
     def compare(own, wanted, rtol=1e-10):

@@ -153,7 +153,7 @@ def run(model, s, state, probe, limits, kept):
                 if x_end >= left:
                     return TIME_OVER
                 continue
-        if expand(model.give, model.normal, model, s, state, order) <= switches.PAINLEVE_MARGIN:
+        if expand(model, s, state, order) <= switches.PAINLEVE_MARGIN:
             return NO_SOLUTION
         x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
         if not x_end > 0.0:

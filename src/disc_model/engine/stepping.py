@@ -17,6 +17,7 @@ from .layout import (
     PHASE,
     SEPARATION,
     SLIP,
+    STICK,
     TIME,
     TIME_LOW,
     E,
@@ -95,27 +96,41 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
-def expand(give, normal, model, s, state, order):
-    """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1.
+def _expand_slip(give, normal, model, s, order, direction):
+    """Series of slip under the model's law of contact.  Returns the denominator of the contact force.
 
     give, normal: the model's; the compiler drops a branch unseen if its condition is the length of an argument.
     """
-    load_state(model, s, state)
-    phase, denominator = state.x[PHASE], switches.usual_denominator(model)
-    if phase == SLIP:
-        if len(give) == 1:
-            return compliant_slip_series(model, s, order, state.x[DIRECTION]) / denominator
-        if len(normal) == 1:
-            return normal_slip_series(model, s, order, state.x[DIRECTION]) / denominator
-        return slip_series(model, s, order, state.x[DIRECTION]) / denominator
-    if phase == SEPARATION:
-        separation_series(model, s, order)
-    elif len(give) == 1:
+    if len(give) == 1:
+        return compliant_slip_series(model, s, order, direction)
+    if len(normal) == 1:
+        return normal_slip_series(model, s, order, direction)
+    return slip_series(model, s, order, direction)
+
+
+@inlined
+def _expand_stick(give, normal, model, s, order):
+    """Series of stick, likewise."""
+    if len(give) == 1:
         compliant_stick_series(model, s, order)
     else:
         stick_series(model, s, order)
         if len(normal) == 1:
             release_series(model, s, order)
+
+
+@inlined
+def expand(model, s, state, order):
+    """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
+    load_state(model, s, state)
+    phase = state.x[PHASE]
+    if phase == SLIP:
+        denominator = _expand_slip(model.give, model.normal, model, s, order, state.x[DIRECTION])
+        return denominator / switches.usual_denominator(model)
+    if phase == STICK:
+        _expand_stick(model.give, model.normal, model, s, order)
+    else:
+        separation_series(model, s, order)
     return 1.0
 
 

@@ -46,7 +46,7 @@ class Section(NamedTuple):
 @kernel
 def _step(model, s, state, order, tolerance, left):
     """Expand and find the first switch within ``left`` time units: (length, cause); nan or -1 is failure."""
-    if expand(model.give, model.normal, model, s, state, order) <= switches.PAINLEVE_MARGIN:
+    if expand(model, s, state, order) <= switches.PAINLEVE_MARGIN:
         return -1.0, switches.NOTHING
     x_end = step_size(model, s, order, tolerance, state.x[PHASE])
     if not x_end > 0.0:
