@@ -30,8 +30,8 @@ FUNCTIONS = {
     "engine/sampling.py": ("point_motion", "_write_row"),
     "engine/audit.py": ("transverse_energy", "inplane_energy", "_powers_in", "audit_impact"),
     "engine/series.py": (
-        *("_weighed", "_disc_point", "_inner_terms", "_pending", "_order", "_order_zero", "_axisymmetric"),
-        *("_first_order", "_next_order", "_last_force"),
+        *("_disc_point", "_inner_terms", "_pending", "_order", "_order_zero", "_axisymmetric"),
+        *("_first_order", "_last_force"),
         *("slip_series", "_stick_order", "stick_series", "separation_series"),
     ),
     "engine/contact_series.py": (

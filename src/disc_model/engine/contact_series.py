@@ -9,7 +9,7 @@ series with beta are the price.  Rigid stick moves as under the vertical force.
 from __future__ import annotations
 
 from .compile import inlined
-from .lanes import WIDTH, fma, item, mul, splat, total
+from .lanes import WIDTH, add, fma, item, mul, splat, total
 from .layout import (
     DOWN,
     DRIVE_SERIES,
@@ -24,9 +24,7 @@ from .layout import (
     U_SERIES,
     UP,
     V_SERIES,
-    E,
     F,
-    Z,
     give_of,
     is_normal,
     is_ramped,
@@ -34,15 +32,17 @@ from .layout import (
 from .series import (
     _CARRIED,
     _axisymmetric,
-    _block,
     _disc_point,
-    _first_block,
+    _e,
     _first_order,
+    _kept,
     _last_force,
-    _next_order,
+    _order,
+    _order_from_memory,
+    _order_zero,
     _row,
     _stick_order,
-    _weighed,
+    _z,
     drive,
     lane_count,
     load_at,
@@ -53,7 +53,10 @@ from .switches import slip_denominator
 @inlined
 def _deflection(model, s, k):
     """w of order k."""
-    n, w = len(model.force0), _weighed(model, s, FORCE_ROW, k * lane_count(model))
+    width, n, lanes = lane_count(model), len(model.force0), splat(0.0)
+    for b in range(0, width, WIDTH):
+        lanes = fma(_row(model, FORCE_ROW, b), _z(s, k * width + b), lanes)
+    w = total(lanes)
     for j in range(n):
         w += model.force0[j] * s.y[k * n + j]
     return w
@@ -62,26 +65,32 @@ def _deflection(model, s, k):
 @inlined
 def _slope(model, s, k):
     """beta = B / r_0 of order k."""
-    return _weighed(model, s, SLOPE, k * lane_count(model)) / model.r_0
+    width, lanes = lane_count(model), splat(0.0)
+    for b in range(0, width, WIDTH):
+        lanes = fma(_row(model, SLOPE, b), _z(s, k * width + b), lanes)
+    return total(lanes) / model.r_0
 
 
 @inlined
 def _disc_velocity(model, s):
     """Order 0 of the disc's velocity under the slider, but for f_0 B."""
-    v = _weighed(model, s, FORCE_ROW, E * lane_count(model))
+    width, lanes = lane_count(model), splat(0.0)
+    for b in range(0, width, WIDTH):
+        lanes = fma(_row(model, FORCE_ROW, b), _e(s, width, b), lanes)
+    v = total(lanes)
     for j in range(len(model.force0)):
         v += model.force0[j] * s.g[j]
     return v
 
 
 @inlined
-def _closing(model, s, k, first):
+def _closing(model, s, k, e, carried):
     """Order k of the disc's velocity under the slider as the order before leaves it: without V_{k-1} and f_k."""
-    width, n, (e, carried, _, _) = lane_count(model), len(model.force0), first
+    width, n = lane_count(model), len(model.force0)
     lanes = fma(_row(model, FORCE_ROW, 0), e, mul(_row(model, SLOPE, 0), carried))
     for b in range(WIDTH, width, WIDTH):
-        lanes = fma(_row(model, FORCE_ROW, b), _block(s, E, width, k * width + b), lanes)
-        lanes = fma(_row(model, SLOPE, b), _block(s, _CARRIED, width, b), lanes)
+        lanes = fma(_row(model, FORCE_ROW, b), _e(s, width, k * width + b), lanes)
+        lanes = fma(_row(model, SLOPE, b), _kept(s, _CARRIED, width, b), lanes)
     v = total(lanes)
     for j in range(n):
         v += item(model.force0, j) * item(s.g, k * n + j)
@@ -148,9 +157,8 @@ def compliant_slip_series(model, s, order, direction):
     width, stiffness, friction = lane_count(model), 1.0 / give_of(model.give), direction * model.mu_k
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
+    e, carried, e_last, z_last = _e(s, width, 0), splat(0.0), splat(0.0), splat(0.0)
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
-    _first_order(model, s, width, f0)
-    first = _first_block(s, width)
     for k in range(order):
         f = s.slider[F + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
@@ -170,9 +178,17 @@ def compliant_slip_series(model, s, order, direction):
         s.slider[P_SERIES + k] = R
         rate = _spring(model, s, k) * lightness - held * lever
         _move_slider(model, s, k, rate, (V - _weight(model, s, k)) * lightness)
-        if k > 0:
-            _, _, _, first = _next_order(model, s, width, k, f, f0, impulse, splat(0.0), first)
-        closing = _closing(model, s, k + 1, first)
+        if k == 0:
+            for b in range(0, width, WIDTH):
+                _order_zero(model, s, width, b, f0)
+            e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
+            e_last, z_last = _e(s, width, 0), _z(s, width)
+        else:
+            _, _, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last)
+            for b in range(WIDTH, width, WIDTH):
+                _order_from_memory(model, s, width, b, k, f, f0, impulse)
+        _axisymmetric(model, s, k, impulse)
+        closing = _closing(model, s, k + 1, e, carried)
         impulse = V * s.slider[UP + k]
     _last_force(model, s, order, impulse)
     _set_switch(s, order, direction)
@@ -195,7 +211,7 @@ def compliant_stick_series(model, s, order):
         s.slider[V_SERIES + k + 1] = (V - _weight(model, s, k)) * lightness * up
         for b in range(0, width, WIDTH):
             at = k * width + b
-            _stick_order(model, s, b, k, impulse, _block(s, E, width, at), _block(s, Z, width, at))
+            _stick_order(model, s, b, k, impulse, _e(s, width, at), _z(s, at))
         _axisymmetric(model, s, k, impulse)
         impulse = V * up
     _last_force(model, s, order, impulse)
@@ -253,14 +269,27 @@ def normal_slip_series(model, s, order, direction):
     denominator = slip_denominator(model, direction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
-    inertia, pending, by_f, by_f_rate = _first_order(model, s, width, f0)
-    first, h, impulse = _first_block(s, width), 0.0, 0.0
+    now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
+    coriolis = total(by_e)
+    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
+    # see slip_series
+    inertia = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
+    h, impulse = 0.0, 0.0
+    e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
+    e_last, z_last = _e(s, width, 0), _z(s, width)
     for k in range(order):
         f = s.slider[F + k]
         if k > 0:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             h = _leverage(s, k)
-            part, single, pending, first = _next_order(model, s, width, k, f, f0, impulse, pending, first)
+            more, left, e, carried, e_last, z_last = _order(
+                model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last
+            )
+            part, pending = add(pending, more), left
+            for b in range(WIDTH, width, WIDTH):
+                more, left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
+                part, pending = add(part, more), add(pending, left)
+            single = _axisymmetric(model, s, k, impulse)
             by_speed = by_f + by_f_rate * s.slider[DOWN + k]
             inertia = total(part) + single + f * by_speed + impulse * model.damped_compliance
         spring = _spring(model, s, k)

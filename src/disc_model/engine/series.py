@@ -44,12 +44,11 @@ from .layout import (
     V_SERIES,
     E,
     F,
-    Z,
     is_ramped,
 )
 
-# Rows of scratch: inner terms (e, z) of a pair's second order, s_k, and the constants C and f_0 bend.
-_E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT = range(SCRATCH, SCRATCH + 5)
+# Rows of the scratch array: inner terms (e, z) of a pair's second order, s_k, and the constants C and f_0 bend.
+_E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT = range(5)
 
 
 @inlined
@@ -77,34 +76,53 @@ def _row(model, row, b):
 
 
 @inlined
-def _block(s, row, width, at):
-    """Block of lanes at index ``at`` of displacements (row ``Z``), velocities (``E``) or a row of scratch."""
-    return load(s.modes, row * width + at)
+def _z(s, at):
+    """Block of displacements at index ``at`` = order * width + block."""
+    return load(s.modes, at)
 
 
 @inlined
-def _set_block(s, row, width, at, v):
-    store(s.modes, row * width + at, v)
+def _e(s, width, at):
+    """Block of velocities."""
+    return load(s.modes, E * width + at)
 
 
 @inlined
-def _weighed(model, s, row, at):
-    """Sum over all lanes of one of the model's lane arrays times the coefficients that begin at ``at``."""
-    lanes = splat(0.0)
-    for b in range(0, lane_count(model), WIDTH):
-        lanes = fma(_row(model, row, b), load(s.modes, at + b), lanes)
-    return total(lanes)
+def _set_z(s, at, v):
+    store(s.modes, at, v)
+
+
+@inlined
+def _set_e(s, width, at, v):
+    store(s.modes, E * width + at, v)
+
+
+@inlined
+def _kept(s, row, width, b):
+    """Block of a row of scratch."""
+    return load(s.modes, (SCRATCH + row) * width + b)
+
+
+@inlined
+def _keep(s, row, width, b, v):
+    store(s.modes, (SCRATCH + row) * width + b, v)
 
 
 @inlined
 def _disc_point(model, s):
     """u, u' and the slope B of the disc under the slider, from the coefficients 0."""
-    B = _weighed(model, s, SLOPE, 0)
-    u, v = _weighed(model, s, FORCE_ROW, 0), _weighed(model, s, FORCE_ROW, E * lane_count(model)) + s.slider[F] * B
+    width, u, v, slope = lane_count(model), splat(0.0), splat(0.0), splat(0.0)
+    for b in range(0, width, WIDTH):
+        force, z = _row(model, FORCE_ROW, b), _z(s, b)
+        u = fma(force, z, u)
+        v = fma(force, _e(s, width, b), v)
+        slope = fma(_row(model, SLOPE, b), z, slope)
+    B = total(slope)
+    u0, v0 = total(u), total(v) + s.slider[F] * B
     for j in range(len(model.force0)):
-        u += model.force0[j] * s.y[j]
-        v += model.force0[j] * s.g[j]
-    return u, v, B
+        u0 += model.force0[j] * s.y[j]
+        v0 += model.force0[j] * s.g[j]
+    return u0, v0, B
 
 
 @inlined
@@ -116,7 +134,7 @@ def _products(s, width, b, k, f_high, e_low, z_low):
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     for i in range(2, k - 1):
         f_low = spread(s.slider, F + k - i)
-        e, z = _block(s, E, width, at), _block(s, Z, width, at + width)
+        e, z = _e(s, width, at), _z(s, at + width)
         e_low, z_low = fma(f_low, e, e_low), fma(f_low, z, z_low)
         e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
         f_high = f_low
@@ -134,10 +152,10 @@ def _products_apart(s, width, b, k, f_high, e_low, z_low):
     e_low2, z_low2, e_high2, z_high2 = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for i in range(2, k - 1, 2):
         f_mid, f_low = spread(s.slider, F + k - i), spread(s.slider, F + k - i - 1)
-        e, z = _block(s, E, width, at), _block(s, Z, width, at + width)
+        e, z = _e(s, width, at), _z(s, at + width)
         e_low, z_low = fma(f_mid, e, e_low), fma(f_mid, z, z_low)
         e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
-        e, z = _block(s, E, width, at + width), _block(s, Z, width, at + 2 * width)
+        e, z = _e(s, width, at + width), _z(s, at + 2 * width)
         e_low2, z_low2 = fma(f_low, e, e_low2), fma(f_low, z, z_low2)
         e_high2, z_high2 = fma(f_mid, e, e_high2), fma(f_mid, z, z_high2)
         f_high = f_low
@@ -154,17 +172,16 @@ def _inner_terms(s, width, b, k, e_last, z_last):
     """
     e_low, z_low = splat(0.0), splat(0.0)
     if k % 2 == 0:
-        e_low, z_low = _block(s, _E_HIGH, width, b), _block(s, _Z_HIGH, width, b)
+        e_low, z_low = _kept(s, _E_HIGH, width, b), _kept(s, _Z_HIGH, width, b)
         if k > 2:
             f = splat(s.slider[F + k - 1])
-            e_low = fma(f, _block(s, E, width, width + b), e_low)
-            z_low = fma(f, _block(s, Z, width, 2 * width + b), z_low)
+            e_low, z_low = fma(f, _e(s, width, width + b), e_low), fma(f, _z(s, 2 * width + b), z_low)
         f = splat(s.slider[F + 1])
         return fma(f, e_last, e_low), fma(f, z_last, z_low)
     e_high, z_high = e_low, z_low
     if k > 1:
         f = splat(s.slider[F + k - 1])
-        e_low, z_low = mul(f, _block(s, E, width, width + b)), mul(f, _block(s, Z, width, 2 * width + b))
+        e_low, z_low = mul(f, _e(s, width, width + b)), mul(f, _z(s, 2 * width + b))
         if ONE_REGISTER:
             e_low, z_low, e_high, z_high = _products_apart(s, width, b, k, f, e_low, z_low)
         else:
@@ -172,16 +189,16 @@ def _inner_terms(s, width, b, k, e_last, z_last):
         f_low, f_high = splat(s.slider[F + 1]), splat(s.slider[F + 2])
         e_low, z_low = fma(f_low, e_last, e_low), fma(f_low, z_last, z_low)
         e_high, z_high = fma(f_high, e_last, e_high), fma(f_high, z_last, z_high)
-    _set_block(s, _E_HIGH, width, b, e_high)
-    _set_block(s, _Z_HIGH, width, b, z_high)
+    _keep(s, _E_HIGH, width, b, e_high)
+    _keep(s, _Z_HIGH, width, b, z_high)
     return e_low, z_low
 
 
 @inlined
 def _pending(model, s, width, b, e, z, carried):
     """A block's share of u'' of an order, as far as the order before knows it (lanes)."""
-    known = fma(_block(s, _BENT, width, b), carried, mul(_row(model, MINUS_FORCE_STIFFNESS, b), z))
-    return fma(_block(s, _CORIOLIS, width, b), e, known)
+    known = fma(_kept(s, _BENT, width, b), carried, mul(_row(model, MINUS_FORCE_STIFFNESS, b), z))
+    return fma(_kept(s, _CORIOLIS, width, b), e, known)
 
 
 @inlined
@@ -197,35 +214,62 @@ def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
     shift, damping, at = _row(model, SHIFT, b), _row(model, DAMPING, b), k * width + b
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
     e = fma(splat(-impulse), _row(model, FORCE_ROW, b), e)
-    turned = swap_halves(fma(f, _block(s, Z, width, b), carried))
+    turned = swap_halves(fma(f, _z(s, b), carried))
     z_next = mul(fma(shift, turned, e), up)
-    carried = fma(first, z_next, fma(f, _block(s, Z, width, width + b), z_inner))
+    carried = fma(first, z_next, fma(f, _z(s, width + b), z_inner))
     free = fma(_row(model, STIFFNESS, b), z_last, mul(damping, e))
-    turned = swap_halves(fma(first, e, fma(f, _block(s, E, width, b), e_inner)))
+    turned = swap_halves(fma(first, e, fma(f, _e(s, width, b), e_inner)))
     e_next = mul(fma(shift, turned, sub(splat(0.0), free)), up)
-    _set_block(s, E, width, at, e)
-    _set_block(s, E, width, at + width, e_next)
-    _set_block(s, Z, width, at + width, z_next)
-    _set_block(s, _CARRIED, width, b, carried)
+    _set_e(s, width, at, e)
+    _set_e(s, width, at + width, e_next)
+    _set_z(s, at + width, z_next)
+    _keep(s, _CARRIED, width, b, carried)
     return part, _pending(model, s, width, b, e_next, z_next, carried), e_next, carried, e, z_next
+
+
+@inlined
+def _order_from_memory(model, s, width, b, k, f, f0, impulse):
+    """As ``_order`` for the blocks after the first, whose values between orders are not kept in registers."""
+    at, carried = k * width + b, _kept(s, _CARRIED, width, b)
+    e, e_last, z_last = _e(s, width, at), _e(s, width, at - width), _z(s, at)
+    part, pending, _, _, _, _ = _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last)
+    return part, pending
 
 
 @inlined
 def _order_zero(model, s, width, b, f0):
     """One block of order 0: finds z_1, and e_1 without P_0.  Returns what it leaves pending for order 1."""
-    shift, first, up = _row(model, SHIFT, b), splat(f0), splat(s.slider[UP])
-    z, e = _block(s, Z, width, b), _block(s, E, width, b)
+    shift, z, e = _row(model, SHIFT, b), _z(s, b), _e(s, width, b)
+    first, up = splat(f0), splat(s.slider[UP])
     z_next = mul(fma(first, mul(shift, swap_halves(z)), e), up)
     bound = fma(_row(model, DAMPING, b), e, mul(_row(model, STIFFNESS, b), z))
     e_next = mul(sub(mul(first, mul(shift, swap_halves(e))), bound), up)
     carried = mul(first, z_next)
-    _set_block(s, Z, width, width + b, z_next)
-    _set_block(s, E, width, width + b, e_next)
-    _set_block(s, _CARRIED, width, b, carried)
+    _set_z(s, width + b, z_next)
+    _set_e(s, width, width + b, e_next)
+    _keep(s, _CARRIED, width, b, carried)
     minus_force_damping = _row(model, MINUS_FORCE_DAMPING, b)
-    _set_block(s, _CORIOLIS, width, b, fma(splat(2.0 * f0), _row(model, SLOPE, b), minus_force_damping))
-    _set_block(s, _BENT, width, b, mul(first, _row(model, BEND, b)))
+    _keep(s, _CORIOLIS, width, b, fma(splat(2.0 * f0), _row(model, SLOPE, b), minus_force_damping))
+    _keep(s, _BENT, width, b, mul(first, _row(model, BEND, b)))
     return _pending(model, s, width, b, e_next, z_next, carried)
+
+
+@inlined
+def _first_order(model, s, width, f0):
+    """Order 0 of all blocks.  Returns (lanes) their part of u'', what is pending for order 1, and what f weighs.
+
+    The last three are slope e_0, bend z_0 and slope z_1.
+    """
+    zero = splat(0.0)
+    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
+    for b in range(0, width, WIDTH):
+        pending = add(pending, _order_zero(model, s, width, b, f0))
+        z, e = _z(s, b), _e(s, width, b)
+        now = add(now, _pending(model, s, width, b, e, z, zero))
+        by_e = fma(_row(model, SLOPE, b), e, by_e)
+        by_z = fma(_row(model, BEND, b), z, by_z)
+        by_z1 = fma(_row(model, SLOPE, b), _z(s, width + b), by_z1)
+    return now, pending, by_e, by_z, by_z1
 
 
 @inlined
@@ -244,60 +288,12 @@ def _axisymmetric(model, s, k, impulse):
 
 
 @inlined
-def _first_order(model, s, width, f0):
-    """Order 0 of all modes.  Returns u'' without forces, what is pending for order 1, and what f weighs.
-
-    At order k that is the first number + the second one (k + 1) / unit.
-    """
-    zero = splat(0.0)
-    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
-    for b in range(0, width, WIDTH):
-        pending = add(pending, _order_zero(model, s, width, b, f0))
-        z, e = _block(s, Z, width, b), _block(s, E, width, b)
-        now = add(now, _pending(model, s, width, b, e, z, zero))
-        by_e = fma(_row(model, SLOPE, b), e, by_e)
-        by_z = fma(_row(model, BEND, b), z, by_z)
-        by_z1 = fma(_row(model, SLOPE, b), _block(s, Z, width, width + b), by_z1)
-    coriolis = total(by_e)
-    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
-    # C has the Coriolis term once too often, because z_1 in by_f_rate holds it already
-    inertia = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
-    return inertia, pending, by_f, by_f_rate
-
-
-@inlined
-def _first_block(s, width):
-    """What the first block keeps in registers from order to order, ahead of order 1: e, s, e and z as of `_order`."""
-    e, carried = _block(s, E, width, width), _block(s, _CARRIED, width, 0)
-    return e, carried, _block(s, E, width, 0), _block(s, Z, width, width)
-
-
-@inlined
-def _next_order(model, s, width, k, f, f0, impulse, pending, first):
-    """Order k >= 1 of all modes; ``first`` of the first block, see `_first_block`; what others keep is in memory.
-
-    Returns their part of u'': of the diametral modes (lanes), of the others; then ``pending`` and ``first`` for order
-    k + 1.
-    """
-    e, carried, e_last, z_last = first
-    part, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last)
-    part, pending, first = add(pending, part), left, (e, carried, e_last, z_last)
-    for b in range(WIDTH, width, WIDTH):
-        at = k * width + b
-        e, carried = _block(s, E, width, at), _block(s, _CARRIED, width, b)
-        e_last, z_last = _block(s, E, width, at - width), _block(s, Z, width, at)
-        more, left, _, _, _, _ = _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last)
-        part, pending = add(part, more), add(pending, left)
-    return part, _axisymmetric(model, s, k, impulse), pending, first
-
-
-@inlined
 def _last_force(model, s, order, impulse):
     """Put the last contact force into the velocities of the highest order."""
     width, n, q = lane_count(model), len(model.force0), splat(impulse)
     for b in range(0, width, WIDTH):
         at = order * width + b
-        _set_block(s, E, width, at, sub(_block(s, E, width, at), mul(q, _row(model, FORCE_ROW, b))))
+        store(s.modes, E * width + at, sub(_e(s, width, at), mul(q, _row(model, FORCE_ROW, b))))
     for j in range(n):
         s.g[order * n + j] -= model.force0[j] * impulse
 
@@ -318,18 +314,31 @@ def slip_series(model, s, order, direction):
     inverse, braking, lightness = 1.0 / denominator, friction / model.m, 1.0 / model.m
     weight = model.m * inverse
 
-    acceleration, pending, by_f, by_f_rate = _first_order(model, s, width, f0)
+    now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
+    coriolis = total(by_e)
+    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
+    # order 0: C has the Coriolis term once too often, because z_1 in by_f_rate holds it already
+    acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
     pull = model.k_p * psi + model.c_p * (drive(model, s) - f0)
     P = (load_at(model, s) + model.k * (u - model.u_0) + model.c * v + model.m * acceleration + slope * pull) * inverse
     s.slider[P_SERIES], s.slider[SWITCH] = P, direction * f0
     psi = (drive(model, s) - f0) * s.slider[UP]
-    first = _first_block(s, width)
+    e, carried, e_last, z_last = (
+        _e(s, width, width),
+        _kept(s, _CARRIED, width, 0),
+        _e(s, width, 0),
+        _z(s, width),
+    )
     # d P_k / d P_{k-1}: from c u', from c_p in F, and from u''
     by_force = model.damped_compliance - braking * by_f
     by_force = inverse * (model.m * by_force - (model.c - model.c_p) * braking * slope - model.c * model.compliance)
     by_force_rate = -inverse * friction * by_f_rate
-    by_u, by_v = inverse * model.k, inverse * model.c
-    by_psi, by_f_hat = inverse * slope * model.k_p, inverse * slope * model.c_p
+    by_u, by_v, by_psi, by_f_hat = (
+        inverse * model.k,
+        inverse * model.c,
+        inverse * slope * model.k_p,
+        inverse * slope * model.c_p,
+    )
     for k in range(1, order + 1):
         # the slider at order k: what the order before leaves, without its P and with it
         up = s.slider[UP + k - 1]
@@ -340,9 +349,16 @@ def slip_series(model, s, order, direction):
         s.slider[U_SERIES + k], s.slider[V_SERIES + k] = u, v
         if k == order:
             break
-        part, single, pending, first = _next_order(model, s, width, k, f, f0, impulse, pending, first)
+        more, left, e, carried, e_last, z_last = _order(
+            model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last
+        )
+        part, pending = add(pending, more), left
+        for b in range(WIDTH, width, WIDTH):
+            more, left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
+            part, pending = add(part, more), add(pending, left)
         down = s.slider[DOWN + k]
         by_speed = by_f + by_f_rate * down
+        single = _axisymmetric(model, s, k, impulse)
         known = by_u * u + by_v * v_hat + by_psi * psi + (weight * by_speed - by_f_hat) * f_hat + weight * single
         modes = total(part)
         acceleration = modes + (single + f * by_speed + impulse * model.damped_compliance)
@@ -374,9 +390,9 @@ def _stick_order(model, s, b, k, impulse, e, z):
     e = fma(splat(-impulse), _row(model, FORCE_ROW, b), e)
     z_next = mul(e, up)
     e_next = sub(splat(0.0), mul(fma(damping, e, mul(_row(model, STIFFNESS, b), z)), up))
-    _set_block(s, E, width, at, e)
-    _set_block(s, Z, width, at + width, z_next)
-    _set_block(s, E, width, at + width, e_next)
+    _set_e(s, width, at, e)
+    _set_z(s, at + width, z_next)
+    _set_e(s, width, at + width, e_next)
     return _stick_pending(model, b, e_next, z_next), e_next, z_next
 
 
@@ -391,14 +407,13 @@ def stick_series(model, s, order):
     by_force = inverse * (model.m * model.damped_compliance - model.c * model.compliance)
     pending, impulse, vertical = zero, 0.0, load_at(model, s) + model.k * (u - model.u_0) + model.c * v
     for b in range(0, width, WIDTH):
-        pending = add(pending, _stick_pending(model, b, _block(s, E, width, b), _block(s, Z, width, b)))
-    e_first, z_first = _block(s, E, width, 0), _block(s, Z, width, 0)
+        pending = add(pending, _stick_pending(model, b, _e(s, width, b), _z(s, b)))
+    e_first, z_first = _e(s, width, 0), _z(s, 0)
     for k in range(order):
         more, e_first, z_first = _stick_order(model, s, 0, k, impulse, e_first, z_first)
         part, pending = pending, more
         for b in range(WIDTH, width, WIDTH):
-            at = k * width + b
-            more, _, _ = _stick_order(model, s, b, k, impulse, _block(s, E, width, at), _block(s, Z, width, at))
+            more, _, _ = _stick_order(model, s, b, k, impulse, _e(s, width, k * width + b), _z(s, k * width + b))
             pending = add(pending, more)
         single, up = _axisymmetric(model, s, k, impulse), s.slider[UP + k]
         modes = total(part)
@@ -418,8 +433,10 @@ def stick_series(model, s, order):
     _last_force(model, s, order, impulse)
     s.slider[F + order] = s.slider[P_SERIES + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
-    start = model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s))
-    growth = model.r_0 * model.k_p * s.slider[PSI_SERIES + 1]
+    start, growth = (
+        model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s)),
+        model.r_0 * model.k_p * s.slider[PSI_SERIES + 1],
+    )
     if is_ramped(model):
         s.slider[PSI_SERIES + 2] = s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
         growth += model.r_0 * model.c_p * s.slider[DRIVE_SERIES + 1]
@@ -435,19 +452,30 @@ def stick_series(model, s, order):
 @inlined
 def separation_series(model, s, order):
     """No contact: P = 0, disc and slider each for themselves.  Fills the gap u - w."""
-    width, n, f0 = lane_count(model), len(model.force0), s.slider[F]
-    driven, weight = drive(model, s), load_at(model, s) - model.k * model.u_0
+    width, n = lane_count(model), len(model.force0)
+    f0, driven, weight = s.slider[F], drive(model, s), load_at(model, s) - model.k * model.u_0
     pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (driven - f0)
-    _first_order(model, s, width, f0)
-    first = _first_block(s, width)
+    e, carried, e_last, z_last = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for k in range(order + 1):
-        if k > 0:
+        if k == 0:
+            for b in range(0, width, WIDTH):
+                _order_zero(model, s, width, b, f0)
+            e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
+            e_last, z_last = _e(s, width, 0), _z(s, width)
+        else:
             pull, driven, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0, 0.0
             if is_ramped(model):
                 driven, weight = s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
                 pull += model.c_p * driven
-            _, _, _, first = _next_order(model, s, width, k, s.slider[F + k], f0, 0.0, splat(0.0), first)
-        gap = s.slider[U_SERIES + k] - _weighed(model, s, FORCE_ROW, k * width)
+            f = s.slider[F + k]
+            _, _, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, 0.0, e, carried, e_last, z_last)
+            for b in range(WIDTH, width, WIDTH):
+                _order_from_memory(model, s, width, b, k, f, f0, 0.0)
+        _axisymmetric(model, s, k, 0.0)
+        w = splat(0.0)
+        for b in range(0, width, WIDTH):
+            w = fma(_row(model, FORCE_ROW, b), _z(s, k * width + b), w)
+        gap = s.slider[U_SERIES + k] - total(w)
         for j in range(n):
             gap -= model.force0[j] * s.y[k * n + j]
         s.slider[SWITCH + k], s.slider[P_SERIES + k] = gap, 0.0
@@ -455,5 +483,6 @@ def separation_series(model, s, order):
         s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up
         s.slider[F + k + 1] = pull / model.m * up
         s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
-        force = weight + model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]
-        s.slider[V_SERIES + k + 1] = -force / model.m * up
+        s.slider[V_SERIES + k + 1] = (
+            -(weight + model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]) / model.m * up
+        )
