@@ -34,7 +34,10 @@ BENCH_INPUTS = {
 }
 # Methods are loaded by the names that the register gives, which following imports does not see.
 METHODS = sorted(
-    {f"disc_model.benchmarks.methods.{rival.place.partition(':')[0]}" for rival in RIVALS}
+    {
+        f"disc_model.benchmarks.methods.{rival.place.partition(':')[0]}"
+        for rival in RIVALS
+    }
 )
 BENCH_DATA = [
     PACKAGE / "benchmarks" / "data" / name
