@@ -48,7 +48,7 @@ FUNCTIONS = {
         *("residual_flexibility", "harmonic_flexibility", "_point_load", "_moment", "_shear", "_power"),
         *("_high_harmonics", "_axisymmetric", "_first", "_logarithmic", "_with_edges"),
     ),
-    "engine/saltation.py": ("rates", "_force_change", "_pull_change", "switch_change", "impact_change"),
+    "engine/saltation.py": ("rates", "_force_change", "_pull_change", "_inertia", "switch_change", "impact_change"),
     "engine/tangent.py": (
         *("_convolve", "_motion_slope", "point_change", "_diametral_rates", "_axisymmetric_rates"),
         *("_slider_forces", "_path_change", "_apply_force", "tangent_series"),

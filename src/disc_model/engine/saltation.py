@@ -8,7 +8,6 @@ time, J the Jacobian of the jump and v the rates before and after,
 
 from __future__ import annotations
 
-from . import switches
 from .compile import inlined, kernel
 from .lanes import WIDTH, add, fma, load, mul, splat, store, sub, total
 from .layout import (
@@ -21,9 +20,20 @@ from .layout import (
     SPEED,
     STICK,
     U_VELOCITY,
+    U,
     give_of,
     is_compliant,
     is_normal,
+)
+from .switches import (
+    AT_REST,
+    CONTACT_LOST,
+    GAP_CLOSED,
+    RELEASE_FORWARD,
+    disc_point,
+    slip_force,
+    spring_force,
+    stick_force,
 )
 from .tangent import (
     D_C,
@@ -39,6 +49,8 @@ from .tangent import (
     PSI_ROW,
     U_ROW,
     V_ROW,
+    n_inputs,
+    n_rows_of,
     point_change,
     slider_row,
 )
@@ -51,8 +63,8 @@ def _contact_force(model, state):
     if phase == SEPARATION:
         return 0.0
     if phase == STICK:
-        return switches.stick_force(model, state)
-    P, _, _ = switches.slip_force(model, state, state.x[DIRECTION])
+        return stick_force(model, state)
+    P, _, _ = slip_force(model, state, state.x[DIRECTION])
     return P
 
 
@@ -62,13 +74,13 @@ def rates(model, state, out):
     width, n0 = len(model.force), len(model.force0)
     x = state.x
     phase, f, P = x[PHASE], x[SPEED], _contact_force(model, state)
-    F = switches.spring_force(model, state)
+    F = spring_force(model, state)
     rate_f = 0.0
     if phase == SLIP:
         resistance = x[DIRECTION] * model.mu_k
         if is_normal(model):
             # P is R; from here on it is V
-            _, _, slope = switches.disc_point(model, state)
+            _, _, slope = disc_point(model, state)
             force, beta = P, slope / model.r_0
             P = force * (1.0 - resistance * beta)
             rate_f = (F - (resistance + beta) * force / model.r_0) / model.m
@@ -87,7 +99,9 @@ def rates(model, state, out):
         out[(2 * width + n0 + j) * WIDTH] = rate - model.force0[j] * P
     out[slider_row(model, PSI_ROW) * WIDTH] = model.Omega - f
     out[slider_row(model, F_ROW) * WIDTH] = rate_f
-    u, v, _ = switches.slider_motion(model, state)
+    u, v, _ = disc_point(model, state)
+    if is_compliant(model) or phase == SEPARATION:
+        u, v = x[U], x[U_VELOCITY]
     out[slider_row(model, U_ROW) * WIDTH] = v
     out[slider_row(model, V_ROW) * WIDTH] = (P - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
 
@@ -96,8 +110,8 @@ def rates(model, state, out):
 def _force_change(model, state, x, at, parameters, q, changes, slipping):
     """Change of the numerator of P at a state: in stick (f = 0), or in slip where P = 0 (lanes)."""
     width, n0 = len(model.force), len(model.force0)
-    f = state.x[SPEED]
-    u, v, B = switches.disc_point(model, state)
+    f = state.x[SPEED] if slipping else 0.0
+    u, v, B = disc_point(model, state)
     du, dv, dB = point_change(model, x, at, f, B)
     df = load(x, at + slider_row(model, F_ROW) * WIDTH)
     acceleration = splat(0.0)
@@ -125,7 +139,7 @@ def _force_change(model, state, x, at, parameters, q, changes, slipping):
         change = fma(splat(u), load(parameters, q + D_K * WIDTH), change)
         change = fma(splat(v), load(parameters, q + D_C * WIDTH), change)
     if slipping:
-        change = fma(splat(switches.spring_force(model, state)), dB, change)
+        change = fma(splat(spring_force(model, state)), dB, change)
         change = fma(splat(B), _pull_change(model, state, x, at, parameters, q, changes), change)
     return change
 
@@ -143,14 +157,27 @@ def _pull_change(model, state, x, at, parameters, q, changes):
 
 
 @inlined
+def _inertia(model, state, slipping):
+    """u'' without P and f' (needed where the mass changes)."""
+    f = state.x[SPEED] if slipping else 0.0
+    acceleration = 0.0
+    for j in range(len(model.force)):
+        part = -model.damping[j] * state.e[j] - (model.stiffness[j] + (model.shift[j] * f) ** 2) * state.z[j]
+        acceleration += model.force[j] * part + 2.0 * f * model.slope[j] * state.e[j]
+    for j in range(len(model.force0)):
+        acceleration -= model.force0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
+    return acceleration
+
+
+@inlined
 def _release_change(model, state, cause, x, at, parameters, q, changes, V_change):
     """Change of the release function mu_s press -/+ pull: see ``switches.grip``."""
-    side = 1.0 if cause == switches.RELEASE_FORWARD else -1.0
+    side = 1.0 if cause == RELEASE_FORWARD else -1.0
     pull = _pull_change(model, state, x, at, parameters, q, changes)
     if not is_normal(model):
         return fma(splat(-side * model.r_0), pull, mul(splat(model.mu_s), V_change))
-    V, F = switches.stick_force(model, state), switches.spring_force(model, state)
-    _, _, B = switches.disc_point(model, state)
+    V, F = stick_force(model, state), spring_force(model, state)
+    _, _, B = disc_point(model, state)
     _, _, dB = point_change(model, x, at, 0.0, 0.0)
     press = fma(splat(F), dB, fma(splat(B), pull, V_change))
     held = mul(splat(1.0 / model.r_0), fma(splat(V), dB, mul(splat(B), V_change)))
@@ -158,34 +185,41 @@ def _release_change(model, state, cause, x, at, parameters, q, changes, V_change
 
 
 @inlined
+def _compliant_switch_change(model, state, cause, x, at, parameters, q, changes):
+    """``switch_change`` where V = (w - u) / give is one of the state; contact is lost where w - u vanishes."""
+    dw, _, _ = point_change(model, x, at, 0.0, 0.0)
+    closer = sub(dw, load(x, at + slider_row(model, U_ROW) * WIDTH))
+    if cause == CONTACT_LOST:
+        return closer
+    V = mul(splat(1.0 / give_of(model.give)), closer)
+    if changes:
+        V = sub(V, mul(splat(stick_force(model, state)), load(parameters, q + D_GIVE * WIDTH)))
+    return _release_change(model, state, cause, x, at, parameters, q, changes, V)
+
+
+@inlined
 def switch_change(model, state, cause, x, at, parameters, q, changes):
     """Change of the switch function of ``cause`` at a state, for a block of columns (lanes)."""
-    if cause == switches.AT_REST:
+    if cause == AT_REST:
         return load(x, at + slider_row(model, F_ROW) * WIDTH)
-    dw, _, _ = point_change(model, x, at, 0.0, 0.0)
-    du = load(x, at + slider_row(model, U_ROW) * WIDTH)
-    if cause == switches.GAP_CLOSED:
-        return sub(du, dw)
+    if cause == GAP_CLOSED:
+        du, _, _ = point_change(model, x, at, 0.0, 0.0)
+        return sub(load(x, at + slider_row(model, U_ROW) * WIDTH), du)
     if is_compliant(model):
-        if cause == switches.CONTACT_LOST:  # where w - u vanishes
-            return sub(dw, du)
-        V = mul(splat(1.0 / give_of(model.give)), sub(dw, du))
-        if changes:
-            V = sub(V, mul(splat(switches.stick_force(model, state)), load(parameters, q + D_GIVE * WIDTH)))
-        return _release_change(model, state, cause, x, at, parameters, q, changes, V)
-    slipping = cause == switches.CONTACT_LOST and state.x[PHASE] == SLIP
+        return _compliant_switch_change(model, state, cause, x, at, parameters, q, changes)
+    slipping = cause == CONTACT_LOST and state.x[PHASE] == SLIP
     change = _force_change(model, state, x, at, parameters, q, changes, slipping)
     if changes:
         # (1 + m S2) P = ... + m A: what the mass itself changes
-        P = 0.0 if cause == switches.CONTACT_LOST else switches.stick_force(model, state)
-        inertia, _ = switches._free_acceleration(model, state)
-        change = fma(splat(inertia - P * model.compliance), load(parameters, q + D_M * WIDTH), change)
-    if cause == switches.CONTACT_LOST:
+        P = 0.0 if cause == CONTACT_LOST else stick_force(model, state)
+        inertia = _inertia(model, state, slipping) - P * model.compliance
+        change = fma(splat(inertia), load(parameters, q + D_M * WIDTH), change)
+    if cause == CONTACT_LOST:
         return change
     if is_normal(model):
         change = mul(splat(1.0 / (1.0 + model.m * model.compliance)), change)
         return _release_change(model, state, cause, x, at, parameters, q, changes, change)
-    side = 1.0 if cause == switches.RELEASE_FORWARD else -1.0
+    side = 1.0 if cause == RELEASE_FORWARD else -1.0
     change = mul(splat(model.mu_s / (1.0 + model.m * model.compliance)), change)
     return fma(splat(-side * model.r_0), _pull_change(model, state, x, at, parameters, q, changes), change)
 
@@ -193,10 +227,11 @@ def switch_change(model, state, cause, x, at, parameters, q, changes):
 @kernel
 def switch_times(model, state, t, cause):
     """``t.tau``: change of the time of the switch ``cause`` for every column.  Returns the switch function's rate."""
+    C = t.columns
     # the other lanes of ``before`` are zero
-    rate = total(switch_change(model, state, cause, t.before, 0, t.parameters, 0, False))
-    for c in range(0, t.columns, WIDTH):
-        at, q = c * t.rows, c * t.inputs
+    rate = total(switch_change(model, state, cause, t.before, 0, t.still, 0, False))
+    for c in range(0, C, WIDTH):
+        at, q = c * n_rows_of(model), c * n_inputs(model)
         change = switch_change(model, state, cause, t.now, at, t.parameters, q, c >= t.plain)
         store(t.tau, c, mul(splat(-1.0 / rate), change))
     return rate
@@ -205,10 +240,12 @@ def switch_times(model, state, t, cause):
 @kernel
 def shift(model, t, rates_at, sign):
     """t.now += sign * rates * tau."""
-    for c in range(0, t.columns, WIDTH):
+    C = t.columns
+    R = n_rows_of(model)
+    for c in range(0, C, WIDTH):
         tau = load(t.tau, c)
-        for r in range(t.rows):
-            at = c * t.rows + r * WIDTH
+        for r in range(R):
+            at = c * R + r * WIDTH
             store(t.now, at, fma(splat(sign * rates_at[r * WIDTH]), tau, load(t.now, at)))
 
 
@@ -218,18 +255,18 @@ def impact_change(model, state, t):
 
     Under the normal force the impulse p also takes p B / (m r_0^2) from f.
     """
-    width, n0 = len(model.force), len(model.force0)
-    _, v, B = switches.disc_point(model, state)
+    C, width, n0 = t.columns, len(model.force), len(model.force0)
+    _, v, B = disc_point(model, state)
     lever = 1.0 / (model.m * model.r_0**2) if is_normal(model) else 0.0
     share = 1.0 / (model.compliance + 1.0 / model.m + lever * B**2)
     p = (v - state.x[U_VELOCITY]) * share
-    for c in range(0, t.columns, WIDTH):
-        block = c * t.rows
+    for c in range(0, C, WIDTH):
+        block = c * n_rows_of(model)
         _, dv, dB = point_change(model, t.now, block, state.x[SPEED], B)
         change = sub(dv, load(t.now, block + slider_row(model, V_ROW) * WIDTH))
         if c >= t.plain:
             # 1 / m: -dm / m^2
-            dm = load(t.parameters, c * t.inputs + D_M * WIDTH)
+            dm = load(t.parameters, c * n_inputs(model) + D_M * WIDTH)
             mass = p / model.m**2
             if is_normal(model):
                 mass *= 1.0 + (B / model.r_0) ** 2
@@ -256,9 +293,10 @@ def slider_rows(model, state, t):
     """Rows u, u' as the disc's: rigid contact."""
     if is_compliant(model):
         return
-    _, _, B = switches.disc_point(model, state)
-    for c in range(0, t.columns, WIDTH):
-        block = c * t.rows
+    C = t.columns
+    _, _, B = disc_point(model, state)
+    for c in range(0, C, WIDTH):
+        block = c * n_rows_of(model)
         du, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
         store(t.now, block + slider_row(model, U_ROW) * WIDTH, du)
         store(t.now, block + slider_row(model, V_ROW) * WIDTH, dv)
@@ -267,5 +305,6 @@ def slider_rows(model, state, t):
 @kernel
 def rest(model, t):
     """df = 0 in stick, exactly."""
-    for c in range(0, t.columns, WIDTH):
-        store(t.now, c * t.rows + slider_row(model, F_ROW) * WIDTH, splat(0.0))
+    C = t.columns
+    for c in range(0, C, WIDTH):
+        store(t.now, c * n_rows_of(model) + slider_row(model, F_ROW) * WIDTH, splat(0.0))

@@ -38,15 +38,14 @@ class Tangent(NamedTuple):
     series: np.ndarray  # [block][order][row][8]
     force: np.ndarray  # [block][order][8] of P (R under the normal force)
     slope: np.ndarray  # [block][order][8] of B
+    base_slope: np.ndarray  # [order], B of the motion
     now: np.ndarray  # [block][row][8]
     parameters: np.ndarray  # [block][row][8], changes of parameters
     before: np.ndarray  # [row][8], rates before a switch in the first lane
     after: np.ndarray
+    still: np.ndarray  # like ``parameters``, zero, eight columns
     tau: np.ndarray  # [column], change of a switch's time
     log: np.ndarray
-    base_slope: np.ndarray  # [order], B of the motion
-    rows: int  # of a column
-    inputs: int  # of a column's changes of parameters
     columns: int
     plain: int  # columns before this one carry no change of a parameter
 
@@ -65,12 +64,13 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     """Work space for ``columns`` columns; the first ``plain`` (all by default) carry no changes of parameters."""
     columns = WIDTH * -(-columns // WIDTH)
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
-    rows, inputs = n_rows(model), N_SCALARS + 2 * len(model.force) + 2 * len(model.force0)
-    size, block = (order + 2) * columns, rows * WIDTH
-    pieces = aligned_pieces(
-        size * rows, size, size, rows * columns, inputs * columns, block, block, columns, LOG_SIZE, order + 2
-    )
-    return Tangent._make((*pieces, rows, inputs, columns, plain))
+    rows, parameters = n_rows(model), N_SCALARS + 2 * len(model.force) + 2 * len(model.force0)
+    order_size = (order + 2) * columns
+    series, force, slope, now, changes, before, after, still, tau, log, base_slope = aligned_pieces(
+        order_size * rows, order_size, order_size, rows * columns, parameters * columns,
+        rows * WIDTH, rows * WIDTH, parameters * WIDTH, columns, LOG_SIZE, order + 2,
+    )  # fmt: skip
+    return Tangent(series, force, slope, base_slope, now, changes, before, after, still, tau, log, columns, plain)
 
 
 @inlined
@@ -80,13 +80,25 @@ def slider_row(model, row):
 
 
 @inlined
-def _convolve(s, t, origin, k, j, width, f_row):
+def n_rows_of(model):
+    """As ``n_rows``, inside kernels."""
+    return slider_row(model, N_SLIDER_ROWS)
+
+
+@inlined
+def n_inputs(model):
+    """Number of rows of ``Tangent.parameters``."""
+    return N_SCALARS + slider_row(model, 0)
+
+
+@inlined
+def _convolve(s, t, origin, R, k, j, width, f_row):
     """Order k of f dx + df x for a, b, alpha, beta of the pair whose a is lane j."""
     zero = splat(0.0)
     a0, b0, p0, q0, a1, b1, p1, q1 = zero, zero, zero, zero, zero, zero, zero, zero
-    a, b = origin + (k * t.rows + j) * WIDTH, origin + (k * t.rows + j + HALF) * WIDTH
+    a, b = origin + (k * R + j) * WIDTH, origin + (k * R + j + HALF) * WIDTH
     p, q = a + width * WIDTH, b + width * WIDTH
-    at, low, stride = origin + f_row * WIDTH, k * width + j, t.rows * WIDTH
+    at, low, stride = origin + f_row * WIDTH, k * width + j, R * WIDTH
     for i in range(k + 1):
         f, df = spread(s.f, i), load(t.series, at)
         a0, b0 = fma(f, load(t.series, a), a0), fma(f, load(t.series, b), b0)
@@ -129,14 +141,14 @@ def point_change(model, x, at, f, B):
 
 
 @inlined
-def _diametral_rates(model, s, t, block, k, phase):
+def _diametral_rates(model, s, t, block, k, phase, R):
     """Rates of the diametral modes without the contact force, order k; a and b of order k + 1 are final.
 
     Returns their share of d(u'') and dB of order k + 1 (lanes).
     """
-    width, origin = len(model.force), block * len(t.base_slope) * t.rows * WIDTH
-    f_row, q = slider_row(model, F_ROW), block * t.inputs * WIDTH
-    here, there = origin + k * t.rows * WIDTH, origin + (k + 1) * t.rows * WIDTH
+    width, origin = len(model.force), block * len(t.base_slope) * R * WIDTH
+    f_row, q = slider_row(model, F_ROW), block * n_inputs(model) * WIDTH
+    here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
     up, free, dB = splat(s.up[k]), splat(0.0), splat(0.0)
     for j in range(width):
         if model.shift[j] > 0.0:
@@ -147,7 +159,7 @@ def _diametral_rates(model, s, t, block, k, phase):
             rate_p, rate_q = fma(stiffness, da, mul(damping, dp)), fma(stiffness, db, mul(damping, dq))
             if phase != STICK:
                 l = splat(model.shift[j])
-                fa, fb, fp, fq = _convolve(s, t, origin, k, j, width, f_row)
+                fa, fb, fp, fq = _convolve(s, t, origin, R, k, j, width, f_row)
                 dp, dq = fma(l, fb, dp), sub(dq, mul(l, fa))
                 rate_p, rate_q = fma(l, fq, rate_p), sub(rate_q, mul(l, fp))
             if block * WIDTH >= t.plain:
@@ -166,10 +178,10 @@ def _diametral_rates(model, s, t, block, k, phase):
 
 
 @inlined
-def _axisymmetric_rates(model, s, t, block, k):
+def _axisymmetric_rates(model, s, t, block, k, R):
     """As ``_diametral_rates`` for the modes without nodal diameter.  Returns their share of d(u'')."""
-    width, n0, origin = len(model.force), len(model.force0), block * len(t.base_slope) * t.rows * WIDTH
-    q, here, there = block * t.inputs * WIDTH, origin + k * t.rows * WIDTH, origin + (k + 1) * t.rows * WIDTH
+    width, n0, origin = len(model.force), len(model.force0), block * len(t.base_slope) * R * WIDTH
+    q, here, there = block * n_inputs(model) * WIDTH, origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
     up, free = splat(s.up[k]), splat(0.0)
     for j in range(n0):
         y, g = 2 * width + j, 2 * width + n0 + j
@@ -188,7 +200,7 @@ def _axisymmetric_rates(model, s, t, block, k):
 @inlined
 def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
     """Changes, of order k, of F, of the vertical force but for m u'', and of psi' (lanes)."""
-    q = block * t.inputs * WIDTH
+    q = block * n_inputs(model) * WIDTH
     pull = sub(mul(splat(model.k_p), dpsi), mul(splat(model.c_p), df))
     vertical = fma(splat(model.k), du, mul(splat(model.c), dv))
     turn = sub(splat(0.0), df)
@@ -209,14 +221,14 @@ def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
 
 
 @inlined
-def _path_change(s, t, block, k, f_row):
+def _path_change(s, t, block, k, R, f_row):
     """Change of f B without f'_k B_0, order k + 1: what the slope of the disc adds to d(u') (lanes)."""
     orders = len(t.base_slope)
-    origin, chain = block * orders * t.rows * WIDTH, block * orders * WIDTH
+    origin, chain = block * orders * R * WIDTH, block * orders * WIDTH
     carried = mul(splat(s.f[k + 1]), load(t.slope, chain))
     for i in range(k + 1):
         carried = fma(splat(s.f[i]), load(t.slope, chain + (k + 1 - i) * WIDTH), carried)
-        carried = fma(splat(t.base_slope[k + 1 - i]), load(t.series, origin + (i * t.rows + f_row) * WIDTH), carried)
+        carried = fma(splat(t.base_slope[k + 1 - i]), load(t.series, origin + (i * R + f_row) * WIDTH), carried)
     return carried
 
 
@@ -232,9 +244,9 @@ def _leverage_change(model, s, t, block, k):
 
 
 @inlined
-def _compliant_change(model, s, t, block, k, friction):
+def _compliant_change(model, s, t, block, k, R, friction):
     """Change of V = (w - u) / give of order k (lanes); ``friction``: sgn(f) mu_k in slip, else 0."""
-    at = (block * len(t.base_slope) + k) * t.rows * WIDTH
+    at = (block * len(t.base_slope) + k) * R * WIDTH
     dw, _, _ = point_change(model, t.series, at, 0.0, 0.0)
     change = mul(splat(1.0 / give_of(model.give)), sub(dw, load(t.series, at + slider_row(model, U_ROW) * WIDTH)))
     if block * WIDTH >= t.plain:
@@ -242,13 +254,13 @@ def _compliant_change(model, s, t, block, k, friction):
         if is_normal(model):
             for i in range(k + 1):
                 V -= friction * t.base_slope[i] / model.r_0 * s.P[k - i]
-        d_give = load(t.parameters, block * t.inputs * WIDTH + D_GIVE * WIDTH)
+        d_give = load(t.parameters, block * n_inputs(model) * WIDTH + D_GIVE * WIDTH)
         change = sub(change, mul(splat(V), d_give))
     return change
 
 
 @inlined
-def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical, pull):
+def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, vertical, pull):
     """Changes of order k of the contact force (P or R), of V and of f' (lanes) under another law than the paper's.
 
     friction: sgn(f) mu_k; denominator: of the contact force; free: of u'' without forces (rigid contact); vertical and
@@ -258,7 +270,7 @@ def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical
     if is_normal(model):
         h = _leverage_change(model, s, t, block, k)
     if is_compliant(model):
-        V = _compliant_change(model, s, t, block, k, friction)
+        V = _compliant_change(model, s, t, block, k, R, friction)
         force = mul(splat(1.0 / denominator), fma(splat(friction), h, V))
     else:
         top = fma(splat(t.base_slope[0]), pull, fma(splat(model.m), free, vertical))
@@ -271,10 +283,10 @@ def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical
 
 
 @inlined
-def _apply_force(model, s, t, block, k, P):
+def _apply_force(model, s, t, block, k, R, P):
     """Velocities of order k + 1, once the change P of the vertical contact force of order k is known."""
     width, n0, up = len(model.force), len(model.force0), splat(s.up[k])
-    there = (block * len(t.base_slope) + k + 1) * t.rows * WIDTH
+    there = (block * len(t.base_slope) + k + 1) * R * WIDTH
     for j in range(width):
         if model.shift[j] > 0.0:
             e = there + (width + j) * WIDTH
@@ -287,7 +299,7 @@ def _apply_force(model, s, t, block, k, P):
 @kernel
 def tangent_series(model, s, t, order, phase, direction):
     """Taylor coefficients of all columns along the step whose series is ``s``, from ``t.now``."""
-    orders = len(t.base_slope)
+    R, orders = n_rows_of(model), len(t.base_slope)
     psi_row, f_row = slider_row(model, PSI_ROW), slider_row(model, F_ROW)
     u_row, v_row = slider_row(model, U_ROW), slider_row(model, V_ROW)
     _motion_slope(model, s, t, order)
@@ -297,8 +309,8 @@ def tangent_series(model, s, t, order, phase, direction):
     other_law = is_compliant(model) or is_normal(model)
     lightness = splat(1.0 / model.m)
     for block in range(t.columns // WIDTH):
-        at, chain, origin = block * t.rows * WIDTH, block * orders * WIDTH, block * orders * t.rows * WIDTH
-        for i in range(0, t.rows * WIDTH, WIDTH):
+        at, chain, origin = block * R * WIDTH, block * orders * WIDTH, block * orders * R * WIDTH
+        for i in range(0, R * WIDTH, WIDTH):
             store(t.series, origin + i, load(t.now, at + i))
         du, dv, dB = point_change(model, t.now, at, s.f[0], B0)
         if is_compliant(model) or phase == SEPARATION:
@@ -306,9 +318,9 @@ def tangent_series(model, s, t, order, phase, direction):
         store(t.slope, chain, dB)
         for k in range(order):
             up = splat(s.up[k])
-            here, there = origin + k * t.rows * WIDTH, origin + (k + 1) * t.rows * WIDTH
-            free, dB = _diametral_rates(model, s, t, block, k, phase)
-            free = add(free, _axisymmetric_rates(model, s, t, block, k))
+            here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
+            free, dB = _diametral_rates(model, s, t, block, k, phase, R)
+            free = add(free, _axisymmetric_rates(model, s, t, block, k, R))
             store(t.slope, chain + (k + 1) * WIDTH, dB)
             dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
             pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
@@ -317,19 +329,19 @@ def tangent_series(model, s, t, order, phase, direction):
                 rate_f, acceleration = mul(pull, lightness), sub(P, mul(vertical, lightness))
             elif other_law and phase == SLIP:
                 if not is_compliant(model):
-                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, f_row), free)
+                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
                 mu, denominator = direction * model.mu_k, slip_denominator(model, direction, B0)
-                P, V, rate_f = _forces_in_slip(model, s, t, block, k, mu, denominator, free, vertical, pull)
+                P, V, rate_f = _forces_in_slip(model, s, t, block, k, R, mu, denominator, free, vertical, pull)
                 if is_compliant(model):
                     acceleration = mul(lightness, sub(V, vertical))
                 else:
                     acceleration = fma(splat(B0), rate_f, sub(free, mul(splat(model.compliance), V)))
             elif is_compliant(model):
-                P = V = _compliant_change(model, s, t, block, k, 0.0)
+                P = V = _compliant_change(model, s, t, block, k, R, 0.0)
                 acceleration = mul(lightness, sub(V, vertical))
             else:
                 if phase == SLIP:
-                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, f_row), free)
+                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
                     vertical = fma(splat(B0), pull, vertical)
                 P = V = mul(splat(inverse), fma(splat(model.m), free, vertical))
                 acceleration = sub(free, mul(splat(model.compliance), P))
@@ -337,7 +349,7 @@ def tangent_series(model, s, t, order, phase, direction):
                     rate_f = mul(lightness, sub(pull, mul(splat(friction), P)))
                     acceleration = fma(splat(B0), rate_f, acceleration)
             store(t.force, chain + k * WIDTH, P)
-            _apply_force(model, s, t, block, k, V)
+            _apply_force(model, s, t, block, k, R, V)
             store(t.series, there + psi_row * WIDTH, mul(turn, up))
             store(t.series, there + f_row * WIDTH, mul(rate_f, up))
             du, dv = mul(dv, up), mul(acceleration, up)
@@ -348,7 +360,7 @@ def tangent_series(model, s, t, order, phase, direction):
 @kernel
 def tangent_at(model, t, order, x):
     """``t.now`` at x (time units) of the step."""
-    size, at = t.rows * WIDTH, splat(x)
+    size, at = n_rows_of(model) * WIDTH, splat(x)
     for block in range(t.columns // WIDTH):
         origin, now = block * len(t.base_slope) * size, block * size
         for i in range(0, size, WIDTH):

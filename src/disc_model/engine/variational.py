@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import switches
 from .compile import inlined, kernel
 from .dense_output import state_at
 from .lanes import WIDTH, mul, splat, store
@@ -14,7 +13,19 @@ from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK
 from .outcomes import LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
 from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_times
 from .stepping import advance_time, expand, first_switch, step_size
-from .tangent import PSI_ROW, slider_row, tangent_at, tangent_series
+from .switches import (
+    AT_REST,
+    GAP_CLOSED,
+    MAX_EVENTS_IN_A_ROW,
+    NOTHING,
+    PAINLEVE_MARGIN,
+    RELEASE_BACKWARD,
+    RELEASE_FORWARD,
+    change_phase,
+    disc_point,
+    stick_force,
+)
+from .tangent import PSI_ROW, n_inputs, n_rows_of, slider_row, tangent_at, tangent_series
 
 # What a flight counts, entries of ``Tangent.log``.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
@@ -46,11 +57,11 @@ class Section(NamedTuple):
 @kernel
 def _step(model, s, state, order, tolerance, left):
     """Expand and find the first switch within ``left`` time units: (length, cause); nan or -1 is failure."""
-    if expand(model, s, state, order) <= switches.PAINLEVE_MARGIN:
-        return -1.0, switches.NOTHING
+    if expand(model, s, state, order) <= PAINLEVE_MARGIN:
+        return -1.0, NOTHING
     x_end = step_size(model, s, order, tolerance, state.x[PHASE])
     if not x_end > 0.0:
-        return np.nan, switches.NOTHING
+        return np.nan, NOTHING
     return first_switch(model, s, state, order, min(x_end, left))
 
 
@@ -58,11 +69,11 @@ def _step(model, s, state, order, tolerance, left):
 def _count(state, cause, log):
     """Count a switch that was carried out."""
     phase = state.x[PHASE]
-    if cause == switches.RELEASE_FORWARD:
+    if cause == RELEASE_FORWARD:
         log[RELEASES] += 1.0
-    elif cause == switches.RELEASE_BACKWARD:
+    elif cause == RELEASE_BACKWARD:
         log[BACK_RELEASES] += 1.0
-    elif cause == switches.AT_REST and phase == SLIP:
+    elif cause == AT_REST and phase == SLIP:
         log[REVERSALS] += 1.0
     if phase == SEPARATION:
         log[SEPARATIONS] += 1.0
@@ -97,31 +108,31 @@ def fly(model, s, state, t, course):
         log[DURATION] += x_end * model.unit
         log[STICK_TIME + int(phase)] += x_end * model.unit
         log[N_STEPS] += 1.0
-        if cause == switches.NOTHING:
+        if cause == NOTHING:
             x[KNOWN] = 0.0
             if x_end >= left:
                 return TIME_OVER
             continue
         in_a_row = in_a_row + 1 if x[TIME] == before else 0
-        if in_a_row > switches.MAX_EVENTS_IN_A_ROW:
+        if in_a_row > MAX_EVENTS_IN_A_ROW:
             return STALLED
         last = False
-        if cause == switches.RELEASE_FORWARD:
+        if cause == RELEASE_FORWARD:
             found += 1
             last = found == course.releases
-        if cause == switches.AT_REST:
+        if cause == AT_REST:
             x[SPEED] = 0.0
         if tangent:
             rates(model, state, t.before)
             switch_times(model, state, t, cause)
             shift(model, t, t.before, 1.0)
-            if cause == switches.GAP_CLOSED and not is_compliant(model):
+            if cause == GAP_CLOSED and not is_compliant(model):
                 impact_change(model, state, t)
         if last:
             log[RELEASES] += 1.0
             return RETURNED
         x[KNOWN] = 0.0
-        if switches.change_phase(model, state, cause, x_end == 0.0) == NO_SOLUTION:
+        if change_phase(model, state, cause, x_end == 0.0) == NO_SOLUTION:
             return NO_SOLUTION
         _count(state, cause, log)
         if tangent:
@@ -159,14 +170,14 @@ def _place(model, state, row, value):
 @inlined
 def _lift(model, state):
     """B / r_0 where it matters to stick: under the normal force."""
-    _, _, slope = switches.disc_point(model, state)
+    _, _, slope = disc_point(model, state)
     return slope / model.r_0 if is_normal(model) else 0.0
 
 
 @kernel
 def release_angle(model, state):
     """psi at which stick is released forwards: r_0 F = V mu_s, or V (mu_s + beta) / (1 - mu_s beta) on a slope."""
-    force, beta = switches.stick_force(model, state), _lift(model, state)
+    force, beta = stick_force(model, state), _lift(model, state)
     pull = model.mu_s * force if not is_normal(model) else (model.mu_s + beta) * force / (1.0 - model.mu_s * beta)
     return (pull / model.r_0 - model.c_p * model.Omega) / model.k_p
 
@@ -179,13 +190,13 @@ def section_map(model, s, state, t, course, section, start):
     ``t.parameters`` may hold changes of parameters in the columns from n on.  Returns how the flight ended; ``t.log``
     is set.
     """
-    rows, scale, R = section.rows, section.scale, t.rows
+    rows, scale, R = section.rows, section.scale, n_rows_of(model)
     t.log[:] = 0.0
     state.x[:] = 0.0
     for i in range(len(rows)):
         _place(model, state, rows[i], start[i] / scale[i])
     state.x[PHASE] = STICK
-    if not switches.stick_force(model, state) > 0.0:
+    if not stick_force(model, state) > 0.0:
         return OFF_SECTION
     state.x[PSI] = release_angle(model, state)
     if course.tangent:
@@ -194,14 +205,14 @@ def section_map(model, s, state, t, course, section, start):
         for i in range(len(rows)):
             t.now[((i // WIDTH) * R + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
         for c in range(0, t.columns, WIDTH):
-            at, q = c * R, c * t.inputs
-            change = switch_change(model, state, switches.RELEASE_FORWARD, t.now, at, t.parameters, q, c >= t.plain)
+            at, q = c * R, c * n_inputs(model)
+            change = switch_change(model, state, RELEASE_FORWARD, t.now, at, t.parameters, q, c >= t.plain)
             dpsi = mul(splat(1.0 / (model.r_0 * (1.0 - model.mu_s * beta) * model.k_p)), change)
             store(t.now, at + slider_row(model, PSI_ROW) * WIDTH, dpsi)
-    if switches.change_phase(model, state, switches.RELEASE_FORWARD, False) == NO_SOLUTION:
+    if change_phase(model, state, RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
     # the release itself is that of the flight which ended here
-    _count(state, switches.NOTHING, t.log)
+    _count(state, NOTHING, t.log)
     if state.x[PHASE] == SEPARATION and not course.may_separate:
         return LOST_CONTACT
     if course.tangent:
