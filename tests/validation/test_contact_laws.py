@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, plate_modes, simulate
-from disc_model.engine import audit, layout, switches
+from disc_model.engine import audit, layout, outcomes, switches
 from disc_model.flexibility import contact_give, residual_flexibility
 from disc_model.simulation.api import published_start
 from disc_model.simulation.result import engine_case, write_state
@@ -169,6 +169,25 @@ ON_A_RIGID_DISC = {
     "compliant_normal_bonded": {**LAWS["compliant_normal"], "contact": "bonded"},
 }
 """Switches beside those of `LAWS`; those that compile kernels of their own are tried in the long tests."""
+
+
+@pytest.mark.parametrize("force", [pytest.param("normal", marks=COMPILES)])
+def test_an_impact_of_the_normal_force_is_plastic_and_turns_the_slider(force):
+    """What the slider gains upward the disc has lost, and on the disc's slope it moves the slider in the plane too."""
+    p = Parameters(N=200, Omega=20, n_diameters=2, contact_force=force)
+    start = lively("separation", 0, p).replace(u_velocity=-1.0)
+    case = engine_case(p)
+    model, state = case.model, layout.build_state(case.model)
+    write_state(case, start, state)
+    _, velocity, slope = switches.disc_point(model, state)
+    assert abs(slope) > 1e-4
+    assert switches.touch_down(model, state) == outcomes.CONSISTENT
+    _, after, _ = switches.disc_point(model, state)
+    f = state.x[layout.SPEED]
+    impulse = p.m * (after - start.u_velocity)
+    given = (velocity - start.f * slope) - (after - f * slope)
+    assert given == pytest.approx(model.compliance * impulse, rel=1e-9)
+    assert p.m * p.r_0**2 * (f - start.f) == pytest.approx(-impulse * slope, rel=1e-9)
 
 
 @pytest.mark.compiled
