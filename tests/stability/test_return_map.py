@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, simulate
 from disc_model.stability.return_map import RETURNED, Counts, Flight, ReturnMap, _solve, newton
-from tests.contact_laws import COMPILES
+from tests.contact_laws import COMPILES, LAWS
 from tests.engine.test_variational import check_derivatives, differences
 from tests.references.printed import Printed
 
@@ -112,8 +112,7 @@ def test_derivatives_by_parameters_agree_with_central_differences(where):
     check_derivatives(map_, x, lambda name: 1e-2 if name in ("c", "c_p") else 1e-4)
 
 
-OTHER_LAWS = {"given": {"contact_compliance": 2e-7}, "residual": {"contact_compliance": "residual"}}
-OTHER_LAWS["normal"] = {"contact_force": "normal"}
+OTHER_LAWS = {name: LAWS[name] for name in ("compliant", "normal")} | {"residual": {"contact_compliance": "residual"}}
 
 
 @pytest.mark.parametrize("law", [pytest.param(law, marks=COMPILES) for law in OTHER_LAWS])

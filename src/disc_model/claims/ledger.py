@@ -34,7 +34,7 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
 
     Parameters
     ----------
-    tree : merged cases, see `disc_model.simulation.api`
+    tree : merged cases, see `disc_model.studies.cases`
     scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that look at others are not computed
     """
     cases = views(tree, scans)

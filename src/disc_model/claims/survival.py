@@ -97,6 +97,8 @@ def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
 # ----------------------------------------------------------------------------------------------------
 # Conclusions
 
+LARGE = 300.0
+"""N, the least preload that counts as large; the paper shows 385 N."""
 SLOW = 1e-3
 """1/s, a growth rate below which a cycle counts as neither stable nor unstable."""
 
@@ -284,7 +286,7 @@ def stick_vanishes(found: Evidence) -> Finding:
 )
 def normal_damping(found: Evidence) -> Finding:
     without, with_damper, _ = _damped(found, "c")
-    compared = (without > 1e-3) & np.isfinite(with_damper)
+    compared = (without > SLOW) & np.isfinite(with_damper)
     lower = compared & (with_damper < without)
     stable = compared & (with_damper < 0)
     ours = (
@@ -306,14 +308,14 @@ def normal_damping(found: Evidence) -> Finding:
 )
 def inplane_damping(found: Evidence) -> Finding:
     without, damped, status = _damped(found, "c_p")
-    large = (found.grid("survival_damping")["N"].values >= 300)[:, None]  # the paper shows 385 N
+    large = (found.grid("survival_damping")["N"].values >= LARGE)[:, None]
     both = np.isfinite(without) & np.isfinite(damped)
     higher = both & (damped > 0) & (damped > without + SLOW)
     ended = (without < -SLOW) & np.isin(status, ("no_cycle", "separates"))
     grows = [int((higher & place).sum()) for place in (large, ~large)]
     ends = measures.counted(int((ended & large).sum()), "stable cycle")
     ours = (
-        f"at 300 N or more higher at {grows[0]} of {int((both & large).sum())} points, and {ends} ended; below, "
+        f"at {LARGE:g} N or more higher at {grows[0]} of {int((both & large).sum())} points, and {ends} ended; below, "
         f"higher at {grows[1]} of {int((both & ~large).sum())}"
     )
     if grows[0] or (ended & large).any():

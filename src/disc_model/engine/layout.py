@@ -23,10 +23,10 @@ STICK, SLIP, SEPARATION = 0, 1, 2
 # Rows of Model.lanes.
 SHIFT, STIFFNESS, DAMPING, FORCE_ROW, SLOPE, BEND, MINUS_FORCE_DAMPING, MINUS_FORCE_STIFFNESS = range(8)
 
-# Coefficients that a series has room for; rows of Series.modes where z, e and scratch begin; where the slider's series
-# begin in Series.slider, and where that ends.
+# Coefficients that a series has room for; rows of Series.modes where e and scratch begin (z begins at 0); where the
+# slider's series begin in Series.slider, and where that ends.
 ROWS = 48
-Z, E, SCRATCH = 0, ROWS, 2 * ROWS
+E, SCRATCH = ROWS, 2 * ROWS
 F, PSI_SERIES, P_SERIES, U_SERIES, V_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
 SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, _SLIDER_END = (ROWS * i for i in range(10, 14))
 HALF = WIDTH // 2

@@ -1,4 +1,4 @@
-"""The equations of motion in plain numpy, as a user would write them (docs: model, equations in the slider's frame).
+"""The equations of motion in plain numpy, as a user would write them (docs: model, Disc in the slider's frame).
 
 One vector holds the state in every phase:
 
