@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from disc_model import Parameters, Record, Window, simulate
 from disc_model.analysis import spectra
 
 RATE = 4000.0
@@ -28,6 +29,51 @@ def test_the_strongest_line_near_a_frequency() -> None:
     assert line.frequency == pytest.approx(F_S + F_DRIVE, abs=0.005)
     with pytest.raises(ValueError, match="no line"):
         spectra.strongest(TIME, np.zeros_like(TIME), 500, 1.0)
+
+
+SHORT = np.arange(10_000) / 1000.0
+NEAR, WITHIN = 206.0, 2.0
+
+
+def sine(frequency: float, phase: float = 0.0) -> np.ndarray:
+    return np.sin(2 * np.pi * frequency * SHORT + phase)
+
+
+def test_a_line_beside_the_band_was_found_in_it() -> None:
+    """Bins outside were set to zero: the first bin on the skirt of a line there became a line, of any frequency."""
+    rng = np.random.default_rng(26)
+    for _ in range(100):
+        outside = NEAR + rng.choice([-1, 1]) * (WITHIN + rng.uniform(0.02, 3))
+        inside = NEAR + rng.uniform(-0.9, 0.9) * WITHIN
+        foreign = sine(outside, rng.uniform(0, 6)) + 1e-6 * rng.standard_normal(SHORT.size)
+        with pytest.raises(ValueError, match="no line within 2 Hz of 206 Hz"):
+            spectra.strongest(SHORT, foreign, NEAR, WITHIN)
+        if abs(inside - outside) > 1.0:  # two lobes, of 0.4 Hz on either side
+            found = spectra.strongest(SHORT, foreign + 1e-3 * sine(inside), NEAR, WITHIN)
+            assert found.frequency == pytest.approx(inside, abs=0.01)
+            assert found.amplitude == pytest.approx(1e-3, rel=0.03)
+
+
+def test_a_line_on_the_border_is_where_its_interpolated_frequency_is() -> None:
+    """The bin at 206.0 Hz is the highest of lines within 0.05 Hz of it."""
+    for f in (205.97, 206.03):
+        below, above = (spectra.lines(SHORT, sine(f), **side) for side in ({"below": NEAR}, {"above": NEAR}))
+        assert (len(below), len(above)) == ((1, 0) if f < NEAR else (0, 1))
+
+
+@pytest.mark.compiled
+def test_the_line_of_normalised_modes_near_206_hertz() -> None:
+    """It was published as 209.499 Hz with 0.03 m, ten times the disc's whole range."""
+    p = Parameters(N=385, Omega=15.1, normalization="orthonormal")
+    run = simulate(p, 10.0, record=Record(windows=(Window(start=0, rate=4000),)))
+    time, w, psi = (run.samples[0][name] for name in ("time", "w_point", "psi"))
+    found = spectra.strongest(time, w, NEAR, WITHIN)
+    assert found.frequency == pytest.approx(204.843, abs=0.005)
+    assert found.amplitude == pytest.approx(1.29e-6, rel=0.01)
+    f_s = max(spectra.lines(time, psi, above=20.0), key=lambda line: line.amplitude).frequency
+    name = spectra.identify(found.frequency, f_s, 15.1 / (2 * np.pi))
+    assert str(name) == "3 f_s + f_Ω"
+    assert abs(name.deviation) < 0.005
 
 
 @pytest.mark.parametrize(
@@ -79,6 +125,36 @@ def test_coverage_tells_lines_from_noise() -> None:
     noise = np.random.default_rng(0).normal(size=TIME.size)
     assert spectra.coverage(TIME, signal(KNOWN), 10, 300) < 0.06
     assert spectra.coverage(TIME, noise, 10, 300) > 0.95
+
+
+def test_coverage_is_measured_by_lines_of_the_band() -> None:
+    """A line just below the band raised the level that counts, by its skirt, a hundredfold."""
+    values = signal(KNOWN) + 3.0 * np.cos(2 * np.pi * 9.9 * TIME)
+    assert spectra.coverage(TIME, values, 10, 300) == pytest.approx(
+        spectra.coverage(TIME, signal(KNOWN), 10, 300), abs=0.01
+    )
+    assert spectra.coverage(TIME, np.cos(2 * np.pi * 5 * TIME), 10, 300) == 0.0
+
+
+SKIRTS = {
+    "that dies out": lambda f, rng: sine(f) * np.exp(-rng.uniform(0.2, 3) * SHORT),
+    "that begins": lambda f, rng: sine(f) * (rng.uniform(2, 8) < SHORT),
+    "that wanders": lambda f, rng: np.sin(2 * np.pi * f * SHORT + np.cumsum(0.02 * rng.standard_normal(SHORT.size))),
+}
+
+
+@pytest.mark.parametrize("skirt", SKIRTS)
+def test_what_stands_on_the_skirt_of_a_line_is_no_evidence(skirt: str) -> None:
+    """Half of them passed by less than 1e-3, and so did what the spectrum does not have: the level was looked for
+    farther away than the skirt reaches."""
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        values = SKIRTS[skirt](NEAR - WITHIN - rng.uniform(0.3, 1), rng) + 1e-4 * rng.standard_normal(SHORT.size)
+        assert spectra.chance(SHORT, values, spectra.Line(NEAR + rng.uniform(-WITHIN, WITHIN), 10.0), WITHIN) > 1e-3
+        for line in spectra.lines(SHORT, values, above=NEAR - WITHIN, below=NEAR + WITHIN, floor=0.0):
+            assert spectra.chance(SHORT, values, line, WITHIN) > 1e-3
+        resolved = values + 0.3 * sine(NEAR)
+        assert spectra.chance(SHORT, resolved, spectra.strongest(SHORT, resolved, NEAR, 0.5), WITHIN) < 1e-9
 
 
 def test_a_line_stands_out_or_it_is_noise() -> None:

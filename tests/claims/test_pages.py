@@ -13,7 +13,7 @@ from disc_model import Parameters
 from disc_model.claims.ledger import COLUMNS
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView
 from disc_model.claims.pages import ledger, table_page
-from disc_model.claims.paper_tables import LISTED, TABLE_1, stick_slip_rate, table_1, table_2, table_2_or_why
+from disc_model.claims.paper_tables import LISTED, TABLE_1, UNNAMED, stick_slip_rate, table_1, table_2, table_2_or_why
 
 F_S, OMEGA = 67.63, 15.1
 DRIVE = OMEGA / (2 * np.pi)
@@ -40,6 +40,15 @@ def test_table_2_names_the_lines() -> None:
     np.testing.assert_allclose(table["ours_Hz"], expected, atol=0.01)
     np.testing.assert_allclose(table["predicted_Hz"], expected, atol=0.02)
     assert table["level_dB"].iloc[1] == pytest.approx(20 * np.log10(3e-2), abs=0.3)
+
+
+def test_a_line_off_all_combinations_is_not_named_by_the_nearest() -> None:
+    case = case_of_known_lines()
+    window = case.node["spectrum_a"]
+    window["w_point"] = window["w_point"] + np.cos(2 * np.pi * (4 * F_S - DRIVE + 1.0) * window["time"])
+    table = table_2(case)
+    assert table["ours_is"].tolist().count(UNNAMED) == 1
+    assert table["ours_is"].iloc[7] == UNNAMED
 
 
 def test_table_2_of_a_case_without_its_window_says_why() -> None:

@@ -327,6 +327,14 @@ def test_one_further_frequency_is_not_several() -> None:
     assert "f_Ω and 1 independent frequencies" in found.ours
 
 
+@pytest.mark.parametrize("claim", ["T2a", "T2e"])
+def test_a_line_that_is_not_there_refutes_what_is_said_of_it(claim: str) -> None:
+    """The skirt of the nearest line stood for it."""
+    story = made_up.as_told()["F13"].replace(signal=made_up.few)
+    found = judged(claim, made_up.made_up({"F13": story}))
+    assert (found.verdict, found.ours) == (FAILS, "case F13: no line within 2 Hz of 65.5 Hz in w_point")
+
+
 def test_the_line_of_the_drive_counts() -> None:
     """F27b dropped all below 20 Hz and said so nowhere; T2b calls the drive's line predominant."""
     stories = made_up.as_told()

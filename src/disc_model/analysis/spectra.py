@@ -13,6 +13,10 @@ Array = NDArray[np.float64]
 
 AROUND = (1.0, 6.0)
 """Hz, distances from a line between which the level of its neighbourhood is taken."""
+RESOLVED = 4
+"""Bins, half the width of a line's main lobe: two lines nearer to each other are not resolved."""
+SIDE_LOBES = 3e-5
+"""Highest side lobe of the window relative to the line's own height: 2.5e-5, and a margin of a fifth."""
 
 
 class Line(NamedTuple):
@@ -85,26 +89,28 @@ def lines(
     ----------
     above, below : Hz
     floor : least amplitude, relative to the strongest line between them
-    apart : Hz, least distance of two lines, the stronger one wins; by default four bins, what the window resolves
+    apart : Hz, least distance of two lines, the stronger one wins; by default `RESOLVED` bins
 
     Notes
     -----
-    The place of a line between bins is that of the parabola through the logarithms of the three highest bins.
+    A line is a local maximum of the whole spectrum, not of the part between the two frequencies: that part has its
+    greatest value at its edge if a stronger line stands outside. Maxima below `SIDE_LOBES` of the spectrum's greatest
+    value may be side lobes of the window and are no lines. The frequency of a line is that of the parabola through the
+    logarithms of the three highest bins, at most half a bin from the middle one.
     """
     frequency, amplitude = amplitude_spectrum(time, values)
     step = float(frequency[1])
-    inside = (frequency > above) & (frequency < below)
-    shown = np.where(inside, amplitude, 0.0)
-    if not shown.any():
-        return []
-    distance = max(1, round((4 * step if apart is None else apart) / step))
-    peaks, _ = find_peaks(shown, height=floor * shown.max(), distance=distance)
-    return [_interpolated(frequency, amplitude, int(i)) for i in peaks]
+    peaks = _maxima(amplitude, RESOLVED if apart is None else max(1, round(apart / step)))
+    places, heights = _interpolated(frequency, amplitude, peaks)
+    inside = (places > above) & (places < below)
+    bins = np.where(inside, amplitude[peaks], 0.0)
+    high = inside & (bins >= floor * bins.max(initial=0.0))
+    return [Line(float(f), float(a)) for f, a in zip(places[high], heights[high], strict=True)]
 
 
 def strongest(time: Array, values: Array, near: float, within: float) -> Line:
     """The strongest line no further than `within` Hz from a frequency; raises ValueError if there is none."""
-    found = lines(time, values, above=near - within, below=near + within, floor=1e-12)
+    found = lines(time, values, above=near - within, below=near + within, floor=0.0)
     if not found:
         raise ValueError(f"no line within {within:g} Hz of {near:g} Hz")
     return max(found, key=lambda line: line.amplitude)
@@ -117,24 +123,37 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     ----------
     line : found among bins no further than `searched` Hz from some place
 
+    Returns
+    -------
+    float
+        1 if the signal's spectrum has no line within half a bin of that frequency, however strong `line` claims to be
+
     Notes
     -----
-    The level is the median of the power over `AROUND`: other lines, as long as they are few, do not count. The power of
-    noise in a bin is distributed exponentially: above x medians with the probability 2^-x. Bins are taken for
-    independent, which the window makes them not; the probability is too large by that. Raises ValueError if there is no
-    bin in the neighbourhood: the samples are too short.
+    The level is the largest of the medians of the power over four stretches: on either side of the line, from its main
+    lobe to the nearer end of `AROUND`, and from there to the farther end. A line on the skirt of a stronger one is
+    therefore compared with that skirt. Other lines do not count as long as they are few. The power of noise in a bin is
+    distributed exponentially: it exceeds x medians with the probability 2^-x. Bins are taken for independent, and the
+    probability is too large because the window correlates them. Raises ValueError if there is no bin in the
+    neighbourhood: the samples are too short.
     """
     near, far = AROUND
     frequency, amplitude = amplitude_spectrum(time, values)
-    apart = np.abs(frequency - line.frequency)
-    around = amplitude[(apart > near) & (apart < far)]
-    if not around.size:
+    step, off = float(frequency[1]), frequency - line.frequency
+    stretches = ((RESOLVED * step, near), (near, far))
+    parts = [(side * off > low) & (side * off < high) for side in (-1, 1) for low, high in stretches]
+    levels = [float(np.median(amplitude[part] ** 2)) for part in parts if part.any()]
+    if not levels:
         raise ValueError(f"no bin of the spectrum is {near:g} to {far:g} Hz from {line.frequency:g} Hz")
-    level = float(np.median(around**2))
-    trials = max(1.0, 2 * searched / float(frequency[1]))
+    seen = lines(time, values, above=line.frequency - step / 2, below=line.frequency + step / 2)
+    if not seen:
+        return 1.0
+    level = max(levels)
     if not level > 0:
         return 0.0
-    return float(-np.expm1(trials * np.log1p(-np.exp2(-(line.amplitude**2) / level))))
+    power = min(line.amplitude, seen[0].amplitude) ** 2
+    trials = max(1.0, 2 * searched / step)
+    return float(-np.expm1(trials * np.log1p(-np.exp2(-power / level))))
 
 
 def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
@@ -187,20 +206,26 @@ def power_share(time: Array, values: Array, above: float, reference: float) -> f
 
 
 def coverage(time: Array, values: Array, low: float, high: float, floor: float = 1e-3) -> float:
-    """Share of the band from `low` to `high` Hz where the amplitude exceeds `floor` of the band's strongest.
+    """Share of the band from `low` to `high` Hz where the amplitude exceeds `floor` of the band's strongest line.
 
-    A few lines cover a small share of their band, a broad, fuzzy spectrum much of it.
+    It is 0 without a line. A few lines cover a small share of their band, a broad, fuzzy spectrum much of it.
     """
     frequency, amplitude = amplitude_spectrum(time, values)
-    band = amplitude[(frequency >= low) & (frequency <= high)]
-    return float(np.mean(band > floor * band.max()))
+    band = (frequency >= low) & (frequency <= high)
+    peaks = _maxima(amplitude, RESOLVED)
+    strongest = amplitude[peaks][band[peaks]].max(initial=0.0)
+    return float(np.mean(amplitude[band] > floor * strongest)) if strongest > 0 else 0.0
 
 
-def _interpolated(frequency: Array, amplitude: Array, i: int) -> Line:
-    """The top of the parabola through the logarithms of three bins."""
-    if not 0 < i < len(amplitude) - 1:
-        return Line(float(frequency[i]), float(amplitude[i]))
-    low, mid, high = np.log(np.maximum(amplitude[i - 1 : i + 2], np.finfo(float).tiny))
+def _maxima(amplitude: Array, distance: int) -> NDArray[np.int64]:
+    """Bins of local maxima that are no side lobes and so many bins apart at least, the higher one wins."""
+    peaks, _ = find_peaks(amplitude, height=SIDE_LOBES * amplitude.max(), distance=distance)
+    return np.asarray(peaks, dtype=np.int64)
+
+
+def _interpolated(frequency: Array, amplitude: Array, peaks: NDArray[np.int64]) -> tuple[Array, Array]:
+    """Frequencies and amplitudes at the tops of parabolas through the logarithms of maxima and their neighbours."""
+    low, mid, high = (np.log(np.maximum(amplitude[peaks + i], np.finfo(float).tiny)) for i in (-1, 0, 1))
     curvature = low - 2 * mid + high
-    shift = 0.5 * (low - high) / curvature if curvature < 0 else 0.0
-    return Line(float(frequency[i] + shift * frequency[1]), float(np.exp(mid - 0.25 * (low - high) * shift)))
+    shift = np.divide(0.5 * (low - high), curvature, out=np.zeros(len(peaks)), where=curvature < 0)
+    return frequency[peaks] + shift * frequency[1], np.exp(mid - 0.25 * (low - high) * shift)

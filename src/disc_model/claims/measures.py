@@ -16,7 +16,7 @@ from disc_model.analysis.classify import FEWEST, Kind, Motion, motion_of, stick_
 from disc_model.analysis.poincare import distinct_points
 from disc_model.analysis.spectra import Line
 from disc_model.claims.cases import SEPARATED
-from disc_model.claims.model import STRETCH, CaseView, Finding, Missing, Range, finding, undecided
+from disc_model.claims.model import STRETCH, Absent, CaseView, Finding, Missing, Range, finding, undecided
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.parameters import Parameters
 
@@ -244,11 +244,11 @@ def loudest(found: Iterable[Line], count: int) -> list[Line]:
 
 
 def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -> Line:
-    """The strongest line of the disc's point no further than `within` Hz from a frequency; raises `Missing`."""
+    """The strongest line of the disc's point no further than `within` Hz from a frequency; raises `Absent`."""
     try:
         return spectra.strongest(samples["time"].values, samples["w_point"].values, near, within)
     except ValueError as error:
-        raise Missing(f"case {case.name}: {error} in w_point") from None
+        raise Absent(f"case {case.name}: {error} in w_point") from None
 
 
 def trajectory_change(case: CaseView) -> tuple[str, bool]:

@@ -27,6 +27,10 @@ STRETCHES, STRETCH, STEADY = 3, 20.0, 0.01
 than 1 % of the widest. What grows or decays by 3e-4/s or more does not pass."""
 
 
+class Absent(Missing):
+    """The evidence is there, and what a claim finds in it is not: the claim does not hold."""
+
+
 @dataclass(frozen=True)
 class Finding:
     """Outcome of a check: what we found, whether the claim holds, and what should be known besides."""
@@ -191,7 +195,7 @@ class Claim:
         try:
             return self.check(*evidence)
         except Missing as missing:
-            return Finding("", f"{NOT_COMPUTED}: {missing}")
+            return _without(missing)
 
     def evaluate(self, cases: Mapping[str, CaseView]) -> Finding:
         """Check the claim; without the evidence it needs, the verdict says what is missing."""
@@ -208,7 +212,14 @@ class Claim:
             found = self.check(*needed.values(), *scans)
             return _of_steady_state(found, [case for name, case in needed.items() if self.needs[name].steady])
         except Missing as missing:
-            return Finding("", f"{NOT_COMPUTED}: {missing}")
+            return _without(missing)
+
+
+def _without(missing: Missing) -> Finding:
+    """What follows from evidence that is not there, or does not have what was looked for."""
+    if isinstance(missing, Absent):
+        return Finding(str(missing), FAILS)
+    return Finding("", f"{NOT_COMPUTED}: {missing}")
 
 
 def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:

@@ -29,6 +29,9 @@ TABLE_2 = {
 LISTED = tuple(value for value, _ in TABLE_2.values())
 SEARCHED = 2.0
 """How far from a frequency of Table 2 a line is looked for, Hz; a quarter of it from the drive's."""
+COMBINED = 0.3
+"""Hz; a line no further than this from n f_s + m f_Omega is one of these."""
+UNNAMED = "no n f_s + m f_Ω"
 TABLE_1 = {
     "a": 0.044,
     "b": 0.12,
@@ -64,8 +67,8 @@ def table_2(case: CaseView) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        symbol, paper_Hz, ours_Hz, level_dB (relative to the drive's line), ours_is, predicted_Hz (of that
-        combination), paper_says
+        symbol, paper_Hz, ours_Hz, level_dB (relative to the drive's line), ours_is (`UNNAMED` if no
+        combination is within `COMBINED` of the line), predicted_Hz (of the nearest combination), paper_says
     """
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
     found = table_2_lines(case)
@@ -73,7 +76,7 @@ def table_2(case: CaseView) -> pd.DataFrame:
     return _beside_the_papers(
         ours_Hz=[line.frequency for line in found],
         level_dB=[20 * np.log10(line.amplitude / found[0].amplitude) for line in found],
-        ours_is=[str(name) for name in names],
+        ours_is=[str(name) if abs(name.deviation) <= COMBINED else UNNAMED for name in names],
         predicted_Hz=[name.frequency for name in names],
     )
 
