@@ -82,6 +82,14 @@ def test_growth_is_read_from_releases(rate: float) -> None:
     assert math.isnan(simulated.growth(times[:10]))
 
 
+def test_a_drift_is_not_taken_for_the_oscillation() -> None:
+    """The lowest frequencies were cut off, and the drift was highest at the cut."""
+    k = np.arange(400)
+    gaps = 0.015 + 1e-6 * np.exp(0.1 * 0.015 * k) * np.cos(0.9 * k) + 1e-5 * np.exp(-0.01 * k)
+    # what the drift leaves in the fit, which has none
+    assert simulated.growth(np.cumsum(gaps)) == pytest.approx(0.1, abs=0.005)
+
+
 def onset_of(threshold: float, outcome: Outcome = Outcome.FINISHED, seconds: float = 1.0) -> Found:
     def solve(problem: Problem, budget: float) -> MethodResult:
         if budget < seconds:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import curve_fit
+from scipy.signal import find_peaks
 
 from disc_model.analysis.sobol import share
 from disc_model.benchmarks.answers import questions
@@ -157,8 +158,13 @@ def growth(releases: Array) -> float:
     if size == 0.0:
         return math.nan
     y = (gaps - gaps.mean()) / size
-    spectrum = np.fft.rfft(y * np.hanning(len(y)), 8 * len(y))
-    line = int(np.argmax(np.abs(spectrum[8:]))) + 8
+    spectrum = np.abs(np.fft.rfft(y * np.hanning(len(y)), 8 * len(y)))
+    # of the whole spectrum: a slow drift stands highest where it would be cut off
+    peaks = find_peaks(spectrum)[0]
+    peaks = peaks[peaks >= 8]
+    if not peaks.size:
+        return math.nan
+    line = peaks[np.argmax(spectrum[peaks])]
     omega = 2.0 * math.pi * line / (8 * len(y)) * (len(times) - 1) / float(np.ptp(times))
 
     def model(t: Array, rate: float, omega: float, cosine: float, sine: float, rest: float) -> Array:
