@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disc_model import Parameters, floquet, plate_modes, simulate
+from disc_model import ParameterError, Parameters, floquet, plate_modes, simulate, steady_sliding
+from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
+from disc_model.stability.sliding import SteadySliding
 from tests.stability.test_settling import paradox
 
 STICK = Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0, D_star=2e-4)
@@ -30,6 +32,55 @@ def test_exponents_of_stick_are_those_of_the_coupled_mode():
     assert not found.chaotic
     assert found.separations == 0
     assert found.final_state.time == pytest.approx(0.2)
+
+
+@pytest.mark.filterwarnings("error")
+def test_exponents_that_do_not_exist_were_zero_and_converged():
+    """In stick f is 0, and u and u' are the disc's: of six coordinates of the state three are left."""
+    found = lyapunov_exponents(STICK, 0.1, count=6, interval=0.005)
+    assert np.isfinite(found.exponents[:3]).all()
+    assert found.exponents[3:].tolist() == [-np.inf] * 3
+    assert not found.converged[3:].any()
+    assert np.isnan(found.errors[3:]).all()
+    assert not found.chaotic
+    for count, left_out in ((7, False), (6, True)):
+        with pytest.raises(ParameterError, match=f"^count={count}: must be a whole number from 1 to {count - 1}$"):
+            lyapunov_exponents(STICK, 0.1, count=count, leave_out_trivial=left_out)
+
+
+@pytest.mark.compiled
+def test_exponents_of_few_modes_drifted_to_zero():
+    """Rounding in lanes that hold no mode did not decay with what does. One exponent is 0, and there is none of f."""
+    p = Parameters(N=200, Omega=20, n_diameters=1, c=5.0, D_star=1e-3)
+    cycle = floquet(p)
+    rates = cycle.exponents.real
+    found = lyapunov_exponents(p, 4.0, count=8, initial_state=cycle.state).exponents
+    # 0 but for the fraction of a period at the end, ln of the rate's range over 4 s
+    assert found[0] == pytest.approx(0.0, abs=0.5)
+    # pairs that are 0.4/s apart mix for 4 s, their sum does not; periods and intervals are no multiples
+    assert found[1:5].sum() == pytest.approx(rates[:4].sum(), abs=0.5)
+    assert found[5:7].sum() == pytest.approx(rates[4:].sum(), abs=0.5)
+    assert found[7] == -np.inf
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("n_diameters", [0, 4])
+def test_exponents_of_steady_sliding_are_its_eigenvalues(n_diameters: int):
+    """Without a switch u, u' of columns stayed as they were, and what remained when the rest died out was they."""
+    p = Parameters(N=100, Omega=40, n_diameters=n_diameters, c_p=10.0, D_star=1e-3)
+    sliding = steady_sliding(p)
+    assert sliding.stable
+    found = lyapunov_exponents(p, 2.0, count=4, initial_state=sliding_state(p, sliding))
+    # either of a pair oscillates, which leaves a fraction of 2 s
+    pairs = sliding.eigenvalues.real[:4].reshape(2, 2).sum(axis=1)
+    np.testing.assert_allclose(found.exponents.reshape(2, 2).sum(axis=1), pairs, atol=0.05)
+
+
+def sliding_state(p: Parameters, sliding: SteadySliding) -> State:
+    """The equilibrium as a state."""
+    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
+    height = float(plate_modes(p)["psi"] @ sliding.a)
+    return State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
 
 
 def test_exponents_from_a_state_after_a_transient():

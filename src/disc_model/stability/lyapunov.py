@@ -9,14 +9,15 @@ column is then the motion's own rate, which stays that, and the others are kept 
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import layout, outcomes, saltation, tangent, variational
-from disc_model.errors import StatusBase, broken, refuse
-from disc_model.parameters import Parameters
+from disc_model.errors import StatusBase, broken, refuse, shown
+from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 from disc_model.stability.return_map import OUTCOMES, Array, case_faults
@@ -33,6 +34,8 @@ class LyapunovStatus(StatusBase):
 
 
 _BLOCKS = 16
+MOST_INTERVALS = 10_000_000
+"""Orthonormalisations in the time over which rates are averaged: hours of work, and 600 MB of logarithms."""
 CONVERGED = 0.05, 0.002
 """An exponent has converged if the first half of the time gives the same as the second, to this share or this much in
 1/s."""
@@ -45,9 +48,11 @@ class Lyapunov:
     Attributes
     ----------
     status : how the computation ended; otherwise the exponents are those of the time covered
-    exponents : 1/s, shape (count,), largest first
+    exponents : 1/s, shape (count,), largest first. -inf stands for a direction in which small changes vanish in
+        finite time: stick forgets f, and rigid contact u and u'. It also stands for one in which they fall below the
+        tolerance within one interval, which a shorter `interval` resolves
     errors : 1/s, shape (count,): the standard error from the scatter between 16 stretches of the time covered, or the
-        difference between its two halves if that is larger, as while the columns still turn
+        difference between its two halves if that is larger, as while the columns still turn; nan for -inf
     duration : s, time covered after the transient
     separations : losses of contact in that time
     history : 1/s, shape (16, count), the exponents of the stretches
@@ -66,9 +71,10 @@ class Lyapunov:
 
     @property
     def converged(self) -> NDArray[np.bool_]:
-        """Whether both halves of the time give the same exponent, shape (count,); see `CONVERGED`."""
+        """Whether both halves of the time give the same finite exponent, shape (count,); see `CONVERGED`."""
         share, least = CONVERGED
-        return np.asarray(_drift(self.history) <= np.maximum(share * np.abs(self.exponents), least))
+        same = _drift(self.history) <= np.maximum(share * np.abs(self.exponents), least)
+        return np.asarray(same & np.isfinite(self.exponents))
 
     @property
     def chaotic(self) -> bool:
@@ -95,8 +101,9 @@ def lyapunov_exponents(
     duration : s, over which rates are averaged, after the transient and after as much time again, in which the columns
         turn into their directions: with rates that differ by 0.05/s that takes tens of seconds
     transient : s, simulated first and left out
-    count : 1 to 8, or to 7 if the trivial one is left out
-    interval : s, between orthonormalisations
+    count : 1 to 8, and no more than the state has coordinates: 4 per pair of modes, 2 per axisymmetric one, and psi, f,
+        u, u'; one less if the trivial one is left out
+    interval : s, between orthonormalisations; at most `MOST_INTERVALS` of them make the duration
     initial_state : None is the published start
     tol : of the series
     leave_out_trivial : leave out the exponent along the motion, which is zero; there is none if no switch occurs, as in
@@ -107,7 +114,8 @@ def lyapunov_exponents(
     ParameterError
         Bad input; the message names each argument, its value and the rule.
     """
-    _check(p, duration, transient, count, interval, leave_out_trivial)
+    _check(p, duration, transient, count, interval, initial_state, tol, leave_out_trivial)
+    duration, transient, interval, tol = float(duration), float(transient), float(interval), float(tol)
     start = initial_state
     if transient > 0:
         begin = 0.0 if initial_state is None else initial_state.time
@@ -121,11 +129,17 @@ def lyapunov_exponents(
     if start is not None:
         write_state(case, start, state)
     t = tangent.build_tangent(model, layout.WIDTH, order)
-    metric, rows = _metric(model), tangent.n_rows(model)
-    columns = t.now.reshape(rows, layout.WIDTH)
+    columns, rows = t.now.reshape(-1, layout.WIDTH), _coordinates(model)
+    metric = _metric(model)[rows, None]
     columns[:] = 0.0
     asked, count = count, count + leave_out_trivial
-    columns[:, :count] = _first_columns(model, state, metric, count)
+    columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
+    if state.x[layout.PHASE] == layout.STICK:
+        columns[tangent.F_ROW - tangent.N_SLIDER_ROWS] = 0.0
+    # what a column has below its own tolerance, or rounding, it does not have
+    vanished = max(10 * tolerance, 1e-12)
+    _bind(model, state, t)
+    _, left = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
     if leave_out_trivial:
         saltation.rates(model, state, t.before)
         along = t.before.reshape(columns.shape)[:, 0]
@@ -134,7 +148,7 @@ def lyapunov_exponents(
     steps = max(_BLOCKS, math.ceil(duration / interval))
     longest = tangent.longest_step(order, 10 * tolerance)
     course = variational.Course(order, tolerance, longest, duration / steps, 0, may_separate=True, tangent=True)
-    logs, status = np.zeros((steps, count)), LyapunovStatus.OK
+    logs, status = np.full((steps, count), -math.inf), LyapunovStatus.OK
     done = 0
     for i in range(-steps, steps):
         if i == 0:
@@ -143,14 +157,37 @@ def lyapunov_exponents(
         if code != outcomes.TIME_OVER or not np.all(np.isfinite(columns)):
             status = LyapunovStatus.NON_FINITE if code == outcomes.TIME_OVER else LyapunovStatus(OUTCOMES[code])
             break
-        q, r = np.linalg.qr(columns[:, :count] * metric[:, None])
-        size = np.abs(np.diag(r))
-        columns[:, :count] = q / metric[:, None]
+        _bind(model, state, t)
+        growth, left = _orthonormalise(columns, rows, metric, left, vanished)
         if i >= 0:
-            with np.errstate(divide="ignore"):
-                logs[i] = np.log(size)
+            logs[i, left] = growth
             done = i + 1
     return _summary(status, logs[:done], duration / steps, asked, t.log, read_state(case, state), leave_out_trivial)
+
+
+def _orthonormalise(
+    columns: Array, rows: NDArray[np.intp], metric: Array, left: NDArray[np.intp], vanished: float
+) -> tuple[Array, NDArray[np.intp]]:
+    """Make those columns orthonormal that are left, and zero those that depend on the others.
+
+    rows, metric : of the coordinates, (n,); see `_metric`, (n, 1)
+    left : numbers of columns
+    vanished : length, relative to a column's own, of a rest that counts as none
+
+    Returns
+    -------
+    logarithms of growth and numbers of the columns that are still left, one shape (at most as many as before,)
+    """
+    while True:
+        q, r = np.linalg.qr(columns[np.ix_(rows, left)] * metric)
+        lengths = np.abs(np.diag(r))
+        dependent = np.flatnonzero(lengths <= vanished * np.linalg.norm(r, axis=0))
+        if not dependent.size:
+            columns[np.ix_(rows, left)] = q / metric
+            return np.log(lengths), left
+        # one at a time: those behind it were made orthogonal to a direction that means nothing
+        columns[:, left[dependent[0]]] = 0.0
+        left = np.delete(left, dependent[0])
 
 
 def _summary(
@@ -161,7 +198,8 @@ def _summary(
     if len(logs) < _BLOCKS:
         return _nothing(status, count, covered, end)
     history = np.array([np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)])
-    errors = np.maximum(np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS), _drift(history))
+    with np.errstate(invalid="ignore"):  # of -inf
+        errors = np.maximum(np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS), _drift(history))
     exponents, along = np.sum(logs, axis=0) / covered, math.nan
     order = np.argsort(-exponents, kind="stable")
     # a motion that has come to rest, or slides, has no trivial one
@@ -175,7 +213,8 @@ def _summary(
 def _drift(history: Array) -> Array:
     """Difference between the means of the first stretches and of the last: (count,)."""
     one, two = np.split(history, 2)
-    return np.asarray(np.abs(np.mean(one, axis=0) - np.mean(two, axis=0)))
+    with np.errstate(invalid="ignore"):  # of -inf
+        return np.asarray(np.abs(np.mean(one, axis=0) - np.mean(two, axis=0)))
 
 
 def _nothing(status: LyapunovStatus, count: int, covered: float, state: State) -> Lyapunov:
@@ -184,16 +223,45 @@ def _nothing(status: LyapunovStatus, count: int, covered: float, state: State) -
     return Lyapunov(status, nan, nan, covered, 0, np.full((_BLOCKS, count), math.nan), state)
 
 
-def _check(p: object, duration: float, transient: float, count: int, interval: float, leave_out_trivial: bool) -> None:
-    most = layout.WIDTH - leave_out_trivial
-    counts = isinstance(count, int) and 1 <= count <= most
-    wrong = broken(
-        (0 < duration < math.inf, "duration", duration, "must be finite and > 0"),
-        (0 <= transient < math.inf, "transient", transient, "must be finite and >= 0"),
+def _check(
+    p: Parameters,
+    duration: float,
+    transient: float,
+    count: int,
+    interval: float,
+    initial_state: State | None,
+    tol: float,
+    leave_out_trivial: bool,
+) -> None:
+    """Raise one ParameterError that lists every fault."""
+    faults = case_faults(p, "lyapunov_exponents")
+    lasts = _is_within(duration, sys.float_info.min)
+    most = layout.WIDTH if faults else min(layout.WIDTH, len(_coordinates(engine_case(p).model)))
+    most -= bool(leave_out_trivial)
+    counts = isinstance(count, int | np.integer) and not isinstance(count, bool) and 1 <= count <= most
+    shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
+    starts = initial_state is None or isinstance(initial_state, State)
+    leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
+    faults += broken(
+        (lasts, "duration", duration, "must be finite and > 0"),
+        (_is_within(transient, 0), "transient", transient, "must be finite and >= 0"),
         (counts, "count", count, f"must be a whole number from 1 to {most}"),
-        (0 < interval < math.inf, "interval", interval, "must be finite and > 0"),
+        (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {shown(shortest)}"),
+        (starts, "initial_state", initial_state, "must be a State"),
+        (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
-    refuse([*case_faults(p, "lyapunov_exponents"), *wrong])
+    refuse([*faults, *limits_faults("tol", tol, TOLERANCES)])
+
+
+def _is_within(value: object, least: float) -> bool:
+    """Whether a value is a finite number, and not too small."""
+    return is_number(value) and least <= value <= sys.float_info.max  # type: ignore[operator]
+
+
+def _coordinates(model: layout.Model) -> NDArray[np.intp]:
+    """Rows of a column but for those of lanes that hold no mode, in which rounding would stay for ever."""
+    lanes, width = np.flatnonzero(model.shift), len(model.force)
+    return np.concatenate([lanes, width + lanes, np.arange(2 * width, tangent.n_rows(model))])
 
 
 def _metric(model: layout.Model) -> Array:
@@ -206,19 +274,7 @@ def _metric(model: layout.Model) -> Array:
     return np.concatenate([np.sqrt(stiffness), one, np.sqrt(model.stiffness0), one0, slider, height])
 
 
-def _first_columns(model: layout.Model, state: layout.State, metric: Array, count: int) -> Array:
-    """Directions that the state can move in: (rows, count), arbitrary but always the same."""
-    rows, width, n0 = len(metric), len(model.force), len(model.force0)
-    columns = np.random.default_rng(1).standard_normal((rows, count)) / metric[:, None]
-    lanes = np.flatnonzero(model.shift == 0)
-    columns[lanes], columns[width + lanes] = 0.0, 0.0
-    if state.x[layout.PHASE] == layout.STICK:
-        columns[-tangent.N_SLIDER_ROWS + tangent.F_ROW] = 0.0
-    if state.x[layout.PHASE] != layout.SEPARATION and len(model.give) != 1:
-        z, e = columns[:width], columns[width : 2 * width]
-        y, g = columns[2 * width : 2 * width + n0], columns[2 * width + n0 : 2 * width + 2 * n0]
-        f, df = state.x[layout.SPEED], columns[-3]
-        columns[-2] = model.force @ z + model.force0 @ y
-        columns[-1] = model.force @ e + model.force0 @ g + f * (model.slope @ z) + df * (model.slope @ state.z)
-    q, _ = np.linalg.qr(columns * metric[:, None])
-    return np.asarray(q / metric[:, None], dtype=float)
+def _bind(model: layout.Model, state: layout.State, t: tangent.Tangent) -> None:
+    """Set u, u' of columns to those of the disc in rigid contact; between switches they are not carried along there."""
+    if state.x[layout.PHASE] != layout.SEPARATION:
+        saltation.slider_rows(model, state, t)

@@ -20,7 +20,9 @@ CONVERGED = ("unknown", "no", "yes")
 _EACH = ("exponent_number",)
 COLUMNS = {
     "status": Column(*STATUS),
-    "exponent": Column("s-1", "Lyapunov exponent, the one along the motion left out", dims=_EACH),
+    "exponent": Column(
+        "s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish", dims=_EACH
+    ),
     "exponent_error": Column(
         "s-1", "the larger of its standard error and the difference between both halves", dims=_EACH
     ),
