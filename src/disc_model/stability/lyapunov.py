@@ -20,7 +20,7 @@ from disc_model.errors import StatusBase, broken, refuse, shown
 from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
-from disc_model.stability.return_map import OUTCOMES, Array, case_faults
+from disc_model.stability.return_map import OUTCOMES, Array, case_faults, longest_step
 
 
 class LyapunovStatus(StatusBase):
@@ -146,7 +146,7 @@ def lyapunov_exponents(
         if np.any(along):
             columns[:, 0] = along
     steps = max(_BLOCKS, math.ceil(duration / interval))
-    longest = tangent.longest_step(order, 10 * tolerance)
+    longest = longest_step(model, order, 10 * tolerance)
     course = variational.Course(order, tolerance, longest, duration / steps, 0, may_separate=True, tangent=True)
     logs, status = np.full((steps, count), -math.inf), LyapunovStatus.OK
     done = 0

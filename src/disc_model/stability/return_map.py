@@ -37,6 +37,9 @@ PATIENT = 20.0
 COARSE, COARSE_ORDER, COLUMNS_COARSE = 1e-9, 20, 1e-5
 """Tolerance and order of the series and tolerance of the columns where a Jacobian only has to point the right way."""
 
+USUAL_RATE = 1.25
+"""Times that of the disc's highest frequency: so fast a rate, as of all published cases, needs no shorter steps."""
+
 RETURNED = outcomes.RETURNED
 OUTCOMES = {
     outcomes.RETURNED: "returned",
@@ -56,6 +59,19 @@ def case_faults(p: object, analysis: str) -> list[str]:
     return broken(
         (p.n_diameters >= 0, "n_diameters", p.n_diameters, f"must be >= 0: {analysis} needs modes of the disc")
     )
+
+
+def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
+    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, and shorter on a stiff system.
+
+    That takes the time unit for one radian of the fastest oscillation. Strong dampers, springs on a light slider and
+    fast drives are faster, and a steady motion, which sizes its own steps, shows nothing of them.
+    """
+    damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
+    stiffness = max(model.unit**-2, max(model.k, model.k_p) / model.m)
+    fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + model.shift.max() * model.Omega
+    rate = fastest * model.unit
+    return columns.longest_step(order, tolerance) / (rate if rate > USUAL_RATE else 1.0)
 
 
 class Counts(NamedTuple):
@@ -185,7 +201,8 @@ class ReturnMap:
         """
         t = self._tangent
         order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
-        longest = columns.longest_step(order, COLUMNS_COARSE if coarse else 10 * tolerance) if tangent else math.inf
+        finest = COLUMNS_COARSE if coarse else 10 * tolerance
+        longest = longest_step(self.model, order, finest) if tangent else math.inf
         course = variational.Course(
             order, tolerance, longest, releases * self.longest, releases, bool(may_separate), bool(tangent)
         )
