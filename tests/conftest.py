@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+import numpy as np
 import pytest
 
 from tests import needs, tally
@@ -21,6 +22,15 @@ def follow_stick_by_series(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable
 
     yield change
     engine_case.cache_clear()
+
+
+@pytest.fixture
+def seed(request: pytest.FixtureRequest) -> int:
+    """Of a random search: that of the command line, or another each time; a test that fails shows it."""
+    found = request.config.getoption("--hypothesis-seed")
+    chosen = np.random.SeedSequence().entropy % 2**32 if found is None else int(found)
+    print(f"drawn by --hypothesis-seed={chosen}")
+    return chosen
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

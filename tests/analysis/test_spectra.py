@@ -143,18 +143,30 @@ SKIRTS = {
 }
 
 
-@pytest.mark.parametrize("skirt", SKIRTS)
-def test_what_stands_on_the_skirt_of_a_line_is_no_evidence(skirt: str) -> None:
-    """Half of them passed by less than 1e-3, and so did what the spectrum does not have: the level was looked for
-    farther away than the skirt reaches."""
-    rng = np.random.default_rng(4)
-    for _ in range(20):
+def check_skirts(skirt: str, rng: np.random.Generator, count: int) -> None:
+    """What is found on the skirt of a line proves nothing; what stands on it truly does."""
+    for _ in range(count):
         values = SKIRTS[skirt](NEAR - WITHIN - rng.uniform(0.3, 1), rng) + 1e-4 * rng.standard_normal(SHORT.size)
-        assert spectra.chance(SHORT, values, spectra.Line(NEAR + rng.uniform(-WITHIN, WITHIN), 10.0), WITHIN) > 1e-3
+        # of 30,000 lines the least likely had 0.02
         for line in spectra.lines(SHORT, values, above=NEAR - WITHIN, below=NEAR + WITHIN, floor=0.0):
             assert spectra.chance(SHORT, values, line, WITHIN) > 1e-3
-        resolved = values + 0.3 * sine(NEAR)
+        resolved = values + sine(NEAR)
         assert spectra.chance(SHORT, resolved, spectra.strongest(SHORT, resolved, NEAR, 0.5), WITHIN) < 1e-9
+
+
+@pytest.mark.parametrize("skirt", SKIRTS)
+def test_what_stands_on_the_skirt_of_a_line_is_no_evidence(skirt: str) -> None:
+    """Half of them passed by less than 1e-3: the level was looked for farther away than the skirt reaches."""
+    check_skirts(skirt, np.random.default_rng(4), 20)
+
+
+def test_a_line_that_the_spectrum_does_not_have_is_no_evidence() -> None:
+    """A probability below 1e-99 was published for one."""
+    values = sine(NEAR) + 1e-4 * np.random.default_rng(5).standard_normal(SHORT.size)
+    assert spectra.chance(SHORT, values, spectra.Line(NEAR, 10.0), WITHIN) < 1e-9
+    assert spectra.chance(SHORT, values, spectra.Line(NEAR + 0.07, 10.0), WITHIN) == 1.0
+    for noise in np.random.default_rng(6).standard_normal((5, SHORT.size)):
+        assert spectra.chance(SHORT, noise, spectra.Line(NEAR, 10.0), WITHIN) > 1e-3
 
 
 def test_a_line_stands_out_or_it_is_noise() -> None:
@@ -169,3 +181,45 @@ def test_a_line_stands_out_or_it_is_noise() -> None:
     assert spectra.chance(t, np.sin(2 * np.pi * 100.0 * t), spectra.Line(100.0, 1.0), 1.0) == 0.0
     with pytest.raises(ValueError, match="no bin of the spectrum is 1 to 6 Hz from 100 Hz"):
         spectra.chance(t[:100], noise[:100], spectra.Line(100.0, 1.0), 1.0)
+
+
+def random_signal(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Times, values, and frequencies (ascending) and amplitudes of up to twelve lines, far apart, beside weak noise."""
+    rate, duration = rng.choice([1000.0, 2000.0, 4000.0]), rng.uniform(6, 20)
+    time = rng.uniform(0, 500) + np.arange(int(rate * duration)) / rate
+    places = 2.0 * rng.choice(np.arange(2, 200), rng.integers(1, 13), replace=False)
+    f = np.sort(places + rng.uniform(-0.2, 0.2, len(places)))
+    a = np.exp(rng.uniform(np.log(1e-3), 0, len(f)))
+    values = rng.normal() + np.cos(2 * np.pi * np.outer(time, f) + rng.uniform(0, 6, len(f))) @ a
+    return time, values + a.min() * 10 ** rng.uniform(-6, -0.5) * rng.standard_normal(len(time)), f, a
+
+
+@pytest.mark.slow
+def test_random_signals_are_reported_as_they_were_made(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    for _ in range(300):
+        time, values, f, a = random_signal(rng)
+        bins = 1 / (time[-1] - time[0])
+        found = spectra.lines(time, values, floor=0.3 * a.min() / a.max())
+        # of 900 signals the worst were 0.011 bins and 1.2 %
+        assert [line.frequency for line in found] == pytest.approx(f, abs=0.03 * bins)
+        assert [line.amplitude for line in found] == pytest.approx(a, rel=0.03)
+        near, within = rng.uniform(10, 390), rng.uniform(0.2, 3)
+        if np.min(np.abs(np.abs(f - near) - within)) < 0.1 * bins:
+            continue  # on the border
+        inside = np.flatnonzero(np.abs(f - near) < within)
+        try:
+            line = spectra.strongest(time, values, near, within)
+        except ValueError:
+            assert not inside.size
+        else:
+            right = inside.size and abs(line.frequency - f[inside[np.argmax(a[inside])]]) < 0.03 * bins
+            # of 2000 answers in noise none was below 1e-3
+            assert spectra.chance(time, values, line, within) < 1e-6 if right else not inside.size
+            assert right or spectra.chance(time, values, line, within) > 1e-4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("skirt", SKIRTS)
+def test_nothing_on_a_random_skirt_is_evidence(skirt: str, seed: int) -> None:
+    check_skirts(skirt, np.random.default_rng(seed), 300)

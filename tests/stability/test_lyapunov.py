@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 from disc_model import ParameterError, Parameters, floquet, plate_modes, simulate, steady_sliding
 from disc_model.simulation.result import State
+from disc_model.stability import lyapunov
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
 from disc_model.stability.sliding import SteadySliding
 from tests.stability.test_settling import paradox
@@ -188,3 +190,136 @@ def test_through_separations_the_motion_itself_is_the_simulators():
     assert np.allclose(found.final_state.a, run.final_state.a, rtol=0, atol=1e-6 * np.max(np.abs(run.final_state.a)))
     assert np.all(np.isfinite(found.exponents))
     assert found.history.shape == (16, 2)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Systems whose exponents are known
+
+
+def exponents_of(jacobians: Iterable[np.ndarray], count: int) -> np.ndarray:
+    """Of a map with these Jacobians one after the other, by the functions that `lyapunov_exponents` uses; per step."""
+    columns, left, logs = np.random.default_rng(1).standard_normal((8, count)), np.arange(count), []
+    for jacobian in jacobians:
+        n = len(jacobian)
+        columns[:n] = jacobian @ columns[:n]
+        growth, left = lyapunov._orthonormalise(columns, np.arange(n), np.ones((n, 1)), left, 1e-12)
+        logs.append(np.full(count, -np.inf))
+        logs[-1][left] = growth
+    half = np.array(logs[len(logs) // 2 :])
+    return lyapunov._summary(LyapunovStatus.OK, half, 1.0, count, np.zeros(16), None, False).exponents
+
+
+@pytest.mark.slow
+def test_exponents_of_random_linear_maps_are_those_of_their_eigenvalues(seed: int):
+    """Some of them are 0, which no direction survives."""
+    rng = np.random.default_rng(seed)
+    for _ in range(200):
+        n = int(rng.integers(2, 9))
+        left = int(rng.integers(1, n + 1))
+        rates = np.cumsum(rng.uniform(0.2, 0.8, left)) - 2.0
+        matrix = np.zeros((n, n))
+        matrix[:left] = np.triu(rng.normal(size=(left, n)), 1)
+        matrix[range(left), range(left)] = rng.choice([-1, 1], left) * np.exp(rng.permutation(rates))
+        q, _ = np.linalg.qr(rng.normal(size=(n, n)))
+        found = exponents_of([q @ matrix @ q.T] * 400, n)
+        # what is left of columns that turn as exp(-0.2 i) from step 200 on, and rounding
+        np.testing.assert_allclose(found, np.append(rates[::-1], [-np.inf] * (n - left)), atol=1e-6)
+
+
+def henon(steps: int) -> Iterator[np.ndarray]:
+    """x -> 1 - 1.4 x^2 + y, y -> 0.3 x."""
+    x, y = 0.1, 0.1
+    for _ in range(steps):
+        yield np.array([[-2.8 * x, 1.0], [0.3, 0.0]])
+        x, y = 1 - 1.4 * x * x + y, 0.3 * x
+
+
+def lorenz(steps: int, h: float) -> Iterator[np.ndarray]:
+    """sigma = 10, rho = 28, beta = 8/3, by fourth-order Runge-Kutta steps of the motion and its Jacobian at once."""
+
+    def rate(state: np.ndarray) -> np.ndarray:
+        (x, y, z), change = state[:, 0], state[:, 1:]
+        slope = np.array([[-10.0, 10.0, 0.0], [28.0 - z, -1.0, -x], [y, x, -8 / 3]])
+        return np.column_stack([[10 * (y - x), x * (28 - z) - y, x * y - 8 / 3 * z], slope @ change])
+
+    state = np.column_stack([[1.0, 1.0, 20.0], np.eye(3)])
+    for _ in range(steps):
+        a = rate(state)
+        b = rate(state + 0.5 * h * a)
+        c = rate(state + 0.5 * h * b)
+        state = state + h / 6 * (a + 2 * b + 2 * c + rate(state + h * c))
+        yield state[:, 1:].copy()
+        state[:, 1:] = np.eye(3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("jacobians", "step", "expected", "total"),
+    [
+        # Sprott, Chaos and Time-Series Analysis (2003), appendix A; a step shrinks volumes to 0.3 of themselves
+        (lambda: henon(40_000), 1.0, [0.419, -1.623], np.log(0.3)),
+        # their logarithm falls by sigma + 1 + beta a second
+        (lambda: lorenz(30_000, 0.01), 0.01, [0.906, 0.0, -14.572], -41 / 3),
+    ],
+    ids=["henon", "lorenz"],
+)
+def test_exponents_of_chaos_are_the_published_ones(jacobians, step: float, expected: list[float], total: float):
+    found = exponents_of(jacobians(), len(expected)) / step
+    # the scatter of 20,000 steps, and of 150 s
+    np.testing.assert_allclose(found, expected, atol=0.05)
+    # the truncation of steps of 0.01 s leaves 1e-4
+    assert found.sum() == pytest.approx(total, abs=1e-3)
+
+
+def rates_of_stick(p: Parameters) -> np.ndarray:
+    """Real parts of the eigenvalues of stick, 1/s: the modes along the slider, coupled by it, those across, and psi."""
+    modes = plate_modes(p)
+    psi, omega, paired = modes["psi"].to_numpy(), modes["omega"].to_numpy(), modes["diameters"].to_numpy() > 0
+    damping, n = p.D_star / p.D * omega**2, len(psi)
+    mass, damper, stiffness = (
+        np.diag(own) + slider * np.outer(psi, psi) for own, slider in ((psi**0, p.m), (damping, p.c), (omega**2, p.k))
+    )
+    along = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(mass, each) for each in (stiffness, damper)]])
+    across = [np.roots([1.0, *each]) for each in zip(damping[paired], omega[paired] ** 2, strict=True)]
+    return np.concatenate([np.linalg.eigvals(along), *across, [0.0]]).real
+
+
+def random_case(rng: np.random.Generator, **fixed: float) -> Parameters:
+    """With damping that tells exponents apart in seconds."""
+    ranges = {"D_star": (1e-4, 1e-2), "m": (0.03, 0.3), "k": (1e4, 1e5), "k_p": (1e4, 1e5), "N": (50, 500)}
+    drawn = {name: float(np.exp(rng.uniform(*np.log(limits)))) for name, limits in ranges.items()}
+    return Parameters(**drawn, c=rng.uniform(0, 5), n_diameters=int(rng.integers(0, 6)), **fixed)
+
+
+@pytest.mark.slow
+@pytest.mark.compiled
+@pytest.mark.parametrize("motion", ["stick", "sliding", "cycle"])
+def test_exponents_of_random_motions_are_known_otherwise(motion: str, seed: int):
+    """Of a disc that turns too slowly to slip by its modes, of sliding by eigenvalues, of a cycle by multipliers."""
+    rng, duration = np.random.default_rng(seed), 4.0
+    for _ in range(25):
+        start, stage = None, 1  # coordinates beside those of the modes: psi, and f in slip
+        if motion == "stick":
+            p = random_case(rng, Omega=1e-4)
+            expected = rates_of_stick(p)
+        elif motion == "sliding":
+            p = random_case(rng, Omega=rng.uniform(10, 40), c_p=rng.uniform(0.5, 10))
+            sliding = steady_sliding(p)
+            if not sliding.growth_rate < -0.5:
+                continue
+            start, expected, stage = sliding_state(p, sliding), sliding.eigenvalues.real, 2
+        else:
+            p = random_case(rng, Omega=rng.uniform(2, 20), c_p=rng.uniform(0, 0.2))
+            cycle = floquet(p)
+            if cycle.state is None or not cycle.stable:
+                continue
+            start, expected = cycle.state, np.append(cycle.exponents.real, 0.0)
+        count = min(8, len(expected) - stage + 4)
+        found = lyapunov_exponents(p, duration, count=count, interval=0.005, initial_state=start).exponents
+        expected = np.append(np.sort(expected)[::-1], -np.inf)
+        assert (found[len(expected) - 1 :] == -np.inf).all(), p
+        for n in range(1, min(count + 1, len(expected))):
+            if expected[n - 1] - expected[n] > 20 / duration:
+                # exact but for a cycle, where a fraction of a period is left over: of 200 the worst were 1.9
+                off = duration * abs(found[:n].sum() - expected[:n].sum())
+                assert off < (4.0 if motion == "cycle" else 1e-3), (p, n)

@@ -132,10 +132,10 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     -----
     The level is the largest of the medians of the power over four stretches: on either side of the line, from its main
     lobe to the nearer end of `AROUND`, and from there to the farther end. A line on the skirt of a stronger one is
-    therefore compared with that skirt. Other lines do not count as long as they are few. The power of noise in a bin is
-    distributed exponentially: it exceeds x medians with the probability 2^-x. Bins are taken for independent, and the
-    probability is too large because the window correlates them. Raises ValueError if there is no bin in the
-    neighbourhood: the samples are too short.
+    therefore compared with that skirt. Other lines do not count as long as they are few and farther than the nearer
+    end. The power of noise in a bin is distributed exponentially: it exceeds x medians with the probability 2^-x. Bins
+    are taken for independent, and the probability is too large because the window correlates them. Raises ValueError
+    if there is no bin in the neighbourhood: the samples are too short.
     """
     near, far = AROUND
     frequency, amplitude = amplitude_spectrum(time, values)
