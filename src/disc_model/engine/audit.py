@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from . import layout
-from .compile import kernel
+from .compile import helper
 from .dense_output import force_at, move_to
 from .switches import disc_point, slider_motion, spring_force
 
@@ -31,7 +31,7 @@ STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
 TRANSVERSE_TURNOVER, INPLANE_TURNOVER, N_SUMS = range(6, 9)
 
 
-@kernel
+@helper
 def transverse_energy(model, state, phase):
     """Energy of the disc, of the slider's vertical motion and of a compliant contact, J.
 
@@ -53,14 +53,14 @@ def transverse_energy(model, state, phase):
     return 0.5 * energy + 0.5 * model.m * v * v + 0.5 * model.k * raised**2 + layout.load_now(model, state) * raised
 
 
-@kernel
+@helper
 def inplane_energy(model, state):
     """Energy of the slider's motion in the plane, J."""
     x = state.x
     return 0.5 * model.r_0**2 * (model.m * x[layout.SPEED] ** 2 + model.k_p * x[layout.PSI] ** 2)
 
 
-@kernel
+@helper
 def _powers_in(model, state, phase, direction, P):
     """Power into the transverse and the in-plane motion, and the sums of the moduli of their parts, W."""
     u, v, slope = slider_motion(model, state)
@@ -83,7 +83,7 @@ def _powers_in(model, state, phase, direction, P):
     return driven - lost, supplied - rubbed - damped, abs(driven) + lost, abs(supplied) + abs(rubbed) + damped
 
 
-@kernel
+@helper
 def audit_step(model, s, order, x_end, phase, direction, probe, audit):
     """Add the residuals of both balances over the step (0, x_end) to ``audit``."""
     work_t, work_p, size_t, size_p = 0.0, 0.0, 0.0, 0.0
@@ -109,7 +109,7 @@ def audit_step(model, s, order, x_end, phase, direction, probe, audit):
     audit[STEPS] += 1.0
 
 
-@kernel
+@helper
 def book(audit, residual_t, residual_p, size_t, size_p):
     """Enter residuals whose natural sizes are ``size_t`` and ``size_p``."""
     audit[TRANSVERSE] += residual_t
@@ -122,7 +122,7 @@ def book(audit, residual_t, residual_p, size_t, size_p):
         audit[WORST] = max(audit[WORST], abs(residual_p) / audit[INPLANE_SCALE])
 
 
-@kernel
+@helper
 def audit_impact(model, before, impulse, slope, state, audit):
     """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it.
 

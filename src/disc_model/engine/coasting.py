@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from .compile import inlined, kernel
+from .compile import helper, inlined
 from .lanes import WIDTH, add, fma, load, mul, splat, spread, store, sub
 from .layout import PHASE, PSI, SPEED, STICK, U_VELOCITY, U, is_compliant
 from .stick_modes import DEGREE, LONGEST_COAST, QUANTUM
@@ -18,7 +18,7 @@ from .stick_modes import DEGREE, LONGEST_COAST, QUANTUM
 SHORTEST_COAST = 5.0
 
 
-@kernel
+@helper
 def _enter_modes(modes, disc, states, amplitudes):
     """Modal amplitudes of a disc, into ``amplitudes``.  Returns the bound on abs(P - N) from now on."""
     n, width, swing = len(modes.gain), len(modes.offset), 0.0
@@ -38,7 +38,7 @@ def _times(ar, ai, br, bi):
     return sub(mul(ar, br), mul(ai, bi)), fma(ar, bi, mul(ai, br))
 
 
-@kernel
+@helper
 def _leave_modes(modes, amplitudes, x, disc):
     """The disc at ``x`` (time units) after ``amplitudes``: exp(lambda x) from its series and tabled powers."""
     n, length = len(modes.gain), len(disc)

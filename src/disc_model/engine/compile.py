@@ -3,47 +3,65 @@
 ``contract`` allows a * b + c to be rounded once; nothing is reordered, so results do not depend on the optimiser's
 mood, and division by zero gives inf or nan instead of an exception inside the kernel.
 
-``inlined`` is for small helpers of hot loops: a call would pass every array of a ``Series`` field by field, which costs
-more than the helper's own work. Those whose names begin with ``_`` are called by kernels alone: what lets Python call a
-kernel holds all of it once more, and such wrappers of helpers were a fifth of what compilation takes.
+A ``kernel`` is machine code of its own, which Python calls and the cache keeps.  A ``helper`` is called by kernels: it
+is compiled as a part of each of them, and only there.  An ``inlined`` helper is merged into what calls it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NoReturn
+from typing import Any
 
 import numba
 
-# Kernels allocate nothing, so reference counting (_nrt) is off: it cost more than the arithmetic. No C code calls them.
-RULES: dict[str, Any] = {
-    "cache": True, "fastmath": {"contract"}, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True,
-}  # fmt: skip
+from .cache import MISSING, keep, warn_once
 
-kernel = numba.njit(**RULES)
+# Kernels allocate nothing, so reference counting (_nrt) is off: it cost more than the arithmetic. No C code calls them.
+RULES: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True}
+_MERGED: dict[str, Any] = {"no_cpython_wrapper": True}
+try:
+    from .merging import HelperCompiler, KernelCompiler
+except MISSING as error:
+    warn_once(f"numba {numba.__version__} compiles in another way than expected ({error}): it takes four times as long")
+else:
+    RULES["pipeline_class"] = KernelCompiler
+    _MERGED["pipeline_class"] = HelperCompiler
+
+
+def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Compile what Python calls, once for all processes."""
+    made: Any = numba.njit(**RULES)(function)
+    if made is not function:  # which it is where compilation is switched off
+        keep(made)
+    return made
+
+
+def helper(function: Callable[..., Any], **further: object) -> Callable[..., Any]:
+    """Compile a part of kernels."""
+    part: Any = numba.njit(**(RULES | _MERGED | further))(function)
+    if part is not function:  # which it is where compilation is switched off
+        _make_part(part, numba.njit(**RULES)(function))
+    return part
 
 
 def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile a helper into what calls it."""
-    inner = function.__name__.startswith("_")
-    rules: dict[str, Any] = RULES | {"forceinline": True, "no_cpython_wrapper": inner}
-    helper: Any = numba.njit(**rules)(function)
-    if inner and helper is not function:  # which it is where compilation is switched off
-        _keep_from_python(helper)
-    return helper
+    """Compile a part of kernels into what calls it.
+
+    This is for small helpers of hot loops, where a call would cost more than the helper's own work.
+    """
+    return helper(function, forceinline=True)
 
 
-def _keep_from_python(helper: Any) -> None:
-    """Let a call from Python end in an error: without a wrapper it would end in a crash."""
-
-    def refuse(*_: object, **__: object) -> NoReturn:
-        raise TypeError(f"{helper.py_func.__name__} is called by kernels alone: its name begins with _")
+def _make_part(part: Any, kernel: Any) -> None:
+    """Let Python call a kernel of its own instead of a helper, and no constant make a version of it."""
+    template = part.get_call_template
 
     def add_overload(compiled: Any) -> None:
-        helper.overloads[tuple(compiled.signature.args)] = compiled
+        part.overloads[tuple(compiled.signature.args)] = compiled
 
-    helper._compile_for_args = refuse
-    helper.add_overload = add_overload
+    part._compile_for_args = lambda *_, **__: kernel
+    part.add_overload = add_overload
+    part.get_call_template = lambda args, kws: template(tuple(map(numba.types.unliteral, args)), kws)
 
 
 def compiled_for(function: Callable[..., Any], arguments: tuple[object, ...]) -> Callable[..., Any]:

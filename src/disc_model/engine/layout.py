@@ -16,6 +16,7 @@ import numpy as np
 
 from .compile import inlined
 from .lanes import WIDTH, aligned, aligned_pieces
+from .packing import packed
 from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
@@ -37,6 +38,7 @@ MOST_FREE = 1e4
 _FROM_1 = np.arange(1.0, ROWS + 1.0)
 
 
+@packed
 class Model(NamedTuple):
     """Constants of one case.  Lane arrays have shape (pair lanes,), those ending in 0 (axisymmetric modes,).
 
@@ -143,6 +145,7 @@ def drive_angle(model, time):
     return model.Omega * time
 
 
+@packed
 class Series(NamedTuple):
     """Taylor coefficients of one step.
 
@@ -171,6 +174,7 @@ class Series(NamedTuple):
     amplitudes: np.ndarray  # of the modes of stick: real parts, imaginary parts; then those at a later time
 
 
+@packed
 class State(NamedTuple):
     """Where the system is.  z to g are views of ``disc``; ``x`` holds the slider's scalars, at the indices below."""
 

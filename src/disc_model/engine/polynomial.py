@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .compile import inlined, kernel
+from .compile import helper, inlined
 from .lanes import WIDTH, add, fma, item, load, maximum, minimum, mul, put, splat, spread, store, total
 from .layout import ROWS
 
@@ -73,7 +73,7 @@ def surely_positive(c, low, n, powers):
     return max(0.0, c[low]) + total(negative) > 0.0
 
 
-@kernel
+@helper
 def _sign_changes(b, n):
     """Number of sign changes in b[0..n], capped at two; zeros count as positive."""
     changes, positive = 0, True
@@ -99,7 +99,7 @@ def _raised(c, n, b):
     return add(even, odd)
 
 
-@kernel
+@helper
 def _to_bernstein(d, n, work, b):
     """Bernstein coefficients on [0, 1] of sum d_j x^j."""
     for j in range(0, n + 1, WIDTH):
@@ -108,7 +108,7 @@ def _to_bernstein(d, n, work, b):
         store(b, j, _raised(work, n, j))
 
 
-@kernel
+@helper
 def _halve(cell, left, n, work):
     """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` those of the right half.
 
@@ -187,7 +187,7 @@ def first_root(c, low, n, x_end, powers, work, hasty):
     return _search(c, low, n, x_end, powers, work, hasty)
 
 
-@kernel
+@helper
 def _search(c, low, n, x_end, powers, work, hasty):
     degree = n - low
     d = work[0]
@@ -206,7 +206,7 @@ def _search(c, low, n, x_end, powers, work, hasty):
     return NO_ROOT if root == NO_ROOT else x_end * root
 
 
-@kernel
+@helper
 def _leftmost(d, n, work, hasty):
     """First root in (0, 1] of the polynomial whose Bernstein form is work[2]; NO_ROOT if there is none.
 

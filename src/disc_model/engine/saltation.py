@@ -8,7 +8,7 @@ time, J the Jacobian of the jump and v the rates before and after,
 
 from __future__ import annotations
 
-from .compile import inlined, kernel
+from .compile import helper, inlined, kernel
 from .lanes import WIDTH, add, fma, load, mul, splat, store, sub, total
 from .layout import (
     DIRECTION,
@@ -224,7 +224,7 @@ def switch_change(model, state, cause, x, at, parameters, q, changes):
     return fma(splat(-side * model.r_0), _pull_change(model, state, x, at, parameters, q, changes), change)
 
 
-@kernel
+@helper
 def switch_times(model, state, t, cause):
     """``t.tau``: change of the time of the switch ``cause`` for every column.  Returns the switch function's rate."""
     C = t.columns
@@ -237,7 +237,7 @@ def switch_times(model, state, t, cause):
     return rate
 
 
-@kernel
+@helper
 def shift(model, t, rates_at, sign):
     """t.now += sign * rates * tau."""
     C = t.columns
@@ -249,7 +249,7 @@ def shift(model, t, rates_at, sign):
             store(t.now, at, fma(splat(sign * rates_at[r * WIDTH]), tau, load(t.now, at)))
 
 
-@kernel
+@helper
 def impact_change(model, state, t):
     """Jacobian of the plastic impact, applied to the columns; ``state`` is the one before.
 
@@ -288,7 +288,7 @@ def impact_change(model, state, t):
             store(t.now, at, sub(load(t.now, at), mul(splat(model.force0[j]), dp)))
 
 
-@kernel
+@helper
 def slider_rows(model, state, t):
     """Rows u, u' as the disc's: rigid contact."""
     if is_compliant(model):
@@ -302,7 +302,7 @@ def slider_rows(model, state, t):
         store(t.now, block + slider_row(model, V_ROW) * WIDTH, dv)
 
 
-@kernel
+@helper
 def rest(model, t):
     """df = 0 in stick, exactly."""
     C = t.columns

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from . import layout
-from .compile import kernel
+from .compile import helper
 from .dense_output import force_at, move_to
 from .switches import disc_point
 
@@ -21,7 +21,7 @@ ROW = ("sampler", "time", "P", "u", "u_velocity", "w", "w_point", "w_point_veloc
 SAME_INSTANT = 256 * 2.0**-52
 
 
-@kernel
+@helper
 def point_motion(model, state, angle):
     """Displacement and velocity of the disc's point (r_0, slider's angle + ``angle``)."""
     w, velocity = 0.0, 0.0
@@ -37,7 +37,7 @@ def point_motion(model, state, angle):
     return w, velocity
 
 
-@kernel
+@helper
 def _write_row(model, s, order, x, time, phase, theta, probe, row):
     move_to(model, s, order, x, phase, probe)
     w, velocity, _ = disc_point(model, probe)
@@ -54,7 +54,7 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
     row[10] = phase
 
 
-@kernel
+@helper
 def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
     """Append a row for every sample time within the step that starts at ``state`` and lasts ``x_end`` units.
 

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .lanes import WIDTH, aligned
+from .packing import packed
 
 # exp(lambda x) is the product of tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the rest;
 # with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_COAST bounds the table, and the samples that
@@ -32,6 +33,7 @@ MOST_MODES = 64
 WORST_CONDITION = 100.0
 
 
+@packed
 class StickModes(NamedTuple):
     """n modes, padded with zeros to whole blocks of lanes; L = len(State.disc).  Empty if stick is not to coast."""
 

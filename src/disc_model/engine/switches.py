@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .compile import inlined, kernel
+from .compile import helper, inlined
 from .lanes import WIDTH, absolute, add, load, mul, splat, total
 from .layout import (
     COASTED,
@@ -227,7 +227,7 @@ def _enter_stick(state, P):
     state.x[FORCE] = P
 
 
-@kernel
+@helper
 def enter_slip(model, state, direction):
     """Slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or NO_SOLUTION."""
     P, denominator, noise = slip_force(model, state, direction)
@@ -254,7 +254,7 @@ def enter_slip(model, state, direction):
     return CONSISTENT
 
 
-@kernel
+@helper
 def break_loose(model, state, direction, at_once):
     """Friction holds the slider no longer: slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION.
 
@@ -267,7 +267,7 @@ def break_loose(model, state, direction, at_once):
     return outcome
 
 
-@kernel
+@helper
 def lose_contact(model, state):
     """P has reached zero, or was negative from the start."""
     if state.x[PHASE] == SLIP:
@@ -279,7 +279,7 @@ def lose_contact(model, state):
     return CONSISTENT
 
 
-@kernel
+@helper
 def come_to_rest(model, state):
     """f has reached zero: stick if friction can hold the spring, else slip to the side of the spring's pull."""
     state.x[SPEED] = 0.0
@@ -310,7 +310,7 @@ def _begin_contact(model, state):
     return CONSISTENT
 
 
-@kernel
+@helper
 def touch_down(model, state):
     """The gap has closed: impact, then contact."""
     if is_compliant(model):

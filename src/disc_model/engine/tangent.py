@@ -16,9 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compile import inlined, kernel
+from .compile import helper, inlined
 from .lanes import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 from .layout import HALF, SEPARATION, SLIP, STICK, Model, give_of, is_compliant, is_normal
+from .packing import packed
 from .switches import slip_denominator
 
 # Entries of ``Tangent.log``; ``variational`` says what they are.
@@ -32,6 +33,7 @@ PSI_ROW, F_ROW, U_ROW, V_ROW, N_SLIDER_ROWS = range(5)
 LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, D_GIVE, N_SCALARS = range(9)
 
 
+@packed
 class Tangent(NamedTuple):
     """Columns and their work space.  ``columns`` is a multiple of eight."""
 
@@ -296,7 +298,7 @@ def _apply_force(model, s, t, block, k, R, P):
         store(t.series, g, mul(up, sub(load(t.series, g), mul(splat(model.force0[j]), P))))
 
 
-@kernel
+@helper
 def tangent_series(model, s, t, order, phase, direction):
     """Taylor coefficients of all columns along the step whose series is ``s``, from ``t.now``."""
     R, orders = n_rows_of(model), len(t.base_slope)
@@ -357,7 +359,7 @@ def tangent_series(model, s, t, order, phase, direction):
             store(t.series, there + v_row * WIDTH, dv)
 
 
-@kernel
+@helper
 def tangent_at(model, t, order, x):
     """``t.now`` at x (time units) of the step."""
     size, at = n_rows_of(model) * WIDTH, splat(x)

@@ -6,11 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compile import inlined, kernel
+from .compile import helper, inlined, kernel
 from .dense_output import state_at
 from .lanes import WIDTH, mul, splat, store
 from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME, is_compliant, is_normal
 from .outcomes import LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
+from .packing import packed
 from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_times
 from .stepping import advance_time, expand, first_switch, step_size
 from .switches import (
@@ -45,6 +46,7 @@ class Course(NamedTuple):
     tangent: bool  # whether the columns travel along
 
 
+@packed
 class Section(NamedTuple):
     """Points of the section "stick is about to be released forwards", n coordinates each, and the map's Jacobian."""
 
@@ -54,7 +56,7 @@ class Section(NamedTuple):
     jacobian: np.ndarray  # (n, columns)
 
 
-@kernel
+@helper
 def _step(model, s, state, order, tolerance, left):
     """Expand and find the first switch within ``left`` time units: (length, cause); nan or -1 is failure."""
     if expand(model, s, state, order) <= PAINLEVE_MARGIN:
@@ -65,7 +67,7 @@ def _step(model, s, state, order, tolerance, left):
     return first_switch(model, s, state, order, min(x_end, left))
 
 
-@kernel
+@helper
 def _count(state, cause, log):
     """Count a switch that was carried out."""
     phase = state.x[PHASE]

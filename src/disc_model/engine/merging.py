@@ -1,0 +1,99 @@
+"""Helpers compiled as parts of kernels only.
+
+Numba optimises every function and turns it into machine code by itself before it is linked into what calls it.  Most
+of ours are only ever called by others.  Here such a helper stays what its source says until a kernel is complete; that
+is then optimised and turned into machine code as one.
+"""
+
+from __future__ import annotations
+
+import llvmlite.binding as llvm
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
+
+
+class _Codegen:
+    """Numba's code generator, but that helpers have no environment: they never touch Python."""
+
+    def __init__(self, codegen):
+        self._codegen = codegen
+
+    def __getattr__(self, name):
+        return getattr(self._codegen, name)
+
+    def set_env(self, name, environment):
+        pass
+
+
+class HelperLibrary(JITCodeLibrary):
+    """A helper as its source says, neither optimised nor turned into machine code."""
+
+    @property
+    def codegen(self):
+        return _Codegen(self._codegen)
+
+    def _optimize_functions(self, ll_module):
+        ll_module.data_layout = self._codegen._data_layout
+
+    def finalize(self):
+        self._raise_if_finalized()
+        self._finalized = True
+
+    def get_pointer_to_function(self, name):
+        return 0
+
+
+class KernelLibrary(JITCodeLibrary):
+    """A kernel with all its helpers."""
+
+    def _optimize_functions(self, ll_module):
+        ll_module.data_layout = self._codegen._data_layout
+
+    def finalize(self):
+        # what calls comes before what it calls: LLVM leaves out what nothing has asked for yet
+        found = []
+        _visit(self, found)
+        self._linking_libraries = found[-2::-1]
+        super().finalize()
+
+    def _optimize_final_module(self):
+        # unrolled loops cost two thirds of the time that all passes take, and gain nothing
+        options = llvm.create_pipeline_tuning_options(speed_level=3)
+        options.loop_unrolling, options.slp_vectorization = False, False
+        builder = llvm.create_pass_builder(self._codegen._tm, options)
+        builder.getModulePassManager().run(self._final_module, builder)
+
+    def serialize_using_object_code(self):
+        """The machine code, and of all that LLVM knows of it the names: nothing else is linked to a kernel."""
+        self._ensure_finalized()
+        names = (function.name for function in self._final_module.functions if not function.is_declaration)
+        stub = "\n".join(f'define void @"{name}"() {{ ret void }}' for name in names)
+        return self.name, "object", (self._get_compiled_object(), llvm.parse_assembly(stub).as_bitcode())
+
+
+def _visit(library, found):
+    """Append a library behind all that it is linked to."""
+    parts = library._linking_libraries if isinstance(library, HelperLibrary | KernelLibrary) else ()
+    for each in parts:
+        if each not in found:
+            _visit(each, found)
+    found.append(library)
+
+
+class _Compiler(CompilerBase):
+    library: type
+
+    def define_pipelines(self):
+        state = self.state
+        if state.library is None:
+            state.library = self.library(state.targetctx.codegen(), state.func_id.func_qualname)
+            state.library.enable_object_caching()
+        return [DefaultPassBuilder.define_nopython_pipeline(state)]
+
+
+class HelperCompiler(_Compiler):
+    library = HelperLibrary
+
+
+class KernelCompiler(_Compiler):
+    library = KernelLibrary

@@ -1,0 +1,160 @@
+"""Named tuples that kernels are handed as one pointer.
+
+Numba would hand a tuple of arrays from kernel to kernel entry by entry: a model is 147 numbers to LLVM, a series 135.
+A ``packed`` one is a block of memory that holds its numbers and, of each array, the address and the lengths.  It is
+read where an entry is asked for, and never written, as LLVM is told: what was read once need not be read again.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import struct
+from typing import Any, TypeVar
+
+import numba
+import numpy as np
+
+_SETTINGS: Any = numba.config
+T = TypeVar("T", bound=type)
+
+if _SETTINGS.DISABLE_JIT:
+
+    def packed(cls: T) -> T:
+        """Leave a class of named tuples as it is."""
+        return cls
+
+else:
+    from llvmlite import ir
+    from numba import types
+    from numba.core import cgutils
+    from numba.core.typing.templates import AttributeTemplate
+    from numba.extending import (
+        NativeValue,
+        infer_getattr,
+        lower_getattr_generic,
+        models,
+        register_model,
+        typeof_impl,
+        unbox,
+    )
+
+    _WORD, _BIT = ir.IntType(64), ir.IntType(1)
+
+    class PackedType(types.Type):
+        """Numba type of a packed named tuple.
+
+        fields : names and types of its entries; an array is followed by as many lengths as it has dimensions
+        """
+
+        def __init__(self, name, fields):
+            self.fields = fields
+            self.kind = f"{name}_{hashlib.sha256(repr(fields).encode()).hexdigest()[:8]}"
+            super().__init__(name=self.kind)
+
+        def place(self, name):
+            """Type of an entry, and the words of memory before it."""
+            before = 0
+            for each, kind in self.fields:
+                if each == name:
+                    return kind, before
+                before += _words(kind)
+            raise AttributeError(name)
+
+    def _words(kind):
+        if isinstance(kind, types.Array):
+            return 1 + kind.ndim
+        return kind.count if isinstance(kind, types.UniTuple) else 1
+
+    class _Packed:
+        """What a packed class adds to its named tuple."""
+
+        @functools.cached_property
+        def numba_type(self):
+            """See `PackedType`."""
+            return PackedType(type(self).__name__, tuple(zip(self._fields, map(_kind, self), strict=True)))
+
+        @functools.cached_property
+        def _memory(self):
+            words = [word for value in self for word in _words_of(value)]
+            codes = ("d" if isinstance(word, float) else "q" for word in words)
+            return np.frombuffer(struct.pack("".join(codes), *words), np.int64)
+
+        @functools.cached_property
+        def address(self):
+            """Where the block of memory is."""
+            return self._memory.ctypes.data
+
+    def _kind(value):
+        return types.UniTuple(types.float64, 0) if isinstance(value, tuple) and not value else numba.typeof(value)
+
+    def _words_of(value):
+        """The words of an entry."""
+        if isinstance(value, np.ndarray):
+            if not value.flags.c_contiguous:
+                raise ValueError("an array of a packed tuple has to be contiguous")
+            return value.ctypes.data, *value.shape
+        if isinstance(value, _Packed):
+            return (value.address,)
+        return value if isinstance(value, tuple) else (value,)
+
+    def packed(cls: T) -> T:
+        """Let kernels take a class of named tuples as one pointer."""
+        made: Any = type(cls.__name__, (_Packed, cls), {"__doc__": cls.__doc__, "__module__": cls.__module__})
+        return made
+
+    @typeof_impl.register(_Packed)
+    def _typeof(value, context):
+        return value.numba_type
+
+    @register_model(PackedType)
+    class _PackedModel(models.PrimitiveModel):
+        def __init__(self, manager, kind):
+            super().__init__(manager, kind, _WORD.as_pointer())
+
+    @unbox(PackedType)
+    def _unbox(kind, value, c):
+        address = c.pyapi.object_getattr_string(value, "address")
+        found = cgutils.is_not_null(c.builder, address)
+        pointer = cgutils.alloca_once_value(c.builder, _WORD.as_pointer()(None))
+        with c.builder.if_then(found):
+            c.builder.store(c.builder.inttoptr(c.pyapi.long_as_longlong(address), _WORD.as_pointer()), pointer)
+            c.pyapi.decref(address)
+        return NativeValue(c.builder.load(pointer), is_error=c.builder.not_(found))
+
+    @infer_getattr
+    class _Attributes(AttributeTemplate):
+        key = PackedType
+
+        def generic_resolve(self, kind, name):
+            return dict(kind.fields).get(name)
+
+    @lower_getattr_generic(PackedType)
+    def _read(context, builder, kind, value, name):
+        entry, place = kind.place(name)
+
+        def word(i, of=_WORD):
+            at = builder.gep(value, [_WORD(place + i)])
+            loaded = builder.load(builder.bitcast(at, of.as_pointer()))
+            loaded.set_metadata("invariant.load", builder.module.add_metadata([]))
+            return loaded
+
+        def number(i, of):
+            return builder.trunc(word(i), _BIT) if of == types.boolean else word(i, context.get_value_type(of))
+
+        if isinstance(entry, types.Array):
+            array = context.make_array(entry)(context, builder)
+            shape = [word(1 + i) for i in range(entry.ndim)]
+            size = context.get_constant(types.intp, entry.dtype.bitwidth // 8)
+            strides, items = [], context.get_constant(types.intp, 1)
+            for length in reversed(shape):
+                strides.insert(0, builder.mul(items, size))
+                items = builder.mul(items, length)
+            context.populate_array(
+                array, data=word(0, array.data.type), shape=shape, strides=strides, itemsize=size, meminfo=None
+            )
+            return array._getvalue()
+        if isinstance(entry, types.UniTuple):
+            parts = [number(i, entry.dtype) for i in range(entry.count)]
+            return context.make_tuple(builder, entry, parts)
+        return number(0, entry)
