@@ -15,7 +15,13 @@ from disc_model.studies.grids.schema import parse_grid
 from tests.studies.grids.conftest import computed, study
 
 #: The slider stays where it is on the disc: nothing has to be computed.
-STILL = {"study": "still", "quantity": "floquet", "base": {"k_p": 0}, "axes": {"N": [100, 200], "Omega": [10, 20]}}
+STILL = {
+    "study": "still",
+    "quantity": "floquet",
+    "base": {"k_p": 0},
+    "axes": {"N": [100, 200], "Omega": [10, 20]},
+    "batch": {"size": 2},
+}
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,8 @@ from disc_model.data.variables import flag_names
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import choose_modes
 from disc_model.studies import modes
+from disc_model.studies.grids.quantities.schema import QUANTITIES
+from disc_model.studies.grids.run import run_batch
 from disc_model.studies.grids.schema import LAWS, GridStudy, load_grid, load_grids, parse_grid
 from disc_model.truncation import ModeChoice
 from tests.studies.grids.conftest import computed, study
@@ -56,7 +59,8 @@ def test_values_of_an_axis(given: Any, values: list[float]) -> None:
 
 
 def test_zipped_pairs_are_one_dimension() -> None:
-    grid = parse_grid(study(axes={"D_star": [0, 1e-5]}, zip={"Omega": [20, 10, 20], "N": [200, 385, 200]}, batch={}))
+    zipped = {"Omega": [20, 10, 20], "N": [200, 385, 200]}
+    grid = parse_grid(study(axes={"D_star": [0, 1e-5]}, zip=zipped, batch={"size": 2}))
     assert [dim.name for dim in grid.dims] == ["N_Omega", "D_star"]
     assert grid.dims[0].values == ((200.0, 20.0), (385.0, 10.0))
     assert points(grid) == [[[200.0, 20.0, 0.0], [200.0, 20.0, 1e-5]], [[385.0, 10.0, 0.0], [385.0, 10.0, 1e-5]]]
@@ -95,6 +99,50 @@ def test_changes_change_only_the_batches_they_touch() -> None:
     assert not before & set(parse_grid(study(options={"horizon": 3})).batches)
     longer = {"blocks": [axes["Omega"], [12.5]]}
     assert len(set(parse_grid(study(axes={**axes, "Omega": longer})).batches) - before) == 3
+
+
+def growth(**axes: Any) -> dict[str, Any]:
+    """A growth map of a study that says nothing of batches."""
+    return {"study": "map", "quantity": "floquet", "axes": axes}
+
+
+def span_of(count: int) -> dict[str, float]:
+    return {"start": 10, "stop": 50, "count": count}
+
+
+def test_a_growth_map_is_one_batch_whatever_its_axes() -> None:
+    """Each value of all axes but the last had batches of its own: a map of 41 x 41 points made 41 or even 1681 jobs."""
+    plane = {"N": span_of(41), "Omega": span_of(41)}
+    assert len(parse_grid(growth(**plane)).batches) == 1
+    assert len(parse_grid(growth(**plane, normalization=["as_published"])).batches) == 1
+
+
+def test_batches_hold_whole_values_and_about_the_same_work() -> None:
+    grid = parse_grid(growth(N=span_of(9), Omega=span_of(41), k=span_of(41)))
+    room = QUANTITIES["floquet"].batch_size(grid.options)
+    assert [len(batch) for batch in points(grid)] == [4 * 41 * 41, 4 * 41 * 41, 41 * 41]
+    assert 4 * 41 * 41 <= room < 5 * 41 * 41
+
+
+def test_a_new_value_leaves_the_other_batches_of_a_costly_quantity() -> None:
+    def batches(*loads: float) -> set[str]:
+        axes = {"N": list(loads), "Omega": span_of(41), "normalization": ["as_published", "orthonormal"]}
+        return set(parse_grid(growth(**axes) | {"quantity": "outcome", "options": {"horizon": 1000}}).batches)
+
+    assert len(batches(100, 200, 300)) == 6
+    assert batches(100, 300) < batches(100, 200, 300)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("quantity", "options"), [("floquet", {}), ("outcome", {"horizon": 100}), ("campbell", {})])
+def test_a_point_costs_about_what_its_quantity_says(quantity: str, options: dict[str, float]) -> None:
+    """Within a factor of five, for other processors: batches used to cost 15 times their work."""
+    grid = parse_grid(growth(N=[200], Omega=span_of(9)) | {"quantity": quantity, "options": options})
+    (text,) = grid.batches.values()
+    run_batch(text)  # loads the kernels
+    began = time.process_time()
+    run_batch(text)
+    assert 0.2 < (time.process_time() - began) / 9 / QUANTITIES[quantity].seconds(grid.options) < 5
 
 
 @pytest.mark.parametrize("scale", ["linear", "log"])
@@ -169,7 +217,7 @@ AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
         (REGIONS | {"batch": {"over": ["N"]}}, "batch.over = ['N']: must name the two dimensions"),
         (REGIONS | {"batch": {"over": ["N", "contact"]}}, "= ['N', 'contact']: must name the two dimensions"),
         (
-            REGIONS | {"batch": {}},
+            REGIONS | {"axes": ONE | {"c": [0, 1]}, "batch": {}},
             "batch.over = None: must name the two dimensions, single numbers, of regions's",
         ),
         ({"options": {"horizon": 2, "late": 3}}, "late must be <= after_separation and <= horizon"),

@@ -1,10 +1,9 @@
 """Grid studies: files under config/studies/, checked all at once, and the batches of points they expand to.
 
-A batch is one text; a workflow job is given one. Dimensions named in ``batch.over`` are cut into batches, by position
-and only inside a block; of the others, every value has batches of its own. A quantity that needs a plane at once is cut
-into tiles of it. The text holds all that its result depends
-on, and the batch is named by the text's hash, so that a batch whose content is the same is not computed again, wherever
-and however the file now says it.
+A batch is one text; a workflow job is given one. Blocks of values are cut into batches of about the same work, by
+position and only inside a block: a finer axis adds batches and keeps the others. A quantity that needs a plane at once
+is cut into tiles of it. The text holds all that its result depends on. The batch is named by the text's hash, so that a
+batch whose content is the same is not computed again, wherever and however the file now says it.
 """
 
 from __future__ import annotations
@@ -68,14 +67,16 @@ MOTIONS = "disc_model.studies.grids.motions"
 class BatchSpec(Strict):
     """How points are gathered into jobs.
 
-    over : dimensions that are cut; of the others every value has batches of its own. The last dimension if not given
-    size : points in a batch, at most; 20 to 60 s of work keep the cost of starting a job below a few per cent
+    over : dimensions that are cut; of the others every value has batches of its own. If not given, the first dimensions
+        are cut as far as it takes to come down to `size`
+    size : points in a batch, at most; if not given, about 20 s of work by what a point of the quantity costs
     tile : intervals along the side of a tile, about, for a quantity that needs a plane at once; `over` names its two
-        dimensions first, and then those of which all values share a batch, which saves the start of a job each
+        dimensions first, and then those of which all values share a batch. If not given, the plane's are the only two
+        that are numbers, and all other values share a batch
     """
 
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
-    size: Annotated[Count, Field(ge=1)] = 20
+    size: Annotated[Count, Field(ge=1)] | None = None
     tile: Annotated[Count, Field(ge=1)] = 32
 
 
@@ -108,7 +109,8 @@ def batch_texts(
     if QUANTITIES[quantity].tiled and runner == RUNNER:
         parts = _tiles(dims, batch, sampled)
     else:
-        parts = ({**_used(starts, shared["names"], points), "points": points} for points in _chunks(dims, batch))
+        size = batch.size or QUANTITIES[quantity].batch_size(options)
+        parts = ({**_used(starts, shared["names"], cut), "points": cut} for cut in _chunks(dims, batch.over, size))
     texts = [canonical_json({**shared, **part}) for part in parts]
     return {content_key(text): text for text in texts}
 
@@ -133,26 +135,38 @@ def _used(starts: Mapping[str, Start], names: Sequence[str], points: Sequence[Se
     return {"starts": {name: starts[name].model_dump() for name in sorted(used)}}
 
 
-def _chunks(dims: Sequence[Dimension], batch: BatchSpec) -> Iterator[list[list[Value]]]:
+def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[list[Value]]]:
     """Points of each batch, a list of values in the order of the dimensions."""
-    over = set(batch.over or [dims[-1].name])
-    # a dimension that is not cut is taken as blocks of one value each
-    blocks = [dim.blocks if dim.name in over else tuple((value,) for value in dim.values) for dim in dims]
+    # a dimension that is not to be cut is taken as blocks of one value each
+    blocks = [dim.blocks if over is None or dim.name in over else [(value,) for value in dim.values] for dim in dims]
     for chosen in product(*blocks):
-        points = [[*chain.from_iterable(point)] for point in product(*chosen)]
-        for i in range(0, len(points), batch.size):
-            yield points[i : i + batch.size]
+        for part in _parts(chosen, size):
+            yield [[*chain.from_iterable(point)] for point in part]
+
+
+def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:
+    """The product of blocks in parts of at most `size`, each of whole values of a block and all of those after it.
+
+    So a further value of a dimension that is cut down to single values adds parts and leaves the others.
+    """
+    first, *others = blocks
+    within = math.prod(map(len, others))
+    if within > size:
+        yield from ([(value, *rest) for rest in part] for value in first for part in _parts(others, size))
+    else:
+        count = size // within
+        yield from ([*product(first[i : i + count], *others)] for i in range(0, len(first), count))
 
 
 def _tiles(
     dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
 ) -> Iterator[dict[str, Any]]:
     """Points of each tile; and the values along its sides, with those of the next tiles that bound its last cells."""
-    plane, gathered = (batch.over or ())[:2], (batch.over or ())[2:]
-    over = [dim for dim in dims if dim.name in plane]
-    others = [dim for dim in dims if dim.name not in plane]
-    names = [dim.name for dim in over]
-    sides = [_cuts([value for (value,) in dim.values], batch.tile) for dim in over]
+    plane = _plane(dims, batch.over)
+    others = [dim for dim in dims if dim not in plane]
+    names = [dim.name for dim in plane]
+    sides = [_cuts([value for (value,) in dim.values], batch.tile) for dim in plane]
+    gathered = batch.over or [dim.name for dim in others]
     shares = [[dim.values] if dim.name in gathered else [(value,) for value in dim.values] for dim in others]
     for chosen, tile in product(product(*shares), product(*sides)):
         own: dict[str, Sequence[tuple[Value, ...]]] = {
@@ -164,6 +178,12 @@ def _tiles(
         within = [[_at(mark[name], values) for name, values in zip(names, along, strict=True)] for mark in sampled]
         kept = sorted(places for places in within if None not in places)
         yield {"points": points, "tile": {"names": names, "along": along, "sampled": kept}}
+
+
+def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimension]:
+    """The dimensions of a plane of tiles: those that are named first, or else all that are numbers."""
+    numbers = [dim for dim in dims if len(dim.names) == 1 and is_number(dim.values[0][0])]
+    return [dim for dim in numbers if over is None or dim.name in over[:2]]
 
 
 def _at(value: float, along: Sequence[Value]) -> int | None:
@@ -500,14 +520,9 @@ def _check_names(
     for name in over if isinstance(over, list) and not faults else ():
         if name not in known:
             faults.add(("batch", "over"), name, f"must name dimensions (known: {', '.join(known)})")
-    if quantity is not None and quantity.tiled and not faults:
-        plane = [dim for dim in dims if isinstance(over, list) and dim.name in over[:2]]
-        if len(plane) != 2 or any(not is_number(value) for dim in plane for value in dim.values[0]):
-            faults.add(
-                ("batch", "over"),
-                over,
-                f"must name the two dimensions, single numbers, of {raw['quantity']}'s plane first",
-            )
+    if quantity is not None and quantity.tiled and not faults and len(_plane(dims, over)) != 2:
+        rule = f"must name the two dimensions, single numbers, of {raw['quantity']}'s plane first"
+        faults.add(("batch", "over"), over, rule)
 
 
 def _plots(

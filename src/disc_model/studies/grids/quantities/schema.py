@@ -7,14 +7,15 @@ from the values alone, and what they amount to is worked out in its own file.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, NamedTuple, Self
+from collections.abc import Callable
+from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
 from disc_model.data.variables import SAMPLE
 from disc_model.parameters import Count, CycleTolerance, Finite, Positive, Real, Strict, Tolerance
 from disc_model.simulation.case import Start
-from disc_model.studies.grids.dimensions import MOST, Range
+from disc_model.studies.grids.dimensions import MOST, Range, values_of
 from disc_model.studies.grids.distributions import Sampled
 
 Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
@@ -291,9 +292,10 @@ class CampbellOptions(Strict):
 
 
 class Quantity(NamedTuple):
-    """An entry: the schema of the options, the parameters that the quantity varies by itself, its motions, and whether
-    it needs a whole tile of a plane at once.
+    """An entry: the schema of the options, what a point costs, the parameters that the quantity varies by itself, its
+    motions, and whether it needs a whole tile of a plane at once.
 
+    ``seconds`` is about the processor time of a point with given options, s, measured at points of the paper's study.
     Options with a property ``scans`` name those parameters themselves. ``motions`` is how many values of each axis get
     a motion to be looked at (`disc_model.studies.grids.motions`): the fewer, the more one costs. 0: none.
     ``motion`` says what they show: where the quantity's ``state_at`` lets the motion go on. ``over`` is the dimension
@@ -301,6 +303,7 @@ class Quantity(NamedTuple):
     """
 
     options: type[Strict]
+    seconds: Callable[[Any], float]
     scans: tuple[str, ...] = ()
     motions: int = 0
     motion: str = ""
@@ -316,23 +319,58 @@ class Quantity(NamedTuple):
         """Whether it follows motions that may start elsewhere than from the published start."""
         return issubclass(self.options, Start)
 
+    def batch_size(self, options: Strict) -> int:
+        """How many points make a batch, if a study does not say."""
+        return max(1, round(WORK / self.seconds(options)))
+
+
+WORK = 20.0
+"""Of a batch, s of processor time: its job costs about 1 s in itself. Three times as much does no harm."""
+# As measured, s. A new value cuts all studies of a quantity anew that do not say `batch.size`.
+SIMULATED = 7e-4
+"""A simulated second: 3e-4 in contact, twice or three times that where contact is lost again and again."""
+CYCLE = 2.5e-3
+"""To find a cycle and its multipliers."""
 
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )
 QUANTITIES = {
-    "outcome": Quantity(OutcomeOptions, motions=4, motion=COME_TO),
-    "regions": Quantity(RegionsOptions, motions=4, motion=COME_TO, tiled=True),
-    "critical_speed": Quantity(CriticalSpeedOptions, scans=("Omega",)),
-    "floquet": Quantity(FloquetOptions, motions=7, motion="The stick-slip cycle itself, stable or not."),
-    "hysteresis": Quantity(HysteresisOptions, scans=("Omega",)),
-    "ramps": Quantity(RampsOptions, scans=("Omega",)),
-    "basins": Quantity(BasinsOptions),
-    "bifurcation": Quantity(BifurcationOptions, motions=8, motion="After the transient."),
-    "lyapunov": Quantity(LyapunovOptions, motions=8, motion="After the transient."),
-    "stability_curves": Quantity(StabilityCurvesOptions),
-    "sensitivity": Quantity(SensitivityOptions, over=SAMPLE),
-    "campbell": Quantity(CampbellOptions, over="Omega"),
+    "outcome": Quantity(OutcomeOptions, lambda o: SIMULATED * o.horizon / 2, motions=4, motion=COME_TO),
+    "regions": Quantity(RegionsOptions, lambda o: WORK, motions=4, motion=COME_TO, tiled=True),
+    "critical_speed": Quantity(
+        CriticalSpeedOptions, lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9, scans=("Omega",)
+    ),
+    "floquet": Quantity(
+        FloquetOptions, lambda o: CYCLE, motions=7, motion="The stick-slip cycle itself, stable or not."
+    ),
+    "hysteresis": Quantity(HysteresisOptions, lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell, scans=("Omega",)),
+    "ramps": Quantity(
+        RampsOptions,
+        lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.stay) for rate in values_of(o.rates)),
+        scans=("Omega",),
+    ),
+    "basins": Quantity(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.starts * o.horizon / 2),
+    "bifurcation": Quantity(
+        BifurcationOptions,
+        lambda o: SIMULATED * (o.transient + o.longest / 2),
+        motions=8,
+        motion="After the transient.",
+    ),
+    "lyapunov": Quantity(
+        LyapunovOptions,
+        lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration),
+        motions=8,
+        motion="After the transient.",
+    ),
+    "stability_curves": Quantity(StabilityCurvesOptions, lambda o: WORK),
+    "sensitivity": Quantity(
+        SensitivityOptions,
+        # the same for more samples, whose batches are to stay
+        lambda o: CYCLE * (2 + len(o.distributions)) + SIMULATED * o.horizon / 4 * (o.outcomes > 0),
+        over=SAMPLE,
+    ),
+    "campbell": Quantity(CampbellOptions, lambda o: 1.5 * CYCLE, over="Omega"),
 }
 
 
