@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import json
 import math
 import numbers
 import operator
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_type_hints
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from disc_model.errors import Fault, ParameterError, faults_of, shown
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)
 
 # ----------------------------------------------------------------------------------------------------
 # Numbers
@@ -93,12 +99,39 @@ class Strict(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
-class Checked(Strict):
+class _OwnNames(ModelMetaclass):
+    """Of classes whose `help` and completion show what they add to pydantic's hundred names."""
+
+    def __dir__(cls) -> list[str]:
+        return sorted({name for name in super().__dir__() if not name.startswith("_")} - {*dir(BaseModel)})
+
+
+class Checked(Strict, metaclass=_OwnNames):
     """What a caller says: as `Strict`, but its faults come as one `ParameterError`, whichever way it is made."""
 
     _word: ClassVar[str] = "key"
 
-    def __init__(self, /, **data: Any) -> None:
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        """A signature of plain types, without the machinery that checks them."""
+        types = get_type_hints(cls)
+        fields = {
+            name: inspect.Parameter.empty if field.is_required() else field.default
+            for name, field in cls.model_fields.items()
+        }
+        named = inspect.Parameter.KEYWORD_ONLY
+        cls.__signature__ = inspect.Signature(
+            [
+                inspect.Parameter(name, named, default=default, annotation=types[name])
+                for name, default in fields.items()
+            ]
+        )
+
+    def __init__(self, /, *unnamed: Any, **data: Any) -> None:
+        if unnamed:
+            name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
+            said = ", ".join(f"{key}={shown(value)}" for key, value in named)
+            raise ParameterError(f"{name} takes named values: {name}({said})")
         faults: list[str] = []
         try:
             super().__init__(**data)
@@ -137,6 +170,13 @@ class Checked(Strict):
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """A copy; unlike pydantic's, what `update` changes is validated."""
         return self.replace(**(update or {}))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        change = f"{name}={shown(value)}"
+        raise ParameterError(f"{change}: cannot be set in place, replace({change}) returns a changed copy")
+
+    def __dir__(self) -> list[str]:
+        return sorted({*type(self).model_fields, *dir(type(self))})
 
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
@@ -190,9 +230,39 @@ def _number(default: Any, unit: str, description: str, **rules: Any) -> Any:
 
 
 class Parameters(Checked):
-    """One case of the disc and slider. Base values are the paper's Table 1; `N` and `Omega` have none.
+    """One case of the disc and slider, a plain value. Defaults are the paper's Table 1.
 
-    A plain value. `disc_model.choose_modes` finds how many modes a tolerance asks for.
+    The radii must ascend, a < r_0 <= b, and mu_k must not be above mu_s. `disc_model.choose_modes` finds how many modes
+    a tolerance asks for.
+
+    Parameters
+    ----------
+    N : preload pressing the slider onto the disc (N, >= 0, required)
+    Omega : speed of the drive point (rad/s, >= 0, required)
+    D_star : Kelvin-Voigt damping of the disc (N m s, >= 0, default 1e-05)
+    c : damper of the slider, normal to the disc (N s/m, >= 0, default 0)
+    c_p : damper of the slider, in the disc's plane (N s/m, >= 0, default 0)
+    k : spring of the slider, normal to the disc (N/m, >= 0, default 50000)
+    k_p : spring of the slider, in the disc's plane (N/m, >= 0, default 20000)
+    E : Young's modulus of the disc (Pa, > 0, default 1.5e+11)
+    m : mass of the slider (kg, > 0, default 0.1)
+    mu_s : coefficient of static friction (>= 0, default 0.4)
+    mu_k : coefficient of kinetic friction (>= 0, default 0.24)
+    a : inner radius of the disc, clamped (m, > 0, default 0.044)
+    b : outer radius of the disc, free (m, > 0, default 0.12)
+    r_0 : radius at which the slider runs (m, > 0, default 0.1)
+    h : thickness of the disc (m, > 0, default 0.002)
+    nu : Poisson's ratio of the disc (> -1, < 0.5, default 0.211)
+    rho : density of the disc (kg/m^3, > 0, default 7200)
+    n_diameters : highest number of nodal diameters, -1 for a rigid disc (>= -1, <= 60, default 4)
+    n_circles : highest number of nodal circles (>= 0, <= 20, default 0)
+    normalization : scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17) (as_published or orthonormal,
+        default as_published)
+    contact : whether the slider may leave the disc (separable or bonded, default separable)
+    contact_compliance : compliance of the contact, 0 if it is rigid; residual: the give of the modes left out (m/N,
+        default 0)
+    contact_force : direction of the contact force: vertical as in the paper, or normal to the bent disc (vertical or
+        normal, default vertical)
 
     Raises
     ------

@@ -33,6 +33,12 @@ def test_small_buffers_and_many_pauses_change_nothing(monkeypatch):
     assert len(seen) > 3
 
 
+def test_a_window_alone_is_a_record_of_it():
+    """It was refused, cut off in the middle of the window."""
+    window = RECORD.windows[0]
+    assert simulate(P, 0.01, record=window).record == Record(windows=(window,))
+
+
 def test_steps_run_out():
     result = simulate(P, 1.0, max_steps=3)
     assert result.status == "step_limit"

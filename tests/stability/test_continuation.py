@@ -32,6 +32,7 @@ BOX = {"Omega": (3.0, 18.0), "N": (150.0, 450.0)}
 def test_a_branch_goes_round_its_fold():
     branch = continue_cycle(P, "Omega", (12.0, 17.0))
     assert branch.ended == "Omega has left 12 .. 17"
+    assert len(repr(branch)) < 200
     assert branch.folds == pytest.approx(np.array([[fold_at(300)]]), abs=1e-9)
     assert branch.values[-1, 0] < 12
     upper = branch.points[:, 0] > 1

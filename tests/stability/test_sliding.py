@@ -37,6 +37,11 @@ def check_against_flow(p: Parameters, apart: float) -> None:
     assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
 
 
+def test_steady_sliding_is_told_in_a_line():
+    """Its eigenvalues and its Jacobian, 9,181 characters, came with it."""
+    assert len(repr(steady_sliding(P))) < 300
+
+
 @pytest.mark.compiled
 @pytest.mark.parametrize(
     "p", [BASE, Parameters(N=300, Omega=50, c_p=0.7, c=0.3), Parameters(N=100, Omega=40, normalization="orthonormal")]

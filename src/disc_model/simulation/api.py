@@ -22,7 +22,7 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, Status, sho
 from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
 from disc_model.plate import mode_arrays
 from disc_model.simulation import ramps as courses
-from disc_model.simulation.case import CaseSpec, Record, Start
+from disc_model.simulation.case import CaseSpec, Record, Start, Window
 from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import (
@@ -74,7 +74,7 @@ def simulate(
     *,
     tol: float = 1e-10,
     initial_state: State | None = None,
-    record: Record | None = None,
+    record: Record | Window | None = None,
     stop_at: str | None = None,
     max_steps: int | None = None,
     progress: Callable[[float], object] | None = None,
@@ -90,7 +90,7 @@ def simulate(
     t_end : s, greater than the initial state's time
     tol : relative truncation error of a step, 1e-15 to 1e-2; event times over a second of motion are about as good
     initial_state : where to start; None is the published start (static equilibrium, stick, spring relaxed)
-    record : what to keep; None keeps events and statistics
+    record : what to keep, or one window to keep; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
     max_steps : bound on the number of steps; None bounds it generously by the highest frequency
     progress : called now and then with the time reached
@@ -109,7 +109,7 @@ def simulate(
     ParameterError
         Bad input; the message names the argument, its value and the rule.
     """
-    record = _EVENTS_ALONE if record is None else record
+    record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every), ramps)
     start = 0.0 if initial_state is None else initial_state.time
@@ -298,7 +298,7 @@ def _check_arguments(
     if not isinstance(p, Parameters):
         found.append(Fault(("p",), shown(p), "must be Parameters"))
     if not isinstance(record, Record):
-        found.append(Fault(("record",), shown(record), "must be a Record"))
+        found.append(Fault(("record",), shown(record), "must be a Record or a Window"))
     start = 0.0
     if isinstance(initial_state, State):
         if is_number(initial_state.time) and math.isfinite(initial_state.time):  # else it is refused later

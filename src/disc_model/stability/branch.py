@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -188,13 +188,13 @@ class Branch:
     """
 
     parameters: tuple[str, ...]
-    values: Array
-    period: Array
-    stick_fraction: Array
-    growth_rate: Array
-    multipliers: ComplexArray
-    diameters: NDArray[np.int64]
-    points: Array
+    values: Array = field(repr=False)
+    period: Array = field(repr=False)
+    stick_fraction: Array = field(repr=False)
+    growth_rate: Array = field(repr=False)
+    multipliers: ComplexArray = field(repr=False)
+    diameters: NDArray[np.int64] = field(repr=False)
+    points: Array = field(repr=False)
     folds: Array
     ended: str
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
 from typing import Any
@@ -42,10 +42,10 @@ class StabilityCurve:
     """
 
     kind: str
-    values: Array
-    border: NDArray[np.bool_]
-    period: Array
-    multipliers: NDArray[np.complex128]
+    values: Array = field(repr=False)
+    border: NDArray[np.bool_] = field(repr=False)
+    period: Array = field(repr=False)
+    multipliers: NDArray[np.complex128] = field(repr=False)
     tongue: Tongue
 
 

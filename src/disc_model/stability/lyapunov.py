@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,7 +65,7 @@ class Lyapunov:
     errors: Array
     duration: float
     separations: int
-    history: Array
+    history: Array = field(repr=False)
     final_state: State
     along: float = math.nan
 

@@ -61,13 +61,13 @@ class SteadySliding:
     message: str
     contact_force: float = math.nan
     psi: float = math.nan
-    a: Array = field(default_factory=_no_numbers)
-    b: Array = field(default_factory=_no_numbers)
-    alpha: Array = field(default_factory=_no_numbers)
-    beta: Array = field(default_factory=_no_numbers)
-    eigenvalues: NDArray[np.complex128] = field(default_factory=lambda: np.zeros(0, complex))
+    a: Array = field(default_factory=_no_numbers, repr=False)
+    b: Array = field(default_factory=_no_numbers, repr=False)
+    alpha: Array = field(default_factory=_no_numbers, repr=False)
+    beta: Array = field(default_factory=_no_numbers, repr=False)
+    eigenvalues: NDArray[np.complex128] = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
-    jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
 
     @property
     def stable(self) -> bool:
