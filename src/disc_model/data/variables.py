@@ -117,6 +117,13 @@ KICKS = {
     "kick_f": Variable("rad s-1", "kick of the slider's angular velocity"),
 }
 """What grids may add to a coordinate where motions start; coordinates of their datasets."""
+WITHOUT_CYCLE = {
+    "no_cycle": "no cycle found",
+    "separates": "separates at once",
+    "no_stick_slip": "slides steadily",
+    "at_rest": "sticks",
+}
+"""What a point without a stick-slip cycle is called in tables and figures, by its status."""
 SAMPLE = "sample"
 """The dimension of a grid along which distributed parameters are drawn, by number."""
 _CF_UNITS = {
@@ -152,7 +159,7 @@ def _parameter_variable(name: str) -> Variable:
     return Variable(_CF_UNITS.get(unit, unit), field.description or name, CHOICES.get(name, ()))
 
 
-_SYMBOLS = {"Omega": "Ω", "D_star": "D*"}
+_SYMBOLS = {"Omega": "Ω", "D_star": "D*", "mu_s": "μ_s", "mu_k": "μ_k", "nu": "ν", "rho": "ρ"}
 
 
 def said_values(values: Mapping[str, Any]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,7 +20,7 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import flag_names, said_values
+from disc_model.data.variables import WITHOUT_CYCLE, flag_names, said_values
 from disc_model.figures import STYLE
 
 COLUMN = 89 / 25.4
@@ -171,7 +172,8 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
 
 def flags_of(variable: xr.DataArray) -> list[str]:
     """What the values of a flag stand for; of other variables nothing."""
-    return [word.replace("_", " ") for word in variable.attrs.get("flag_meanings", "").split()]
+    words = variable.attrs.get("flag_meanings", "").split()
+    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words]
 
 
 def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.DataArray:
@@ -179,6 +181,18 @@ def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.Da
     words = {dim: value for dim, value in at.items() if isinstance(value, str)}
     numbers = {dim: value for dim, value in at.items() if not isinstance(value, str)}
     return study[name].sel(words).sel(numbers, method="nearest").squeeze()
+
+
+def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) -> dict[str, xr.DataArray]:
+    """Where what was `picked` has no value, by what there is instead, which the status of the points says."""
+    gone = found.isnull()
+    if not gone.any() or "status" not in study:
+        return {"no value": gone} if gone.any() else {}
+    status = picked(study, "status", {dim: value for dim, value in at.items() if dim in study["status"].dims})
+    words = status.copy(data=flag_names(status))
+    names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {"ok": "no value"}
+    each = {name: gone & words.isin([word for word in names if names[word] == name]) for name in names.values()}
+    return {name: there for name, there in each.items() if there.any()}
 
 
 def fixed(study: xr.Dataset) -> str:
@@ -190,17 +204,27 @@ def fixed(study: xr.Dataset) -> str:
     return ", ".join(filter(None, [numbers, *words]))
 
 
-def head(figure: Figure, study: xr.Dataset, title: str, shown: xr.DataArray | None = None) -> None:
+def head(
+    figure: Figure, study: xr.Dataset, title: str, shown: xr.DataArray | None = None, modes_said: bool = False
+) -> None:
     """Over a figure of a grid: its title, or the study's, and what did not vary.
 
     shown : what is shown, if it is one value of some dimensions
+    modes_said : whether the figure's panels say the normalization
     """
     values = [
         value_said(shown, str(name))
         for name, size in study.sizes.items()
         if shown is not None and size > 1 and name in shown.coords and name not in shown.dims
     ]
-    texts = [title or study.attrs.get("title", ""), ", ".join(filter(None, [*values, fixed(study)]))]
+    base = json.loads(study.attrs.get("base", "{}"))
+    modes = MODES["orthonormal"] if not modes_said and base.get("normalization") == "orthonormal" else ""
+    entitle(figure, title or study.attrs.get("title", ""), ", ".join(filter(None, [*values, fixed(study), modes])))
+
+
+def entitle(figure: Figure, title: str, values: str) -> None:
+    """Over a figure, its title and the values of parameters, where there are any."""
+    texts = [title, re.sub(r"\b(\w)_(\w)\b", r"$\1_\2$", values)]
     if any(texts):
         width = round(figure.get_figwidth() / 0.06)
         figure.suptitle("\n".join(fill(text, width) for text in texts if text), fontsize=8)
@@ -356,7 +380,9 @@ def without_failed(study: xr.Dataset, *names: str) -> xr.Dataset:
     return study.assign({name: study[name].where(~failed(study)) for name in names})
 
 
-def mark_failed(ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x") -> None:
+def mark_failed(
+    ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed", mark: str = "x"
+) -> None:
     """Crosses beside an axis at points that did not go well, as stability maps have them; nothing if there are none."""
     if not values.size:
         return
@@ -364,4 +390,4 @@ def mark_failed(ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x") -> No
     place, transform = (
         ((values, low), ax.get_xaxis_transform()) if on == "x" else ((low, values), ax.get_yaxis_transform())
     )
-    ax.plot(*place, "x", color=BLACK, markersize=3.5, transform=transform, clip_on=False, label="failed")
+    ax.plot(*place, mark, color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from disc_model.data.variables import said_values
 from disc_model.errors import Fault, ParameterError
 
 PANELS = (("P", 1.0, "contact force P (N)"), ("w", 1e3, "disc under the slider w (mm)"))
@@ -54,7 +55,7 @@ def quicklook(result: Sampled) -> Figure:
         _mark_separation(axes[:, column], window["time"], result.first_separation)
         axes[-1, column].set_xlabel("time (s)")
     p = result.parameters
-    figure.suptitle(f"N = {p.N:g} N, Ω = {p.Omega:g} rad/s, {p.normalization}, {p.contact}")
+    figure.suptitle(f"{said_values(p.model_dump())}, {p.normalization.replace('_', ' ')}, {p.contact}")
     return figure
 
 

@@ -43,6 +43,7 @@ def drawn(case: xr.DataTree, kind: str, **said: Any) -> Figure:
 def test_a_history_has_a_panel_for_each_variable(case: xr.DataTree, tmp_path: Path) -> None:
     figure = drawn(case, "history", window="late", variables=["P", "w_point", "psi"], title="Seen")
     assert figure.axes[0].get_ylabel() == SAMPLED["P"][0]
+    assert figure.get_suptitle() == "Seen\nN = 200 N, Ω = 20 rad/s"
     assert len(figure.axes) == 3
     line = figure.axes[0].lines[0]
     assert np.array_equal(line.get_ydata(), case["late/P"].values)

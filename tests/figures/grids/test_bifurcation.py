@@ -41,7 +41,7 @@ def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() 
     )
     figure = attractors.draw(study, {}, Bifurcation(x="N", title="Made up"))
     assert labels(figure.axes[0]) == ["at release of stick"]
-    assert figure.get_suptitle() == "Made up\nΩ = 15 rad/s, c_p = 1 N s/m"  # k is that of Table 1
+    assert figure.get_suptitle() == "Made up\nΩ = 15 rad/s, $c_p$ = 1 N s/m, orthonormal modes"  # k is that of Table 1
     assert "from the state of N = 385 N, Ω = 15.1 rad/s after 70 s" in figure.get_supxlabel()
     assert "published start" in attractors.draw(samples, {}, Bifurcation(x="N")).get_supxlabel()
 

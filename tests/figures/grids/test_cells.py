@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
-from disc_model.figures.grids.cells import alone, cycles_of, scale_of
+from disc_model.figures.grids.cells import alone, cycles_of, growth_cells, scale_of
 
 STATUS = {"flag_meanings": "ok no_cycle separates no_stick_slip at_rest failed"}
 
@@ -49,3 +50,9 @@ def test_a_growth_rate_unlike_all_around_is_marked() -> None:
     there[1, 1] = True
     np.testing.assert_array_equal(alone(rate), there)
     assert not alone(np.array([[0.1]])).any(), "without neighbours nothing can be said"
+    axes = Figure().subplots()
+    data = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, {"N": np.arange(4.0), "Omega": np.arange(4.0)})
+    shown = growth_cells(axes, data, "Omega", "N").get_array()
+    assert shown[1, 1] == -0.1, "its value was hidden"
+    (hatched,) = (cells for cells in axes.collections if cells.get_hatch())
+    np.testing.assert_array_equal(~np.ma.getmaskarray(hatched.get_array()), there)

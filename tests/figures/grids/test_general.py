@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
+from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm, to_rgba
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
@@ -26,12 +26,13 @@ def study() -> xr.Dataset:
     both[0, 0, 0] = np.nan
     dims = ("mu_k", "c_p", "normalization")
     words = {"flag_meanings": "ok no_cycle"}
+    lost = np.isnan(both)
     return xr.Dataset(
         {
             "growth_rate": (dims, both, {"long_name": "growth rate of disturbances", "units": "s-1"}),
             "drift": (dims, both, {"long_name": "drift", "units": "m s-1"}),
             "period": (dims, np.abs(both) + 1, {"long_name": "period", "units": "s"}),
-            "status": (dims, (both > 0).astype(np.int8), words),
+            "status": (dims, ((both > 0) | lost).astype(np.int8), words),
         },
         {"mu_k": mu_k, "c_p": c_p, "normalization": ["as_published", "orthonormal"]},
     )
@@ -53,7 +54,7 @@ def test_a_heat_map_has_a_panel_for_each_normalization(study: xr.Dataset, tmp_pa
     assert np.ma.getmaskarray(shown)[0, 0]
     assert shown[2, 3] == pytest.approx(0.1)
     assert figure.axes[-1].get_ylabel() == "Drift (m/s)"
-    assert labels(figure) == ["no value"]
+    assert labels(figure) == ["no cycle found"]
     ax = figure.axes[0]
     assert (ax.get_xscale(), ax.get_yscale()) == ("log", "linear"), "a range by factors has an axis by factors"
     assert ax.get_xlim() == (0.01, 10)
@@ -75,20 +76,35 @@ def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
     assert isinstance(mesh(mapped(study, "period", log=True)).norm, LogNorm)
     figure = mapped(study, "status")
     assert isinstance(mesh(figure).norm, BoundaryNorm)
-    assert [text.get_text() for text in figure.axes[-1].get_yticklabels()] == ["ok", "no cycle"]
+    assert [text.get_text() for text in figure.axes[-1].get_yticklabels()] == ["ok", "no cycle found"]
 
 
 def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) -> None:
     plot = CurvePlot(variable="growth_rate", x="mu_k", by="c_p", at={"normalization": "as_published"})
     figure = curve.draw(study, {}, plot)
     ax = figure.axes[0]
-    shown = lines(ax)
-    assert list(shown)[:4] == ["In-plane damper $c_p$ = 0.01 N s/m", "In-plane damper $c_p$ = 0.1 N s/m",
-                               "In-plane damper $c_p$ = 1 N s/m", "In-plane damper $c_p$ = 10 N s/m"]  # fmt: skip
-    assert np.allclose(shown["In-plane damper $c_p$ = 1 N s/m"].get_ydata(), [-0.1, 0, 0.1])
-    assert shown["failed"].get_xdata() == [0.1], "a cross where one has no value"
-    assert ax.get_ylabel() == "Growth rate of disturbances (1/s)"
+    bar = figure.axes[-1]
+    assert bar.get_ylabel() == "In-plane damper $c_p$ (N s/m)", "said once: it stood before each of its values"
+    assert [text.get_text() for text in bar.get_yticklabels()] == ["0.01", "0.1", "1", "10"]
+    assert np.allclose(ax.lines[2].get_ydata(), [-0.1, 0, 0.1])
+    colour = figure.axes[-1].collections[-1].cmap(2)
+    assert np.allclose(to_rgba(ax.lines[2].get_color()), colour)
+    assert labels(figure) == ["no cycle found"]
+    assert lines(ax)["no cycle found"].get_xdata() == [0.1], "a cross where one has no value"
+    assert ax.get_ylabel() == "Growth rate of disturbances\n(1/s)"
     save(figure, tmp_path / "curve.png")
+
+
+@pytest.mark.parametrize(
+    ("status", "name"),
+    [("no_cycle", "no cycle found"), ("at_rest", "sticks"), ("paradox", "failed"), ("ok", "no value")],
+)
+def test_a_point_without_a_value_is_called_the_same_in_curve_and_map(study: xr.Dataset, status: str, name: str) -> None:
+    """In a curve all were "failed", and in a heat map "no value"."""
+    study["status"].attrs["flag_meanings"] = f"fine {status}"
+    at = {"normalization": "as_published"}
+    curved = curve.draw(study, {}, CurvePlot(variable="drift", x="mu_k", by="c_p", at=at))
+    assert labels(curved) == labels(mapped(study, "drift", at=at)) == [name]
 
 
 def zipped(study: xr.Dataset) -> xr.Dataset:
@@ -119,7 +135,7 @@ def test_panels_come_as_the_page_has_its_columns(study: xr.Dataset) -> None:
 def test_a_curve_of_words_names_them(study: xr.Dataset) -> None:
     plot = CurvePlot(variable="status", x="c_p", at={"normalization": "as_published", "mu_k": 0.3})
     ax = curve.draw(study, {}, plot).axes[0]
-    assert [text.get_text() for text in ax.get_yticklabels()] == ["ok", "no cycle"]
+    assert [text.get_text() for text in ax.get_yticklabels()] == ["ok", "no cycle found"]
     assert ax.get_xscale() == "log"
 
 

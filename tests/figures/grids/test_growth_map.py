@@ -16,7 +16,9 @@ from tests.studies.grids.conftest import growth_over
 
 def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset, tmp_path) -> None:
     growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    growth.attrs = {"title": "Growth", "base": '{"c_p": 0.5}'}
     mapped = growth_map.draw(growth, {"curves": plane}, GrowthMap())
+    assert mapped.get_suptitle() == "Growth\n$c_p$ = 0.5 N s/m"
     assert mapped.axes[0].get_xlim() == (5, 18)
     assert {"cycle loses stability", "no cycle found"} <= set(labels(mapped))
     bar = mapped.axes[-1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -9,6 +10,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data import dataset
+from disc_model.data.variables import said_values
 from disc_model.figures import parts
 from disc_model.figures.cases.kinds import CASE_PLOTS, History, Spectrogram
 from disc_model.figures.paper.sections import portrait, sections
@@ -20,9 +22,9 @@ from disc_model.figures.parts import COLUMN, PAGE, new_figure, styled
 def draw(cases: Mapping[str, xr.DataTree], **said: Any) -> Figure:
     """One figure of one case, from what the study file says of it, see `disc_model.figures.cases.kinds`."""
     plot = CASE_PLOTS[said["kind"]].model_validate(said)
-    figure = DRAWN[said["kind"]](cases[plot.case], plot)
-    if plot.title:
-        figure.suptitle(plot.title, fontsize=8)
+    case = cases[plot.case]
+    figure = DRAWN[said["kind"]](case, plot)
+    parts.entitle(figure, plot.title, said_values(json.loads(case.attrs.get("parameters", "{}"))))
     return figure
 
 

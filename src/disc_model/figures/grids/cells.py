@@ -15,24 +15,27 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from disc_model.data.variables import flag_names
-from disc_model.figures.parts import GREY, SEPARATED, label_of
+from disc_model.data.variables import WITHOUT_CYCLE, flag_names
+from disc_model.figures.parts import BLACK, GREY, SEPARATED, label_of
 
 Array = NDArray[np.float64]
 Names = NDArray[np.str_]
 Edges = tuple[Array, Array]
 
 # ----------------------------------------------------------------------------------------------------
-# Cells in flat colours: hatches would be wider than a cell
+# Cells in flat colours, and a hatch for single ones
 
 
 class Look(NamedTuple):
-    """How cells are filled, and what they are called."""
+    """How cells are filled, or hatched over what fills them, and what they are called."""
 
     label: str
     face: str
+    hatch: str = ""
 
 
+HATCH = 8 * "/"
+"""So dense that a cell of a fiftieth of a panel has two lines."""
 OUTCOMES = {
     "stable": Look("stays quiet", "#e9eef2"),
     "unstable": Look("grows, no separation", "#a9b4bd"),
@@ -41,15 +44,15 @@ OUTCOMES = {
     "unknown": Look("failed", "#333333"),
 }
 CYCLES = {
-    "slides": Look("slides steadily", "#d9cfe3"),
-    "sticks": Look("sticks", "#cfe3d6"),
-    "separates": Look("separates at once", "#f3c9ae"),
+    "slides": Look(WITHOUT_CYCLE["no_stick_slip"], "#d9cfe3"),
+    "sticks": Look(WITHOUT_CYCLE["at_rest"], "#cfe3d6"),
+    "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae"),
     "only_near": Look("start follows no cycle", "#f2e6a2"),
-    "none_found": Look("no cycle found", "#b5b5b5"),
-    "alone": Look("growth unlike all cells around", "#d3d98f"),
+    "none_found": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5"),
+    "alone": Look("growth unlike all cells around", "none", HATCH),
     "failed": Look("failed", "#333333"),
 }
-"""What there is to see where no cycle is followed."""
+"""What there is to see where no cycle is followed, and over a growth rate that may be another cycle's."""
 WITHOUT = {
     "ok": "none_found",
     "no_cycle": "none_found",
@@ -97,8 +100,12 @@ def words_of(data: xr.Dataset, name: str, x: str, y: str) -> Names:
 def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look]) -> None:
     """Cells in the look of their word; those of no look stay as they are."""
     codes = np.full(words.shape, np.nan)
-    for i, word in enumerate(looks):
-        codes[words == word] = i
+    for i, (word, look) in enumerate(looks.items()):
+        here = words == word
+        if not look.hatch:
+            codes[here] = i
+        elif here.any():
+            ax.pcolor(*edges, np.ma.masked_where(~here, here), cmap=ListedColormap(["none"]), hatch=look.hatch)
     if np.isnan(codes).all():
         return
     colours = ListedColormap([look.face for look in looks.values()])
@@ -108,7 +115,8 @@ def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look]) -> Non
 
 def patch(look: Look) -> Patch:
     """For legends."""
-    return Patch(facecolor=look.face, edgecolor=GREY, linewidth=0.4, label=look.label)
+    edge = BLACK if look.hatch else GREY
+    return Patch(facecolor=look.face, edgecolor=edge, hatch=look.hatch, linewidth=0.4, label=look.label)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -129,19 +137,19 @@ def growth_norm() -> AsinhNorm:
 
 
 def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
-    """`growth_rate` (1/s) over two parameters; where no cycle is followed, what there is instead.
+    """`growth_rate` (1/s) over two parameters; where no cycle is followed, what there is instead; hatched where alone.
 
     data : of the quantity `regions`, or of `floquet`; without flags all that has no rate is without a cycle
     """
     edges, words = edges_of(data, x, y), cycles_of(data, x, y)
-    shown = np.ma.masked_where(words != "", data["growth_rate"].transpose(y, x).values)
+    shown = np.ma.masked_where(~np.isin(words, ["", "alone"]), data["growth_rate"].transpose(y, x).values)
     mesh = ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=growth_norm(), rasterized=True)
     fill(ax, edges, words, CYCLES)
     return mesh
 
 
 def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
-    """What there is where no cycle is followed, a key of `CYCLES`, or "": shape (len(y), len(x))."""
+    """What there is where no cycle is followed, a key of `CYCLES`, "alone" or "": shape (len(y), len(x))."""
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
         return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y))
@@ -172,7 +180,7 @@ def alone(rate: Array) -> NDArray[np.bool_]:
 
 
 def cycle_patches(words: Collection[str]) -> list[Patch]:
-    """For legends: what there is where no cycle is followed."""
+    """For legends: what there is where no cycle is followed, and what is hatched."""
     return [patch(look) for name, look in CYCLES.items() if name in words]
 
 

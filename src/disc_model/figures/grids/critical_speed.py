@@ -72,6 +72,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
         handles, columns = (behind, 2) if ax is axes[0] else ([], 1)
         ax.legend(handles=ax.get_legend_handles_labels()[0] + handles, ncols=columns, columnspacing=1.0, **below)
     axes[0].set_ylabel("Speed Ω (rad/s)")
+    parts.head(figure, study, plot.title, modes_said=True)
     return figure
 
 

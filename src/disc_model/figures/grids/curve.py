@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from textwrap import fill
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
@@ -16,30 +21,48 @@ from disc_model.figures.parts import BLACK, COLUMN, new_figure, styled
 
 @styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:
-    """A line, or one for each value of a second dimension; crosses at the axis where there is no value."""
+    """A line, or one for each value of a second dimension; marks at the axis where there is no value.
+
+    A second dimension of numbers has a scale of colours, one of words or pairs a legend.
+    """
     found = parts.picked(study, plot.variable, plot.at)
     by = next((str(name) for name in found.dims if name != plot.x), None)
     lines = parts.slices(found, by)
-    figure = new_figure(COLUMN, 2.6)
+    numbers = found[by] if by in found.coords and found[by].dtype.kind in "fi" else None
+    figure = new_figure(COLUMN, 2.9)
     ax = figure.subplots()
     label, factor = parts.label_of(found[plot.x])
     along = found[plot.x].values * factor
     words = parts.flags_of(found)
-    for i, (said, line) in enumerate(lines):
-        colour = BLACK if len(lines) == 1 else cm.batlow(i / len(lines))
-        mark = "." if words else ".-"
-        ax.plot(along, line.values, mark, color=colour, markersize=3, linewidth=0.8, label=said or None)
+    colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
+    for colour, (said, line) in zip(colours, lines, strict=True):
+        mark, name = "." if words else ".-", said if numbers is None else ""
+        ax.plot(along, line.values, mark, color=colour, markersize=3, linewidth=0.8, label=name or None)
     if plot.log:
         ax.set_yscale("log")
     if parts.spaced_by_factor(along):
         ax.set_xscale("log")
     ax.margins(0.03)
-    ax.set(xlabel=label, ylabel=parts.label_of(found)[0])
+    ax.set(xlabel=label, ylabel=fill(parts.label_of(found)[0], 32))
     if words:
         ax.set_yticks(range(len(words)), labels=words)
-    elif found.dtype.kind == "f":
-        parts.mark_failed(ax, along[np.isnan(found.transpose(plot.x, ...).values.reshape(len(along), -1)).any(axis=1)])
-    if by is not None:
-        figure.legend(loc="outside right upper")
+    for (name, gone), mark in zip(parts.gaps(study, found, plot.at).items(), "x+|12", strict=False):
+        there = gone.any([dim for dim in gone.dims if dim != plot.x]).values
+        parts.mark_failed(ax, along[there], name=name, mark=mark)
+    if numbers is not None:
+        _scale(figure, ax, numbers, colours)
+    if ax.get_legend_handles_labels()[0]:
+        beside = by is not None and numbers is None
+        figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if beside else 2)
     parts.head(figure, study, plot.title, found)
     return figure
+
+
+def _scale(figure: Figure, ax: Axes, values: xr.DataArray, colours: Sequence[Any]) -> None:
+    """Beside the panel, the value of each line in its colour."""
+    label, factor = parts.label_of(values)
+    norm = BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours))
+    bar = figure.colorbar(ScalarMappable(norm, ListedColormap(list(colours))), ax=ax, pad=0.01, aspect=30)
+    bar.set_label(label)
+    bar.set_ticks(list(range(len(colours))), labels=[f"{value * factor:g}" for value in values.values])
+    bar.minorticks_off()

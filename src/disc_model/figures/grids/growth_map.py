@@ -179,4 +179,5 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
     growth_bar(figure, mesh, axes)
+    parts.head(figure, study, plot.title, modes_said=True)
     return figure

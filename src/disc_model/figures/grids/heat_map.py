@@ -50,8 +50,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> 
         if words := parts.flags_of(found):
             bar.set_ticks(list(range(len(words))), labels=words)
             bar.minorticks_off()
-        elif found.isnull().any():
-            handles = [Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label="no value")]
+        elif gaps := parts.gaps(study, found, plot.at):
+            handles = [Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label=", ".join(gaps))]
     _name(figure, axes, [said for said, _ in panels], found, plot)
     if handles:
         figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))

@@ -43,8 +43,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
         xlabel="Rate of the speed (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"])
     )
     figure.legend(loc="outside lower center", ncols=1)
-    said = f"N = {load:g} N, {parts.MODES[norm]}"
-    figure.suptitle(f"{plot.title}\n{said}" if plot.title else said, fontsize=8)
+    parts.entitle(figure, plot.title, f"{parts.fixed(study)}, {parts.MODES[norm]}")
     return figure
 
 

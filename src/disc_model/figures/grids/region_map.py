@@ -55,6 +55,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
             _marks(ax, plot)
     cells.growth_bar(figure, mesh, list(axes[1]))
     _legends(figure, study, plot, kinds, are_named)
+    parts.head(figure, study, plot.title, modes_said=True)
     return figure
 
 
@@ -168,10 +169,9 @@ def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap, kinds: Collecti
 
 
 def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
-    """What did not vary, how it was computed, what the names of the marks are, and what does not fit."""
+    """How it was computed, what the names of the marks are, and what does not fit."""
     outcome, cycle, origin = (flag_names(study[name]) for name in ("outcome", "cycle", "origin"))
-    horizon, fixed = json.loads(study.attrs["options"])["horizon"], parts.fixed(study)
-    yield f"{fixed}. " * bool(fixed) + f"Within {horizon:g} s of the published start."
+    yield f"Within {json.loads(study.attrs['options'])['horizon']:g} s of the published start."
     figures = next((name[1:] for name in plot.marks if re.fullmatch(r"F\d+", name)), "")
     named = f" F{figures}: in Fig. {figures} of the paper." * bool(figures)
     yield f"{(origin == 'simulation').sum()} of {outcome.size} points simulated.{named}"

@@ -54,6 +54,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
     if mesh is not None:
         growth_bar(figure, mesh, list(axes))
     _legend(figure, study, gaps, paper_rings(plot) if "as_published" in norms else [])
+    parts.head(figure, study, plot.title, modes_said=True)
     return figure
 
 

@@ -69,6 +69,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Thresholds) 
     ax.set(xlabel=SPEED, ylabel=LOAD)
     ax.set_title(f"{parts.MODES[norm]}, within {horizon:g} s", loc="left", pad=9)
     figure.legend(handles=handles, loc="outside lower center", ncols=2, columnspacing=1.0)
+    parts.head(figure, study, plot.title, modes_said=True)
     return figure
 
 

@@ -18,7 +18,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, agreed, json_attribute
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import WITHOUT_CYCLE, flag_names
 from disc_model.errors import DiscModelError
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.run import POINT, describe
@@ -75,7 +75,8 @@ def failures(study: xr.Dataset) -> Iterator[str]:
         place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
         point = study.isel(place)
         where = ", ".join(f"{name} = {point[name].item()}" for name in varied)
-        what, message = str(status[tuple(index)]), str(point["message"].item())
+        word, message = str(status[tuple(index)]), str(point["message"].item())
+        what = WITHOUT_CYCLE.get(word, word)
         yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"
 
 
