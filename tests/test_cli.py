@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import inspect
-import io
 import json
 import subprocess
 import sys
-import time
 from pathlib import Path
-from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -19,9 +16,7 @@ from matplotlib.figure import Figure
 import disc_model
 from disc_model import Parameters, cli, mode_choice, simulate
 from disc_model.cli.case import option_name
-from disc_model.cli.progress import compiling, simulating
 from disc_model.cli.run import _plot_record
-from disc_model.engine import machine
 from disc_model.errors import DiscModelError
 from disc_model.simulation import api
 from disc_model.studies.schema import load_study
@@ -260,26 +255,6 @@ def test_a_plot_that_cannot_be_written_is_bad_input(command: Command, tmp_path: 
     assert "cannot be written (No space left on device)" in err
 
 
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
-def test_progress_is_shown_on_a_terminal(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    terminal = Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
-    with simulating(4.0) as progress:
-        progress(1.0)
-        progress(9.0)
-    assert "simulating" in terminal.getvalue()
-    assert "4.00 of 4 s" in terminal.getvalue()  # no further than the end
-    assert "simulating" not in command.out(*SHORT)
-    assert "of 0.05 s" in terminal.getvalue()
-    monkeypatch.setattr(sys, "stderr", io.StringIO())
-    with simulating(4.0) as progress:
-        assert progress is None
-
-
 def test_the_version_is_told(command: Command) -> None:
     assert command.out("--version") == f"disc_model {disc_model.__version__}\n"
 
@@ -334,21 +309,6 @@ def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
     assert "advice" in out
 
 
-def test_compiling_is_told_when_the_first_kernel_is_kept(capsys, monkeypatch, tmp_path: Path) -> None:
-    """Nothing is said where all kernels are there already."""
-    monkeypatch.setattr(machine, "run", SimpleNamespace(stats=SimpleNamespace(cache_path=str(tmp_path))))
-    (tmp_path / "old.kernel").touch()
-    with compiling():
-        time.sleep(0.5)
-    assert capsys.readouterr().err == ""
-    with compiling():
-        (tmp_path / "new.kernel").touch()
-        time.sleep(0.5)
-    said = capsys.readouterr().err
-    assert said.startswith("compiling kernels, once")
-    assert "1 kernels compiled in" in said
-
-
 STUDY = """\
 study: mine
 quantity: floquet
@@ -375,7 +335,7 @@ def mine(tmp_path: Path) -> Path:
     [
         ("studies", ("mine", "floquet", "mu_s x mu_k", "4", "not computed")),
         ("figures", ("growth", "heat_map", "seen", "history")),
-        ("cases", ("A", "one case", "mu_k = 0.2", "1")),
+        ("cases", ("A", "one case", "μ_k = 0.2", "1")),
     ],
 )
 def test_what_a_study_has_is_listed(command: Command, monkeypatch, mine: Path, what: str, parts: tuple) -> None:

@@ -224,6 +224,20 @@ def test_a_study_needs_no_clone(installed: Installed) -> None:
     installed.run("snakemake", "-n", "--directory", "own", "-s", "own/Snakefile")
 
 
+def test_a_plain_installation_serves_what_the_readme_shows(built: Built, index: None, tmp_path: Path) -> None:
+    """Without extras: all of its Python, and for the picture the extra that draws it."""
+    run(sys.executable, "-m", "venv", tmp_path / "venv", cwd=tmp_path)
+    plain = Installed(tmp_path / "venv" / "bin", tmp_path)
+    pins = PIN.findall((ROOT / "requirements.lock").read_text())
+    (tmp_path / "pins.txt").write_text("".join(f"{name}=={version}\n" for name, version in pins))
+    plain.run("python", "-m", "pip", "install", "-c", "pins.txt", built.wheel)
+    [shown] = re.findall(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(), re.DOTALL | re.MULTILINE)
+    drawn = "try:\n    r.plot()\nexcept ImportError as error:\n    print(error)\n"
+    said = plain.run("python", "-I", "-c", re.sub(r"^r\.plot\(\).*\n", drawn, shown, flags=re.MULTILINE))
+    assert "pip install 'disc_model[workflow]'" in said
+    assert (tmp_path / "run.nc").stat().st_size > 0
+
+
 # ---- the lock file
 
 

@@ -44,7 +44,19 @@ assert dm.load(sys.argv[1])["sample_0/P"].sizes["time"] == 11
 assert len(result.events) == result.statistics["events"]
 dm.deflection(p, dm.snapshots(p, [0.0, 0.01]), p.r_0, 0.0)
 dm.plate_modes(p), dm.residual_flexibility(p), dm.choose_modes(p.replace(n_diameters=4), 0.1)
+try:
+    result.plot()
+except ImportError as error:
+    assert str(error) == "Result.plot needs matplotlib: pip install 'disc_model[workflow]' brings it"
+else:
+    raise AssertionError("it was drawn")
 from disc_model.cli import main
+drawn = ["run", "--N", "1", "--Omega", "1", "--t-end", "1", "--plot", "x.png"]
+for command in (["init", sys.argv[1] + ".study"], drawn):
+    try:
+        main(command)
+    except SystemExit as ended:
+        assert ended.code == 2, command
 for command in (["modes"], ["run", "--N", "200", "--Omega", "20", "--t-end", "0.02"]):
     try:
         main(command)
@@ -65,6 +77,8 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=600)
     assert done.returncode == 2, done.stdout + done.stderr
     assert "psi" in done.stdout
+    assert not (tmp_path / "run.nc.study").exists()
+    assert done.stderr.count("pip install 'disc_model[workflow]'") == 3
     assert done.stderr.endswith(
         "error: there is no module yaml: pip install 'disc_model[workflow]' brings all that studies need\n"
     )

@@ -10,13 +10,11 @@ import functools
 import inspect
 import math
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import nullcontext
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
 from rich.table import Column, Table
 
-from disc_model.cli.progress import compiling
 from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters
 from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED, read_asked
@@ -99,8 +97,7 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
         p, asked = read_asked(case)
         if asked is None:
             return p, ""
-        with compiling() if asked.quantity != FREQUENCIES else nullcontext():
-            choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)
+        choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)
         return choice.parameters, choice.to_json()
     except ParameterError as error:
         faults += error.faults

@@ -9,7 +9,6 @@ import typer
 from rich.console import Console
 
 from disc_model.cli.case import case_lines, number, parameters_of, table, tell, with_case_options
-from disc_model.cli.progress import compiling
 from disc_model.errors import refuse
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_rule
 
@@ -56,12 +55,11 @@ def floquet(
     rule = limits_rule(CYCLE_TOLERANCES)
     tolerance = number("tol", tol, lambda x: CYCLE_TOLERANCES[0] <= x <= CYCLE_TOLERANCES[1], rule, faults)
     refuse(faults)
-    with compiling():
-        from disc_model.stability.cycle import CycleStatus
-        from disc_model.stability.cycle import floquet as cycle_of
+    from disc_model.stability.cycle import CycleStatus
+    from disc_model.stability.cycle import floquet as cycle_of
 
-        cycle = cycle_of(parameters, tol=tolerance)
-        sliding = cycle.sliding
+    cycle = cycle_of(parameters, tol=tolerance)
+    sliding = cycle.sliding
     found = cycle.status is CycleStatus.OK
     lines = [*case_lines(parameters, choice), ("status", cycle.message or cycle.status.value)]
     if found:
@@ -82,9 +80,8 @@ def floquet(
 
 def warm() -> None:
     """Compile the kernels into the cache, so that jobs started in parallel find them there."""
-    with compiling():
-        from disc_model.simulation.api import simulate
+    from disc_model.simulation.api import simulate
 
-        for contact in ("separable", "bonded"):
-            simulate(Parameters(N=385, Omega=15.1, contact=contact), 0.02)
+    for contact in ("separable", "bonded"):
+        simulate(Parameters(N=385, Omega=15.1, contact=contact), 0.02)
     typer.echo("kernels compiled and cached")

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from disc_model.cli.case import case_lines, number, parameters_of, tell, with_case_options
-from disc_model.cli.progress import prepare, simulating
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import TOLERANCES, Parameters, limits_rule
 
@@ -76,9 +75,7 @@ def run(
     if checkpoint is not None:  # where a run goes on, or why it does not
         logging.basicConfig(format="%(message)s")
         logging.getLogger("disc_model").setLevel(logging.INFO)
-    prepare(p)
-    with simulating(end) as progress:
-        result = simulate(p, end, record=record, progress=progress, checkpoint=checkpoint, ramps=ramps, **how)
+    result = simulate(p, end, record=record, checkpoint=checkpoint, ramps=ramps, **how)
     _print_summary(result, choice)
     complete = result.status.complete
     if save is not None:

@@ -100,6 +100,7 @@ def init(
     directory: Annotated[Path, typer.Argument(metavar="DIR", help="folder to lay out; made if it is not there")],
 ) -> None:
     """Lay out a folder for a study of your own: a study file to change, and a Snakefile for it."""
+    _require_snakemake()
     schema = (PACKAGE / "workflow" / "schemas" / "study.schema.json").resolve().as_uri()
     texts = {
         "my_study.yaml": STUDY.format(schema=schema),
@@ -122,12 +123,17 @@ def init(
 # Parts
 
 
-def _command(files: Sequence[Path] | None, options: Sequence[str]) -> list[str]:
-    """The command that has Snakemake compute a study."""
+def _require_snakemake() -> None:
+    """An error where a study could not be computed."""
     if find_spec("snakemake") is None:
         raise DiscModelError(
             "studies are computed by Snakemake, which is not installed: pip install 'disc_model[workflow]'"
         )
+
+
+def _command(files: Sequence[Path] | None, options: Sequence[str]) -> list[str]:
+    """The command that has Snakemake compute a study."""
+    _require_snakemake()
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     named = ["--configfile", *(str(file.resolve()) for file in files)] if files else []
     return [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options, *named]

@@ -21,6 +21,7 @@ from disc_model.engine.sampling import ROW
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
 from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
 from disc_model.plate import mode_arrays
+from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
 from disc_model.simulation.case import CaseSpec, Record, Start, Window
 from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
@@ -77,7 +78,7 @@ def simulate(
     record: Record | Window | None = None,
     stop_at: str | None = None,
     max_steps: int | None = None,
-    progress: Callable[[float], object] | None = None,
+    progress: Progress = None,
     checkpoint: str | os.PathLike[str] | None = None,
     checkpoint_every: float = 5.0,
     ramps: Ramp | tuple[Ramp, ...] = (),
@@ -93,7 +94,8 @@ def simulate(
     record : what to keep, or one window to keep; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
     max_steps : bound on the number of steps; None bounds it generously by the highest frequency
-    progress : called now and then with the time reached
+    progress : called now and then with the time reached; None shows that of a long run, and that kernels are compiled;
+        False shows nothing
     checkpoint : file by which the same call, made again after an interruption, goes on where this one was; its result
         is the same to the last bit (but for ``wall_time``). Removed at the end. Not for two runs at the same time
     checkpoint_every : s of wall time between checkpoints
@@ -114,7 +116,8 @@ def simulate(
     _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every), ramps)
     start = 0.0 if initial_state is None else initial_state.time
     record = record.resolved(start, t_end, ROW_SIZE)
-    run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps)
+    with compiling(told=progress is not False):
+        run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps)
     for window in record.outside(start, t_end):
         warnings.warn(f"{window}: stays empty, the run is from {start:g} to {t_end:g} s", stacklevel=2)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
@@ -122,12 +125,12 @@ def simulate(
         run.restore(contents)
         log.info("goes on at t = %.9g s from checkpoint %s", run.time, kept.path)
     code = outcomes.PAUSED
-    while code == outcomes.PAUSED:
-        code = run.advance()
-        if kept is not None and code == outcomes.PAUSED and kept.due:
-            kept.save(run.contents())
-        if progress is not None:
-            progress(run.time)
+    with simulating(progress, float(t_end)) as tell:
+        while code == outcomes.PAUSED:
+            code = run.advance()
+            if kept is not None and code == outcomes.PAUSED and kept.due:
+                kept.save(run.contents())
+            tell(run.time)
     result = run.result(_STATUS[code])
     run.close()
     if kept is not None:

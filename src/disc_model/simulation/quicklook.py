@@ -30,6 +30,21 @@ class Sampled(Protocol):
     def first_separation(self) -> float: ...
 
 
+class _ShownOnce(Figure):
+    """A figure of pyplot's that a notebook draws once, though pyplot and the value of a cell both show it."""
+
+    drawn = False
+
+    def _ipython_display_(self) -> None:
+        from IPython import get_ipython
+        from IPython.display import display
+
+        if not self.drawn or not plt.fignum_exists(self.number):
+            forms = get_ipython().display_formatter.formatters.items()
+            display({kind: data for kind, form in forms if (data := form(self)) is not None}, raw=True)
+        self.drawn = True
+
+
 def quicklook(result: Sampled) -> Figure:
     """Contact force (top) and disc displacement under the slider (bottom); one column a window.
 
@@ -46,6 +61,7 @@ def quicklook(result: Sampled) -> Figure:
         squeeze=False,
         figsize=(4.5 + 3.5 * (columns - 1), 5.0),
         layout="constrained",
+        FigureClass=_ShownOnce,
     )
     for column, window in enumerate(result.samples):
         for row, (name, scale, label) in enumerate(PANELS):

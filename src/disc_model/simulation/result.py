@@ -281,9 +281,14 @@ class Result:
         ------
         ParameterError
             If no window was recorded.
+        ImportError
+            If there is no matplotlib; the message says which extra brings it.
         """
-        from disc_model.simulation.quicklook import quicklook
-
+        try:
+            from disc_model.simulation.quicklook import quicklook
+        except ModuleNotFoundError as error:
+            reason = f"Result.plot needs {error.name}: pip install 'disc_model[workflow]' brings it"
+            raise ModuleNotFoundError(reason, name=error.name) from None
         return quicklook(self)
 
     def __repr__(self) -> str:

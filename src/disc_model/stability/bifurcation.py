@@ -11,6 +11,7 @@ import numpy as np
 from disc_model.data.variables import SERIES, Variable
 from disc_model.errors import Status, broken, refuse
 from disc_model.parameters import Parameters
+from disc_model.progress import compiling
 from disc_model.simulation.api import carried_over, simulate
 from disc_model.simulation.case import Poincare, Record
 from disc_model.simulation.result import State
@@ -22,6 +23,7 @@ SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 STATUS_NAMES = tuple(status.value for status in Status)
 
 
+@compiling()
 def bifurcation_samples(
     p: Parameters,
     name: str,

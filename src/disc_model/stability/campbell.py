@@ -17,6 +17,7 @@ from scipy.optimize import linear_sum_assignment
 
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
+from disc_model.progress import compiling
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.stability.return_map import Array, ComplexArray, ReturnMap
@@ -48,6 +49,7 @@ class Frequencies:
     likeness: Array
 
 
+@compiling()
 def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
     """Of steady sliding and of the stick-slip cycle near the published start; arrays are empty without the former."""
     cycle = floquet(p, tol=tol)

@@ -16,6 +16,7 @@ import numpy as np
 
 from disc_model.errors import ParameterError, broken
 from disc_model.parameters import Parameters
+from disc_model.progress import compiling
 from disc_model.simulation.result import State
 from disc_model.stability.branch import (
     REORDERED,
@@ -43,6 +44,7 @@ UNLOCATED = "a fold that cannot be located"
 """How the reason for which a branch ends may begin."""
 
 
+@compiling()
 def continue_cycle(
     p: Parameters,
     name: str,
@@ -173,6 +175,7 @@ def _at_one(jacobian: Array, former: complex) -> tuple[float, complex]:
     return mu.real - 1.0, mu
 
 
+@compiling()
 def continue_border(
     kind: Kind,
     p: Parameters,

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
+from disc_model.progress import compiling
 from disc_model.stability.continuation import UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Tongue, nearest_tongue
@@ -57,6 +58,7 @@ class _Seed:
     period: float
 
 
+@compiling()
 def stability_curves(
     p: Parameters,
     names: tuple[str, str],

@@ -13,6 +13,7 @@ import numpy as np
 
 from disc_model.errors import DiscModelError, StatusBase, broken, refuse
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_faults
+from disc_model.progress import compiling
 from disc_model.simulation.result import State
 from disc_model.stability.return_map import (
     OUTCOMES,
@@ -133,6 +134,7 @@ class FloquetResult:
         return self
 
 
+@compiling()
 def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, releases: int = 1) -> FloquetResult:
     """Find the stick-slip cycle near the published start, or near a given state, and its multipliers.
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from disc_model.engine import layout, outcomes, saltation, tangent, variational
 from disc_model.errors import StatusBase, broken, refuse, shown
 from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
+from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 from disc_model.stability.return_map import OUTCOMES, Array, case_faults, longest_step
@@ -82,6 +83,7 @@ class Lyapunov:
         return bool(self.exponents[0] > 4 * self.errors[0] and self.exponents[0] > 0)
 
 
+@compiling()
 def lyapunov_exponents(
     p: Parameters,
     duration: float,

@@ -1,0 +1,155 @@
+"""What is shown while one waits: kernels that are compiled, and how far a simulation has come.
+
+A bar on a terminal, a line that changes in a notebook, and elsewhere a line before and one after, all on stderr.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from typing import Any
+
+from numba.core import event
+
+Progress = Callable[[float], object] | bool | None
+"""What a caller says of it: a function to be told the time reached, or False for silence."""
+PATIENCE = 2.0
+"""s, from which on a simulation is long."""
+WIDTH = 30
+"""Characters of a bar in a notebook."""
+COMPILING = "compiling kernels, once: a minute or two"
+
+
+@contextmanager
+def simulating(progress: Progress, t_end: float) -> Iterator[Callable[[float], object]]:
+    """What is to be told the time reached, s, now and then: it shows that of a long run unless the caller objects."""
+    if callable(progress) or progress is False:
+        yield progress or (lambda _: None)
+        return
+    began, reached = time.perf_counter(), 0.0
+    line: _Line | None = None
+
+    def tell(now: float) -> None:
+        nonlocal line, reached
+        reached = min(float(now), t_end)
+        if line is None and time.perf_counter() - began > PATIENCE:
+            line = _Line(f"simulating {t_end:g} s", t_end)
+            line.start()
+        if line is not None:
+            line.show(f"simulating: {reached:.2f} of {t_end:g} s", reached)
+
+    try:
+        yield tell
+    finally:
+        if line is not None:
+            line.stop(f"simulated {reached:g} s in {time.perf_counter() - began:.0f} s")
+            line.close()
+
+
+_watched = False
+
+
+@contextmanager
+def compiling(told: bool = True) -> Iterator[None]:
+    """Says that kernels are compiled meanwhile, as soon as the first one is; also as a decorator.
+
+    Those inside another are left to that one.
+    """
+    global _watched
+    if _watched:
+        yield
+        return
+    _watched, kernels = True, _Kernels()
+    try:
+        with event.install_listener("numba:compile", kernels) if told else nullcontext():
+            yield
+    finally:
+        _watched = False
+        kernels.close()
+
+
+class _Kernels(event.Listener):
+    """Counts those that are compiled, one within the other, and the time that it takes."""
+
+    def __init__(self) -> None:
+        self.line: _Line | None = None
+        self.depth, self.count, self.seconds = 0, 0, 0.0
+
+    def on_start(self, found: Any) -> None:
+        self.depth += 1
+        if self.line is None:
+            self.line = _Line(COMPILING)
+        if self.depth == 1:
+            self.began = time.perf_counter()
+            self.line.start()
+
+    def on_end(self, found: Any) -> None:
+        self.depth -= 1
+        self.count += 1
+        if self.line is not None:
+            self.line.show(f"{COMPILING}, {self.count} done", self.count)
+            if self.depth == 0:
+                self.seconds += time.perf_counter() - self.began
+                self.line.stop(f"{self.count} kernels compiled in {self.seconds:.0f} s")
+
+    def close(self) -> None:
+        if self.line is not None:
+            self.line.close()
+
+
+class _Line:
+    """What goes on, in one line, from `start` to `stop`, which may come again, and at last `close`.
+
+    Parameters
+    ----------
+    text : how it begins
+    total : what `show` counts to, if that is known
+    """
+
+    def __init__(self, text: str, total: float | None = None) -> None:
+        from rich.console import Console
+
+        self.total, self.end = total, ""
+        self.bar: Any = None
+        self.handle: Any = None
+        console = Console(stderr=True)
+        if console.is_jupyter:  # where rich's own bars need ipywidgets
+            from IPython.display import display
+
+            self.handle = display({"text/plain": text}, raw=True, display_id=True)
+        elif sys.stderr.isatty():
+            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+            left = [TextColumn("left:"), TimeRemainingColumn()] if total else []
+            columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), *left)
+            self.bar = Progress(*columns, console=console, transient=True)
+            self.task = self.bar.add_task(text, total=total)
+        else:
+            print(text, file=sys.stderr, flush=True)
+
+    def start(self) -> None:
+        if self.bar is not None:
+            self.bar.start()
+
+    def show(self, text: str, count: float) -> None:
+        """How far it is."""
+        if self.bar is not None:
+            self.bar.update(self.task, description=text, completed=count)
+        elif self.handle is not None:
+            filled = round(WIDTH * count / self.total) if self.total else 0
+            bar = "█" * filled + "░" * (WIDTH - filled) + " " if self.total else ""
+            self.handle.update({"text/plain": bar + text}, raw=True)
+
+    def stop(self, text: str) -> None:
+        """Nothing goes on any more, or for a while; what has come of it."""
+        self.end = text
+        if self.bar is not None:
+            self.bar.stop()
+        elif self.handle is not None:
+            self.handle.update({"text/plain": text}, raw=True)
+
+    def close(self) -> None:
+        if self.bar is None and self.handle is None:
+            print(self.end, file=sys.stderr, flush=True)
