@@ -14,7 +14,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import disc_model
-from disc_model import Parameters, cli, mode_choice, simulate
+from disc_model import Parameters, cli, mode_choice, plausibility, simulate
 from disc_model.cli.case import option_name
 from disc_model.cli.run import _plot_record
 from disc_model.errors import DiscModelError
@@ -253,6 +253,13 @@ def test_a_plot_that_cannot_be_written_is_bad_input(command: Command, tmp_path: 
     code, _, err = command.run(*SHORT, "--plot", str(tmp_path / "x.png"))
     assert code == 2
     assert "cannot be written (No space left on device)" in err
+
+
+def test_what_can_hardly_be_meant_is_a_warning(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(plausibility, "_told", set())
+    code, _, err = command.run(*SHORT, "--h", "0.03")
+    assert code == 0
+    assert [line.split(" is ")[0] for line in err.splitlines()] == ["warning: h = 0.03 m"]
 
 
 def test_the_version_is_told(command: Command) -> None:

@@ -29,6 +29,7 @@ WHAT = {
     "plate": "modes of the disc",
     "parameters": "one case: a plain value; kinds of numbers, strict bases",
     "engine": "equations, series, roots, switches: numbers and arrays only",
+    "plausibility": "values that can hardly be meant",
     "progress": "what is shown while one waits",
     "errors": "how a computation may end, what is raised on purpose, how faults are said",
 }

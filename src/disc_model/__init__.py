@@ -31,6 +31,7 @@ _HOMES = {
     "Window": "simulation.case",
     "Poincare": "simulation.case",
     "Ramp": "simulation.ramps",
+    "ImplausibleValue": "plausibility",
     "Result": "simulation.result",
     "State": "simulation.result",
     "Status": "errors",
@@ -63,6 +64,7 @@ if TYPE_CHECKING:
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Parameters
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
+    from disc_model.plausibility import ImplausibleValue
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Poincare, Record, Window
     from disc_model.simulation.deflection import deflection, snapshots

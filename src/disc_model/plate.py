@@ -78,9 +78,13 @@ class Modes:
             column.setflags(write=False)
 
 
-def mode_arrays(p: Parameters) -> Modes:
-    """As `plate_modes`, without the cost of a table: the same read-only arrays at every call."""
-    return _modes(p.a, p.b, p.r_0, p.h, p.E, p.nu, p.rho, p.n_diameters, p.n_circles, p.normalization == "orthonormal")
+def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
+    """As `plate_modes`, without the cost of a table: the same read-only arrays at every call.
+
+    normalization : if not that of the case
+    """
+    orthonormal = (normalization or p.normalization) == "orthonormal"
+    return _modes(p.a, p.b, p.r_0, p.h, p.E, p.nu, p.rho, p.n_diameters, p.n_circles, orthonormal)
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:

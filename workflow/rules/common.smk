@@ -82,6 +82,11 @@ try:
 except StudyError as error:
     raise WorkflowError(str(error)) from None
 
+if getattr(workflow, "is_main_process", True):
+    for checked in [STUDY, *(GRIDS[name] for name in ASKED)]:
+        for doubt in checked.doubts:
+            logger.warning(f"{checked.name}: warning: {doubt}")
+
 RESULTS = f"results/{STUDY.name}"
 SCRIPTS = WORKFLOW / "scripts"
 

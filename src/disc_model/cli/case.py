@@ -17,6 +17,7 @@ from rich.table import Column, Table
 
 from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters
+from disc_model.plausibility import tell_doubts
 from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED, read_asked
 
 ANY = "VALUE"
@@ -95,6 +96,7 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
 
     try:
         p, asked = read_asked(case)
+        tell_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
         if asked is None:
             return p, ""
         choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)

@@ -7,7 +7,7 @@ values and what is recorded by default, and may override any of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from glob import glob
 from pathlib import Path
@@ -21,6 +21,7 @@ from disc_model.figures.cases.kinds import CASE_PLOTS, CasePlot
 from disc_model.figures.grids.kinds import PLOTS
 from disc_model.figures.paper.catalogue import CATALOGUE, lacking
 from disc_model.parameters import AUTO, Parameters, Positive, Real, Strict, Tolerance, leaves_modes
+from disc_model.plausibility import RULES
 from disc_model.simulation.case import CaseSpec, Poincare, Start, Window
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
@@ -187,6 +188,13 @@ class Study:
     def drawable(self) -> tuple[str, ...]:
         """Figures that these cases have all that is needed for: of the paper, and of cases."""
         return (*(name for name in CATALOGUE if not list(lacking(name, self.specs))), *self.plots)
+
+    @property
+    def doubts(self) -> Iterator[str]:
+        """What is implausible about its cases, each with their number."""
+        for rule in RULES.values():
+            if found := [text for spec in self.specs.values() if (text := rule.doubt(spec.parameters))]:
+                yield f"{found[0]} ({len(found)} of {len(self.specs)} cases)"
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
         """Its own grid and those of its files, and the names of those that are asked for.

@@ -23,7 +23,8 @@ from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
-from disc_model.parameters import AUTO, RESIDUAL, Count, Parameters, Strict, is_number, leaves_modes
+from disc_model.parameters import AUTO, CHOOSING, RESIDUAL, Count, Parameters, Strict, is_number, leaves_modes
+from disc_model.plausibility import RULES
 from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
 from disc_model.studies.files import (
     Faults,
@@ -202,6 +203,8 @@ def _cuts(values: Sequence[Value], size: int) -> list[tuple[list[Value], list[Va
 # ----------------------------------------------------------------------------------------------------
 # Studies
 
+LOOKED_AT = 300
+"""Points, about, at which each rule is asked whether they can be meant."""
 FIRST_SAMPLES = 64
 """In the first block of samples."""
 REQUIRED = ("N", "Omega")
@@ -290,6 +293,23 @@ class GridStudy:
     def n_points(self) -> int:
         """Number of points of the grid."""
         return n_points(self.dims)
+
+    @property
+    def doubts(self) -> Iterator[str]:
+        """What is implausible about its points, each with their number."""
+        base = {name: value for name, value in self.base.items() if name not in CHOOSING and value != AUTO}
+        for rule in RULES.values():
+            dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]
+            looked_at = [thinned(dim, round(LOOKED_AT ** (1 / len(dims)))) for dim in dims]
+            cases = [base | next(points(self.dims)) | point for point in points(looked_at)]
+            found = [
+                text
+                for case in cases
+                if (text := rule.doubt(Parameters(**{x: case[x] for x in case if x in Parameters.model_fields})))
+            ]
+            if found:
+                about = "about " * (n_points(looked_at) < n_points(dims))
+                yield f"{found[0]} ({about}{len(found) * self.n_points // len(cases)} of {self.n_points} points)"
 
 
 def load_grid(path: str | Path, overrides: Mapping[str, Any] | None = None, resolution: Any = 1) -> GridStudy:

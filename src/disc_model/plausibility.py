@@ -1,0 +1,101 @@
+"""Values that are allowed and can hardly be meant, such as E = 150 where GPa were thought of."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+from disc_model.errors import DiscModelError
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
+
+THICKEST = 0.2
+"""Share of b - a, up to which the theory of thin plates holds."""
+SPEEDS = (1e3, 2e4)
+"""Of sound along a rod, sqrt(E/rho), in solids: lead has 1,150 m/s, beryllium 12,600 and diamond 17,500."""
+DEEPEST = 300.0
+"""Static deflection over thickness. Linear theory holds up to about 1. The paper's cases have up to 8, and 211 at the
+80,000 N that stand for a load under which nothing moves; a slip of units is a factor of 1000."""
+FURTHEST = 100.0
+"""Factor from a value of Table 1."""
+
+
+class ImplausibleValue(UserWarning):
+    """A value that is allowed and can hardly be meant."""
+
+
+class Rule(NamedTuple):
+    """Parameters that it looks at, and what it says of a case; "" if that is plausible."""
+
+    names: tuple[str, ...]
+    doubt: Callable[[Parameters], str]
+
+
+def doubts(p: Parameters) -> dict[str, str]:
+    """What is implausible about a case, by the rule that says so."""
+    return {kind: text for kind, rule in RULES.items() if (text := rule.doubt(p))}
+
+
+_warn = partial(warnings.warn, category=ImplausibleValue, stacklevel=5)  # where `simulate` was called
+_told: set[str] = set()
+
+
+def tell_doubts(p: Parameters, tell: Callable[[str], object] = _warn) -> None:
+    """Tell what is implausible about a case, once in a process by each rule; by a warning, if nothing else is said."""
+    for kind, text in doubts(p).items():
+        if kind not in _told:
+            _told.add(kind)
+            tell(text)
+
+
+def _said(p: Parameters, name: str) -> str:
+    return f"{name} = {getattr(p, name):g} {Parameters.unit(name)}".removesuffix(" 1")
+
+
+def _far(name: str, p: Parameters) -> str:
+    value, usual = abs(getattr(p, name)), Parameters.model_fields[name].default
+    if usual / FURTHEST <= value <= usual * FURTHEST or value == 0:
+        return ""
+    how = "more than a hundred times" if value > usual else "less than a hundredth of"
+    return f"{_said(p, name)} is {how} the {usual:g} of Table 1"
+
+
+def _thick(p: Parameters) -> str:
+    if p.h <= THICKEST * (p.b - p.a):
+        return ""
+    return f"{_said(p, 'h')} is more than a fifth of b - a = {p.b - p.a:g} m, and the disc is modelled as a thin plate"
+
+
+def _sound(p: Parameters) -> str:
+    speed = math.sqrt(p.E / p.rho)
+    if SPEEDS[0] <= speed <= SPEEDS[1]:
+        return ""
+    limits = "{:g} to {:g} m/s".format(*SPEEDS)
+    return f"{_said(p, 'E')} and {_said(p, 'rho')} make sqrt(E/rho) = {speed:.3g} m/s, and solids have {limits}"
+
+
+def _deflected(p: Parameters) -> str:
+    try:
+        modes = mode_arrays(p, "orthonormal")  # those of the plate itself
+    except (DiscModelError, ArithmeticError):  # said where the modes are asked for
+        return ""
+    deflection = p.N * math.fsum(x**2 for x in (modes.psi / modes.omega).tolist())
+    if not DEEPEST * p.h < deflection < math.inf:
+        return ""
+    times = f"{1e3 * deflection:.3g} mm, {deflection / p.h:.0f} times the thickness"
+    return f"{_said(p, 'N')} bends the disc by {times}, and its theory is linear"
+
+
+_PLATE = ("a", "b", "r_0", "h", "E", "nu", "n_diameters", "n_circles")
+RULES = {
+    **{
+        name: Rule((name,), partial(_far, name))
+        for name in ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
+    },
+    "thickness": Rule(("h", "a", "b"), _thick),
+    "speed of sound": Rule(("E", "rho"), _sound),
+    "static deflection": Rule(("N", *_PLATE), _deflected),
+}
