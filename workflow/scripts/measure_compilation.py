@@ -8,16 +8,19 @@ import sys
 import tempfile
 from pathlib import Path
 
-KINDS = {
-    "simulate, the paper's model": "dm.simulate(p, 0.1)",
-    "floquet, the paper's model": "dm.floquet(p)",
-    "more than four nodal diameters": "dm.simulate(p.replace(n_diameters=8), 0.1)",
-    "a ramp": "dm.simulate(p, 0.1, ramps=dm.Ramp(parameter='Omega', to=5.0, start=0.05, end=400.0))",
-    "compliant contact": "dm.simulate(p.replace(contact_compliance=2e-7), 0.1)",
-    "normal contact force": "dm.simulate(p.replace(contact_force='normal'), 0.1)",
-    "compliant contact, normal force": ("dm.simulate(p.replace(contact_compliance=2e-7, contact_force='normal'), 0.1)"),
+LAWS = {
+    "": "",
+    ", compliant contact": "contact_compliance=2e-7",
+    ", normal contact force": "contact_force='normal'",
+    ", both": "contact_compliance=2e-7, contact_force='normal'",
 }
-"""What asks for kernels, each in a process of its own."""
+KINDS = {
+    f"{function}{law}": f"dm.{function}({arguments.format(change)})"
+    for function, arguments in {"simulate": "p.replace({}), 0.1", "floquet": "p.replace({})"}.items()
+    for law, change in (LAWS | {", more than four nodal diameters": "n_diameters=8"}).items()
+}
+KINDS["simulate, a ramp"] = "dm.simulate(p, 0.1, ramps=dm.Ramp(parameter='Omega', to=5.0, start=0.05, end=400.0))"
+"""What asks for kernels of each kind."""
 
 SCRIPT = """
 import time

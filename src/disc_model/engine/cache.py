@@ -11,7 +11,6 @@ This stands on parts of numba that it may change: where one is missing, numba's 
 
 from __future__ import annotations
 
-import contextlib
 import functools
 import hashlib
 import os
@@ -37,6 +36,8 @@ LEVELS = {
     "x86-64-v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe"),
 }
 """What a processor must have for a level, the highest first."""
+TARGETS = {"x86-64-v4": ("x86-64-v4", "-prefer-256-bit"), "x86-64-v3": ("x86-64-v3", "")}
+"""What numba is told to compile kernels of a level: ``NUMBA_CPU_NAME`` and ``NUMBA_CPU_FEATURES``."""
 
 # What a part of numba that is not there, or not as expected, ends in.
 MISSING = (ImportError, AttributeError, TypeError)
@@ -78,17 +79,40 @@ def versions() -> str:
 @functools.cache
 def shipped_level() -> str | None:
     """The highest level of this processor of which kernels came with the package, if they fit the versions here."""
-    if not SHIPPED.is_dir() or _SETTINGS.CPU_NAME or _SETTINGS.CPU_FEATURES is not None:
+    if not SHIPPED.is_dir():
         return None
     here = llvm.get_host_cpu_features()
-    for level in (level for level, features in LEVELS.items() if all(here.get(name, False) for name in features)):
-        with contextlib.suppress(OSError):
-            compiled_with = (SHIPPED / level / VERSIONS).read_text()
-            if compiled_with == versions():
-                return level
-            warn_once(f"{SHIPPED / level}: kernels of {compiled_with} are not used here ({versions()})")
-            return None
-    return None
+    levels = [level for level, features in LEVELS.items() if all(here.get(name, False) for name in features)]
+    if chosen_target() != (None, None):
+        levels = [level for level in levels if TARGETS[level] == chosen_target()]
+    if not levels:
+        warn_once(f"{SHIPPED}: no kernels came with the package for this processor; they are compiled")
+        return None
+    compiled_with = _read_text(SHIPPED / levels[0] / VERSIONS)
+    if compiled_with != versions():
+        warn_once(
+            f"{SHIPPED / levels[0]}: these kernels are of {compiled_with}, here is {versions()}; they are compiled"
+        )
+        return None
+    return levels[0]
+
+
+def chosen_target() -> tuple[str | None, str | None]:
+    """The processor and its features that numba was told to compile for, if it was."""
+    return _SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES
+
+
+def _processor(codegen: Any) -> object:
+    """What machine code depends on: a level, if that was asked for, or all that is known of the processor."""
+    levels = [level for level, target in TARGETS.items() if target == chosen_target()]
+    return levels[0] if levels else codegen.magic_tuple()
+
+
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return "unknown versions"
 
 
 class KernelCache:
@@ -107,21 +131,19 @@ class KernelCache:
         from numba.core.compiler import CompileResult
 
         target.refresh()
-        level = shipped_level()
-        places = [(folder(), target.codegen().magic_tuple())]
+        place = folder() / self._file(signature, _processor(target.codegen()))
+        found = read(place)
+        level = shipped_level() if found is None else None
         if level:
-            places.append((SHIPPED / level, level))
-        for place, processor in places:
-            found = read(place / self._file(signature, processor))
-            if found is not None:
-                return CompileResult._rebuild(target, *found)
-            if processor == level:
-                warn_once(f"{place}: {self._name} did not come with the package, or is damaged; it is compiled")
-        return None
+            place = SHIPPED / level / self._file(signature, level)
+            found = read(place)
+            if found is None and place.exists():
+                warn_once(f"{place}: is damaged; it is compiled, once")
+        return None if found is None else CompileResult._rebuild(target, *found)
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
         """Save if there is room: a full or read-only disk costs time, not the result."""
-        path = folder() / self._file(signature, compiled.codegen.magic_tuple())
+        path = folder() / self._file(signature, _processor(compiled.codegen))
         try:
             write(path, compiled._reduce())
         except OSError as error:
