@@ -19,7 +19,7 @@ PATIENCE = 2.0
 """s, from which on a simulation is long."""
 WIDTH = 30
 """Characters of a bar in a notebook."""
-COMPILING = "compiling kernels, once: a minute or two"
+COMPILING = "compiling kernels, once: 10 to 20 s for each kind"
 
 
 @contextmanager

@@ -16,7 +16,7 @@ rule warm_cache:
     conda:
         "../envs/disc_model.yaml"
     message:
-        "Compiling the solver, once: two minutes or so on one core. What depends on it waits."
+        "Compiling the solver, once: 15 s on one core. What depends on it waits."
     shell:
         "python -m disc_model warm > {output} 2> {log}"
 

@@ -16,7 +16,7 @@ rule warm_studies:
     conda:
         "../envs/disc_model.yaml"
     message:
-        "Compiling the stability analysis, once: a minute or so on one core. Grid studies wait."
+        "Compiling the stability analysis, once: 15 s on one core. Grid studies wait."
     shell:
         "python workflow/scripts/warm_studies.py > {output} 2> {log}"
 
@@ -33,7 +33,7 @@ rule warm_law:
     conda:
         "../envs/disc_model.yaml"
     message:
-        "Compiling the stability analysis for another law of contact ({wildcards.law}), once: a minute or so on one core."
+        "Compiling the stability analysis for another law of contact ({wildcards.law}), once: half a minute on one core."
     shell:
         "python workflow/scripts/warm_law.py {wildcards.law} > {output} 2> {log}"
 
