@@ -11,7 +11,7 @@ from scipy import special
 
 from disc_model import ModeError, Parameters, plate_modes, slider_at_rest_frequencies
 from disc_model import plate as plate_module
-from disc_model.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays
+from disc_model.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays, mode_shapes
 from tests.references.ritz import ritz_lambdas
 
 P = Parameters(N=385, Omega=15.1)
@@ -139,6 +139,31 @@ def shape_on_nodes(p: Parameters, nodes: np.ndarray) -> np.ndarray:
     scale = np.sqrt(p.rho * p.h * p.b**2)
     modes = [plate_modes(p.replace(r_0=r)) for r in nodes]
     return np.array([m.psi / np.where(m.diameters > 0, np.sqrt(2), 1) for m in modes]) * scale
+
+
+@pytest.mark.parametrize("inner", [0.02, 0.3667, 0.9])
+@pytest.mark.parametrize("nu", [-0.9, 0.211, 0.49])
+def test_orthonormal_modes_are_positive_at_the_free_edge(inner: float, nu: float) -> None:
+    """None vanishes there, or the sign would be rounding: a quarter of the largest deflection is the least."""
+    p = ORTHONORMAL.replace(a=inner * P.b, r_0=P.b, nu=nu, n_diameters=20, n_circles=10)
+    shapes = mode_shapes(p, np.linspace(p.a, p.b, 300))
+    assert np.all(shapes[:, -1] > 0.25 * np.abs(shapes).max(axis=1))
+
+
+@pytest.mark.parametrize("p", [P, ORTHONORMAL], ids=["published", "orthonormal"])
+def test_modes_do_not_take_the_sign_of_a_null_vector(p: Parameters, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is another on another processor."""
+    expected = mode_arrays(p).psi
+    svd = np.linalg.svd
+
+    def turned(matrix: np.ndarray) -> tuple[np.ndarray, ...]:
+        u, s, v = svd(matrix)
+        return u, s, -v
+
+    monkeypatch.setattr(np.linalg, "svd", turned)
+    for cached in (plate_module._shapes, plate_module._modes):
+        monkeypatch.setattr(plate_module, cached.__name__, cached.__wrapped__)
+    assert mode_arrays(p).psi.tobytes() == expected.tobytes()
 
 
 def test_orthonormal_shapes_satisfy_eq_17() -> None:

@@ -52,7 +52,7 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
     Notes
     -----
     R is scaled as `p.normalization` says: `as_published` gives the coefficient of J_l the value 1;
-    `orthonormal` is Eq. (17), (2 pi/b^2) * integral of R^2 r dr from a to b = 1.
+    `orthonormal` is Eq. (17), (2 pi/b^2) * integral of R^2 r dr from a to b = 1, with R positive at the free edge.
 
     Raises
     ------
@@ -233,6 +233,8 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     matrix = np.moveaxis(matrix, -1, 0)
     rows = np.max(np.abs(matrix), axis=2, keepdims=True)
     coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
+    # a null vector has no sign of its own; at the free edge no mode vanishes
+    coefficients = coefficients * np.sign(_evaluate(l, lam, coefficients, exponents, np.array([1.0]))[:, 0])
     # they integrate R^2 r to rounding: several a half wave, more for edge layers of many diameters
     count = 8 * (int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters) // 8)
     nodes, weights = _gauss(count, inner)
