@@ -94,6 +94,7 @@ def test_underscores_are_accepted_in_option_names(command: Command) -> None:
         ("--max-steps 1.5", "max_steps=1.5: must be a whole number >= 1"),
         ("--save no/such/r.nc", "save='no/such/r.nc': must be in a folder that exists"),
         ("--checkpoint no/such", "checkpoint='no/such': must be a file in a folder"),
+        (f"--save {'x' * 240}", "must be the name of a file, of at most 233 bytes"),
         ("--window late", "window='late': must be NAME:KEY=VALUE,..."),
         # used to be refused by the file, after the simulation
         ("--window events:rate=100", "window='events:rate=100': must be NAME:KEY"),

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Record, Window, simulate
+from disc_model.simulation import kept
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 
@@ -25,6 +26,27 @@ def test_envelopes_are_the_extremes_of_the_samples():
         np.testing.assert_array_equal(envelope[f"{name}_max"], cells.max(axis=1))
     np.testing.assert_allclose(envelope["time"], samples["time"][:100].reshape(10, 10).mean(axis=1))
     assert result.poincare["time"].tolist() == [0.0]
+
+
+def test_a_long_bin_is_put_together_once(monkeypatch):
+    """What there was of a bin was copied whenever the buffer was full: the square of its length."""
+    record = Record(windows=(Window(rate=1e5), Window(rate=1e5, envelope=4000)), events=False)
+    expected = simulate(P, 0.1, record=record).samples
+    monkeypatch.setattr(kept, "BUFFER", 16)
+    copied, concatenate = [], np.concatenate
+
+    def counting(arrays, *args):
+        copied.append(sum(map(len, arrays)))
+        return concatenate(arrays, *args)
+
+    monkeypatch.setattr(np, "concatenate", counting)
+    found = simulate(P, 0.1, record=record).samples
+    for one, other in zip(found, expected, strict=True):
+        for name in other:
+            np.testing.assert_array_equal(one[name], other[name])
+    cells = expected[0]["P"][:8000].reshape(2, 4000)
+    np.testing.assert_array_equal(expected[1]["P_max"], cells.max(axis=1))
+    assert sum(copied) < 5 * 10_000
 
 
 def test_nothing_is_kept_if_nothing_is_asked_for():
@@ -63,6 +85,52 @@ def test_windows_that_the_run_does_not_enter_are_warned_of():
     assert [len(samples["time"]) for samples in result.samples] == [11, 11, 0]
     with pytest.warns(UserWarning, match=r"windows\[0\] .* from 0.04 to 0.05 s"):
         simulate(P, 0.05, tol=1e-9, initial_state=result.final_state, record=Record(windows=windows[:1]))
+
+
+GREEDY = {
+    "samples": ({"windows": (Window(rate=1e4),)}, "windows.0"),
+    "bins": ({"windows": (Window(rate=1e5, envelope=10),)}, "windows.0"),
+    "a bin": ({"windows": (Window(rate=1e5, envelope=10**6),)}, "windows.0"),
+    "a step": ({"windows": (Window(rate=1e12, envelope=2**40),)}, "windows.0"),
+    "all together": ({"windows": (*(Window(rate=1e3),) * 9, Window(rate=2e3))}, "windows.9"),
+    "sections": ({"poincare": Poincare()}, "poincare"),
+    "beyond floats": ({"windows": (Window(rate=1e308, stop=1e300),)}, "windows.0"),
+}
+
+
+@pytest.mark.parametrize("what", GREEDY)
+def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch):
+    """Bins, samples of a step and sections were not counted: they ended in a MemoryError."""
+    monkeypatch.setattr(kept, "_memory", lambda: 5e5)
+    kept_, place = GREEDY[what]
+    p = P.replace(Omega=1e300) if what == "sections" else P
+    with pytest.raises(ParameterError, match=rf"^record\.{place}: must fit into memory: .* GB of samples in all"):
+        simulate(p, 1.0, record=Record(**kept_))
+
+
+@pytest.mark.filterwarnings("ignore:windows:UserWarning")
+def test_windows_beyond_floats_that_a_run_does_not_enter_stay_empty():
+    state = simulate(P, 5e-3).final_state
+    record = Record(windows=(Window(stop=1e-3, rate=1e308), Window(start=1.0, stop=1e308, rate=1e3)))
+    assert [len(samples["time"]) for samples in simulate(P, 6e-3, initial_state=state, record=record).samples] == [0, 0]
+
+
+def test_intervals_beyond_floats_leave_one_sample():
+    """The second was at zero times infinity."""
+    result = simulate(P.replace(Omega=1e-320), 5e-3, record=Record(windows=(Window(rate=1e-320),), poincare=Poincare()))
+    assert result.samples[0]["time"].tolist() == result.poincare["time"].tolist() == [0.0]
+
+
+@pytest.mark.parametrize(
+    ("value", "wanted"),
+    [(3, 3), (np.int8(3), 3), (3.0, 3), ("3", 3), (True, None), (np.True_, None), (2.5, None), (np.array(3), None)],
+)
+def test_an_envelope_is_a_whole_number(value, wanted):
+    if wanted is None:
+        with pytest.raises(ParameterError, match=r"envelope=.*: must be a"):
+            Window(rate=1, envelope=value)
+    else:
+        assert Window(rate=1, envelope=value).envelope == wanted
 
 
 @pytest.mark.parametrize("model", [Window, Poincare])

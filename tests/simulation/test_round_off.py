@@ -104,6 +104,6 @@ def test_what_is_not_said_is_not_in_the_text_of_a_window() -> None:
 
 def test_a_window_beyond_memory_is_refused_before_anything_runs() -> None:
     """It used to end in a MemoryError, or in the machine's."""
-    with pytest.raises(ParameterError, match=r"record.windows.0: must fit into memory: 8.8e\+07 GB of samples"):
+    with pytest.raises(ParameterError, match=r"record.windows.0: must fit into memory: .* GB of samples"):
         simulate(P, 1e3, record=Record(windows=(Window(rate=1e12),)))
     assert simulate(P, 1e-3, record=Record(windows=(Window(stop=1e9, rate=1e6),))).status.complete

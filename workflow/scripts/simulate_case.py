@@ -26,7 +26,8 @@ def main() -> None:
     args.output.parent.mkdir(parents=True, exist_ok=True)
     checkpoint = args.output.with_name(f".{args.output.stem}.checkpoint")
     save(run_case(CaseSpec.from_canonical(args.case), checkpoint, choose), args.output)
-    checkpoint.with_name(checkpoint.name + SET_ASIDE).unlink(missing_ok=True)  # of a former content of the case
+    for former in checkpoint.parent.glob(f"{checkpoint.name}.*{SET_ASIDE}"):  # of former contents of the case
+        former.unlink()
     checkpoint.unlink(missing_ok=True)
 
 

@@ -156,8 +156,14 @@ def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) 
         if plot.suffix.lower().lstrip(".") not in kinds:
             yield f"plot={str(plot)!r}: must end in one of {', '.join(sorted(kinds))}"
     for name, path in (("plot", plot), ("save", save)):
-        if path is not None and not path.parent.is_dir():
+        if path is None:
+            continue
+        from disc_model.data.dataset import NAME_RULE, may_be_file
+
+        if not path.parent.is_dir():
             yield f"{name}={str(path)!r}: must be in a folder that exists"
+        elif not may_be_file(path):
+            yield f"{name}={str(path)!r}: {NAME_RULE}"
     if checkpoint is not None:
         from disc_model.simulation.kept import faults
 

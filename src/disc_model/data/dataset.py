@@ -25,7 +25,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
-from disc_model.errors import DiscModelError
+from disc_model.errors import DiscModelError, Fault, ParameterError, shown
 from disc_model.parameters import RESIDUAL, Parameters
 
 CONVENTIONS = "CF-1.11"
@@ -117,12 +117,14 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
 
     Raises
     ------
+    ParameterError
+        If no file can have this name.
     disc_model.data.dataset.WriteError
         If the disk is full.
     """
-    encoding = _encoding(tree)
+    file, encoding = _file(path), _encoding(tree)
     size = sum(node.to_dataset(inherit=False).nbytes for node in tree.subtree)
-    write_whole(Path(path), lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)
+    write_whole(file, lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)
 
 
 def load(path: str | Path) -> xr.DataTree:
@@ -130,10 +132,12 @@ def load(path: str | Path) -> xr.DataTree:
 
     Raises
     ------
+    ParameterError
+        If no file can have this name.
     disc_model.data.dataset.DamagedFile
         If it is not what was written.
     """
-    check_whole(Path(path))
+    check_whole(_file(path))
     with xr.open_datatree(path, engine="netcdf4", decode_timedelta=False) as tree:
         return tree.load()
 
@@ -172,12 +176,39 @@ _LABEL = b"\nsha256 of the rest: "
 _LENGTH = len(_LABEL) + 65
 
 
+LONGEST_NAME = 233
+"""Bytes; that of a file still being written is longer, and file systems allow 255."""
+NAME_RULE = f"must be the name of a file, of at most {LONGEST_NAME} bytes"
+
+
 class WriteError(DiscModelError, OSError):
     """A file could not be written."""
 
 
 class DamagedFile(DiscModelError):
     """A file that is not what was once written."""
+
+
+def may_be_file(path: object) -> bool:
+    """Whether a file may have such a path; see `NAME_RULE`."""
+    try:
+        file = Path(path)  # type: ignore[arg-type] # whether it is one is what is found out here
+        name = os.fsencode(file.name)
+        return (
+            name not in (b"", b"..")
+            and b"\0" not in os.fsencode(file)
+            and len(name) <= LONGEST_NAME
+            and not file.is_dir()
+        )
+    except (TypeError, ValueError, OSError):
+        return False
+
+
+def _file(path: str | Path) -> Path:
+    """A path that a file may have; raises `ParameterError` otherwise."""
+    if not may_be_file(path):
+        raise ParameterError(Fault(("path",), shown(str(path)), NAME_RULE))
+    return Path(path)
 
 
 def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
@@ -190,10 +221,10 @@ def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
     write : called with the name of a new file in the same folder, which it shall write
     size : bytes that the file will roughly have, to find out about a full disk
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
     # made by `write`, so that the umask says who may read it
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}.tmp")
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         write(str(temporary))
         _append_checksum(temporary)
         os.replace(temporary, path)
@@ -203,27 +234,28 @@ def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
             raise WriteError(f"{path}: cannot be written: {reason} ({size / 1e6:.1f} MB needed)") from None
         raise
     finally:
-        temporary.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            temporary.unlink()
 
 
 def check_whole(path: Path) -> None:
     """Compare a file with the checksum at its end; raises `DamagedFile` if it does not match or is not there."""
     content = path.read_bytes()
     body, end = content[:-_LENGTH], content[-_LENGTH:]
-    if end != _checksum(body):
+    if end != _checksum(hashlib.sha256(body)):
         raise DamagedFile(f"{path}: damaged or not written by this version of disc_model (its checksum does not match)")
 
 
 def _append_checksum(path: Path) -> None:
-    end = _checksum(path.read_bytes())
-    with path.open("ab") as file:
+    with path.open("r+b") as file:
+        end = _checksum(hashlib.file_digest(file, "sha256"))
         file.write(end)
         file.flush()
         os.fsync(file.fileno())  # else a crash of the machine may leave the new name with nothing in it
 
 
-def _checksum(body: bytes) -> bytes:
-    return _LABEL + hashlib.sha256(body).hexdigest().encode() + b"\n"
+def _checksum(digest: hashlib._Hash) -> bytes:
+    return _LABEL + digest.hexdigest().encode() + b"\n"
 
 
 def _refusal(temporary: Path, size: int) -> OSError | None:

@@ -17,7 +17,6 @@ from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
 from disc_model.engine.compile import compiled_for
-from disc_model.engine.sampling import ROW
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
 from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
 from disc_model.plate import mode_arrays
@@ -51,8 +50,6 @@ Choose = Callable[[Parameters, str], tuple[Parameters, str]]
 
 AUDIT_EVERY, AUDIT_EVERY_COMPLIANT = 64, 256
 """Steps from one audit of the energy to the next; a compliant contact takes about four times as many steps a second."""
-ROW_SIZE = 8 * len(ROW)
-"""Bytes of a sample."""
 MOST_STEPS = 2**62
 """What the engine can count."""
 STEPS_PER_PAUSE = 100_000
@@ -115,7 +112,7 @@ def simulate(
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every), ramps)
     start = 0.0 if initial_state is None else initial_state.time
-    record = record.resolved(start, t_end, ROW_SIZE)
+    record = record.resolved(start, t_end)
     with compiling(told=progress is not False):
         run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps)
     for window in record.outside(start, t_end):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import os
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Self
 
@@ -19,7 +18,7 @@ from pydantic import (
 )
 
 from disc_model.errors import Fault, ParameterError, shown
-from disc_model.parameters import AUTO, Checked, Finite, Parameters, Positive, Real, Strict
+from disc_model.parameters import AUTO, Checked, Count, Finite, Parameters, Positive, Real, Strict
 from disc_model.simulation.ramps import Ramp
 
 # ----------------------------------------------------------------------------------------------------
@@ -50,7 +49,7 @@ class Window(Checked):
     last: Positive | None = None
     rate: Positive
     theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
-    envelope: Annotated[int, Field(ge=2)] | None = None
+    envelope: Annotated[Count, Field(ge=2)] | None = None
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
@@ -91,7 +90,12 @@ class Window(Checked):
     @property
     def count(self) -> int:
         """Number of samples before any folding."""
-        return int(math.floor((self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9)) + 1
+        return math.floor(self.last_sample) + 1
+
+    @property
+    def last_sample(self) -> float:
+        """Number of the last sample, from 0 on, not yet rounded down; infinite where floats reach no further."""
+        return (self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9
 
 
 class Poincare(Checked):
@@ -125,17 +129,13 @@ class Record(Checked):
     events: bool = True
     energy: bool = False
 
-    def resolved(self, start: float, t_end: float, row: int) -> Record:
+    def resolved(self, start: float, t_end: float) -> Record:
         """With absolute times in all windows, for a run from ``start`` to ``t_end``.
-
-        Parameters
-        ----------
-        row : bytes of a sample
 
         Raises
         ------
         ParameterError
-            If a window begins at the end of the run or later, or no memory holds its samples.
+            If a window begins at the end of the run or later.
         """
         if not self.windows:
             return self
@@ -146,13 +146,6 @@ class Record(Checked):
                 windows.append(window.resolved(start, t_end))
             except ParameterError as error:
                 found += [fault.inside(("record", "windows", str(i))) for fault in error.faults]
-        room = _memory()
-        for i, window in enumerate(windows):
-            seconds = min(window.stop, t_end) - max(window.start, start)
-            needed = max(seconds, 0.0) * window.rate / (window.envelope or 1) * row
-            if needed > room:
-                rule = f"must fit into memory: {needed / 1e9:.3g} GB of samples, and there are {room / 1e9:.3g} GB"
-                found.append(Fault(("record", "windows", str(i)), "", rule))
         if found:
             raise ParameterError(*found)
         if all(one is other for one, other in zip(windows, self.windows, strict=True)):
@@ -164,14 +157,6 @@ class Record(Checked):
         for i, window in enumerate(self.windows):
             if window.start > t_end or window.stop < start:
                 yield f"windows[{i}] = [{window.start:g}, {window.stop:g}] s"
-
-
-def _memory() -> float:
-    """Bytes of this machine's memory; infinite where that cannot be asked."""
-    try:
-        return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
-        return math.inf
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -1,35 +1,34 @@
 """What a run keeps: rows, as the engine gives them, and checkpoints, from which it goes on.
 
-A simulation that was interrupted goes on from its last checkpoint as if nothing had happened. The file of a run is a
-sequence of records, each with the state of the engine and the rows kept since the record before, so that a long run
-that keeps much writes all of it once and not again at every checkpoint. A record has a checksum: one that was cut off
-when the machine went down, or changed since, is not used, nor is any after it. The records before it are, but only by
-the very same run: same arguments, same sources, same versions. A checkpoint of another run, or a file that is none, is
-set aside under another name, with a warning that says why.
+A simulation that was interrupted goes on from its last checkpoint as if nothing had happened. The file of a run holds
+the state of the engine and all rows kept so far. It is written in one piece and with a checksum: an interruption leaves
+the checkpoint before it. Only the very same run uses it: same arguments, same modes, same sources, same versions. What
+else stands in its place, a checkpoint of another run or a file that is none, is renamed, with a warning that says why.
+Its new name says which run it belongs to, and that run takes it back.
 """
 
 from __future__ import annotations
 
-import io
+import hashlib
 import json
 import logging
 import math
 import os
-import struct
+import sys
 import time as clock
-import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.provenance import source_hash, versions
 from disc_model.engine import machine, sampling
-from disc_model.errors import ParameterError
+from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters, is_number
-from disc_model.simulation.case import Poincare, Record, Window
+from disc_model.plate import mode_arrays
+from disc_model.simulation.case import Poincare, Record, Window, canonical_json, content_key
 
 # ----------------------------------------------------------------------------------------------------
 # Checkpoints
@@ -38,30 +37,27 @@ log = logging.getLogger(__name__)
 
 SET_ASIDE = ".other"
 """Ending that gets what stands in the checkpoint's place but is none of this run."""
+SHARE = 0.1
+"""Of the time, at most, that checkpoints take."""
 
 Array = NDArray[Any]
 
-_MAGIC = b"discArys"
-_HEAD = struct.Struct("<8sQI")  # magic, bytes of the arrays (as `numpy.savez` writes them) and their checksum
-
 
 class Contents(NamedTuple):
-    """What a run needs to go on: ``state`` is replaced by each record, ``rows`` only ever grow."""
+    """What a run needs to go on: ``state`` changes from one checkpoint to the next, ``rows`` only ever grow."""
 
     state: dict[str, Array]
     rows: dict[str, list[Array]]
-
-
-class _Damaged(Exception):
-    """A record that is not what was written."""
 
 
 def identity(
     p: Parameters, t_end: float, tol: float, record: Record, stop_at: str | None, max_steps: int, start: Iterable[Array]
 ) -> dict[str, str]:
     """All that decides a run's result, by name; ``start`` are the arrays of the state it starts from."""
+    modes = mode_arrays(p)
     return {
         "parameters": p.canonical_json,
+        "modes": " ".join(array.tobytes().hex() for array in (modes.omega, modes.psi)),
         "t_end": repr(t_end),
         "tol": repr(tol),
         "record": repr(record),
@@ -75,27 +71,14 @@ def identity(
 
 def faults(path: object, every: object) -> Iterator[str]:
     """What is wrong with the arguments ``checkpoint`` and ``checkpoint_every`` of `disc_model.simulation.api`."""
-    if path is not None and not _may_be_file(path):
-        yield f"checkpoint={str(path)!r}: must be a file in a folder that exists"
+    if path is not None:
+        from disc_model.data.dataset import LONGEST_NAME, may_be_file
+
+        if not may_be_file(path) or not Path(path).parent.is_dir():  # type: ignore[arg-type]
+            rule = f"must be a file in a folder that exists, with a name of at most {LONGEST_NAME} bytes"
+            yield Fault(("checkpoint",), repr(str(path)), rule)
     if not is_number(every) or not 0 <= float(every) < math.inf:  # type: ignore[arg-type]
         yield f"checkpoint_every={every!r}: must be finite and >= 0"
-
-
-def _may_be_file(path: object) -> bool:
-    try:
-        file = Path(path)  # type: ignore[arg-type] # whether it is one is what is found out here
-        return file.name not in ("", "..") and "\0" not in file.name and file.parent.is_dir() and not file.is_dir()
-    except (TypeError, ValueError, OSError):
-        return False
-
-
-def _is_something_else(path: Path) -> bool:
-    """Whether a file does not begin like a checkpoint, nor like one whose first bytes could not be written."""
-    try:
-        with path.open("rb") as file:
-            return not _MAGIC.startswith(file.read(len(_MAGIC)))
-    except OSError:
-        return False
 
 
 class Checkpoint:
@@ -104,113 +87,98 @@ class Checkpoint:
     Parameters
     ----------
     path : where; not to be shared by runs at the same time
-    every : s of wall time between two records
+    every : s of wall time between two checkpoints; more where writing takes longer than `SHARE` of it, but for 0
     belongs_to : the run's `identity`
     """
 
     def __init__(self, path: str | os.PathLike[str], every: float, belongs_to: Mapping[str, str]) -> None:
         self.path, self.every, self.belongs_to = Path(path), every, dict(belongs_to)
-        self._size = 0  # of the file's records that are this run's, in bytes
-        self._written: dict[str, int] = {}  # how many arrays of rows they hold, by name
+        self._mine = False  # whether the file there is this run's
         self._next = clock.monotonic() + every
 
     def load(self) -> Contents | None:
-        """What the file's records hold that are whole and of this very run; None if there are none."""
-        state: dict[str, Array] = {}
-        rows: dict[str, list[Array]] = {}
-        differing: list[str] = []
-        if _is_something_else(self.path):
-            self._set_aside("not a checkpoint")
-            return None
+        """What the run's file holds, set aside or not; None if there is none."""
+        found, aside = self._read(), self._aside(content_key(canonical_json(self.belongs_to)))
+        if found is None and aside.exists():
+            os.replace(aside, self.path)
+            found = self._read()
+        self._mine = found is not None
+        return found
+
+    def _read(self) -> Contents | None:
+        """What the file holds; one that is none of this run is set aside."""
+        from disc_model.data.dataset import DamagedFile, check_whole
+
         try:
-            for end, belongs_to, contents in _records(self.path):
-                if differing := [name for name, value in self.belongs_to.items() if belongs_to.get(name) != value]:
-                    break
-                state, self._size = contents.state, end
-                for name, arrays in contents.rows.items():
-                    rows.setdefault(name, []).extend(arrays)
+            check_whole(self.path)
+            with np.load(self.path) as file:
+                held = dict(file)
+            belongs_to = json.loads(str(held.pop("belongs_to")))
         except FileNotFoundError:
             return None
-        except (OSError, _Damaged) as error:
-            log.warning("checkpoint %s ignored from byte %d on: %s", self.path, self._size, error)
-        if differing:
-            # outside of the try: a run whose file cannot be got out of the way must not write over it
-            self._set_aside(f"of another run (other {', '.join(differing)})")
+        except OSError as error:
+            raise ParameterError(
+                Fault(("checkpoint",), repr(str(self.path)), f"cannot be read: {error.strerror}")
+            ) from None
+        except (DamagedFile, ValueError, KeyError):
+            self._set_aside("damaged, or not a checkpoint", hashlib.sha256(self.path.read_bytes()).hexdigest()[:12])
             return None
-        self._written = {name: len(arrays) for name, arrays in rows.items()}
-        return Contents(state, rows) if self._size else None
+        differing = [name for name, value in self.belongs_to.items() if belongs_to.get(name) != value]
+        if differing:
+            self._set_aside(f"of another run (other {', '.join(differing)})", content_key(canonical_json(belongs_to)))
+            return None
+        contents = Contents({}, {})
+        for entry, array in held.items():
+            part, name, *_ = entry.split("/")
+            if part == "state":
+                contents.state[name] = array
+            else:
+                contents.rows.setdefault(name, []).append(array)
+        return contents
 
-    def _set_aside(self, why: str) -> None:
-        aside = self.path.with_name(self.path.name + SET_ASIDE)
+    def _aside(self, whose: str) -> Path:
+        return self.path.with_name(f"{self.path.name}.{whose}{SET_ASIDE}")
+
+    def _set_aside(self, why: str, whose: str) -> None:
+        aside = self._aside(whose)
         try:
             os.replace(self.path, aside)
         except OSError as error:
-            raise ParameterError(
-                f"checkpoint={str(self.path)!r}: is {why} and cannot be renamed ({error.strerror})"
-            ) from None
+            rule = f"is {why} and cannot be renamed ({error.strerror})"
+            raise ParameterError(Fault(("checkpoint",), repr(str(self.path)), rule)) from None
         log.warning("checkpoint %s ignored: %s; it is now called %s", self.path, why, aside.name)
 
     @property
     def due(self) -> bool:
-        """Whether it is time for the next record."""
+        """Whether it is time for the next checkpoint."""
         return clock.monotonic() >= self._next
 
     def save(self, contents: Contents) -> None:
-        """Add a record; if that fails, the run goes on and the records that there are stay."""
+        """Write a checkpoint; if that fails, the run goes on and the one that there is stays."""
+        from disc_model.data.dataset import write_whole
+
+        arrays: dict[str, Any] = {f"state/{name}": array for name, array in contents.state.items()}
+        arrays |= {f"rows/{name}/{i}": rows for name, parts in contents.rows.items() for i, rows in enumerate(parts)}
+        arrays["belongs_to"] = np.array(json.dumps(self.belongs_to))
+
+        def write(name: str) -> None:
+            with open(name, "wb") as file:  # numpy adds an ending to names
+                np.savez(file, **arrays)
+
+        began = clock.monotonic()
         try:
-            if not self.path.exists() or self.path.stat().st_size < self._size:  # someone removed or cut it
-                self._size, self._written = 0, {}
-            new = {name: arrays[self._written.get(name, 0) :] for name, arrays in contents.rows.items()}
-            with open(self.path, "r+b" if self._size else "wb") as file:
-                file.truncate(self._size)  # what there is beyond was cut off, or could not be written
-                file.seek(self._size)
-                _write(file, self.belongs_to, Contents(contents.state, new))
-                size = file.tell()
+            write_whole(self.path, write, sum(array.nbytes for array in arrays.values()))
         except OSError as error:
             log.warning("checkpoint %s not written: %s", self.path, error)
         else:
-            self._size = size
-            self._written = {name: len(arrays) for name, arrays in contents.rows.items()}
-        self._next = clock.monotonic() + self.every
+            self._mine = True
+        now = clock.monotonic()
+        self._next = now + (max(self.every, (now - began) / SHARE) if self.every > 0 else 0)
 
     def remove(self) -> None:
         """Remove the file of a complete run; one that this run neither used nor wrote stays."""
-        if self._size:
+        if self._mine:
             self.path.unlink(missing_ok=True)
-
-
-def _write(file: BinaryIO, belongs_to: Mapping[str, str], contents: Contents) -> None:
-    """Write one record.  Arrays of rows of one name become one array."""
-    arrays: dict[str, Any] = {f"state/{name}": array for name, array in contents.state.items()}
-    arrays |= {f"rows/{name}": np.concatenate(parts) for name, parts in contents.rows.items() if parts}
-    body = io.BytesIO()
-    np.savez(body, belongs_to=np.array(json.dumps(belongs_to)), **arrays)
-    file.write(_HEAD.pack(_MAGIC, body.tell(), zlib.crc32(body.getbuffer())))
-    file.write(body.getbuffer())
-
-
-def _records(path: Path) -> Iterator[tuple[int, dict[str, str], Contents]]:
-    """The file's records: where each ends, whose it is, what it holds; raises `_Damaged` at one that is not whole."""
-    size = path.stat().st_size
-    with open(path, "rb") as file:
-        while file.tell() < size:
-            magic, length, checksum = _HEAD.unpack(file.read(_HEAD.size).ljust(_HEAD.size))
-            if magic != _MAGIC:
-                raise _Damaged("not a checkpoint, or damaged")
-            if file.tell() + length > size:
-                raise _Damaged("cut off")
-            body = file.read(length)
-            if zlib.crc32(body) != checksum:
-                raise _Damaged("damaged, its checksum does not match")
-            held = dict(np.load(io.BytesIO(body)))
-            belongs_to, contents = json.loads(str(held.pop("belongs_to"))), Contents({}, {})
-            for entry, array in held.items():
-                part, _, name = entry.partition("/")
-                if part == "state":
-                    contents.state[name] = array
-                else:
-                    contents.rows[name] = [array]
-            yield file.tell(), belongs_to, contents
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -228,29 +196,34 @@ class Collector:
 
     def __init__(self, p: Parameters, record: Record, start: float, t_end: float, longest_step: float) -> None:
         self._windows = list(record.windows)
-        grids = [_uniform(window, start, t_end) for window in record.windows]
-        if record.poincare is not None:
-            grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
-        self.samplers: Array = np.array([(*grid, t_end) for grid in grids], dtype=float).reshape(-1, 5)
+        grids: list[tuple[float, float, float, float]] = []
+        per_step = self.capacity = 0
+        if record.windows or record.poincare is not None:
+            _check_room(record, p.Omega, start, t_end, longest_step)
+            grids += [_uniform(window, start, t_end) for window in record.windows]
+            if record.poincare is not None:
+                grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
+            # the engine pauses between steps only, so one step's samples must fit above ``capacity``
+            longest = longest_step + sampling.SAME_INSTANT * t_end
+            per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
+            self.capacity = BUFFER
+        self.samplers: Array = np.array([(*grid, t_end) for grid in grids]) if grids else np.zeros((0, 5))
         self.sampled = np.zeros(len(grids), np.int64)
-        # the engine pauses between steps only, so one step's samples must fit above ``capacity``
-        longest = longest_step + sampling.SAME_INSTANT * t_end
-        per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
-        self.capacity = BUFFER if grids else 0
-        self.rows = np.empty((self.capacity + per_step if grids else 0, len(sampling.ROW)))
+        self.rows = np.empty((self.capacity + per_step, len(sampling.ROW)))
         self.event_rows = np.empty((SMALL_BUFFER, len(machine.EVENT_ROW)))
         self._keep_events = record.events
         # what was kept, in the order in which it came: arrays are added to these lists and nothing else
         self._events: list[Array] = []
         self._parts: list[list[Array]] = [[] for _ in grids]
-        self._rest: list[Array] = [np.zeros((0, len(sampling.ROW))) for _ in grids]
+        self._rest: list[list[Array]] = [[] for _ in grids]  # of bins that are not full
         self._poincare = record.poincare is not None
         self.first_separation = math.nan
         """Time of the first loss of contact, s; nan if there was none."""
 
     def position(self) -> dict[str, NDArray[Any]]:
         """What the rest of the run depends on.  Only just after `drain`: the buffers are not part of it."""
-        rest = {f"rest_{i}": rows for i, rows in enumerate(self._rest)}
+        none = np.zeros((0, len(sampling.ROW)))
+        rest = {f"rest_{i}": np.concatenate([none, *parts]) for i, parts in enumerate(self._rest)}
         return {"sampled": self.sampled, "first_separation": np.array([self.first_separation]), **rest}
 
     def kept(self) -> dict[str, list[Array]]:
@@ -260,7 +233,7 @@ class Collector:
     def restore(self, position: Mapping[str, NDArray[Any]], kept: Mapping[str, Sequence[Array]]) -> None:
         """Go on from what `position` and `kept` gave."""
         self.sampled[:], self.first_separation = position["sampled"], float(position["first_separation"][0])
-        self._rest = [position[f"rest_{i}"] for i in range(len(self._rest))]
+        self._rest = [[position[f"rest_{i}"]] for i in range(len(self._rest))]
         for name, parts in self.kept().items():
             parts[:] = kept.get(name, ())
 
@@ -291,11 +264,14 @@ class Collector:
         if fold is None:
             self._parts[i].append(rows.copy())
             return
-        rows = np.concatenate((self._rest[i], rows))
+        rest = self._rest[i]
+        rest.append(rows.copy())  # a view would keep the buffer
+        if sum(map(len, rest)) < fold:
+            return
+        rows = np.concatenate(rest)
         whole = len(rows) // fold * fold
-        self._rest[i] = rows[whole:].copy()  # a view would keep all of them
-        if whole:
-            self._parts[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
+        self._rest[i] = [rows[whole:].copy()]
+        self._parts[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
 
     def _fold_of(self, i: int) -> int | None:
         """Samples to a bin of an envelope, None where samples are kept as they are."""
@@ -318,11 +294,16 @@ class Collector:
         return tuple(shaped[: len(self._windows)]), shaped[-1] if self._poincare else None
 
 
-def _columns(parts: Sequence[Array], names: Sequence[str]) -> dict[str, Array]:
-    """Columns of all parts, one after the other; filled part by part, because a part fits into the cache."""
+def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
+    """Columns of all parts, one after the other; filled part by part, because a part fits into the cache.
+
+    The parts are taken out of the list, so that memory holds all but one of them once.
+    """
     columns = {name: np.empty(sum(map(len, parts))) for name in names}
     start = 0
-    for part in parts:
+    parts.reverse()
+    while parts:
+        part = parts.pop()
         for column, values in zip(columns.values(), part.T, strict=True):
             column[start : start + len(part)] = values
         start += len(part)
@@ -338,19 +319,48 @@ def _fold(cells: Array) -> Array:
     return np.stack(out, axis=1)
 
 
+def _check_room(record: Record, Omega: float, start: float, t_end: float, longest_step: float) -> None:
+    """Raise `ParameterError` if no memory holds what is kept, the samples of an open bin, and those of a step."""
+    row, folded, room = 8 * len(sampling.ROW), 8 * len(_FOLDED_ROW), _memory()
+
+    def needed(asked: Window | Poincare, rate: float, envelope: int | None = None) -> float:
+        samples = max(min(asked.stop, t_end) - max(asked.start, start), 0.0) * rate
+        held = samples * row if envelope is None else samples / envelope * folded + 2 * min(envelope, samples) * row
+        return held + min(samples, longest_step * rate) * row
+
+    needs = {f"windows.{i}": needed(window, window.rate, window.envelope) for i, window in enumerate(record.windows)}
+    if record.poincare is not None:
+        needs["poincare"] = needed(record.poincare, Omega / (2 * math.pi))
+    total = sum(needs.values())
+    if total > room:
+        rule = f"must fit into memory: {total / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
+        raise ParameterError(Fault(("record", *max(needs, key=needs.__getitem__).split(".")), "", rule))
+
+
+def _memory() -> float:
+    """Bytes of this machine's memory; infinite where that cannot be asked."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return math.inf
+
+
 def _uniform(window: Window, start: float, t_end: float) -> tuple[float, float, float, float]:
     """First time, interval, number of samples within the run, theta."""
-    interval = 1 / window.rate
-    skip = max(0, math.ceil((start - window.start) * window.rate - 1e-9))
-    last = min(window.count - 1, math.floor((t_end - window.start) * window.rate + 1e-9))
-    return window.start + skip * interval, interval, max(0, last - skip + 1), window.theta
+    interval = min(1 / window.rate, sys.float_info.max)
+    skipped = max(0.0, (start - window.start) * window.rate - 1e-9)
+    reached = min(window.last_sample, (t_end - window.start) * window.rate + 1e-9)
+    if not skipped <= reached < math.inf:
+        return start, interval, 0, window.theta
+    skip = math.ceil(skipped)
+    return window.start + skip * interval, interval, max(0, math.floor(reached) - skip + 1), window.theta
 
 
 def _stroboscopic(poincare: Poincare, Omega: float, start: float, t_end: float) -> tuple[float, float, float, float]:
     """As `_uniform`, at whole multiples of the drive's period; none if the drive rests."""
     if Omega == 0:
         return 0.0, 1.0, 0, poincare.theta
-    period = 2 * math.pi / Omega
+    period = min(2 * math.pi / Omega, sys.float_info.max)
     first = math.ceil(max(poincare.start, start) / period - 1e-9)
     last = math.floor(min(poincare.stop, t_end) / period + 1e-9)
     return first * period, period, max(0, last - first + 1), poincare.theta
