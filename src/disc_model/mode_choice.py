@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from disc_model.errors import DiscModelError, broken, refuse
-from disc_model.parameters import Parameters, is_number
+from disc_model.parameters import Parameters, is_number, is_whole
 from disc_model.truncation import (
     BAND,
     FREQUENCIES,
@@ -77,7 +77,7 @@ def choose_modes(
     """
     quantity, faults = checked_quantity("quantity", quantity)
     tolerance, more = checked_tolerance("tolerance", QUANTITIES.get(quantity, 1.0) if tolerance is None else tolerance)
-    counts = isinstance(rich, tuple | list) and len(rich) == 2 and all(isinstance(n, int) and n >= 0 for n in rich)
+    counts = isinstance(rich, tuple | list) and len(rich) == 2 and all(is_whole(n) and n >= 0 for n in rich)
     others = broken(
         (is_number(band) and 0 < band < math.inf, "band", band, "must be finite and > 0"),
         (counts, "rich", rich, "must be two whole numbers >= 0, of diameters and circles"),
@@ -87,7 +87,7 @@ def choose_modes(
     size = {"n_diameters": CANDIDATES[0][0], "n_circles": 0}
     p = case if isinstance(case, Parameters) else Parameters.model_validate({**case, **size})
     if quantity == FREQUENCIES:
-        return by_frequencies(p, tolerance, band, rich)
+        return by_frequencies(p, tolerance, band, (int(rich[0]), int(rich[1])))
     return by_motion(p, Asked(quantity, tolerance))
 
 

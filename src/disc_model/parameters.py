@@ -9,7 +9,7 @@ import math
 import numbers
 import operator
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_type_hints
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
@@ -47,8 +47,8 @@ def number(value: Any) -> Any:
 
 def whole(value: Any) -> Any:
     """Like `number`, for counts: 4, 4.0 and "4" are the same, 4.5 is refused."""
-    if isinstance(value, int) and not isinstance(value, bool):
-        return value
+    if is_whole(value):
+        return int(value)
     found = number(value)
     if not found.is_integer():
         raise ValueError("must be a whole number")
@@ -57,8 +57,15 @@ def whole(value: Any) -> Any:
 
 def is_number(value: object) -> bool:
     """Whether a value is a number already, and not what `number` would make one of."""
-    # floats first: to ask for the abstract type takes several times as long
-    return isinstance(value, float) or (isinstance(value, numbers.Real) and not isinstance(value, bool))
+    # the usual types first: to ask for the abstract one takes several times as long
+    if isinstance(value, float) or type(value) is int:
+        return True
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+
+
+def is_whole(value: object) -> TypeGuard[int]:
+    """Whether a value is a whole number by its type, Python's or numpy's; a bool is none."""
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
 def limits_rule(limits: tuple[float, float]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from fractions import Fraction
 
 import numba
 import numpy as np
@@ -12,10 +13,12 @@ import pytest
 from disc_model import ParameterError, Parameters, Poincare, Record, Window, simulate
 from disc_model.engine import machine, outcomes
 from disc_model.errors import StepLimit
+from disc_model.plate import mode_arrays
 from disc_model.simulation.api import _Run
 from tests.contact_laws import COMPILES, LAWS
 from tests.simulation.equal import same
 
+api = sys.modules["disc_model.simulation.api"]
 P = Parameters(N=200, Omega=50, n_diameters=1)
 RECORD = Record(windows=(Window(stop=0.01, rate=1000.0),), poincare=Poincare(), energy=True)
 
@@ -24,7 +27,7 @@ def test_small_buffers_and_many_pauses_change_nothing(monkeypatch):
     record = Record(windows=(Window(start=0, stop=0.05, rate=20_000),))
     whole = simulate(P, 0.05, tol=1e-9, record=record)
     monkeypatch.setattr("disc_model.simulation.kept.BUFFER", 16)
-    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 3)
+    monkeypatch.setattr(api, "STEPS_PER_PAUSE", 3)
     seen = []
     again = simulate(P, 0.05, tol=1e-9, record=record, progress=seen.append)
     same(again, whole)
@@ -71,6 +74,84 @@ def test_machine_code_is_given_the_types_it_was_compiled_for(changes, record):
             given.append(tuple(map(numba.typeof, run._arguments())))
     assert len(set(given)) == 1
     assert run.engine is machine.run.overloads[given[0]].entry_point
+
+
+NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        *({"t_end": number(0.25)} for number in NUMBERS),
+        *({"tol": number(2.0**-30)} for number in NUMBERS if number is not np.float16),
+        *({"max_steps": whole(100)} for whole in (np.int8, np.uint64)),
+        {"checkpoint_every": np.float32(1)},
+    ],
+    ids=str,
+)
+def test_no_call_decides_how_later_ones_are_computed(given, monkeypatch):
+    """The engine was compiled for the types of the first call, and given others after it."""
+    plain = {name: (int if name == "max_steps" else float)(value) for name, value in given.items()}
+    usual, expected = simulate(P, 0.25), simulate(P, **{"t_end": 0.25, **plain})
+    monkeypatch.setattr(api, "_ENGINES", {})
+    same(simulate(P, **{"t_end": 0.25, **given}), expected)
+    same(simulate(P, 0.25), usual)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"t_end": True}, {"t_end": np.array(0.1)}, {"tol": True}, {"tol": np.array([1e-9, 1e-8])}, {"max_steps": True},
+        {"max_steps": np.True_}, {"max_steps": 5.0}, {"max_steps": np.array(5)}, {"stop_at": np.array(["a", "b"])},
+        {"stop_at": np.array(["first_separation"])}, {"ramps": np.array([1, 2])}, {"progress": 3},
+    ],
+    ids=str,
+)  # fmt: skip
+def test_what_is_no_such_value_is_refused(given):
+    (name,) = given
+    with pytest.raises(ParameterError, match=rf"^{name}=.*: must be"):
+        simulate(P, **{"t_end": 0.1, **given})
+
+
+STATE = simulate(P, 0.0371).final_state
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"a": np.float32, "alpha": lambda x: x[::-1].copy()[::-1], "b": np.asfortranarray},
+        {"direction": np.int8, "known": np.uint64, "psi": np.longdouble, "f": Fraction},
+        {"beta": lambda x: np.zeros(len(x), int), "a": lambda x: list(map(float, x))},
+    ],
+)
+def test_a_state_is_taken_as_doubles(change):
+    assert STATE.phase == "slip"
+    given = STATE.replace(**{name: convert(getattr(STATE, name)) for name, convert in change.items()})
+    u = float(mode_arrays(P).psi @ np.asarray(given.a, float))
+    plain = {name: np.array(getattr(given, name), float) for name in ("a", "b", "alpha", "beta")}
+    expected = simulate(P, 0.1, initial_state=STATE.replace(u=u, **plain))
+    same(simulate(P, 0.1, initial_state=given.replace(u=u)), expected)
+
+
+NO_NUMBERS = [True, np.array(0.0), np.array([0.0, 1.0]), None, "x", 1j, np.array(["1", "1"]), [0, 0]]
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS, ids=str)
+@pytest.mark.parametrize("name", ["time", "time_low", "phase", "direction", "psi", "f", "u", "u_velocity", "known"])
+def test_what_is_no_number_is_refused_in_a_state(name, value):
+    with pytest.raises(ParameterError, match=rf"^initial_state\.{name}[=:]"):
+        simulate(P, 0.1, initial_state=STATE.replace(**{"time_low": STATE.time_low, name: value}))
+
+
+@pytest.mark.parametrize(
+    "values", [None, "xx", ["1", "1"], [True, False], np.zeros(2, complex), [0, math.nan], [[0, 0]]], ids=str
+)
+@pytest.mark.parametrize("name", ["a", "b", "alpha", "beta", "mode_amplitudes"])
+def test_what_are_no_numbers_is_refused_in_a_state(name, values):
+    if name == "mode_amplitudes" and values is None:  # of a state made by hand
+        return
+    with pytest.raises(ParameterError, match=rf"initial_state\.{name}: must be 2 finite numbers"):
+        simulate(P, 0.1, initial_state=STATE.replace(**{name: values}))
 
 
 def test_a_run_stops_at_its_first_separation():

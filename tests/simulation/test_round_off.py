@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Record, State, Window, load, simulate
-from disc_model.data.dataset import DamagedFile
+from disc_model.data.dataset import DamagedFile, WriteError
 from disc_model.studies.schema import WindowSpec
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -22,6 +23,53 @@ def test_a_result_is_saved_and_loaded_as_its_tree(tmp_path: Path) -> None:
     (tmp_path / "r.nc").write_bytes((tmp_path / "r.nc").read_bytes()[:-40])
     with pytest.raises(DamagedFile):
         load(tmp_path / "r.nc")
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ["."],
+        [".."],
+        ["a\nb"],
+        ["x" * 300],
+        [" a"],
+        ["a "],
+        ["\x00"],
+        ["\ud800"],
+        ["a/b"],
+        ["events"],
+        [3],
+        [["a"]],
+        3,
+        "a",
+        [],
+    ],
+    ids=repr,
+)
+def test_names_that_no_group_can_have_are_refused(tmp_path: Path, names: Any) -> None:
+    """They ended in errors of libraries, some of them when the file was half written."""
+    result = simulate(P, 0.01, record=Record(windows=(Window(rate=1000),)))
+    with pytest.raises(ParameterError, match=r"^names=.*: must be 1 different names, one a window"):
+        result.save(tmp_path / "r.nc", names)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", ["x" * 240, "é" * 120, "a\0b", "\ud800", "", "..", 3, None, b"x"], ids=repr)
+def test_names_that_no_file_can_have_are_refused(tmp_path: Path, name: Any) -> None:
+    result = simulate(P, 0.01)
+    path = str(tmp_path) + "/" + name if isinstance(name, str) else name
+    for use in (result.save, result.final_state.save, load, State.load):
+        with pytest.raises(ParameterError, match=r"^path=.*: must be the name of a file, of at most 233 bytes"):
+            use(path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_longest_name_is_written_and_read(tmp_path: Path) -> None:
+    state, path = simulate(P, 0.01).final_state, tmp_path / ("x" * 233)
+    state.save(path)
+    assert State.load(path).time == state.time
+    with pytest.raises(WriteError, match="cannot be written: Not a directory"):
+        state.save(path / "below")
 
 
 def test_values_are_shown_in_a_line() -> None:

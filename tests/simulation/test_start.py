@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
+import functools
 import json
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from disc_model.data.variables import flag_names
+from disc_model import Record, Window, deflection, floquet
+from disc_model.benchmarks.methods.physics import Physics
+from disc_model.data.variables import PHASES, flag_names
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
+from disc_model.plate import Modes, mode_arrays
+from disc_model.simulation import kept
+from disc_model.simulation import result as RESULT
 from disc_model.simulation.api import carried_over, kicked, prepared, published_start, run_case, simulate
 from disc_model.simulation.case import CaseSpec, Preparation, Start
-from disc_model.simulation.result import State
+from disc_model.simulation.result import State, engine_case
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.quantities.schema import BifurcationOptions
 from disc_model.studies.grids.schema import parse_grid
 from disc_model.studies.schema import parse_study
+from tests.contact_laws import LAWS
 from tests.studies.grids.conftest import computed
 
 AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}, "transient": 1}
@@ -84,6 +93,176 @@ def test_a_preparation_is_another_motions_end() -> None:
     expected = simulate(p.replace(N=100), 0.01, tol=1e-8).final_state
     np.testing.assert_array_equal(start.a, expected.a)
     assert start.time == 0
+
+
+# ---- the modes that a state belongs to
+
+
+ORTHONORMAL = Parameters(N=800, Omega=30, normalization="orthonormal")
+
+
+def turned(monkeypatch: pytest.MonkeyPatch, signs: np.ndarray) -> None:
+    """Let modes have other signs, as the linear algebra of another processor or version may give them."""
+
+    def modes(p: Parameters) -> Modes:
+        own = mode_arrays(p)
+        return Modes(own.circles, own.diameters, own.omega, own.psi * signs)
+
+    engine_case.cache_clear()
+    for module in (RESULT, sys.modules["disc_model.simulation.deflection"], kept):
+        monkeypatch.setattr(module, "mode_arrays", modes)
+
+
+@pytest.fixture(autouse=True)
+def _fresh_cases() -> Iterator[None]:
+    yield
+    engine_case.cache_clear()
+
+
+def test_the_signs_of_modes_change_no_motion(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Modal coordinates turn with them; roundings of the closed form of stick grow to 1e-15 s in half a second."""
+    usual = simulate(ORTHONORMAL, 0.5)
+    signs = np.array([-1.0, 1.0, 1.0, -1.0, 1.0])
+    turned(monkeypatch, signs)
+    other = simulate(ORTHONORMAL, 0.5)
+    assert usual.events["kind"].tolist() == other.events["kind"].tolist()
+    np.testing.assert_allclose(other.event_rows[:, 0], usual.event_rows[:, 0], rtol=0, atol=1e-13)
+    a = usual.final_state.a
+    np.testing.assert_allclose(signs * other.final_state.a, a, rtol=0, atol=1e-9 * np.abs(a).max())
+
+
+def test_a_state_of_other_modes_is_refused(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """On another processor one mode had the other sign, and the state went on as another motion, without a word."""
+    state = simulate(ORTHONORMAL, 0.1).final_state
+    state.save(tmp_path / "state.nc")
+    turned(monkeypatch, np.array([1.0, 1.0, 1.0, -1.0, 1.0]))
+    again = State.load(tmp_path / "state.nc")
+    rule = r"mode_amplitudes\.3=2\.13\d+: must be -2\.13\d+, psi of this mode in plate_modes"
+    for start in (state, again, state.replace(time=0.0)):
+        with pytest.raises(ParameterError, match=rf"^initial_state\.{rule}"):
+            simulate(ORTHONORMAL, 0.2, initial_state=start)
+    with pytest.raises(ParameterError, match=rf"^states\.0\.{rule}"):
+        deflection(ORTHONORMAL, state, 0.1, 0.0)
+    with pytest.raises(ParameterError, match=rf"^initial_state\.{rule}"):
+        floquet(ORTHONORMAL, near=state)
+    by_hand = state.replace(mode_amplitudes=None)
+    assert simulate(ORTHONORMAL, 0.2, initial_state=by_hand.replace(phase="separation", u=1.0)).status.complete
+
+
+def test_a_checkpoint_of_other_modes_is_not_used(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    def interrupted(_: float) -> None:
+        raise KeyboardInterrupt
+
+    run = {"initial_state": published_start(ORTHONORMAL).replace(mode_amplitudes=None), "checkpoint": tmp_path / "c"}
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "STEPS_PER_PAUSE", 100)
+    with pytest.raises(KeyboardInterrupt):
+        simulate(ORTHONORMAL, 1.0, **run, checkpoint_every=0, progress=interrupted)
+    monkeypatch.setattr(kept, "mode_arrays", lambda p: mode_arrays(p.replace(normalization="as_published")))
+    simulate(ORTHONORMAL, 1.0, **run)
+    assert "ignored: of another run (other modes)" in caplog.text
+
+
+@pytest.mark.parametrize("change", [{"r_0": 0.09}, {"rho": 7000.0}, {"normalization": "orthonormal"}], ids=str)
+def test_a_state_of_another_disc_is_carried_over_or_refused(change: dict) -> None:
+    state, p = simulate(P, 0.1).final_state, P.replace(**change)
+    with pytest.raises(ParameterError, match="the state belongs to other modes"):
+        simulate(p, 0.2, initial_state=state)
+    assert simulate(p, 0.1, initial_state=carried_over(p, state)).status.complete
+
+
+# ---- at a switch
+
+
+APART = Parameters(N=385, Omega=15.1)
+C = LAWS["compliant_normal"]
+
+
+@pytest.fixture(scope="module")
+def switch() -> Callable[..., State]:
+    """The first loss of contact of a case, after a kick that brings it soon."""
+
+    @functools.cache
+    def found(**changes: object) -> State:
+        p = APART.replace(**changes)
+        start = kicked(p, published_start(p), u=-0.02)
+        state = simulate(p, 1.0, initial_state=start, stop_at="first_separation").final_state
+        assert state.known
+        return state
+
+    return found
+
+
+def test_a_switch_continued_under_its_own_parameters_keeps_its_bits(
+    switch: Callable[..., State], tmp_path: Path
+) -> None:
+    state = switch()
+    start = kicked(APART, published_start(APART), u=-0.02)
+    whole = simulate(APART, state.time + 0.05, initial_state=start)
+    state.save(tmp_path / "state.nc")
+    for given in (state, State.load(tmp_path / "state.nc"), state.replace(time=state.time, time_low=state.time_low)):
+        rest = simulate(APART, state.time + 0.05, initial_state=given)
+        expected = whole.event_rows[whole.event_rows[:, 0] > state.time]
+        assert len(expected) > 3
+        np.testing.assert_array_equal(rest.event_rows, expected)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"N": 386.0}, {"N": 435.0}, {"N": 384.0}, {"N": 200.0}, {"k": 1e5}, {"k": 1e3}, {"m": 0.09}, {"m": 0.2},
+        {"c": 100.0}, {"E": 160e9}, {"r_0": 0.09}, {"rho": 7000.0},
+    ],
+    ids=str,
+)  # fmt: skip
+def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Callable[..., State], change: dict) -> None:
+    """The contact force vanishes under the former ones alone: the slider went into the disc, by up to 0.2 mm."""
+    p = APART.replace(**change)
+    start = carried_over(p, switch())
+    physics = Physics(p)
+    force = physics.force(physics.pack(start), 1)  # by formulas that share nothing with the engine
+    assert abs(force) > 1e-3
+    window = Window(start=0, stop=2e-3, rate=1e6)
+    run = simulate(p, 2e-3, initial_state=start, record=Record(windows=(window,)))
+    samples = run.samples[0]
+    assert PHASES[int(samples["phase"][0])] == ("slip" if force > 0 else "separation")
+    assert samples["P"][0] == pytest.approx(max(force, 0.0), rel=1e-9)
+    # as far as rounding goes: the disc's deflection is some millimetres
+    assert (samples["u"] - samples["w"]).min() > -1e-15
+    assert samples["P"].min() >= 0
+
+
+def test_a_release_continued_under_other_parameters_is_one_of_these() -> None:
+    """Without a jump of friction f rises with the square of the time; under less friction with the time itself."""
+    p = APART.replace(mu_k=0.4)
+    state = next(state for n in range(1, 100) if (state := simulate(p, 0.1, max_steps=n).final_state).known)
+    assert (state.phase, state.f, state.known) == ("slip", 0.0, 2)
+    release = state.time
+    held = simulate(p.replace(N=500), release + 1e-6, initial_state=state)
+    assert held.final_state.phase == "stick"
+    assert not len(held.event_rows)
+    looser = p.replace(mu_k=0.24)
+    slipping = simulate(looser, release + 0.03, initial_state=state)
+    begun = simulate(looser, release + 0.03, initial_state=state.replace(f=1e-12))
+    assert len(begun.event_rows)
+    times = slipping.event_rows[:, 0]
+    np.testing.assert_allclose(times[times > release + 1e-9], begun.event_rows[:, 0], rtol=0, atol=1e-12)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    "change", [{}, {"N": 500.0}, {"N": 300.0}, {"r_0": 0.09}, {"contact_compliance": 2e-6}], ids=str
+)
+def test_a_switch_of_a_compliant_contact_keeps_its_distance(switch: Callable[..., State], change: dict) -> None:
+    p = APART.replace(**(C | change))
+    window = Window(start=0, stop=2e-3, rate=1e6)
+    run = simulate(p, 2e-3, initial_state=carried_over(p, switch(**C)), record=Record(windows=(window,)))
+    samples = run.samples[0]
+    assert PHASES[int(samples["phase"][0])] == "separation"
+    apart = samples["phase"] == PHASES.index("separation")
+    assert apart[:10].all()
+    assert (samples["u"] - samples["w"])[apart].min() > -1e-15
 
 
 # ---- kicks
@@ -205,8 +384,10 @@ def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     assert state.u == pytest.approx(mode_arrays(p).psi @ other.a, rel=1e-12)
     assert state.u != pytest.approx(other.u, rel=1e-3)
     assert simulate(p, 0.01, initial_state=state).status.complete
-    apart = other.replace(phase="separation", direction=0)
-    assert carried_over(p, apart).u == apart.u
+    apart = other.replace(phase="separation", direction=0, u=other.u + 1e-4, u_velocity=1.0)
+    moved = carried_over(p, apart)
+    assert moved.u - mode_arrays(p).psi @ other.a == pytest.approx(1e-4, rel=1e-9)
+    assert simulate(p, 1e-5, initial_state=moved).final_state.phase == "separation"
 
 
 def test_a_prepared_disc_has_as_many_modes() -> None:

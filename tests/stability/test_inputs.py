@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 
+import numba
+import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, floquet, steady_sliding
+from disc_model.engine import variational
 from disc_model.errors import shown
 from disc_model.stability.bifurcation import bifurcation_samples
-from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.continuation import continue_border, continue_cycle
 from disc_model.stability.lyapunov import lyapunov_exponents
+from disc_model.stability.return_map import ReturnMap
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
 
@@ -23,6 +27,10 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
         (lambda: floquet(P, near="x", releases=1.5), "near='x' releases=1.5"),
         (lambda: continue_cycle(P, "k", (1, 2), near="x", releases=0, start=[1]), "near='x' releases=0 start=[1]"),
         (lambda: continue_cycle("x", "nu", (1, 2), releases=2), "p='x' names=('nu',) releases=2"),
+        (lambda: floquet(P, tol=True, releases=np.True_), "tol=True releases=np.True_"),
+        (lambda: continue_cycle(P, "k", (1, 2), tol="x"), "tol='x'"),
+        (lambda: continue_cycle(P, "k", (1, 2), start=[1.0, 2.0]), "start=[1.0, 2.0]"),
+        (lambda: continue_border("fold", P, ("k", "N"), {}, tol=0.5), "tol=0.5"),
         (lambda: steady_sliding("x"), "p='x'"),
         (
             lambda: lyapunov_exponents("x", -1, transient=math.nan, count=9, interval=0),
@@ -50,3 +58,20 @@ def test_every_fault_is_named(call, faults):
     with pytest.raises(ParameterError) as error:
         call()
     assert " ".join(fault.partition(": must")[0] for fault in error.value.faults) == faults
+
+
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
+def test_the_return_map_is_compiled_for_doubles_alone() -> None:
+    """Numbers of another type had all of it compiled for them, and rounded in other ways."""
+    usual = ReturnMap(P, 2.0**-30)
+    flight, end, jacobian, _ = usual.evaluate(usual.static)
+    compiled = len(variational.section_map.signatures)
+    odd = ReturnMap(P, np.float32(2.0**-30))
+    static = np.repeat(usual.static, 2)[::2]
+    static.setflags(write=False)
+    again = odd.evaluate(static, releases=np.int8(1))
+    assert len(variational.section_map.signatures) == compiled
+    assert again[0] == flight
+    np.testing.assert_array_equal(again[1], end)
+    np.testing.assert_array_equal(again[2], jacobian)
+    assert floquet(P, releases=np.int64(1)).period == floquet(P).period

@@ -9,7 +9,7 @@ import time as clock
 import warnings
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,11 +18,11 @@ from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
 from disc_model.engine.compile import compiled_for
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
-from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
+from disc_model.parameters import TOLERANCES, Parameters, is_number, is_whole, limits_faults
 from disc_model.plate import mode_arrays
 from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
-from disc_model.simulation.case import CaseSpec, Record, Start, Window
+from disc_model.simulation.case import CaseSpec, Record, Start, Window, content_key
 from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import (
@@ -110,8 +110,11 @@ def simulate(
     """
     record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, (checkpoint, checkpoint_every), ramps)
-    start = 0.0 if initial_state is None else initial_state.time
+    kept_how = checkpoint, checkpoint_every
+    _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, progress, kept_how, ramps)
+    # numbers of other types would have the engine compiled for them, and be rounded in other ways
+    t_end, tol, max_steps = float(t_end), float(tol), None if max_steps is None else int(max_steps)
+    start = 0.0 if initial_state is None else float(initial_state.time)
     record = record.resolved(start, t_end)
     with compiling(told=progress is not False):
         run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps)
@@ -149,18 +152,20 @@ class _Run:
         max_steps: int | None,
         ramps: tuple[Ramp, ...],
     ) -> None:
-        self.p, self.t_end, self.tol, self.record, self.stop_at = p, float(t_end), float(tol), record, stop_at
+        self.p, self.t_end, self.tol, self.record, self.stop_at = p, t_end, tol, record, stop_at
         # who follows a case without ramps need not look at them: the one piece that there is is said here
         steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
         self.ramps, self.pieces = ramps, courses.pieces(p, ramps) if ramps else (steady,)
         self.case = case = engine_case(p)
+        self.key = content_key(case.key + repr(ramps)) if ramps else case.key
         model = case.model
         self.order = series_order(tol)
         self.tolerance = series_tolerance(tol, compliant=p.contact_compliance != 0)
         self.workspace = take_workspace(case, self.order)
         self.state = self.workspace.state
+        anew = False
         if initial_state is not None:
-            write_state(case, initial_state, self.state)
+            anew = write_state(case, initial_state, self.state, self.key)
         start = self.time
         self.collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_COAST * model.unit)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
@@ -172,6 +177,8 @@ class _Run:
         for place, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < t_end:
                 self._enter(place)
+        if anew:
+            self._begin_at_switch()
 
     def _model_of(self, piece: courses.Piece) -> layout.Model:
         """The engine's constants over a piece of the ramps."""
@@ -185,6 +192,16 @@ class _Run:
         self.place[0] = place
         self.model = self._model_of(self.pieces[place])
         self.engine = _engine_for(self.model, self._arguments)
+
+    def _begin_at_switch(self) -> None:
+        """Let the engine find out what holds at this instant: a run of no time, of which nothing is kept."""
+        model, series, state, probe, limits, kept = self._arguments()
+        low, state.x[layout.TIME_LOW] = float(state.x[layout.TIME_LOW]), 0.0
+        kept = kept._replace(samplers=kept.samplers[:0], sampled=kept.sampled[:0])
+        self.engine(model, series, state, probe, limits._replace(t_end=self.time), kept)
+        state.x[layout.TIME_LOW], state.x[layout.COASTED] = low, 0.0
+        for counted in (self.workspace.counters, self.workspace.phase_times, self.workspace.sums):
+            counted.fill(0)
 
     @property
     def time(self) -> float:
@@ -209,7 +226,7 @@ class _Run:
         self.wall_time[0] += clock.perf_counter() - began
         return code
 
-    def _arguments(self) -> tuple[object, ...]:
+    def _arguments(self) -> tuple[Any, ...]:
         """What `machine.run` is given."""
         work, keep = self.workspace, self.collector
         limits = machine.Limits(
@@ -251,7 +268,7 @@ class _Run:
             message=_message(status, self.state, self.model),
             event_rows=self.collector.events(),
             first_separation=self.collector.first_separation,
-            final_state=read_state(self.case, self.state),
+            final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
             statistics=_statistics(self.workspace, self.record.energy, float(self.wall_time[0])),
             samples=samples,
@@ -290,6 +307,7 @@ def _check_arguments(
     record: object,
     stop_at: str | None,
     max_steps: int | None,
+    progress: object,
     checkpoint: tuple[object, object],
     ramps: object,
 ) -> None:
@@ -301,20 +319,24 @@ def _check_arguments(
         found.append(Fault(("record",), shown(record), "must be a Record or a Window"))
     start = 0.0
     if isinstance(initial_state, State):
-        if is_number(initial_state.time) and math.isfinite(initial_state.time):  # else it is refused later
+        if is_number(initial_state.time) and math.isfinite(initial_state.time):
             start = initial_state.time
+        else:
+            found.append(Fault(("initial_state", "time"), shown(initial_state.time), "must be finite"))
     elif initial_state is not None:
         found.append(Fault(("initial_state",), shown(initial_state), "must be a State"))
     if not is_number(t_end) or not start < t_end < math.inf:
         rule = f"must be finite and > {shown(start)} (the time of the initial state)"
         found.append(Fault(("t_end",), shown(t_end), rule))
     found += limits_faults("tol", tol, TOLERANCES)
-    if stop_at not in (None, "first_separation"):
+    if stop_at is not None and not (isinstance(stop_at, str) and stop_at == "first_separation"):
         found.append(Fault(("stop_at",), shown(stop_at), "must be None or 'first_separation'"))
-    if max_steps is not None and (not isinstance(max_steps, int) or max_steps < 1):
+    if max_steps is not None and (not is_whole(max_steps) or max_steps < 1):
         found.append(Fault(("max_steps",), shown(max_steps), "must be a whole number >= 1"))
+    if not (progress is None or isinstance(progress, bool) or callable(progress)):
+        found.append(Fault(("progress",), shown(progress), "must be a function of the time, or False"))
     found += faults(*checkpoint)
-    if isinstance(p, Parameters) and ramps != ():
+    if isinstance(p, Parameters) and not (isinstance(ramps, tuple) and not ramps):
         found += courses.faults(p, ramps, poincare=getattr(record, "poincare", None) is not None)
     if found:
         raise ParameterError(*found)
@@ -421,7 +443,6 @@ def kicked(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0,
         f=speed,
         phase=phase,
         direction=direction,
-        known=0,
     )
 
 
@@ -431,13 +452,20 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
 
 
 def carried_over(p: Parameters, state: State) -> State:
-    """A state of another case as a start of case `p`: at time 0, and in rigid contact where the disc of `p` then is.
+    """A state of another case as a start of case `p`, at time 0.
 
-    One with another number of modes is left for `simulate` to refuse.
+    Modal coordinates stay.  Where modes have other amplitudes under the slider, it keeps its distance from the disc; in
+    rigid contact there is none.  A state with another number of modes is left for `simulate` to refuse.
     """
-    psi = mode_arrays(p).psi
-    in_contact = state.phase != "separation" and p.contact_compliance == 0 and len(psi) == len(state.a)
-    return state.replace(time=0.0, u=float(psi @ state.a) if in_contact else state.u)
+    psi, own = mode_arrays(p).psi, state.mode_amplitudes
+    if len(psi) != len(state.a):
+        return state.replace(time=0.0)
+    more = np.zeros_like(psi) if own is None else psi - own
+    u, slope = state.u + float(more @ state.a), float(more @ (mode_arrays(p).diameters * state.b))
+    if state.phase != "separation" and p.contact_compliance == 0:
+        u = float(psi @ state.a)
+    velocity = state.u_velocity + float(more @ state.alpha) + state.f * slope
+    return state.replace(time=0.0, u=u, u_velocity=velocity, mode_amplitudes=psi)
 
 
 # ----------------------------------------------------------------------------------------------------

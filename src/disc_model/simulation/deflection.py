@@ -13,7 +13,7 @@ from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays, mode_shapes
 from disc_model.simulation.api import published_start, simulate
 from disc_model.simulation.case import Record
-from disc_model.simulation.result import State
+from disc_model.simulation.result import State, amplitude_faults
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -82,7 +82,7 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     Raises
     ------
     ParameterError
-        Radii off the disc, angles that are no finite numbers, states of another number of modes.
+        Radii off the disc, angles that are no finite numbers, states of other modes.
     """
     import xarray as xr
 
@@ -107,7 +107,7 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
     """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
     refuse(_foreign(p, None))
     given: list[Any] = list(states) if isinstance(states, Iterable) else [states]
-    n_modes = len(mode_arrays(p).omega)
+    psi = mode_arrays(p).psi
     radii, angles = _numbers(r), _numbers(theta)
     within = radii is not None and np.all((radii >= p.a) & (radii <= p.b))
     faults = broken(
@@ -117,9 +117,11 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
     for i, state in enumerate(given):
         if not isinstance(state, State):
             faults.append(Fault(("states", str(i)), shown(state), "must be a State"))
-        elif len(state.a) != n_modes:
-            rule = f"must have {n_modes} modes, as the case, and not {len(state.a)}"
+        elif len(state.a) != len(psi):
+            rule = f"must have {len(psi)} modes, as the case, and not {len(state.a)}"
             faults.append(Fault(("states", str(i)), "", rule))
+        else:
+            faults += amplitude_faults(state, psi, ("states", str(i)))
     if faults or radii is None or angles is None:
         raise ParameterError(*faults)
     return given, radii, angles

@@ -5,7 +5,8 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -19,6 +20,7 @@ from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASE
 from disc_model.engine import layout
 from disc_model.engine.audit import N_SUMS
 from disc_model.engine.machine import EVENT_ROW, N_COUNTERS
+from disc_model.engine.switches import TOUCHING
 from disc_model.errors import Fault, ParameterError, Status, shown
 from disc_model.flexibility import contact_give
 from disc_model.parameters import RESIDUAL, Parameters, is_number
@@ -59,6 +61,9 @@ class State:
     a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
         along and across the slider's direction; b = beta = 0 for modes without nodal diameter
     known : multiplicity of the root that the phase's switch function has at this very instant (0 away from a switch)
+    case_key : the case in which it was computed; phase and `known` of a switch are found anew in any other
+    mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` that a, b, alpha and beta belong to. A case
+        with others refuses the state. None if it was made by hand
     """
 
     time: float
@@ -74,11 +79,19 @@ class State:
     beta: Array
     time_low: float = 0.0
     known: int = 0
+    case_key: str = ""
+    mode_amplitudes: Array | None = None
 
     def replace(self, **changes: Any) -> State:
-        """A copy with some values changed; a new time is meant exactly, so that `time_low` starts at 0 with it."""
+        """A copy with some values changed.
+
+        A new time is meant exactly, so that `time_low` starts at 0 with it.  With any other change the state is no
+        longer that of its case, and `case_key` becomes empty.
+        """
         if "time" in changes:
             changes = {"time_low": 0.0} | changes
+        if not changes.keys() <= {"time", "time_low"}:
+            changes = {"case_key": ""} | changes
         return dataclasses.replace(self, **changes)
 
     def __repr__(self) -> str:
@@ -103,8 +116,10 @@ class State:
             name: ("mode", np.asarray(getattr(self, name), float), {"units": unit}) for name, unit in _MODAL.items()
         }
         plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in _PLAIN.items()}
+        if self.mode_amplitudes is not None:
+            modal["mode_amplitudes"] = ("mode", np.asarray(self.mode_amplitudes, float), {"units": "kg-1/2"})
         whole = {name: ((), np.int64(getattr(self, name))) for name in ("direction", "known")}
-        attrs = {"Conventions": dataset.CONVENTIONS, "phase": self.phase}
+        attrs = {"Conventions": dataset.CONVENTIONS, "phase": self.phase, "case_key": self.case_key}
         dataset.save(xr.DataTree(xr.Dataset(modal | plain | whole, attrs=attrs)), path)
 
     @classmethod
@@ -127,7 +142,8 @@ class State:
         held: dict[str, Any] = {name: found[name].values for name in _MODAL}
         held |= {name: float(found[name]) for name in _PLAIN}
         held |= {name: int(found[name]) for name in ("direction", "known")}
-        return cls(phase=str(found.attrs["phase"]), **held)
+        held |= {name: found[name].values for name in ("mode_amplitudes",) if name in found}
+        return cls(phase=str(found.attrs["phase"]), case_key=str(found.attrs.get("case_key", "")), **held)
 
 
 _MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
@@ -308,15 +324,19 @@ class Result:
         return self
 
 
+_GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")
+"""What netCDF takes as the name of a group, whatever its characters take in bytes, and everybody can read."""
+
+
 def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
     """Names of a result's windows: each becomes a group of a file, beside those that are there in any case."""
-    good = len(names) == len(result.samples) == len(set(names))
-    if not good or any(
-        not isinstance(name, str) or not name or "/" in name or name in BESIDE_WINDOWS for name in names
-    ):
-        rule = f"must be {len(result.samples)} different names without /, one a window, none of them that of a variable"
-        raise ParameterError(Fault(("names",), shown(list(names)), rule))
-    return names
+    given = list(names) if isinstance(names, Iterable) and not isinstance(names, str) else [names]
+    good = all(isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() for name in given)
+    if not good or not len(given) == len(result.samples) == len(set(given) - set(BESIDE_WINDOWS)):
+        rule = f"must be {len(result.samples)} different names, one a window, of at most 60 printable characters, "
+        rule += "a letter, digit or _ first, no / and no space last, none of them that of a variable"
+        raise ParameterError(Fault(("names",), shown(names), rule))
+    return given
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -346,7 +366,7 @@ class Case(NamedTuple):
     """What the engine is given of a case.  Shared by all runs of the case, and therefore never written.
 
     model, start : the engine's constants, and the published start
-    n_modes : rows of `plate_modes`
+    key, amplitudes : what states of the case carry as `case_key` and `mode_amplitudes`
     present : of a, b, alpha and beta of all modes, in this order, the numbers of those that there are: modes without
         nodal diameter have no b and beta
     places : of these in `layout.State.disc`
@@ -356,7 +376,8 @@ class Case(NamedTuple):
 
     model: layout.Model
     start: layout.State
-    n_modes: int
+    key: str
+    amplitudes: np.ndarray
     present: np.ndarray
     places: np.ndarray
     point: np.ndarray
@@ -385,7 +406,8 @@ def engine_case(p: Parameters) -> Case:
     places[:, pairs] = lane + np.array([[0], [layout.HALF], [width], [width + layout.HALF]])
     places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
     present = np.flatnonzero(places >= 0)
-    return Case(model, layout.build_state(model), n_modes, present, places.ravel()[present], _point(model), {})
+    point, start = _point(model), layout.build_state(model)
+    return Case(model, start, p.key, modes.psi, present, places.ravel()[present], point, {})
 
 
 def _point(model: layout.Model) -> np.ndarray:
@@ -422,9 +444,9 @@ def give_back(case: Case, order: int, workspace: Workspace) -> None:
     case.idle.setdefault(order, []).append(workspace)
 
 
-def read_state(case: Case, state: layout.State) -> State:
-    """The engine's state as a `State`."""
-    modal = np.zeros(4 * case.n_modes)
+def read_state(case: Case, state: layout.State, key: str = "") -> State:
+    """The engine's state as a `State`; key: of the case if it is not its own, as on ramps."""
+    modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
     a, b, alpha, beta = modal.reshape(4, -1)
@@ -444,6 +466,8 @@ def read_state(case: Case, state: layout.State) -> State:
         u=u,
         u_velocity=v,
         known=int(x[layout.KNOWN]),
+        case_key=key or case.key,
+        mode_amplitudes=case.amplitudes,
         a=a,
         b=b,
         alpha=alpha,
@@ -451,16 +475,20 @@ def read_state(case: Case, state: layout.State) -> State:
     )
 
 
-def write_state(case: Case, given: State, state: layout.State) -> None:
-    """Put ``given`` into the engine's state.
+def write_state(case: Case, given: State, state: layout.State, key: str = "") -> bool:
+    """Put ``given`` into the engine's state; key: of the case if it is not its own, as on ramps.
+
+    Returns
+    -------
+    Whether the engine is to find out what holds at this instant, before any time passes: at a switch of another case.
 
     Raises
     ------
     ParameterError
-        If arrays have the wrong shape, numbers are not finite, or the phase contradicts the velocities.
+        If arrays have the wrong shape, numbers are not finite, the phase contradicts the velocities, or the state
+        belongs to other modes.
     """
-    # contact and its force can begin at once where contact is compliant
-    faults = _faults(given, case.n_modes, highest_known=7 if len(case.model.give) == 1 else 3)
+    faults = _faults(given, case)
     if faults:
         raise ParameterError(*faults)
     state.disc.fill(0.0)
@@ -472,12 +500,39 @@ def write_state(case: Case, given: State, state: layout.State) -> None:
     x[layout.TIME], x[layout.TIME_LOW] = given.time, given.time_low
     x[layout.PSI], x[layout.SPEED] = given.psi, given.f
     x[layout.U], x[layout.U_VELOCITY] = given.u, given.u_velocity
-    x[layout.PHASE], x[layout.DIRECTION] = PHASES.index(given.phase), given.direction
+    x[layout.PHASE] = PHASES.index(given.phase)
+    x[layout.DIRECTION] = given.direction if given.phase == "slip" else 0.0
     x[layout.KNOWN] = given.known
+    return bool(given.known) and given.case_key != (key or case.key) and _forget_switch(case, state)
+
+
+def _forget_switch(case: Case, state: layout.State) -> bool:
+    """Look at a state at a switch of another case: what vanishes in that case need not in this one.
+
+    A slider that touches the disc, and neither leaves nor hits it, is put into contact, where the engine is to find out
+    whether it stays there.  Returns whether that is so.
+    """
+    x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
+    w, velocity, slope = case.point.dot(state.disc)
+    f, compliant, known = x[layout.SPEED], len(case.model.give) == 1, x[layout.KNOWN]
+    opening = x[layout.U_VELOCITY] - velocity - f * slope
+    touches = abs(x[layout.U] - w) <= SAME_HEIGHT * sizes[0]
+    rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(f) * sizes[2])
+    x[layout.KNOWN] = 0.0
+    if x[layout.PHASE] == layout.SEPARATION and touches and not rests:
+        x[layout.KNOWN] = 1.0 if opening > 0 else 0.0
+    elif compliant and touches and known >= TOUCHING:
+        x[layout.KNOWN] = TOUCHING + (1 if f == 0 and x[layout.PHASE] == layout.SLIP else 0)
+    elif touches or x[layout.PHASE] == layout.SLIP:
+        x[layout.PHASE], x[layout.DIRECTION] = layout.SLIP if f else layout.STICK, np.sign(f)
+        return True
+    return False
 
 
 SAME_HEIGHT = 1e-9
 """Of the disc's deflection: far more than rounding, and far less than what anybody means by another height."""
+SAME_AMPLITUDE = 1e-9
+"""Of the largest amplitude: modes computed on two processors differ by 1e-13 of it at most, as measured."""
 
 
 def _check_height(case: Case, u: float, state: layout.State) -> None:
@@ -491,15 +546,19 @@ def _check_height(case: Case, u: float, state: layout.State) -> None:
         raise ParameterError(Fault(("initial_state", "u"), shown(u), rule))
 
 
-def _faults(given: State, n_modes: int, highest_known: int) -> list[str]:
+def _faults(given: State, case: Case) -> list[str]:
     faults: list[str] = []
+    n_modes = len(case.amplitudes)
+    # contact and its force can begin at once where contact is compliant
+    highest_known = 7 if len(case.model.give) == 1 else 3
 
     def add(name: str, rule: str, value: object = None) -> None:
         faults.append(Fault(("initial_state", name), "" if value is None else shown(value), rule))
 
     for name in _MODAL:
-        if not _is_finite_array(getattr(given, name), n_modes):
+        if not is_finite_array(getattr(given, name), n_modes):
             add(name, f"must be {n_modes} finite numbers, one per row of plate_modes")
+    faults += amplitude_faults(given, case.amplitudes, ("initial_state",))
     endless = [name for name in _PLAIN if not _is_finite(getattr(given, name))]
     for name in endless:
         if name != "time_low":
@@ -507,30 +566,51 @@ def _faults(given: State, n_modes: int, highest_known: int) -> list[str]:
     # the clock's compensation is at most a unit in the last place of the time
     if "time_low" in endless or ("time" not in endless and abs(given.time_low) > math.ulp(given.time)):
         add("time_low", "must be less than the last digit of the time", given.time_low)
-    if given.known not in range(highest_known + 1):
+    if not _is_among(given.known, range(highest_known + 1)):
         rule = "0, 1, 2 or 3" if highest_known == 3 else f"a whole number from 0 to {highest_known}"
         add("known", f"must be {rule}", given.known)
-    if given.phase not in PHASES:
+    if not isinstance(given.phase, str) or given.phase not in PHASES:
         add("phase", f"must be one of {', '.join(PHASES)}", given.phase)
     elif given.phase == "stick" and "f" not in endless and given.f != 0:
         add("f", "must be 0 in stick", given.f)
-    elif given.phase == "slip" and given.direction not in (-1, 1):
+    elif given.phase == "slip" and not _is_among(given.direction, (-1, 1)):
         add("direction", "must be -1 or 1 in slip", given.direction)
     elif given.phase == "slip" and "f" not in endless and given.f * given.direction < 0:
         add("f", f"must have the sign of direction={given.direction}", given.f)
     return faults
 
 
+def amplitude_faults(given: State, amplitudes: Array, place: tuple[str, ...]) -> list[str]:
+    """What is wrong with a state's `mode_amplitudes` for a case whose modes have these, shape (n_modes,)."""
+    own = given.mode_amplitudes
+    if own is None or own is amplitudes:
+        return []
+    place = (*place, "mode_amplitudes")
+    if not is_finite_array(own, len(amplitudes)):
+        return [Fault(place, "", f"must be {len(amplitudes)} finite numbers, psi of plate_modes")]
+    other = np.abs(own - amplitudes) > SAME_AMPLITUDE * np.max(np.abs(amplitudes), initial=0.0)
+    rule = "must be {:.9g}, psi of this mode in plate_modes: the state belongs to other modes"
+    return [
+        Fault((*place, str(i)), shown(float(own[i])), rule.format(amplitudes[i])) for i in np.flatnonzero(other)[:1]
+    ]
+
+
 def _is_finite(value: object) -> bool:
     return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
 
 
-def _is_finite_array(values: object, size: int) -> bool:
+def _is_among(value: object, known: Collection[int]) -> bool:
+    """Whether a value is one of a few whole numbers; a bool is none."""
+    return is_number(value) and value in known
+
+
+def is_finite_array(values: object, size: int) -> bool:
+    """Whether values are so many finite real numbers."""
     try:
-        array = np.asarray(values, dtype=float)
+        array = np.asarray(values)
     except (TypeError, ValueError):
         return False
-    return array.shape == (size,) and all(map(math.isfinite, array.tolist()))
+    return array.dtype.kind in "fiu" and array.shape == (size,) and all(map(math.isfinite, array.tolist()))
 
 
 # ----------------------------------------------------------------------------------------------------

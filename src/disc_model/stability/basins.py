@@ -292,7 +292,6 @@ def random_kick(p: Parameters, state: State, energy: float, key: Sequence[int]) 
         beta=state.beta + size * beta,
         u=state.u + size * u,
         u_velocity=state.u_velocity + size * (velocity + state.f * slope),
-        known=0,
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from disc_model.data.variables import SERIES, Variable
 from disc_model.errors import Status, broken, refuse
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, is_whole
 from disc_model.progress import compiling
 from disc_model.simulation.api import carried_over, simulate
 from disc_model.simulation.case import Poincare, Record
@@ -118,7 +118,7 @@ def _check(p: object, name: str, values: list[float], transient: float, samples:
             (real, "name", name, "must be a parameter that is a real number"),
             (values, "values", values, "must not be empty"),
             (0 <= transient < math.inf, "transient", transient, "must be finite and >= 0"),
-            (isinstance(samples, int) and samples >= 1, "samples", samples, "must be a whole number >= 1"),
+            (is_whole(samples) and samples >= 1, "samples", samples, "must be a whole number >= 1"),
             (slowest > 0, "Omega", slowest, "must be > 0, because samples are taken once a turn"),
         )
     )

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError, broken, refuse
-from disc_model.parameters import Parameters
+from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_faults
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
@@ -206,14 +206,14 @@ class Branch:
         return [kind_of(complex(m[0])) for m in self.multipliers]
 
 
-def check(p: object, names: tuple[str, ...], count: int, more: Sequence[str] = ()) -> None:
-    """Raise `ParameterError` on these faults and on those of a case and of names of parameters."""
+def check(p: object, names: tuple[str, ...], count: int, tol: float, more: Sequence[str] = ()) -> None:
+    """Raise `ParameterError` on these faults and on those of a case, of names of parameters and of a tolerance."""
     free = len(names) == count == len(set(names)) and set(names) <= set(PARAMETERS)
     wrong = broken(
         (isinstance(p, Parameters), "p", p, "must be Parameters"),
         (free, "names", names, f"must be {count} of {', '.join(PARAMETERS)}"),
     )
-    refuse([*wrong, *more])
+    refuse([*wrong, *limits_faults("tol", tol, CYCLE_TOLERANCES), *more])
 
 
 def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:

@@ -85,7 +85,7 @@ def continue_cycle(
         Bad input, or no cycle to start from.
     """
     beside = broken((near is None or start is None, "start", start, "must not be given beside near"))
-    check(p, (name,), 1, [*faults_near(near, releases), *beside])
+    check(p, (name,), 1, tol, [*faults_near(near, releases), *beside])
     cycle = find_cycle(p, tol, start) if near is None else find_cycle_near(p, near, releases, tol)
     order = None if near is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol, order)
@@ -207,7 +207,7 @@ def continue_border(
         Bad input, no cycle to start from, or no curve of this kind near it.
     """
     names = tuple(names)  # type: ignore[assignment]
-    check(p, names, 2)
+    check(p, names, 2, tol)
     problem = CycleProblem(p, names, None, tol)
     point = starting_point(problem, find_cycle(p, tol, start))
     test, mu = (_on_circle, complex(multipliers(point.jacobian)[0])) if kind == "neutral" else (_at_one, 1.0 + 0j)

@@ -12,9 +12,9 @@ from functools import cached_property
 import numpy as np
 
 from disc_model.errors import DiscModelError, StatusBase, broken, refuse
-from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_faults
+from disc_model.parameters import CYCLE_TOLERANCES, Parameters, is_whole, limits_faults
 from disc_model.progress import compiling
-from disc_model.simulation.result import State
+from disc_model.simulation.result import State, is_finite_array
 from disc_model.stability.return_map import (
     OUTCOMES,
     PATIENT,
@@ -162,7 +162,7 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
 
 def faults_near(near: object, releases: object) -> list[str]:
     """What is wrong with a state near which a cycle of so many releases is to be looked for."""
-    counts = isinstance(releases, int) and releases >= 1 and (near is not None or releases == 1)
+    counts = is_whole(releases) and releases >= 1 and (near is not None or releases == 1)
     return broken(
         (near is None or isinstance(near, State), "near", near, "must be a State"),
         (counts, "releases", releases, "must be a whole number >= 1, and 1 without a state to look near"),
@@ -178,7 +178,9 @@ def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) ->
     if not may_stick_and_slip(p):
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol)
-    found = newton(map_, map_.static if start is None else start, tol=tol)
+    point = start is None or is_finite_array(start, map_.size)
+    refuse(broken((point, "start", start, f"must be {map_.size} finite numbers, a point of the section")))
+    found = newton(map_, map_.static if start is None else np.asarray(start, float), tol=tol)
     if found is not None:
         return cycle_of(map_, tol, found)
     if start is not None:

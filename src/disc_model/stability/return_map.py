@@ -113,6 +113,7 @@ class ReturnMap:
         self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
     ) -> None:
         refuse(case_faults(p, "the return map"))
+        tol = float(tol)  # kernels are compiled for the types that they are given
         self.parameters, self.patience = p, patience
         self._case = engine_case(p)
         self.model = model = self._case.model
@@ -204,9 +205,10 @@ class ReturnMap:
         finest = COLUMNS_COARSE if coarse else 10 * tolerance
         longest = longest_step(self.model, order, finest) if tangent else math.inf
         course = variational.Course(
-            order, tolerance, longest, releases * self.longest, releases, bool(may_separate), bool(tangent)
+            order, tolerance, longest, int(releases) * self.longest, int(releases), bool(may_separate), bool(tangent)
         )
-        code = variational.section_map(self.model, self._series, self._state, t, course, self._section, x)
+        start = np.array(x, dtype=float)
+        code = variational.section_map(self.model, self._series, self._state, t, course, self._section, start)
         whole, stick, slip, apart = t.log[variational.DURATION : variational.SEPARATION_TIME + 1].tolist()
         counts = Counts(*t.log[variational.RELEASES : variational.STICKS + 1].astype(int).tolist())
         flight = Flight(code, whole, stick, slip, apart, counts)
