@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import io
+import subprocess
 import sys
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -77,11 +78,21 @@ def test_a_bar_goes_no_further_than_the_end(monkeypatch: pytest.MonkeyPatch) -> 
     assert texts()[1:3] == ["█" * 8 + "░" * 22 + " simulating: 1.00 of 4 s", "█" * 30 + " simulating: 4.00 of 4 s"]
 
 
+@pytest.mark.compiled
+def test_kernels_from_the_cache_are_no_news(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A part of them is compiled, in no time."""
+    code = "import disc_model; disc_model.simulate(disc_model.Parameters(N=200, Omega=50, n_diameters=1), 1e-3)"
+    for _ in range(2):
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not done.stderr
+
+
 @pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
 @EVERYWHERE
 @pytest.mark.parametrize("told", [True, False])
 def test_kernels_that_are_compiled_are_told(where: str, told: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As soon as the first one is, and with their number; nothing where all are there already."""
+    """With the number of their parts; nothing where all are there already."""
+    monkeypatch.setattr(progress, "UNNOTICED", 0.0)
     inner = numba.njit(lambda x: x + 1)
     outer = numba.njit(lambda x: inner(x) + 1)
     texts = watched(where, monkeypatch)
@@ -93,9 +104,9 @@ def test_kernels_that_are_compiled_are_told(where: str, told: bool, monkeypatch:
     if not told:
         assert not shown
     elif where == "terminal":
-        assert f"{COMPILING}, 2 done" in "".join(shown)
+        assert f"{COMPILING}, 2 parts done" in "".join(shown)
     else:
-        assert (shown[0], shown[-1][:18]) == (COMPILING, "2 kernels compiled")
+        assert (shown[0], shown[-1][:19]) == (COMPILING, "kernels compiled in")
     with compiling():
         outer(3)
     assert texts() == shown

@@ -17,6 +17,8 @@ Progress = Callable[[float], object] | bool | None
 """What a caller says of it: a function to be told the time reached, or False for silence."""
 PATIENCE = 2.0
 """s, from which on a simulation is long."""
+UNNOTICED = 1.0
+"""s of compilation that are not worth a word: kernels from the cache take some as well."""
 WIDTH = 30
 """Characters of a bar in a notebook."""
 COMPILING = "compiling kernels, once: 10 to 20 s for each kind"
@@ -53,7 +55,7 @@ _watched = False
 
 @contextmanager
 def compiling(told: bool = True) -> Iterator[None]:
-    """Says that kernels are compiled meanwhile, as soon as the first one is; also as a decorator.
+    """Says that kernels are compiled meanwhile, if that takes time; also as a decorator.
 
     Those inside another are left to that one.
     """
@@ -71,28 +73,35 @@ def compiling(told: bool = True) -> Iterator[None]:
 
 
 class _Kernels(event.Listener):
-    """Counts those that are compiled, one within the other, and the time that it takes."""
+    """Counts their parts, which are compiled one within the other, and the time that it takes."""
 
     def __init__(self) -> None:
         self.line: _Line | None = None
-        self.depth, self.count, self.seconds = 0, 0, 0.0
+        self.depth, self.count, self.seconds, self.began = 0, 0, 0.0, 0.0
 
     def on_start(self, found: Any) -> None:
         self.depth += 1
-        if self.line is None:
-            self.line = _Line(COMPILING)
         if self.depth == 1:
             self.began = time.perf_counter()
-            self.line.start()
+            if self.line is not None:
+                self.line.start()
+        self._show()
 
     def on_end(self, found: Any) -> None:
         self.depth -= 1
         self.count += 1
+        self._show()
+        if self.depth == 0:
+            self.seconds += time.perf_counter() - self.began
+            if self.line is not None:
+                self.line.stop(f"kernels compiled in {self.seconds:.0f} s")
+
+    def _show(self) -> None:
+        if self.line is None and self.seconds + time.perf_counter() - self.began > UNNOTICED:
+            self.line = _Line(COMPILING)
+            self.line.start()
         if self.line is not None:
-            self.line.show(f"{COMPILING}, {self.count} done", self.count)
-            if self.depth == 0:
-                self.seconds += time.perf_counter() - self.began
-                self.line.stop(f"{self.count} kernels compiled in {self.seconds:.0f} s")
+            self.line.show(f"{COMPILING}, {self.count} parts done", self.count)
 
     def close(self) -> None:
         if self.line is not None:
