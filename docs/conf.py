@@ -66,22 +66,6 @@ def words_below_names(app, what, name, thing, options, lines):
     lines[:] = "\n".join(re.sub(r"^(\w[\w, ]*) : (.*)$", r"\1\n    \2", line) for line in lines).split("\n")
 
 
-def fields_as_parameters(app, what, name, thing, options, lines):
-    """List the fields of `Parameters`, whose words stand beside the fields, under Parameters."""
-    if thing is disc_model.Parameters:
-        lines.append("")
-        for field, info in thing.model_fields.items():
-            unit = thing.unit(field)
-            limits = [
-                f"{sign} {getattr(rule, key):g}" for rule in info.metadata for key, sign in SIGNS if hasattr(rule, key)
-            ]
-            words = [info.description, unit if unit not in ("", "1") else "", *limits]
-            lines += [f":param {field}: {', '.join(word for word in words if word)}"]
-
-
-SIGNS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
-
-
 def mark_wide(app, doctree):
     """Pictures as wide as a page keep a size on a phone at which they can be read, as drawings do."""
     for image in doctree.findall(nodes.image):
@@ -110,6 +94,5 @@ def copy_mathjax(app, error):
 def setup(app):
     app.connect("autodoc-process-signature", short_signature)
     app.connect("autodoc-process-docstring", words_below_names, priority=400)  # before numpydoc
-    app.connect("autodoc-process-docstring", fields_as_parameters)
     app.connect("doctree-read", mark_wide)
     app.connect("build-finished", copy_mathjax)
