@@ -376,7 +376,8 @@ class Reference:
         if self.phase == "slip":
             return [("separation", R), ("rest", self.direction * step.f[self.divide["f"] :])]
         held = [("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)]
-        return [*held, ("separation", R)]
+        # a compliant contact does not pull, though friction may hold where it would
+        return [*held, ("separation", R if self.q.rigid else step.V[self.divide["R"] : K])]
 
     # -- switching
     def _enter(self, kind, phase, direction, **divide):

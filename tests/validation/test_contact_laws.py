@@ -105,6 +105,24 @@ def test_contact_ends_where_its_force_does_although_friction_ends_there_too(give
     assert list(thrown.events["kind"])[:1] == ["separation"]
 
 
+def test_a_compliant_contact_does_not_pull_where_friction_holds_on_a_steep_slope():
+    """The slider stuck on, drawn down by a contact that had opened, until friction gave way."""
+    p = Parameters(N=200, Omega=20, **SLOPING | LAWS["compliant_normal"] | {"mu_s": 2.0, "mu_k": 0.1})
+    psi = plate_modes(p)["psi"].to_numpy()
+    upward = np.array([0.0, 6.0]) * np.sign(psi)  # kg^1/2 m/s
+    start = _swinging(p, 0.01, b=0.8 * p.r_0 / psi[1]).replace(alpha=upward, u_velocity=float(psi @ upward))
+    record = Record(windows=(Window(start=0.0, stop=2e-4, rate=1e6),), energy=True)
+    result = simulate(p, 2e-4, initial_state=start, record=record, tol=1e-14)
+    assert list(result.events["kind"]) == ["separation"]
+    sample = result.samples[0]
+    held = sample["phase"] == layout.STICK
+    assert (sample["w"] - sample["u"])[held].min() >= 0
+    assert sample["P"][held].min() > 1.0  # normal to the disc it presses to the end
+    reference = taylor.Reference(taylor.problem_of(p), stored.reference_state(start, p)).run(2e-4)
+    assert [event["kind"] for event in reference.events] == ["separation"]
+    assert result.events["time"][0] == pytest.approx(float(reference.events[0]["time"]), abs=EVENT_TIMES)
+
+
 # ------------------------------------------------------------------------ the series, coefficient by coefficient
 @pytest.mark.parametrize("name", EACH_LAW)
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS[:3])

@@ -172,8 +172,8 @@ def first_switch(model, s, state, order, x_end):
     # slows down, by its damper
     if is_normal(model) or is_ramped(model) or s.switch2[0] < s.switch[0]:
         x_end, cause = _sooner(s, s.switch2, known_release, order - 1, x_end, switches.RELEASE_BACKWARD, cause, hasty)
-    if model.mu_s == 0.0 and not model.bonded:
-        # the friction limit is zero all along and says nothing of contact
+    if not model.bonded and (model.mu_s == 0.0 or (is_compliant(model) and is_normal(model))):
+        # friction may hold although contact ends: without any, or on a slope so steep that it holds the slider down
         x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, switches.CONTACT_LOST, cause, hasty)
     return x_end, cause
 
