@@ -43,7 +43,7 @@ class Start:
 def signed_diameters(diameters):
     """l of every complex mode (-d and d for d > 0) and the row it comes from."""
     pairs = [(l, row) for row, d in enumerate(diameters) for l in ((0,) if d == 0 else (-int(d), int(d)))]
-    return np.array([l for l, _ in pairs]), np.array([row for _, row in pairs])
+    return np.array([l for l, _ in pairs], int), np.array([row for _, row in pairs], int)
 
 
 class Literal:

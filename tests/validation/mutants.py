@@ -48,7 +48,10 @@ FUNCTIONS = {
         *("residual_flexibility", "harmonic_flexibility", "_point_load", "_moment", "_shear", "_power"),
         *("_high_harmonics", "_axisymmetric", "_first", "_logarithmic", "_with_edges"),
     ),
-    "engine/saltation.py": ("rates", "_force_change", "_pull_change", "_inertia", "switch_change", "impact_change"),
+    "engine/saltation.py": (
+        *("rates", "_force_change", "_pull_change", "_inertia", "_release_change", "_compliant_switch_change"),
+        *("switch_change", "switch_times", "shift", "impact_change"),
+    ),
     "engine/tangent.py": (
         *("_convolve", "_motion_slope", "point_change", "_diametral_rates", "_axisymmetric_rates"),
         *("_slider_forces", "_path_change", "_apply_force", "tangent_series"),
@@ -56,7 +59,7 @@ FUNCTIONS = {
     "engine/variational.py": ("section_map",),
     "simulation/ramps.py": ("Piece.at", "pieces", "_line", "_at"),
     "simulation/result.py": ("read_state",),
-    "stability/return_map.py": ("ReturnMap._set_changes", "ReturnMap.state", "ReturnMap.contact_force"),
+    "stability/return_map.py": ("parameter_change", "ReturnMap.state", "ReturnMap.contact_force"),
     "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),
     "benchmarks/methods/physics.py": (
         *("Physics.__init__", "Physics.disc_point", "Physics.pull", "Physics.gap"),

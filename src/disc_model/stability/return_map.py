@@ -74,6 +74,36 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
     return columns.longest_step(order, tolerance) / (rate if rate > USUAL_RATE else 1.0)
 
 
+def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
+    """What a unit of a parameter, one of `PARAMETERS`, changes in the equations: a column of `Tangent.parameters`."""
+    width, n0 = len(model.force), len(model.force0)
+    change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
+    scalars, *modal = np.split(change, columns.N_SCALARS + np.cumsum([0, width, width, n0]))
+    stiffness, damping, stiffness0, damping0 = modal
+    if name == "N":
+        # u_0 is proportional to N
+        scalars[columns.LOAD] = 1.0 - model.k * model.u_0 / model.N
+    elif name == "Omega":
+        scalars[columns.D_OMEGA] = 1.0
+    elif name == "k":
+        scalars[columns.D_K], scalars[columns.LOAD] = 1.0, -model.u_0
+    elif name in ("c", "m", "k_p", "c_p"):
+        scalars[{"c": columns.D_C, "m": columns.D_M, "k_p": columns.D_K_P, "c_p": columns.D_C_P}[name]] = 1.0
+    elif name == "E":
+        # omega^2 is proportional to E, the damping (D_star / D) omega^2 does not depend on it
+        stiffness[:], stiffness0[:] = model.stiffness / p.E, model.stiffness0 / p.E
+        # u_0 and the residual flexibility are proportional to 1 / E
+        residual = p.contact_compliance == RESIDUAL
+        given = 0.0 if residual or not model.give else model.give[0]
+        scalars[columns.LOAD] = model.k * (model.u_0 + model.N * given) / p.E
+        scalars[columns.D_GIVE] = -1.0 / p.E if residual else 0.0
+    elif name == "D_star":
+        damping[:], damping0[:] = model.stiffness / p.D, model.stiffness0 / p.D
+    else:
+        raise ValueError(f"parameter={name!r}: must be one of {', '.join(PARAMETERS)}")
+    return change
+
+
 class Counts(NamedTuple):
     """How often each switch occurs in a flight, or in a period of a cycle."""
 
@@ -138,8 +168,9 @@ class ReturnMap:
         self._first = layout.WIDTH * -(-n // layout.WIDTH)
         self._names = parameters
         self._tangent = columns.build_tangent(model, self._first + len(parameters), self.order, self._first)
-        if parameters:
-            self._set_changes()
+        changes = self._tangent.parameters.reshape(self._tangent.columns // layout.WIDTH, -1, layout.WIDTH)
+        for i, name in enumerate(parameters, self._first):
+            changes[i // layout.WIDTH, :, i % layout.WIDTH] = parameter_change(p, model, name)
         jacobian = np.zeros((n, self._tangent.columns))
         self._section = variational.Section(rows, self.scale, np.zeros(n), jacobian)
         self.static = self._coordinates()
@@ -147,41 +178,6 @@ class ReturnMap:
     def _coordinates(self) -> Array:
         column = np.append(self._state.disc[: self._slider], self._state.x[layout.PSI : layout.U_VELOCITY + 1])
         return np.asarray(column[self._section.rows] * self.scale, dtype=float)
-
-    def _set_changes(self) -> None:
-        """Columns of the changes of parameters: what a unit of each changes in the equations."""
-        model, p, t, v = self.model, self.parameters, self._tangent, columns
-        width, n0 = len(model.force), len(model.force0)
-        blocks = t.columns // layout.WIDTH
-        rows = t.parameters.reshape(blocks, -1, layout.WIDTH)
-        stiffness, damping = v.N_SCALARS, v.N_SCALARS + width
-        stiffness0, damping0 = v.N_SCALARS + 2 * width, v.N_SCALARS + 2 * width + n0
-        for i, name in enumerate(self._names):
-            column = self._first + i
-            change = rows[column // layout.WIDTH, :, column % layout.WIDTH]
-            if name == "N":
-                # u_0 is proportional to N
-                change[v.LOAD] = 1.0 - model.k * model.u_0 / model.N
-            elif name == "Omega":
-                change[v.D_OMEGA] = 1.0
-            elif name == "k":
-                change[v.D_K], change[v.LOAD] = 1.0, -model.u_0
-            elif name in ("c", "m", "k_p", "c_p"):
-                change[{"c": v.D_C, "m": v.D_M, "k_p": v.D_K_P, "c_p": v.D_C_P}[name]] = 1.0
-            elif name == "E":
-                # omega^2 is proportional to E, the damping (D_star / D) omega^2 does not depend on it
-                change[stiffness:damping] = model.stiffness / p.E
-                change[stiffness0:damping0] = model.stiffness0 / p.E
-                # u_0 and the residual flexibility are proportional to 1 / E
-                residual = p.contact_compliance == RESIDUAL
-                given = 0.0 if residual or not model.give else model.give[0]
-                change[v.LOAD] = model.k * (model.u_0 + model.N * given) / p.E
-                change[v.D_GIVE] = -1.0 / p.E if residual else 0.0
-            elif name == "D_star":
-                change[damping:stiffness0] = model.stiffness / p.D
-                change[damping0:] = model.stiffness0 / p.D
-            else:
-                raise ValueError(f"parameter={name!r}: must be one of {', '.join(PARAMETERS)}")
 
     @property
     def longest(self) -> float:
