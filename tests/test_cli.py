@@ -119,6 +119,7 @@ def test_bad_input_is_one_line_and_exit_code_2(command: Command, arguments: str,
         ("run --t-end", ("--t-end",)),
         ("rum", ("rum",)),
         ("floquet --N 385 --Omega 15.1 --tol 1", ("error: tol=1: must be within 1e-14 and 1e-06\n",)),
+        ("modes --E 3.38e-164", ("error: disc and slider at rest: ",)),
         ("list colours", ("error: what='colours': must be one of studies, figures, cases, stale\n",)),
         (
             "modes --truncation-quantity growth",

@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import Fault, ParameterError, shown
+from disc_model.errors import Fault, ModeError, ParameterError, shown
 from disc_model.parameters import RESIDUAL, Parameters
 from disc_model.plate import mode_arrays
 
@@ -94,7 +94,12 @@ def contact_give(p: Parameters) -> float:
 def _modal_sum(p: Parameters) -> float:
     """Sum of psi^2 / omega^2 over the modes of a case, m/N."""
     modes = mode_arrays(p)
-    return float(np.sum((modes.psi / modes.omega) ** 2))
+    with np.errstate(over="ignore"):
+        total = float(np.sum((modes.psi / modes.omega) ** 2))
+    if not total < np.inf:
+        rule = "static give of the modes must be within the range of numbers"
+        raise ModeError(f"E={shown(p.E)}, h={shown(p.h)}, b={shown(p.b)}: {rule}")
+    return total
 
 
 def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:

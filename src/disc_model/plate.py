@@ -15,13 +15,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg, special
 
-from disc_model.errors import ModeError
+from disc_model.errors import ModeError, shown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,6 +35,9 @@ POINTS_PER_ROOT = 6
 
 HUGE = 1e280
 """Bessel functions larger than this are computed by a recurrence that keeps the exponent apart."""
+
+WIDEST = 1e11
+"""Greatest ratio of squared frequencies of disc and slider. Compared with 60 digits, they are then right to 1e-5."""
 
 
 def plate_modes(p: Parameters) -> pd.DataFrame:
@@ -121,9 +124,13 @@ def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, give: floa
     Returns
     -------
     shape (n,); (n + 1,) on a compliant contact
+
+    Raises
+    ------
+    ModeError
+        If the frequencies lie so far apart that rounding hides the highest.
     """
-    inverse_squares = linalg.eigh(*_matrices(omega, psi, m, k, give), eigvals_only=True)
-    return np.sort(1 / np.sqrt(inverse_squares))
+    return np.sort(1 / np.sqrt(_inverse_squares(omega, psi, m, k, give, eigvals_only=True)))
 
 
 def coupled_shapes(omega: Array, psi: Array, m: float, k: float, give: float = 0.0) -> tuple[Array, Array]:
@@ -131,13 +138,27 @@ def coupled_shapes(omega: Array, psi: Array, m: float, k: float, give: float = 0
 
     On a compliant contact a last row is the slider's.
     """
-    inverse_squares, shapes = linalg.eigh(*_matrices(omega, psi, m, k, give))
+    inverse_squares, shapes = _inverse_squares(omega, psi, m, k, give)
     return 1 / np.sqrt(inverse_squares), shapes
 
 
-def _matrices(omega: Array, psi: Array, m: float, k: float, give: float) -> tuple[Array, Array]:
-    """Of the eigenvalue problem of either contact."""
-    return _coupling(omega, psi, m, k) if give == 0 else _compliant_coupling(omega, psi, m, k, give)
+def _inverse_squares(omega: Array, psi: Array, m: float, k: float, give: float, **how: bool) -> Any:
+    """What `eigh` finds of the eigenvalue problem of either contact: lambda^-2, ascending, and shapes."""
+    try:
+        with np.errstate(all="ignore"):
+            matrices = _coupling(omega, psi, m, k) if give == 0 else _compliant_coupling(omega, psi, m, k, give)
+        found = linalg.eigh(*matrices, **how)
+        values = found if how else found[0]
+        resolved = values.size == 0 or values[0] * WIDEST > values[-1]
+    except (linalg.LinAlgError, ValueError):  # a matrix that is singular by rounding, or not finite
+        resolved = False
+    if not resolved:
+        raise ModeError(
+            f"disc and slider at rest: m={shown(m)}, k={shown(k)}, a contact compliance of {give:g} m/N and disc modes "
+            f"of {omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s: squared frequencies must be less than a "
+            f"factor of {WIDEST:g} apart"
+        )
+    return found
 
 
 def _coupling(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Array]:
@@ -184,11 +205,13 @@ def _modes(
         return Modes(none, none.copy(), np.zeros(0), np.zeros(0))
     shapes = _shapes(a / b, nu, n_diameters, n_circles)
     stiffness = E * h**3 / 12 / (1 - nu**2)
-    omega = shapes.lam**2 / b**2 * np.sqrt(stiffness / (rho * h))
-    amplitude = shapes.at(r_0 / b, orthonormal)
-    psi = np.where(shapes.l > 0, np.sqrt(2), 1.0) * amplitude / np.sqrt(rho * h * b**2)
-    if not (np.all(np.isfinite(omega)) and np.all(np.isfinite(psi))):
-        raise ModeError("plate modes: frequencies or amplitudes overflow for these dimensions and this material")
+    with np.errstate(all="ignore"):  # numpy's floats overflow without an exception, and the outcome is checked
+        omega = shapes.lam**2 / np.float64(b) ** 2 * np.sqrt(stiffness / (np.float64(rho) * h))
+        amplitude = shapes.at(r_0 / b, orthonormal)
+        psi = np.where(shapes.l > 0, np.sqrt(2), 1.0) * amplitude / np.sqrt(rho * h * np.float64(b) ** 2)
+    if not (np.all((omega > 0) & np.isfinite(omega)) and np.all(np.isfinite(psi)) and np.any(psi)):
+        values = ", ".join(f"{name}={shown(x)}" for name, x in (("b", b), ("h", h), ("E", E), ("rho", rho)))
+        raise ModeError(f"plate modes: {values}: frequencies or amplitudes must be within the range of numbers")
     return Modes(np.repeat(np.arange(n_circles + 1), n_diameters + 1), shapes.l.copy(), omega, psi)
 
 
@@ -225,11 +248,16 @@ class _Shapes:
 
 
 @lru_cache(maxsize=256)
+@np.errstate(all="ignore")
 def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shapes:
     """All shapes with up to `n_diameters` nodal diameters and `n_circles` nodal circles."""
     l = np.tile(np.arange(n_diameters + 1), n_circles + 1)
     lam = _roots(inner, nu, n_diameters, n_circles).ravel()
     matrix, exponents = _columns(l, lam, inner, nu)
+    if not np.all(np.isfinite(matrix)):
+        raise ModeError(
+            f"plate modes: a/b={inner:g} and 1 - a/b={1 - inner:g} must not be so near 0: the modes cannot be computed"
+        )
     matrix = np.moveaxis(matrix, -1, 0)
     rows = np.max(np.abs(matrix), axis=2, keepdims=True)
     coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
