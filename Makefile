@@ -108,9 +108,11 @@ test-portable: env
 	  $(BIN)/pytest -m "not slow and not workflow" tests/engine tests/test_plate.py tests/validation \
 	  --ignore tests/validation/test_contact_laws.py --ignore tests/validation/test_ramps.py
 
-# With the rival integrators, so that their tests are not passed over.
+# With the rival integrators, so that their tests are not passed over. The random search draws thirty times as many inputs
+# as the quick tests; SEED=..., as the command shows it, draws the same ones again.
+SEED := $(shell od -An -N4 -tu4 /dev/urandom | tr -d ' ')
 test-long: $(VENV)/.bench
-	$(BIN)/pytest
+	$(BIN)/pytest --hypothesis-profile=long --hypothesis-seed=$(SEED)
 
 # Lines and branches of everything. Compiled kernels are not seen, so that the engine's own tests run once more without
 # compilation; there they are Python, a thousand times slower, and tests marked `compiled` are left out.

@@ -6,8 +6,24 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 from tests import needs, tally
+
+# The quick suite draws the same values in every clone. `make test-long` searches at random, by a seed that it prints.
+settings.register_profile(
+    "quick",
+    max_examples=100,
+    derandomize=True,
+    database=None,
+    deadline=None,
+    suppress_health_check=list(HealthCheck),
+)
+settings.register_profile("long", settings.get_profile("quick"), max_examples=3000, derandomize=False)
+settings.load_profile("quick")
+# Hypothesis also draws constants of the modules that are loaded. A test by itself would draw other values.
+providers._get_local_constants = lambda: providers._local_constants
 
 
 @pytest.fixture

@@ -155,8 +155,8 @@ def _inverse_squares(omega: Array, psi: Array, m: float, k: float, give: float, 
     if not resolved:
         raise ModeError(
             f"disc and slider at rest: m={shown(m)}, k={shown(k)}, a contact compliance of {give:g} m/N and disc modes "
-            f"of {omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s: squared frequencies must be less than a "
-            f"factor of {WIDEST:g} apart"
+            f"of {omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s: squared frequencies must be within "
+            f"a factor of {WIDEST:g}"
         )
     return found
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from disc_model.engine import layout
@@ -29,7 +29,6 @@ def from_roots(roots) -> np.ndarray:
 roots_apart = st.lists(st.floats(-2, 3), min_size=1, max_size=6)
 
 
-@settings(max_examples=400, deadline=None)
 @given(roots_apart, st.floats(0.1, 3), st.booleans())
 def test_first_of_well_separated_roots_is_found(roots: list[float], x_end: float, hasty: bool) -> None:
     ordered = np.sort(roots)
