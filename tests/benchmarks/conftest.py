@@ -31,7 +31,6 @@ class Known(Method):
     def __init__(self, like: str, error, cost, outcome=Outcome.FINISHED) -> None:
         own = METHODS[like]
         self.name, self.label, self.setting, self.order = own.name, own.label, own.setting, own.order
-        self.look = own.look
         self.error, self.cost, self.outcome = error, cost, outcome
         self.tried: list[float] = []
 

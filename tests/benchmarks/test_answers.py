@@ -25,7 +25,7 @@ def result(problem: Problem, times, kind="separation", outcome=Outcome.FINISHED,
 class Late(Method):
     """Finds the first separation late by its tolerance, and none at a coarse one; the finest takes too long."""
 
-    label, look = "late", ("#000000", "s", "-")
+    label = "late"
 
     def _solve(self, problem, value, budget):
         times = [54.4 + value, 54.9] if 1e-5 < value < 0.5 else []
@@ -149,6 +149,7 @@ def test_what_breaks_off_has_a_status_and_a_reason() -> None:
 @pytest.fixture
 def dataset(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
     monkeypatch.setitem(METHODS, "late", Late())
+    monkeypatch.setitem(figures.LINES, "late", ("#000000", "s", "-"))
 
     def ask(model):
         count = model["n_diameters"]
@@ -202,6 +203,7 @@ def test_it_is_written_and_drawn(dataset: xr.Dataset) -> None:
 
 def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(METHODS, "late", Late())
+    monkeypatch.setitem(figures.LINES, "late", ("#000000", "s", "-"))
     monkeypatch.setattr(failure_maps, "_right", lambda count: 54.42 if count < 4 else math.nan)
     found = failure_maps.answer_map("late", (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))
     right, wrong, silent = Verdict.RIGHT, Verdict.WRONG, Verdict.NO_ANSWER

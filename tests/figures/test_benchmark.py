@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import scenes
+from disc_model.benchmarks.answers import measure
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.register import SCENES
 from disc_model.figures import benchmark as figures
@@ -33,7 +34,8 @@ def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
 
 
 def test_every_method_looks_otherwise_and_every_scene_has_a_title():
-    assert len({method.look for method in METHODS.values()}) == len(METHODS)
+    assert figures.LINES.keys() == METHODS.keys() | measure.LINES.keys()
+    assert len(set(figures.LINES.values())) == len(figures.LINES)
     assert set(figures.TITLES) == set(SCENES) == set(scenes.TITLES)
     assert (*figures.WORDS,) == scenes.VERDICT_WORDS
 
@@ -50,7 +52,7 @@ def priced() -> xr.Dataset:
         ("rigid", "diameters", 1, 1.0, 0.01, figures.WRONG),
     ]
     table = pd.DataFrame(rows, columns=["line", "varies", "setting", "error", "seconds", "verdict"]).rename_axis("row")
-    table = table.assign(label=table["line"], answer="first_separation", colour="#000000", marker="s", dash="-")
+    table = table.assign(label=table["line"], answer="first_separation")
     questions = json.dumps({"first_separation": {"enough": 0.1}})
     return xr.Dataset.from_dataframe(table).assign_attrs(questions=questions)
 

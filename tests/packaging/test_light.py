@@ -50,6 +50,7 @@ except ImportError as error:
     assert str(error) == "Result.plot needs matplotlib: pip install 'disc_model[workflow]' brings it"
 else:
     raise AssertionError("it was drawn")
+import disc_model.benchmarks.answers.measure, disc_model.benchmarks.work_precision
 from disc_model.cli import main
 drawn = ["run", "--N", "1", "--Omega", "1", "--t-end", "1", "--plot", "x.png"]
 for command in (["init", sys.argv[1] + ".study"], drawn):

@@ -67,7 +67,6 @@ VARIABLES: Mapping[str, Variable] = {
     "repeats": Variable("1", "number of times measured"),
     "verdict": VERDICT,
 }
-LOOK = {"colour": "colour in charts", "marker": "marker in charts", "dash": "line style in charts"}
 
 
 class Point(NamedTuple):
@@ -212,8 +211,6 @@ def _dataset(
     dataset["label"] = ("solver", [METHODS[name].label for name in methods], {"long_name": "name in words"})
     about = "processor time of one whole call of simulate at its default, median of the rounds"
     dataset["whole_call"] = ("scene", [*whole_calls.values()], {"units": "s", "long_name": about})
-    for i, (name, text) in enumerate(LOOK.items()):
-        dataset[name] = ("solver", [METHODS[method].look[i] for method in methods], {"long_name": text})
     theory = [METHODS[name].order for name in methods]
     dataset["order_theory"] = ("solver", theory, {"units": "1", "long_name": "theoretical order, nan if variable"})
     for error in ("event", "state"):

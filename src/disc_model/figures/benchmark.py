@@ -24,7 +24,21 @@ from matplotlib.ticker import NullFormatter, NullLocator
 
 from disc_model.data.variables import said_values
 from disc_model.figures import parts
-from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, new_figure, styled
+from disc_model.figures.parts import (
+    BLACK,
+    BLUE,
+    BROWN,
+    GREEN,
+    GREY,
+    ORANGE,
+    PAGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    halo,
+    new_figure,
+    styled,
+)
 
 TITLES = {
     "stick_slip": "Stick-slip, first second",
@@ -49,6 +63,25 @@ SETTING_LABELS = {"tol": "Tolerance", "step": "Step (s)", "epsilon": r"$\epsilon
 PRICED = {"tol": "tol {}", "step": "step {} s", "epsilon": "ε {} rad/s"}
 """A setting as a cell of prices has room for it."""
 ERRORS = {"event": "Event-time error (s)", "state": "State error (energy norm)"}
+LINES = {
+    "series": (VERMILION, "o", "-"),
+    "series-fewest": (VERMILION, "X", "-."),
+    "RK4": (BLACK, "s", "-"),
+    "RK45": (SKY, "v", "-"),
+    "DOP853": (BLUE, "^", "-"),
+    "DOP853-numpy": (BLUE, "^", "--"),
+    "LSODA": (GREEN, "D", "-"),
+    "Radau": (PURPLE, "p", "-"),
+    "regularised": (ORANGE, "h", "-"),
+    "heyoka": (BROWN, "*", "-"),
+    "heyoka-unguarded": (BROWN, "X", "--"),
+    "CVODE": (GREY, "<", "-"),
+    "CVODE-BDF": (GREY, ">", "--"),
+    "cycle": (VERMILION, "P", "--"),
+    "rigid": (BLACK, "$n$", ":"),
+    "residual": (BLACK, "$n$", "--"),
+}
+"""Colour, marker and line style of each method, and of lines that are no method's."""
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -105,7 +138,7 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
     labels: list[tuple[float, float, str, str]] = []
     for method in map(str, part["solver"].values):
         line = part.sel(solver=method)
-        look = _look(line)
+        look = _look(method)
         look["markersize"] = 4.5 if look["marker"] == "*" else 3.5
         verdict, cost = line["verdict"].values, line["cost"].values
         x = line[f"{error}_error"].values
@@ -132,9 +165,9 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
         parts.say(ax, text, (at_x, at_y), (-5, 0), fontsize=6.5, color=color, path_effects=_HALO, zorder=4)
 
 
-def _look(line: xr.Dataset) -> dict[str, Any]:
-    """Colour, marker and line style of a method."""
-    return {"color": line["colour"].item(), "marker": line["marker"].item(), "linestyle": line["dash"].item()}
+def _look(line: str) -> dict[str, Any]:
+    """One of `LINES` as matplotlib takes it."""
+    return dict(zip(("color", "marker", "linestyle"), LINES[line], strict=True))
 
 
 def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float, float, str, str]]:
@@ -150,9 +183,12 @@ def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float
 
 def _method_handles(part: xr.Dataset) -> list[Line2D]:
     """Legend entries of the methods that have a point in this part."""
-    lines = [part.sel(solver=method) for method in part["solver"].values]
-    shown = [line for line in lines if np.isin(line["verdict"], (0, 1, 2)).any()]
-    return [Line2D([], [], markersize=4, label=line["label"].item(), **_look(line)) for line in shown]
+    lines = {str(method): part.sel(solver=method) for method in part["solver"].values}
+    return [
+        Line2D([], [], markersize=4, label=line["label"].item(), **_look(method))
+        for method, line in lines.items()
+        if np.isin(line["verdict"], (0, 1, 2)).any()
+    ]
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -215,7 +251,7 @@ def answers(dataset: xr.Dataset) -> Figure:
 
 def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -> Line2D | None:
     """Draw a line; returns its legend entry, if there is anything to draw."""
-    look = _look(points.isel(row=0)) | {"markersize": 4.0} | ({"marker": ""} if counted else {})
+    look = _look(points["line"].values[0]) | {"markersize": 4.0} | ({"marker": ""} if counted else {})
     x, y = points["error"].values, points["seconds"].values
     found = np.isfinite(x)
     ax.plot(np.maximum(x[found], least), y[found], linewidth=0.9, **look)

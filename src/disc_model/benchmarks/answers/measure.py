@@ -23,22 +23,20 @@ from disc_model.benchmarks.answers.questions import Found, Status, Verdict, verd
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
-from disc_model.benchmarks.work_precision import LOOK
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
 from disc_model.data.variables import Variable
-from disc_model.figures.parts import BLACK, VERMILION
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 """Those that the search for a cycle takes."""
 OWN = ("cycle", "models")
 """Parts that are no method's."""
-LINES: Mapping[str, tuple[str, str, tuple[str, str, str]]] = {
-    "cycle": ("series, from the cycle itself", "tol", (VERMILION, "P", "--")),
-    "rigid": ("series, modes, rigid contact", "diameters", (BLACK, "$n$", ":")),
-    "residual": ("series, modes, residual flexibility", "diameters", (BLACK, "$n$", "--")),
+LINES: Mapping[str, tuple[str, str]] = {
+    "cycle": ("series, from the cycle itself", "tol"),
+    "rigid": ("series, modes, rigid contact", "diameters"),
+    "residual": ("series, modes, residual flexibility", "diameters"),
 }
-"""Lines that are no method's: name in words, what its setting is, how it is drawn."""
+"""Lines that are no method's: name in words, and what its setting is."""
 
 
 class Row(NamedTuple):
@@ -99,7 +97,7 @@ def measure(
 
     Returns
     -------
-    Dataset along ``row``, the columns of `VARIABLES`, and how the line is called and drawn.
+    Dataset along ``row``, the columns of `VARIABLES`.
     """
     if part == "cycle":
         found = _of_the_cycle()
@@ -150,16 +148,9 @@ def _of_models(models: Sequence[int]) -> Iterator[Row]:
 
 
 def _row(answer: str, line: str, setting: float, right: float, found: Found) -> Row:
-    label, varies, _ = _known(line)
+    label, varies = LINES[line] if line in LINES else (METHODS[line].label, METHODS[line].setting)
     error = abs(found.value - right)
     return Row(answer, line, label, varies, setting, right, error, verdict(answer, found, right), *found)
-
-
-def _known(line: str) -> tuple[str, str, tuple[str, str, str]]:
-    """Its name in words, what its setting is, how it is drawn."""
-    if line in LINES:
-        return LINES[line]
-    return METHODS[line].label, METHODS[line].setting, METHODS[line].look
 
 
 VARIABLES: Mapping[str, Variable] = {
@@ -186,8 +177,6 @@ def _dataset(rows: Sequence[Row]) -> xr.Dataset:
     for name, own in VARIABLES.items():
         values = np.array([getattr(row, name) for row in rows], np.int8 if own.flags else None)
         dataset[name] = ("row", values, own.attributes)
-    for i, (name, text) in enumerate(LOOK.items()):
-        dataset[name] = ("row", [_known(row.line)[2][i] for row in rows], {"long_name": text})
     about = {
         name: {"title": own.title, "units": own.units, "enough": own.enough, "error": _error(name)}
         for name, own in questions.QUESTIONS.items()

@@ -109,7 +109,7 @@ class Method(ABC):
 
     Attributes
     ----------
-    label, look : its name in words; colour, marker and line style in charts
+    label : its name in words
     setting : what its one number means: "tol" (relative tolerance), "step" (s) or "epsilon" (rad/s)
     order : theoretical order of the global error against the step (nan if it has none)
     settings : by scene, the settings from coarse to fine that are measured
@@ -118,7 +118,6 @@ class Method(ABC):
 
     name: str = ""
     label: str
-    look: tuple[str, str, str]
     setting: ClassVar[str] = "tol"
     order: float = math.nan
     requires: tuple[str, ...] = ()

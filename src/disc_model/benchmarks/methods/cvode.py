@@ -13,7 +13,6 @@ from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
 from disc_model.benchmarks.register import SCENES
-from disc_model.figures.parts import GREY
 
 MAX_STEPS = 10_000_000
 ROOT_FOUND = 2
@@ -27,9 +26,8 @@ class Cvode(Method):
         self.family = family
         self.label = f"SUNDIALS CVODE ({family})"
         if family == "BDF":  # where something is stiff
-            self.look, self.settings = (GREY, ">", "--"), {"rigid": decades(-4, -6, -8, -10)}
+            self.settings = {"rigid": decades(-4, -6, -8, -10)}
             return
-        self.look = (GREY, "<", "-")
         self.settings = dict.fromkeys(SCENES, decades(-4, -6, -8, -10)) | {"rigid": decades(-4)}
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:

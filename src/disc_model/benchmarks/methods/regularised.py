@@ -23,7 +23,6 @@ from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Outcome, Problem, decades
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale, crossing
-from disc_model.figures.parts import ORANGE
 from disc_model.simulation.result import State
 
 PENALTY = 1e7
@@ -86,7 +85,6 @@ class Regularised(Method):
     """LSODA on the regularised model."""
 
     label = "regularised, LSODA"
-    look = (ORANGE, "h", "-")
     setting = "epsilon"
     order = 2.0 / 3.0
     settings: Mapping[str, Sequence[float]] = {

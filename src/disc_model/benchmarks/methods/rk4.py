@@ -16,7 +16,6 @@ from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
-from disc_model.figures.parts import BLACK
 
 STABILITY_LIMIT = 2.0 * math.sqrt(2.0)
 """Largest omega h at which RK4 does not let an undamped oscillation grow."""
@@ -28,7 +27,6 @@ class FixedStep(Method):
     """Classical RK4 with bisection."""
 
     label = "RK4, fixed step"
-    look = (BLACK, "s", "-")
     setting = "step"
     order = 4
     settings: Mapping[str, Sequence[float]] = {

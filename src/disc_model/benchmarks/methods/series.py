@@ -12,7 +12,6 @@ import numpy as np
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem, decades
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.errors import Status
-from disc_model.figures.parts import VERMILION
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result
@@ -29,7 +28,6 @@ class Series(Method):
     """`disc_model.simulation.api`: Taylor series of high order, switches as roots of polynomials."""
 
     label = "series (this package)"
-    look = (VERMILION, "o", "-")
     settings: Mapping[str, Sequence[float]] = {
         **dict.fromkeys(("stick_slip", "separating", "many_modes"), decades(-4, -6, -8, -10, -12, -14)),
         "rigid": decades(-4, -8, -12),
@@ -71,7 +69,6 @@ class Fewest(Series):
     """
 
     label = "series, modes that matter"
-    look = (VERMILION, "X", "-.")
     settings: Mapping[str, Sequence[float]] = {"rigid": decades(-4, -6, -8)}
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:

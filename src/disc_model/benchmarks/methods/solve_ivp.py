@@ -14,24 +14,22 @@ from disc_model.benchmarks.methods.base import MAP_TOLERANCES, GaveUp, Meter, Me
 from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases, switches
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.register import SCENES
-from disc_model.figures.parts import BLUE, GREEN, PURPLE, SKY
 
 FLOOR = 2.3e-14
 """Least relative tolerance that scipy takes."""
 Function = Callable[[float, Array], Any]
 
 _TO_9, _TO_11 = decades(-3, -5, -7, -9), decades(-3, -5, -7, -9, -11)
-CHOICES: dict[str, tuple[tuple[str, str, str], tuple[Sequence[float], ...], Sequence[float]]] = {
-    "RK45": ((SKY, "v", "-"), (_TO_9, _TO_9, _TO_9[:3], _TO_9[:1]), MAP_TOLERANCES),
-    "DOP853": ((BLUE, "^", "-"), (_TO_11, _TO_11, _TO_9, _TO_9[:1]), MAP_TOLERANCES),
-    "LSODA": ((GREEN, "D", "-"), (_TO_9, _TO_9, _TO_9[:3], _TO_9), MAP_TOLERANCES[::2]),
+CHOICES: dict[str, tuple[tuple[Sequence[float], ...], Sequence[float]]] = {
+    "RK45": ((_TO_9, _TO_9, _TO_9[:3], _TO_9[:1]), MAP_TOLERANCES),
+    "DOP853": ((_TO_11, _TO_11, _TO_9, _TO_9[:1]), MAP_TOLERANCES),
+    "LSODA": ((_TO_9, _TO_9, _TO_9[:3], _TO_9), MAP_TOLERANCES[::2]),
     "Radau": (
-        (PURPLE, "p", "-"),
         (decades(-2, -3, -4, -5), decades(-2, -3, -4), decades(-2, -3, -4), decades(-2, -4, -6, -8)),
         MAP_TOLERANCES[:8:2],
     ),
 }
-"""How each of scipy's algorithms is shown, and the settings at which it is measured: by scene, and for maps."""
+"""Settings at which each of scipy's algorithms is measured: by scene, and for maps."""
 
 
 class SolveIvp(Method):
@@ -40,7 +38,7 @@ class SolveIvp(Method):
     def __init__(self, algorithm: str, order: float = math.nan, max_step: float = np.inf) -> None:
         self.algorithm, self.order, self.max_step = algorithm, order, max_step
         self.label = f"scipy {algorithm}"
-        self.look, settings, self.map_values = CHOICES[algorithm]
+        settings, self.map_values = CHOICES[algorithm]
         self.settings = dict(zip(SCENES, settings, strict=True))
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
@@ -96,7 +94,6 @@ class InNumpy(SolveIvp):
     def __init__(self, algorithm: str, order: float = math.nan) -> None:
         super().__init__(algorithm, order)
         self.label = f"scipy {algorithm}, numpy right-hand side"
-        self.look = (self.look[0], self.look[1], "--")
 
     def _functions(self, physics: Physics) -> Callable[[Phase], tuple[Function, list[Function]]]:
         def parts(phase: Phase) -> tuple[Function, list[Function]]:

@@ -16,7 +16,6 @@ import numpy as np
 from disc_model.benchmarks.methods.base import MAP_TOLERANCES, GaveUp, Meter, Method, MethodResult, Problem, decades
 from disc_model.benchmarks.methods.phases import GUARD, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
-from disc_model.figures.parts import BROWN
 from disc_model.parameters import Parameters
 
 STEPS_PER_LOOK = 100_000
@@ -27,7 +26,6 @@ class Heyoka(Method):
     """heyoka's adaptive Taylor integrator."""
 
     label = "heyoka"
-    look = (BROWN, "*", "-")
     settings: Mapping[str, Sequence[float]] = {
         **dict.fromkeys(("stick_slip", "separating"), decades(-4, -6, -8, -9, -10, -12, -14)),
         "many_modes": decades(-4, -6, -8, -10, -12),
@@ -92,7 +90,6 @@ class Unguarded(Heyoka):
     """As heyoka documents it, native events trusted at the start of a separation too."""
 
     label = "heyoka, no guard step"
-    look = (BROWN, "X", "--")
     settings: Mapping[str, Sequence[float]] = {}
     guard = 0.0
 
