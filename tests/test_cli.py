@@ -320,14 +320,15 @@ def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
 
 STUDY = """\
 study: mine
+title: Growth over {x} and $\\mu_{k}$
 quantity: floquet
 base: {N: 200, Omega: 20}
 axes: {mu_s: [0.3, 0.4], mu_k: [0.1, 0.2]}
 cases:
-  A: {title: one case, parameters: {mu_k: 0.2}, t_end: 1, record: {windows: {w: {rate: 1000}}}}
+  A: {title: 'one case, $\\Omega_{s}$', parameters: {mu_k: 0.2}, t_end: 1, record: {windows: {w: {rate: 1000}}}}
 figures:
   growth: {kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}
-  seen: {kind: history, case: A, window: w}
+  seen: {kind: history, case: A, window: w, title: 'P_{max} {y}'}
 """
 
 

@@ -9,6 +9,7 @@ import math
 import numbers
 import operator
 from collections.abc import Mapping
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_type_hints
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
@@ -88,6 +89,19 @@ def _within(limits: tuple[float, float]) -> AfterValidator:
     return AfterValidator(checked)
 
 
+def _drawable(text: str) -> str:
+    """Refuse formulas that matplotlib cannot set: it says so after everything was computed."""
+    if "$" in text and find_spec("matplotlib"):
+        from matplotlib.mathtext import MathTextParser
+
+        try:
+            MathTextParser("path").parse(text)
+        except ValueError as error:
+            raise ValueError(f"must be text that matplotlib can set ({' '.join(str(error).split())})") from None
+    return text
+
+
+Title = Annotated[str, AfterValidator(_drawable)]
 Real = Annotated[float, BeforeValidator(number)]
 Finite = Annotated[Real, Field(allow_inf_nan=False)]
 Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})]

@@ -56,6 +56,14 @@ def test_a_study_is_computed_in_another_folder(elsewhere: Path) -> None:
     assert not [name for name in made if name.startswith(("claims", "table"))], "nobody asked for them"
 
 
+def test_braces_in_a_title_are_no_wildcards(elsewhere: Path) -> None:
+    """They ended the workflow. Most jobs that are given titles are run by the fixture, and the last two here."""
+    snakemake(elsewhere, "-j2", "explorer", "-s", SNAKEFILE, "--configfile", "mine.yaml")
+    snakemake(elsewhere, "--report", "report.html", "-s", SNAKEFILE, "--configfile", "mine.yaml")
+    assert r"Growth over x and $\\mu_k$: growth" in (elsewhere / "report.html").read_text()
+    assert r"Growth over {x} and $\\mu_{k}$" in (elsewhere / "results" / "mine" / "explorer.html").read_text()
+
+
 def test_from_the_root_or_not_the_workflow_is_the_same(elsewhere: Path) -> None:
     """Neither the place of the Snakefile nor that of its scripts is among what results depend on."""
     for place in (ROOT / "Snakefile", ROOT / "src" / "disc_model" / "workflow" / "Snakefile"):

@@ -49,7 +49,8 @@ rule merge_cases:
     conda:
         "../envs/disc_model.yaml"
     params:
-        labels=LABELS,
+        # a function: braces in a title are no wildcards
+        labels=lambda wildcards: LABELS,
         made_of=cases_made_of(sorted(STUDY.specs)),
         sources=sources_of("merge_cases"),
     shell:

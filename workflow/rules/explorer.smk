@@ -47,7 +47,8 @@ rule build_explorer:
     conda:
         "../envs/disc_model.yaml"
     params:
-        plan=json.dumps(
+        # a function: braces in a title are no wildcards
+        plan=lambda wildcards: json.dumps(
             {
                 "title": STUDY.title or STUDY.name,
                 "studies": [

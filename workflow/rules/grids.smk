@@ -116,7 +116,10 @@ rule draw_plot:
             category="Maps and curves",
             # One label only, as in figures.smk.
             labels=lambda wildcards: {
-                "figure": f"{GRIDS[wildcards.study].title or wildcards.study}: {wildcards.plot}"
+                # without braces: Snakemake takes them for wildcards even here
+                "figure": f"{GRIDS[wildcards.study].title or wildcards.study}: {wildcards.plot}".translate(
+                    str.maketrans("", "", "{}")
+                )
             },
         ),
     log:

@@ -23,7 +23,8 @@ rule describe_study:
     conda:
         "../envs/disc_model.yaml"
     params:
-        title=STUDY.title or STUDY.name,
+        # a function: braces in a title are no wildcards
+        title=lambda wildcards: STUDY.title or STUDY.name,
         made_of=merged_cases_made_of(),
         sources=sources_of("describe_study"),
     shell:

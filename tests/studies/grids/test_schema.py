@@ -209,6 +209,10 @@ AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
         ),
         ({"quantity": "critical_speed"}, "axes.Omega: is varied by the quantity critical_speed"),
         (
+            {"title": r"over $\mus_{k}$"},
+            "title = 'over $\\\\mus_{k}$': must be text that matplotlib can set (\\mus_{k} ",
+        ),
+        (
             {"quantity": "stability_curves", "options": CURVES, "base": {"Omega": 1}, "axes": {"c": [0]}},
             "base.Omega: is varied by the quantity stability_curves",
         ),

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from disc_model.figures.grids.kinds import Fault
 from disc_model.figures.paper.catalogue import HIGHEST, spectrum_faults
-from disc_model.parameters import Positive, Strict
+from disc_model.parameters import Positive, Strict, Title
 from disc_model.simulation.case import Poincare, Window
 
 Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
@@ -31,7 +31,7 @@ class CasePlot(Strict):
     kind: str
     case: str
     window: str
-    title: str = ""
+    title: Title = ""
 
     def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
         """What keeps it from being drawn; a case that is None has faults of its own."""

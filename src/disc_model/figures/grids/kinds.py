@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
 from pydantic import Field
 
 from disc_model.data.variables import KICKS, SAMPLE
-from disc_model.parameters import Parameters, Real, Strict
+from disc_model.parameters import Parameters, Real, Strict, Title
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
 Values = Mapping[str, Sequence[tuple[Any, ...]]]
@@ -75,7 +75,7 @@ class Plot(Strict):
     roles: ClassVar[Roles] = {}
 
     kind: str
-    title: str = ""
+    title: Title = ""
     others: dict[str, str] = Field({})
 
     @property

@@ -23,7 +23,7 @@ from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import ParameterError
 from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
-from disc_model.parameters import AUTO, CHOOSING, RESIDUAL, Count, Parameters, Strict, is_number, leaves_modes
+from disc_model.parameters import AUTO, CHOOSING, RESIDUAL, Count, Parameters, Strict, Title, is_number, leaves_modes
 from disc_model.plausibility import RULES
 from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
 from disc_model.studies.files import (
@@ -217,7 +217,7 @@ class _Header(Strict):
     """A study file, but for what depends on its quantity; axes are checked one by one."""
 
     study: Name
-    title: str = ""
+    title: Title = ""
     quantity: str
     options: dict[str, Any] = Field({})
     base: dict[str, Any] = Field({})
