@@ -74,6 +74,7 @@ BROWSER = Need(
     programs=(("chromium", "google-chrome", "chrome"), ("chromedriver",)),
 )
 FAKETIME = Need("faketime", "a clock that is set back during a run", debian="faketime", programs=(("faketime",),))
+ZSH = Need("zsh", "completion of the command line in that shell", debian="zsh", programs=(("zsh",),))
 MPMATH = Need(
     "heyoka and mpmath",
     "stored references, computed again",
@@ -95,7 +96,7 @@ PYTHONS = {
     )
     for version in ("3.11", "3.12", "3.13")
 }
-ALL = (SLURM, BROWSER, FAKETIME, MPMATH, RIVALS, *PYTHONS.values())
+ALL = (SLURM, BROWSER, FAKETIME, ZSH, MPMATH, RIVALS, *PYTHONS.values())
 
 
 def table() -> str:

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 import disc_model
 from disc_model import Parameters, cli, mode_choice, plausibility, simulate
+from disc_model.cli import studies
 from disc_model.cli.case import option_name
 from disc_model.cli.run import _plot_record
 from disc_model.errors import DiscModelError
@@ -139,6 +140,7 @@ def test_help_shows_units_defaults_and_what_there_is_to_choose_from(
     out = command.out("run", "--help")
     for part in ("(N m s)", "as_published|orthonormal", "separable|bonded", "first_separation"):
         assert part in out
+    assert "-1 for a rigid disc, auto for as many as" in out
     assert "[default: as_published]" in " ".join(out.replace("│", " ").split())
     out = command.out("--help")
     for name in ("run", "floquet", "modes", "study", "list", "init", "warm", "--install-completion"):
@@ -237,6 +239,14 @@ def test_what_is_nobodys_fault_is_not_hidden(monkeypatch: pytest.MonkeyPatch) ->
         cli.main([*SHORT])
 
 
+def test_an_interrupt_names_the_checkpoint(command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    file = tmp_path / "run"
+    monkeypatch.setattr(api, "simulate", lambda *_, **__: file.touch() or failing(KeyboardInterrupt())())
+    code, _, err = command.run(*SHORT, "--checkpoint", str(file))
+    assert code == 130
+    assert err == f"{file} holds what was reached: the same command goes on from there\nerror: interrupted\n"
+
+
 def failing(error: BaseException):
     def fail(*_, **__):
         raise error
@@ -276,7 +286,7 @@ def test_auto_is_told_by_what_to_choose(command: Command, monkeypatch: pytest.Mo
     monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: 1.0 + 0.1 / p.n_diameters)
     asked = ("modes", *SMALL_BASE[:4], "--n-diameters", "auto", "--truncation-quantity", "growth")
     out = command.out(*asked, "--truncation-tolerance", "0.05")
-    assert '"n_diameters": 1, "quantity": "growth", "tolerance": 0.05' in out
+    assert out.startswith("modes chosen        n_diameters = 1, n_circles = 0 (growth: error 0.04")
     err = command.error(*asked, "--truncation-tolerance", "1e-4")
     assert "n_diameters: undecided: growth still changes by" in err
 
@@ -367,18 +377,44 @@ def test_a_folder_is_laid_out_and_its_study_is_right(command: Command, tmp_path:
 
 def test_a_study_is_handed_to_snakemake(command: Command, monkeypatch: pytest.MonkeyPatch, mine: Path) -> None:
     given = []
-    monkeypatch.setattr(subprocess, "call", lambda called: given.append(called) or 3)
+    monkeypatch.setattr(studies, "_run", lambda called: given.append(called) or 3)
     folder = str(mine.parent)
-    options = ("--cores", "2", "-n", "--directory", folder, "--target", "bench", "--snakemake", "--quiet rules")
+    options = ("--cores", "2", "--unlock", "--directory", folder, "--target", "bench", "--snakemake", "--quiet rules")
     code, _, _ = command.run("study", str(mine), *options)
     assert code == 3
     (called,) = given
     assert Path(called[called.index("-s") + 1]).is_file()
     assert called[-2:] == ["--configfile", str(mine)]
-    assert {"-j2", "-n", "bench", "--quiet", "rules", "--directory", folder} <= {*called}
+    assert {"-j2", "--unlock", "bench", "--quiet", "rules", "--directory", folder} <= {*called}
 
 
 def test_a_wrong_study_is_told_before_snakemake_starts(command: Command, monkeypatch, mine: Path) -> None:
-    monkeypatch.setattr(subprocess, "call", lambda _: pytest.fail("was started"))
-    mine.write_text(STUDY.replace("mu_k: [0.1, 0.2]", "mu: [1]"))
-    assert "axes.mu: cannot be an axis" in command.error("study", str(mine))
+    """With one fault a line, as Snakemake shows them."""
+    monkeypatch.setattr(studies, "_run", lambda _: pytest.fail("was started"))
+    mine.write_text(STUDY.replace("mu_k: [0.1, 0.2]", "mu: [1]").replace("floquet", "flo"))
+    code, out, err = command.run("study", str(mine))
+    head, *faults = err.splitlines()
+    assert (code, out, head) == (2, "", f"error: {mine}: 2 faults")
+    assert [fault.split(":")[0] for fault in faults] == ["  quantity = 'flo'", "  axes.mu"]
+
+
+def test_the_one_study_of_the_folder_is_computed(command: Command, monkeypatch, mine: Path) -> None:
+    """Without a file the study of the paper was computed, whatever the folder held."""
+    given = []
+    monkeypatch.chdir(mine.parent)
+    monkeypatch.setattr(studies, "_run", lambda called: given.append(called) or 0)
+    (mine.parent / "other.yaml").write_text("study_of: something else\n")
+    assert command.run("study") == (0, "", "study file: mine.yaml\n")
+    assert given[0][-2:] == ["--configfile", str(mine)]
+    assert "growth" in command.out("list", "figures")
+    (mine.parent / "second.yml").write_text(STUDY)
+    assert "this folder has several: mine.yaml, second.yml" in command.error("study")
+    assert "this folder has several: mine.yaml, second.yml" in command.error("list", "figures")
+
+
+def test_without_a_study_file_nothing_is_computed(command: Command, monkeypatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(studies, "_run", lambda _: pytest.fail("was started"))
+    assert "FILES: a study file is required, and this folder has none" in command.error("study")
+    monkeypatch.setenv("COLUMNS", "200")
+    assert "figures of paper" in command.out("list", "figures")

@@ -121,8 +121,8 @@ def test_the_record_holds_what_was_compared(measured: Measured) -> None:
 def test_files_and_command_lines_name_the_quantity(measured: Measured) -> None:
     measured(lambda d, c: 1.0 + 0.1 / d**2)
     values = {"N": 385, "Omega": 15.1, "n_diameters": "auto", "n_circles": 5}
-    p, record = parameters_of({**values, "truncation_quantity": "growth"}, [])
-    assert (p, record) == (P.replace(n_diameters=3), choose_modes(P, 1e-2, quantity="growth").to_json())
+    p, choice = parameters_of({**values, "truncation_quantity": "growth"}, [])
+    assert (p, choice) == (P.replace(n_diameters=3), choose_modes(P, 1e-2, quantity="growth"))
     p, _ = parameters_of({**values, "truncation_quantity": "growth", "truncation_tolerance": "0.05"}, [])
     assert p == P.replace(n_diameters=2)
 

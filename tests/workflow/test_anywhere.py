@@ -64,6 +64,31 @@ def test_braces_in_a_title_are_no_wildcards(elsewhere: Path) -> None:
     assert r"Growth over {x} and $\\mu_{k}$" in (elsewhere / "results" / "mine" / "explorer.html").read_text()
 
 
+def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "disc_model", *options]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True, timeout=300)
+
+
+def test_a_run_ends_with_what_it_came_to(elsewhere: Path) -> None:
+    (elsewhere / "results" / "mine" / "figures" / "growth.pdf").unlink()
+    said = disc_model(elsewhere, "study", "mine.yaml").stderr.splitlines()
+    closing = said.index("mine: 2 figures in results/mine/figures")
+    assert said[closing + 1 : closing + 3] == [
+        "0 of 4 points have no result",
+        "The target `explorer` makes a page to look at every point: results/mine/explorer.html",
+    ]
+
+
+def test_a_dry_run_is_a_few_lines(elsewhere: Path) -> None:
+    done = disc_model(elsewhere, "study", "mine.yaml", "-n").stdout
+    assert done.splitlines()[1:] == ["nothing was run: --dry-run"]
+    assert done.startswith("Nothing to be done")
+    (elsewhere / "more.yaml").write_text(STUDY.replace("[0.3, 0.4]", "[0.3, 0.5]"))
+    planned = disc_model(elsewhere, "study", "more.yaml", "-n").stdout
+    assert re.search(r"^compute_batch +1$", planned, re.M)
+    assert planned.count("\n") < 12
+
+
 def test_from_the_root_or_not_the_workflow_is_the_same(elsewhere: Path) -> None:
     """Neither the place of the Snakefile nor that of its scripts is among what results depend on."""
     for place in (ROOT / "Snakefile", ROOT / "src" / "disc_model" / "workflow" / "Snakefile"):

@@ -249,6 +249,7 @@ def test_lost_records(finished: Copy) -> None:
     finished.edit(CONFIG, "Omega: 15.1", "Omega: 15.2")
     told = finished.refused("-j2")
     assert "`snakemake -j1 check` removes them" in told
+    assert "If results/ was copied from another folder, copy that folder's .snakemake" in told
     finished.complete("-j1", "check")
     finished.edit(CONFIG, "Omega: 15.2", "Omega: 15.1")
     finished.recovers("all records lost")

@@ -175,8 +175,25 @@ def refuse_unrecorded(files):
         raise WorkflowError(
             f"{unknown[0]} and {len(unknown) - 1} more are there, but not Snakemake's record of how they were made"
             " (was .snakemake removed?), so nothing tells whether they are up to date."
-            " `snakemake -j1 check` removes them; then run again."
+            " If results/ was copied from another folder, copy that folder's .snakemake beside it as well."
+            " Else `snakemake -j1 check` removes them (or `disc-model study --target check`); then run again."
         )
+
+
+def closing_lines():
+    """What a run of the whole study came to: figures, points without a result, and where to look at each point."""
+    figures = [Path(file) for file in PRODUCTS if file.endswith(".png")]
+    folders = {str(figure.parent) for figure in figures}
+    place = folders.pop() if len(folders) == 1 else "results/*/figures"
+    if figures:
+        yield f"{STUDY.name}: {len(figures)} figure{'s' * (len(figures) > 1)} in {place}"
+    if ASKED:
+        lists = [Path(f"results/{name}/{name}.failed.txt") for name in ASKED]
+        failed = {file: file.read_text().count("\n") for file in lists}
+        points = sum(GRIDS[name].n_points for name in ASKED)
+        reasons = ", ".join(str(file) for file, count in failed.items() if count)
+        yield f"{sum(failed.values())} of {points} points have no result{f': see {reasons}' * bool(reasons)}"
+        yield f"The target `explorer` makes a page to look at every point: {RESULTS}/explorer.html"
 
 
 def case_file(case):

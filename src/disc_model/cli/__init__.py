@@ -1,7 +1,7 @@
 """Command line: ``disc-model run|floquet|modes|study|list|init|warm``.
 
-What is wrong with the input is one line on stderr and exit code 2; a simulation that ends before its time is reported
-and gives exit code 1.
+What is wrong with the input stands on stderr, with exit code 2: a line, or for a study file a list of its faults. A
+simulation that ends before its time is reported and gives exit code 1.
 """
 
 from __future__ import annotations
@@ -40,21 +40,19 @@ def _all(
 
 OF_STUDIES = ("matplotlib", "cmcrameri", "yaml", "snakemake")
 """Modules that an installation without the extra `workflow` lacks."""
-INTERRUPTED = 130
-"""What typer makes of Ctrl-C: 128 and the number of the signal, as shells do."""
 
 
 def _fail(message: str) -> NoReturn:
-    """One line on stderr, exit code 2."""
+    """What is wrong on stderr, exit code 2."""
     if message:  # empty where the help text was shown instead
-        typer.echo(f"error: {' '.join(message.split())}", err=True)
+        typer.echo(f"error: {message}", err=True)
     sys.exit(2)
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
     try:
-        code = app(args=arguments, standalone_mode=False, prog_name="python -m disc_model")
+        code = app(args=arguments, standalone_mode=False, prog_name="disc-model")
     except DiscModelError as error:
         _fail(str(error))
     except ModuleNotFoundError as error:
@@ -64,7 +62,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     except Exception as error:
         if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
             raise
-        _fail(error.format_message())
-    if code == INTERRUPTED:
+        _fail(" ".join(error.format_message().split()))
+    if code == studies.INTERRUPTED:
         typer.echo("error: interrupted", err=True)
     sys.exit(code if isinstance(code, int) else 0)

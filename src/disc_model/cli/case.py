@@ -18,7 +18,7 @@ from rich.table import Column, Table
 from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters
 from disc_model.plausibility import tell_doubts
-from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED, read_asked
+from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED, ModeChoice, read_asked
 
 ANY = "VALUE"
 """How help texts call what an option can be, where that is no list of words."""
@@ -37,8 +37,11 @@ def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
     for name, field in Parameters.model_fields.items():
         given, unit = placeholders.get(name), Parameters.unit(name)
         default = "required" if field.is_required() and given is None else f"default: {_text(given or field.default)}"
-        told = f"{field.description}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]"
-        yield _case_option(name, given, _words(field.annotation), told)
+        words, more = _words(field.annotation), ""
+        if name == "n_diameters":
+            words, more = (*words, AUTO), f", {AUTO} for as many as the tolerance below asks for"
+        told = f"{field.description}{more}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]"
+        yield _case_option(name, given, words, told)
     quantity, tolerance = CHOOSING
     yield _case_option(quantity, None, tuple(QUANTITIES), f"what {AUTO} is to get right [default: {FREQUENCIES}]")
     usual = ", ".join(f"{default:g} for {name}" for name, default in QUANTITIES.items())
@@ -90,26 +93,34 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
     return decorate
 
 
-def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, str]:
-    """Parameters of the options given and, as JSON, how their modes were chosen; what is wrong is added to `faults`."""
+def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, ModeChoice | None]:
+    """Parameters of the options given, and how their modes were chosen if so; what is wrong is added to `faults`."""
     from disc_model.mode_choice import choose_modes
 
     try:
         p, asked = read_asked(case)
         tell_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
         if asked is None:
-            return p, ""
+            return p, None
         choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)
-        return choice.parameters, choice.to_json()
+        return choice.parameters, choice
     except ParameterError as error:
         faults += error.faults
-        return Parameters(N=0.0, Omega=0.0), ""
+        return Parameters(N=0.0, Omega=0.0), None
 
 
-def case_lines(p: Parameters, choice: str) -> list[tuple[str, str]]:
+def case_lines(p: Parameters, choice: ModeChoice | None) -> list[tuple[str, str]]:
     """What was computed, and its modes if they were chosen: the first lines of every command on one case."""
     case = f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {p.normalization}, {p.contact} (key {p.key})"
-    return [("case", case), *([("modes chosen", choice)] if choice else [])]
+    return [("case", case), *choice_lines(choice)]
+
+
+def choice_lines(choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
+    """What ``--n-diameters auto`` has come to."""
+    if choice is not None:
+        p, name = choice.parameters, choice.quantity.replace("_", " ")
+        right = f"{name}: error {choice.error:.2g}, {choice.tolerance:g} asked for"
+        yield "modes chosen", f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles} ({right})"
 
 
 def table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], **column: Any) -> Table:

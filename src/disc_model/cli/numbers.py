@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from disc_model.cli.case import case_lines, number, parameters_of, table, tell, with_case_options
+from disc_model.cli.case import case_lines, choice_lines, number, parameters_of, table, tell, with_case_options
 from disc_model.errors import refuse
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_rule
 
@@ -17,15 +17,14 @@ TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOL
 
 @with_case_options(N="0", Omega="0")
 def modes(*, case: dict[str, str]) -> None:
-    """Print the disc's modes, its give under the slider, and the frequencies of both with the slider at rest."""
+    """Print the modes of the disc, its give under the slider, and the frequencies of both with the slider at rest."""
     from disc_model.flexibility import residual_flexibility
     from disc_model.plate import mode_arrays, slider_at_rest_frequencies
 
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
     refuse(faults)
-    if choice:
-        tell([("modes chosen", choice)])
+    tell(choice_lines(choice))
     found = mode_arrays(parameters)
     rows = [
         (str(circles), str(diameters), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6g}")

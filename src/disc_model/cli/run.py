@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.case import Record, Window
     from disc_model.simulation.ramps import Ramp
     from disc_model.simulation.result import Result
+    from disc_model.truncation import ModeChoice
 
 PLOT_POINTS = 4000
 """Points across a plot: more samples than this are reduced to the least and greatest of each bin."""
@@ -75,7 +76,12 @@ def run(
     if checkpoint is not None:  # where a run goes on, or why it does not
         logging.basicConfig(format="%(message)s")
         logging.getLogger("disc_model").setLevel(logging.INFO)
-    result = simulate(p, end, record=record, checkpoint=checkpoint, ramps=ramps, **how)
+    try:
+        result = simulate(p, end, record=record, checkpoint=checkpoint, ramps=ramps, **how)
+    except KeyboardInterrupt:
+        if checkpoint is not None and checkpoint.exists():
+            typer.echo(f"{checkpoint} holds what was reached: the same command goes on from there", err=True)
+        raise
     _print_summary(result, choice)
     complete = result.status.complete
     if save is not None:
@@ -193,7 +199,7 @@ def _save_plot(result: Result, path: Path) -> None:
     tell([("figure", str(path))])
 
 
-def _print_summary(result: Result, choice: str) -> None:
+def _print_summary(result: Result, choice: ModeChoice | None) -> None:
     """Modes if they were chosen, status, switches, time in each phase and effort of one run, a line each."""
     s = result.statistics
     reached = float(result.final_state.time)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
@@ -25,9 +28,10 @@ if TYPE_CHECKING:
 
 PACKAGE = Path(__file__).resolve().parents[1]
 PAPER = Path("config/paper.yaml")
-"""The study that is listed if none is given: of the working folder, or else the one that comes with the package."""
+INTERRUPTED = 130
+"""Exit code after Ctrl-C, also what typer makes of it: 128 and the number of the signal, as shells do."""
 KINDS = ("studies", "figures", "cases", "stale")
-FILES = typer.Argument(help="study files, later ones laid over earlier ones; the paper's if none is given")
+FILES = typer.Argument(help="study files, later ones laid over earlier ones; this folder's if it holds one only")
 
 STUDY = """\
 # yaml-language-server: $schema={schema}
@@ -68,13 +72,22 @@ def study(
     target: Annotated[
         list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; may be repeated")
     ] = None,
+    unlock: Annotated[bool, typer.Option("--unlock", help="only remove the lock that a killed run has left")] = False,
     snakemake: Annotated[str, typer.Option("--snakemake", help="further options of Snakemake, as one text")] = "",
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
-    if files:
+    with _on_interrupt(signal.SIG_DFL):  # there is nothing to clean up yet, and what is imported swallows exceptions
+        files = files or [_own_file()]
         _read(files)
-    options = [*(target or []), f"-j{cores}", "--directory", str(directory), *(["-n"] if dry_run else [])]
-    raise typer.Exit(subprocess.call(_command(files, [*options, *shlex.split(snakemake)])))
+    options = [*(target or []), f"-j{cores}", "--directory", str(directory), *(["--unlock"] if unlock else [])]
+    command = _command(files, [*options, *shlex.split(snakemake)])
+    code = _plan(command) if dry_run else _run(command)
+    if code and any((directory / ".snakemake" / "locks").glob("*")):
+        own = shlex.join(["disc-model", "study", *map(str, files), "--directory", str(directory), "--unlock"])
+        typer.echo(
+            f"The folder is locked, by another run or by one that was killed. After a killed one: {own}", err=True
+        )
+    raise typer.Exit(code)
 
 
 def list_(
@@ -87,7 +100,8 @@ def list_(
     """List the grid studies, figures or cases of a study, or what of its results is stale."""
     if what not in KINDS:
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
-    chosen, grids = _read(files or [PAPER if PAPER.exists() else PACKAGE / PAPER])
+    files = files or [_own_file(otherwise=_paper())]
+    chosen, grids = _read(files)
     if what == "stale":
         _list_stale(files, directory)
         return
@@ -123,6 +137,29 @@ def init(
 # Parts
 
 
+def _own_file(otherwise: Path | None = None) -> Path:
+    """The one study file of the working folder; if it has none, ``otherwise``."""
+    found = [
+        path
+        for path in sorted([*Path().glob("*.yaml"), *Path().glob("*.yml")])
+        if re.search(r"^study\s*:", path.read_text(encoding="utf-8", errors="replace"), re.MULTILINE)
+    ]
+    if len(found) == 1:
+        typer.echo(f"study file: {found[0]}", err=True)
+        return found[0]
+    if otherwise and not found:
+        return otherwise
+    there = f"this folder has several: {', '.join(map(str, found))}" if found else "this folder has none"
+    raise ParameterError(
+        Fault(("FILES",), "", f"a study file is required, and {there} (the paper's study: {_paper()})")
+    )
+
+
+def _paper() -> Path:
+    """The paper's study: of the working folder, or else the one that comes with the package."""
+    return PAPER if PAPER.exists() else PACKAGE / PAPER
+
+
 def _require_snakemake() -> None:
     """An error where a study could not be computed."""
     if find_spec("snakemake") is None:
@@ -131,12 +168,50 @@ def _require_snakemake() -> None:
         )
 
 
-def _command(files: Sequence[Path] | None, options: Sequence[str]) -> list[str]:
+def _command(files: Sequence[Path], options: Sequence[str]) -> list[str]:
     """The command that has Snakemake compute a study."""
     _require_snakemake()
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
-    named = ["--configfile", *(str(file.resolve()) for file in files)] if files else []
+    named = ["--configfile", *(str(file.resolve()) for file in files)]
     return [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options, *named]
+
+
+def _plan(command: list[str]) -> int:
+    """Print how many jobs of each kind Snakemake would run; its exit code."""
+    quiet = [*command, "-n", "--quiet", "rules", "host", "reason"]
+    done = subprocess.run(quiet, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    jobs = re.search(r"^(?:job +count\n.*?\n\n|Nothing to be done.*?\n)", done.stdout, re.DOTALL | re.MULTILINE)
+    if done.returncode or not jobs:
+        typer.echo(done.stdout.rstrip(), err=True)
+    else:
+        typer.echo(f"{jobs[0].rstrip()}\nnothing was run: --dry-run")
+    return done.returncode
+
+
+@contextmanager
+def _on_interrupt(handler: Any) -> Iterator[None]:
+    """What is done meanwhile on Ctrl-C."""
+    before = signal.signal(signal.SIGINT, handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _run(command: list[str]) -> int:
+    """Exit code of Snakemake, which is waited for after Ctrl-C: it stops its jobs and unlocks the folder.
+
+    The terminal sends the signal to both processes.
+    """
+    interrupts: list[int] = []
+    with _on_interrupt(lambda number, _: interrupts.append(number)), subprocess.Popen(command) as process:
+        if interrupts:  # before there was a second process
+            process.send_signal(signal.SIGINT)
+        code = process.wait()
+    if not (code and interrupts):
+        return code
+    typer.echo("what is finished stays: the same command goes on from there", err=True)
+    return INTERRUPTED
 
 
 def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
@@ -192,7 +267,7 @@ LISTS = {
 }
 
 
-def _list_stale(files: Sequence[Path] | None, directory: Path) -> None:
+def _list_stale(files: Sequence[Path], directory: Path) -> None:
     """What a run would make, by Snakemake's own account."""
     done = subprocess.run(
         _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
