@@ -321,6 +321,13 @@ def test_why_a_file_cannot_be_written_is_said(path: Path) -> None:
     assert os.listdir(path.parent) == ["case.nc"]
 
 
+def test_no_folder_is_made(path: Path) -> None:
+    """A slip in the name of a folder ended in a new one."""
+    with pytest.raises(WriteError, match=r"new/case\.nc: must be in a folder that exists"):
+        save(load(path), path.parent / "new" / "case.nc")
+    assert os.listdir(path.parent) == ["case.nc"]
+
+
 def test_what_is_no_matter_of_space_is_handed_on(tmp_path: Path) -> None:
     def fail(_: str) -> None:
         raise RuntimeError("of another kind")

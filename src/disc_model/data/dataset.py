@@ -214,17 +214,18 @@ def _file(path: str | Path) -> Path:
 def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
     """Write a file in one piece, with a checksum at its end: `path` is either what it was before or complete.
 
-    Raises `WriteError` if the disk is full, or the file may not be that large.
+    Raises `WriteError` if there is no such folder, the disk is full, or the file may not be that large.
 
     Parameters
     ----------
     write : called with the name of a new file in the same folder, which it shall write
     size : bytes that the file will roughly have, to find out about a full disk
     """
+    if not path.parent.is_dir():
+        raise WriteError(f"{path}: must be in a folder that exists")
     # made by `write`, so that the umask says who may read it
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}.tmp")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
         write(str(temporary))
         _append_checksum(temporary)
         os.replace(temporary, path)

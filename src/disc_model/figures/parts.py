@@ -83,7 +83,6 @@ def new_figure(width: float, height: float) -> Figure:
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
     """Write a figure in the format of the path's suffix, its title within; equal figures give equal bytes."""
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
     metadata: dict[str, Any] = {"CreationDate": None} if path.suffix == ".pdf" else {"Software": None}
     if title:
         metadata["Title"] = title

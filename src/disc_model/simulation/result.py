@@ -106,7 +106,7 @@ class State:
         Raises
         ------
         disc_model.data.dataset.WriteError
-            If the disk is full.
+            If there is no such folder, or the disk is full.
         """
         import xarray as xr
 
@@ -285,7 +285,7 @@ class Result:
         ParameterError
             As of `to_tree`.
         disc_model.data.dataset.WriteError
-            If the disk is full.
+            If there is no such folder, or the disk is full.
         """
         from disc_model.data.dataset import save
 
