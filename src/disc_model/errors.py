@@ -178,10 +178,10 @@ def shown(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def suggestion(name: str, known: Collection[str], all_of_them: bool) -> str:
+def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
     """What may have been meant, and what there is; of many names only the one that comes close, if one does."""
     folded = {field.lower(): field for field in known}
-    close = difflib.get_close_matches(name.lower(), folded, n=1, cutoff=0.6)
+    close = difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
     meant = f", did you mean {folded[close[0]]}?" if close else ""
     return meant + (f" (known: {', '.join(known)})" if known and (all_of_them or not close) else "")
 

@@ -91,10 +91,10 @@ def test_a_file_of_a_grid_is_given_as_it_is(path: Path) -> None:
         ({"base": {"N": 200, "Omega": 20, "mu_s": 0.4}}, "base.mu_s = 0.4: varies as well"),
         ({"study": "bench"}, "study = 'bench': is the name of another folder of results"),
         ({"figures": 3}, "figures = 3: must be a mapping of names to {kind: ...}, or a list of the paper's figures"),
-        ({"figures": {"f": {"kind": "heat"}}}, "figures.f.kind = 'heat': unknown kind of figure (known: history,"),
+        ({"figures": {"f": {"kind": "heat"}}}, "f.kind = 'heat': unknown kind of figure, did you mean heat_map?"),
         (
             figures(y="mu_k", variable="growth"),
-            "figures.f.variable = 'growth': unknown variable (known: status, growth_rate,",
+            "figures.f.variable = 'growth': unknown variable, did you mean growth_rate? (known: status,",
         ),
         (
             figures(z="mu_k"),

@@ -51,6 +51,9 @@ def _fail(message: str) -> NoReturn:
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments[:1] == ["help"]:
+        arguments = [*arguments[1:], "--help"]
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="disc-model")
     except DiscModelError as error:

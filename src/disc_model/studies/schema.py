@@ -16,7 +16,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS
-from disc_model.errors import DiscModelError, ParameterError
+from disc_model.errors import DiscModelError, ParameterError, suggestion
 from disc_model.figures.cases.kinds import CASE_PLOTS, CasePlot
 from disc_model.figures.grids.kinds import PLOTS
 from disc_model.figures.paper.catalogue import CATALOGUE, lacking
@@ -360,8 +360,8 @@ def _figures(
         for name, said in given.items():
             kind = mapping(said).get("kind")
             if not isinstance(kind, str) or kind not in {*CASE_PLOTS, *PLOTS}:
-                rule = f"unknown kind of figure (known: {', '.join((*CASE_PLOTS, *PLOTS))})"
-                faults.add(("figures", str(name), "kind"), kind, rule)
+                known = (*CASE_PLOTS, *PLOTS)
+                faults.add(("figures", str(name), "kind"), kind, f"unknown kind of figure{suggestion(kind, known)}")
             elif kind in CASE_PLOTS:
                 plot = _case_plot(str(name), kind, said, raw, specs, faults)
                 if plot is not None:
@@ -399,7 +399,7 @@ def _check_listed(given: Iterable[Any], raw: Mapping[str, Any], specs: Mapping[s
     for i, name in enumerate(given):
         path = ("figures", str(i))
         if not isinstance(name, str) or name not in CATALOGUE:
-            faults.add(path, name, f"unknown figure (known: {', '.join(CATALOGUE)})")
+            faults.add(path, name, f"unknown figure{suggestion(name, CATALOGUE)}")
             continue
         for case, fault in lacking(name, specs):
             if case in specs or case not in known:  # else the case has faults of its own

@@ -68,7 +68,7 @@ def marked(x: float, y: float) -> dict[str, Any]:
         (
             MAP | {"others": {"growht": "g"}},
             {"N": [1], "k": [2]},
-            ["others.growht = 'g': unknown role (known: growth)"],
+            ["others.growht = 'g': unknown role, did you mean growth? (known: growth)"],
         ),
         (CRITICAL, {"N": [1]}, []),
         (CRITICAL, {"c": [1]}, ["kind = 'critical_speed': needs the dimension N"]),

@@ -207,6 +207,7 @@ AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
             {"quantity": "noise"},
             "quantity = 'noise': unknown quantity (known: outcome, regions, critical_speed, floquet, hysteresis, ",
         ),
+        ({"quantity": "flocet"}, "quantity = 'flocet': unknown quantity, did you mean floquet? (known: outcome, "),
         ({"quantity": "critical_speed"}, "axes.Omega: is varied by the quantity critical_speed"),
         (
             {"title": r"over $\mus_{k}$"},
@@ -374,7 +375,7 @@ def test_the_only_fault_of_a_figure_is_the_one_that_matters() -> None:
     axes = {"N": [1], "Omega": [1], "k": [1, 2]}
     assert faults_of(parse_grid, study(axes=axes, figures={"f": figure})) == [
         "figures.f.kind = 'stability_map': can show N, Omega, normalization, but not k as well",
-        "figures.f.others.growht = 'g': unknown role (known: growth)",
+        "figures.f.others.growht = 'g': unknown role, did you mean growth? (known: growth)",
     ]
     wrong = {"f": {"kind": "critical_speed", "others": {"growht": "g"}}}
     assert faults_of(parse_grid, study(figures=wrong)) == [

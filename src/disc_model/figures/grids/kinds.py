@@ -9,6 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
 from pydantic import Field
 
 from disc_model.data.variables import KICKS, SAMPLE
+from disc_model.errors import suggestion
 from disc_model.parameters import Parameters, Real, Strict, Title
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
@@ -98,7 +99,7 @@ class Plot(Strict):
         yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
         for role, name in self.others.items():
             if role not in self.roles:
-                yield Fault(("others", role), name, f"unknown role (known: {', '.join(self.roles)})")
+                yield Fault(("others", role), name, f"unknown role{suggestion(role, self.roles)}")
         for role, wanted in self.roles.items():
             if wanted.required and role not in self.others:
                 yield Fault(("others", role), "", f"is required: a study of the quantity {wanted.quantity}")
@@ -107,7 +108,7 @@ class Plot(Strict):
         """Of those that the file chooses."""
         for axis, name in self.axes.items():
             if name not in values:
-                yield Fault((axis,), name, f"is no dimension of this study (known: {', '.join(values)})")
+                yield Fault((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
             elif name not in KICKS and (name not in Parameters.model_fields or not Parameters.unit(name)):
                 yield Fault((axis,), name, "must be one parameter, and a number")
         if len({*self.axes.values()}) < len(self.axes):
@@ -324,7 +325,7 @@ class General(Plot):
         variables : dimensions of each variable
         """
         if self.variable not in variables:
-            yield Fault(("variable",), self.variable, f"unknown variable (known: {', '.join(variables)})")
+            yield Fault(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
             return
         own = {name: dims[name] for name in variables[self.variable] if name in dims}
         places = self.axes | ({"by": self.by} if self.by is not None else {})
@@ -347,7 +348,7 @@ class General(Plot):
 
     def _wrong_place(self, place: str, name: str, own: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
         if name not in own:
-            yield Fault((place,), name, f"is no dimension of {self.variable} (known: {', '.join(own)})")
+            yield Fault((place,), name, f"is no dimension of {self.variable}{suggestion(name, own)}")
         elif place == "by":
             if len(own[name]) > self.room:
                 yield Fault((place,), name, f"has {len(own[name])} values, and there is room for {self.room}")

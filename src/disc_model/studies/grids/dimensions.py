@@ -240,7 +240,7 @@ def _columns(
     for name, raw in given.items():
         place, before = (*path, str(name)), len(faults)
         if name not in VARIED:
-            faults.add(place, "", f"cannot be an axis{suggestion(str(name), VARIED, all_of_them=False)}")
+            faults.add(place, "", f"cannot be an axis{suggestion(name, VARIED, all_of_them=False)}")
         elif (blocks := parse_blocks(raw, place, faults, resolution)) is not None:
             checked = tuple(tuple(_value(name, value, starts, place, faults) for value in block) for block in blocks)
             if len(faults) == before:
@@ -250,7 +250,7 @@ def _columns(
 
 def _value(name: str, value: Value, starts: Collection[str], path: tuple[str, ...], faults: Faults) -> Value:
     if name == START and not (isinstance(value, str) and value in starts):
-        faults.add(path, value, f"no such start (known: {', '.join(starts)})")
+        faults.add(path, value, f"no such start{suggestion(value, starts)}")
     elif name == "n_diameters" and value == AUTO:
         faults.add(path, value, "cannot be varied: give it in base, for all points")
     elif name == "contact_compliance" and value == RESIDUAL:

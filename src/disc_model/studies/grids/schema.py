@@ -20,7 +20,7 @@ from pydantic import Field
 
 from disc_model.data.provenance import source_hash
 from disc_model.data.variables import KICKS, SAMPLE
-from disc_model.errors import ParameterError
+from disc_model.errors import ParameterError, suggestion
 from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
 from disc_model.parameters import AUTO, CHOOSING, RESIDUAL, Count, Parameters, Strict, Title, is_number, leaves_modes
@@ -361,15 +361,13 @@ def load_grids(
             faults.append(f"{path}: study = {study.name!r}: is the name of another folder of results")
         studies[name] = study
     known = {*(own or {}), *(Path(path).stem for path in paths)}
-    faults += [
-        f"overrides.{name}: no such study (known: {', '.join(sorted(known))})" for name in overrides.keys() - known
-    ]
+    faults += [f"overrides.{name}: no such study{suggestion(name, sorted(known))}" for name in overrides.keys() - known]
     for study in studies.values():
         for plot_name, plot in study.plots.items() if asked is None or study.name in asked else ():
             for role, other in plot.others.items():
                 where = f"{study.name}: figures.{plot_name}.others.{role} = {other!r}"
                 if other not in known:
-                    faults.append(f"{where}: no such study (known: {', '.join(sorted(known))})")
+                    faults.append(f"{where}: no such study{suggestion(other, sorted(known))}")
                 elif other in studies:
                     faults += [f"{where}: {rule}" for rule in plot.misfits_of(role, study, studies[other])]
     if faults:
@@ -442,7 +440,7 @@ def _resolution(value: Any, faults: Faults) -> int:
 def _quantity(raw: Mapping[str, Any], faults: Faults) -> Quantity | None:
     name = raw.get("quantity")
     if isinstance(name, str) and name not in QUANTITIES:
-        faults.add(("quantity",), name, f"unknown quantity (known: {', '.join(QUANTITIES)})")
+        faults.add(("quantity",), name, f"unknown quantity{suggestion(name, QUANTITIES)}")
     return QUANTITIES.get(name) if isinstance(name, str) else None
 
 
@@ -553,7 +551,7 @@ def _plots(
         path = ("figures", str(name))
         kind = mapping(given).get("kind")
         if not isinstance(kind, str) or kind not in PLOTS:
-            faults.add((*path, "kind"), kind, f"unknown kind of figure (known: {', '.join(PLOTS)})")
+            faults.add((*path, "kind"), kind, f"unknown kind of figure{suggestion(kind, PLOTS)}")
             continue
         plot = validated(PLOTS[kind], given, path, faults)
         if plot is None:
