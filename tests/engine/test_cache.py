@@ -85,8 +85,9 @@ def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Pat
 
 
 def test_another_processor_has_kernels_of_its_own(tmp_path: Path) -> None:
-    ask_for_a_kernel(tmp_path)
-    assert ask_for_a_kernel(tmp_path, NUMBA_CPU_NAME="generic").stdout == "42 0\n"
+    # Both are named: the tests themselves may run for a processor that is asked for.
+    for name in ("generic", "x86-64-v2"):
+        assert ask_for_a_kernel(tmp_path, NUMBA_CPU_NAME=name).stdout == "42 0\n"
     assert len(list((tmp_path / "cache").rglob("*.kernel"))) == 2
 
 
