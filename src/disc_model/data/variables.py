@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, get_args
 
@@ -157,6 +158,11 @@ def _parameter_variable(name: str) -> Variable:
     field = Parameters.model_fields[name]
     unit = Parameters.unit(name) or "1"
     return Variable(_CF_UNITS.get(unit, unit), field.description or name, CHOICES.get(name, ()))
+
+
+def typeset(text: str) -> str:
+    """Symbols with an index, such as c_p, as matplotlib sets them."""
+    return re.sub(r"\b(\w)_(\w)\b", r"$\1_\2$", text)
 
 
 _SYMBOLS = {"Omega": "Ω", "D_star": "D*", "mu_s": "μ_s", "mu_k": "μ_k", "nu": "ν", "rho": "ρ"}

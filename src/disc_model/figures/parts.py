@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,7 +19,7 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import WITHOUT_CYCLE, flag_names, said_values
+from disc_model.data.variables import WITHOUT_CYCLE, flag_names, said_values, typeset
 from disc_model.figures import STYLE
 
 COLUMN = 89 / 25.4
@@ -194,11 +193,22 @@ def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) 
     return {name: there for name, there in each.items() if there.any()}
 
 
-def fixed(study: xr.Dataset) -> str:
+def fixed(study: xr.Dataset, modes_said: bool = False) -> str:
     """What did not vary in a study of a grid: N, Omega, and what differs from Table 1."""
     values = json.loads(study.attrs.get("base", "{}"))
-    values = {name: value for name, value in values.items() if name not in study.coords}
+    # a quantity that varies N or Omega by itself has 0 for it
+    idle = {name for name in ("N", "Omega") if not values.get(name)}
+    return what_case({name: x for name, x in values.items() if name not in {*study.coords, *idle}}, modes_said)
+
+
+def what_case(values: Mapping[str, Any], modes_said: bool = False) -> str:
+    """Values of parameters as titles have them: N, Omega, and what differs from Table 1.
+
+    modes_said : whether the normalization is said elsewhere
+    """
     words = [MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS]
+    if values.get("normalization") == "orthonormal" and not modes_said:
+        words.append(MODES["orthonormal"])
     numbers = said_values({name: value for name, value in values.items() if not isinstance(value, str)})
     return ", ".join(filter(None, [numbers, *words]))
 
@@ -216,17 +226,22 @@ def head(
         for name, size in study.sizes.items()
         if shown is not None and size > 1 and name in shown.coords and name not in shown.dims
     ]
-    base = json.loads(study.attrs.get("base", "{}"))
-    modes = MODES["orthonormal"] if not modes_said and base.get("normalization") == "orthonormal" else ""
-    entitle(figure, title or study.attrs.get("title", ""), ", ".join(filter(None, [*values, fixed(study), modes])))
+    said = ", ".join(filter(None, [*values, fixed(study, modes_said)]))
+    entitle(figure, title or study.attrs.get("title", ""), said)
 
 
 def entitle(figure: Figure, title: str, values: str) -> None:
-    """Over a figure, its title and the values of parameters, where there are any."""
-    texts = [title, re.sub(r"\b(\w)_(\w)\b", r"$\1_\2$", values)]
-    if any(texts):
-        width = round(figure.get_figwidth() / 0.06)
-        figure.suptitle("\n".join(fill(text, width) for text in texts if text), fontsize=8)
+    """Over a figure, its title and the values of parameters, if there are any."""
+    if said := headline(figure, title, values):
+        figure.suptitle(said, fontsize=8)
+
+
+def headline(figure: Figure, title: str, values: str) -> str:
+    """A figure's title and the values of parameters, in lines that fit."""
+    width = round(figure.get_figwidth() / 0.06)
+    # a value stays with its name
+    kept = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
+    return "\n".join(fill(text, width) for text in (title, kept) if text).replace("\u00a0", " ")
 
 
 def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]]:

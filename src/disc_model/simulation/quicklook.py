@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from disc_model.data.variables import said_values
+from disc_model.data.variables import said_values, typeset
 from disc_model.errors import Fault, ParameterError
 
 PANELS = (("P", 1.0, "contact force P (N)"), ("w", 1e3, "disc under the slider w (mm)"))
@@ -71,7 +71,7 @@ def quicklook(result: Sampled) -> Figure:
         _mark_separation(axes[:, column], window["time"], result.first_separation)
         axes[-1, column].set_xlabel("time (s)")
     p = result.parameters
-    figure.suptitle(f"{said_values(p.model_dump())}, {p.normalization.replace('_', ' ')}, {p.contact}")
+    figure.suptitle(typeset(f"{said_values(p.model_dump())}, {p.normalization.replace('_', ' ')}, {p.contact}"))
     return figure
 
 

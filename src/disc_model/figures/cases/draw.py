@@ -10,7 +10,6 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data import dataset
-from disc_model.data.variables import said_values
 from disc_model.figures import parts
 from disc_model.figures.cases.kinds import CASE_PLOTS, History, Spectrogram
 from disc_model.figures.paper.sections import portrait, sections
@@ -24,7 +23,7 @@ def draw(cases: Mapping[str, xr.DataTree], **said: Any) -> Figure:
     plot = CASE_PLOTS[said["kind"]].model_validate(said)
     case = cases[plot.case]
     figure = DRAWN[said["kind"]](case, plot)
-    parts.entitle(figure, plot.title, said_values(json.loads(case.attrs.get("parameters", "{}"))))
+    parts.entitle(figure, plot.title, parts.what_case(json.loads(case.attrs.get("parameters", "{}"))))
     return figure
 
 
@@ -45,6 +44,7 @@ def _history(case: xr.DataTree, plot: History) -> Figure:
             ax.set(ylabel=label, xlim=(time[0], time[-1]))
             parts.mark_first_separation(ax, float(case["first_separation"]))
         axes[-1].set_xlabel("Time (s)")
+        axes[-1].locator_params(axis="x", nbins=5)
     figure.align_ylabels()
     return figure
 

@@ -43,7 +43,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
         xlabel="Rate of the speed (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"])
     )
     figure.legend(loc="outside lower center", ncols=1)
-    parts.entitle(figure, plot.title, f"{parts.fixed(study)}, {parts.MODES[norm]}")
+    parts.entitle(figure, plot.title, f"{parts.fixed(study, modes_said=True)}, {parts.MODES[norm]}")
     return figure
 
 

@@ -22,7 +22,7 @@ from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids import cells
 from disc_model.figures.grids.kinds import RegionMap
-from disc_model.figures.grids.stability_map import paper_ring, paper_rings, set_scales
+from disc_model.figures.grids.stability_map import legend_below_head, paper_ring, paper_rings, set_scales
 from disc_model.figures.parts import PAGE, new_figure, styled
 
 PALER = 0.35
@@ -55,7 +55,6 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
             _marks(ax, plot)
     cells.growth_bar(figure, mesh, list(axes[1]))
     _legends(figure, study, plot, kinds, are_named)
-    parts.head(figure, study, plot.title, modes_said=True)
     return figure
 
 
@@ -160,7 +159,7 @@ def _legends(figure: Figure, study: xr.Dataset, plot: RegionMap, kinds: Collecti
     above += [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
     if "as_published" in parts.normalizations(study):
         above += paper_rings(plot)
-    figure.legend(handles=above, loc="outside upper center", ncols=min(len(above), 4))
+    legend_below_head(figure, study, plot, above)
     below: list[Artist] = list(cells.cycle_patches(set(flag_names(study["cycle"]).flat)))
     said = [*_said(study, plot)]
     said += ["A, B, ...: branches, on which one cycle goes on from point to point."] * are_named

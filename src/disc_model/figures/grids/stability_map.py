@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
@@ -53,8 +53,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
     set_scales(axes[None, :], study, plot)
     if mesh is not None:
         growth_bar(figure, mesh, list(axes))
-    _legend(figure, study, gaps, paper_rings(plot) if "as_published" in norms else [])
-    parts.head(figure, study, plot.title, modes_said=True)
+    _legend(figure, study, plot, gaps)
     return figure
 
 
@@ -148,7 +147,7 @@ def _round_values(values: NDArray[np.float64]) -> list[float]:
     return [*([0.0] if values[0] == 0 else []), *inside.tolist()]
 
 
-def _legend(figure: Figure, study: xr.Dataset, gaps: Collection[str] | None, rings: Sequence[Artist]) -> None:
+def _legend(figure: Figure, study: xr.Dataset, plot: StabilityMap, gaps: Collection[str] | None) -> None:
     """gaps : what there is where no cycle is, if growth is shown"""
     present = set(np.unique(flag_names(study["outcome"])))
     handles: list[Artist] = [
@@ -160,5 +159,12 @@ def _legend(figure: Figure, study: xr.Dataset, gaps: Collection[str] | None, rin
     if gaps is not None:
         handles.append(Line2D([], [], **parts.border("neutral")))
         handles += cycle_patches(gaps)
-    handles += rings
-    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
+    if "as_published" in parts.normalizations(study):
+        handles += paper_rings(plot)
+    legend_below_head(figure, study, plot, handles)
+
+
+def legend_below_head(figure: Figure, study: xr.Dataset, plot: StabilityMap, handles: list[Artist]) -> None:
+    """A legend over all panels, under what `head` says: a title of the figure itself would lie over it."""
+    said = parts.headline(figure, plot.title or study.attrs.get("title", ""), parts.fixed(study, modes_said=True))
+    figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title=said, title_fontsize=8)

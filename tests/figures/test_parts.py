@@ -1,0 +1,34 @@
+"""What titles say of parameters."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+import xarray as xr
+
+from disc_model.figures import parts
+
+
+@pytest.mark.parametrize(
+    ("base", "said"),
+    [
+        ({"N": 385.0, "Omega": 15.1, "mu_s": 0.4}, "N = 385 N, Ω = 15.1 rad/s"),
+        ({"N": 385.0, "c_p": 1.0}, "N = 385 N, $c_p$ = 1 N s/m"),
+        # what varies, and an N or Omega of 0, which stands for one that the quantity varies by itself
+        ({"N": 200.0, "Omega": 0.0, "k": 3.0}, "N = 200 N"),
+        ({"N": 200.0, "normalization": "orthonormal"}, "N = 200 N, orthonormal modes"),
+        ({"N": 200.0, "contact": "bonded"}, "N = 200 N, bonded contact"),
+    ],
+)
+def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], said: str) -> None:
+    study = xr.Dataset(coords={"k": [1.0, 2.0]}, attrs={"title": "Made up", "base": json.dumps(base)})
+    figure = parts.new_figure(parts.COLUMN, 2)
+    parts.head(figure, study, "")
+    assert figure.get_suptitle() == f"Made up\n{said}"
+
+
+def test_a_value_stays_in_the_line_of_its_name() -> None:
+    figure = parts.new_figure(1.0, 2)
+    parts.entitle(figure, "", "N = 385 N, Ω = 15.1 rad/s, D* = 2e-05 N m s")
+    assert figure.get_suptitle().split("\n") == ["N = 385 N,", "Ω = 15.1 rad/s,", "D* = 2e-05 N m s"]
