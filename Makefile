@@ -39,9 +39,10 @@ gc: env
 report: env
 	$(BIN)/snakemake --report results/paper/report.html all $(wildcard results/paper/normalisation.html results/paper/survival.html)
 
-# One HTML page to look at every grid point, at motions and at the figures: results/paper/explorer.html.
+# One HTML page to look at every grid point, at motions and at the figures: results/paper/explorer.html; or, with
+# STUDY=my_study.yaml, that of another study.
 explore: env
-	$(BIN)/snakemake -j$(CORES) explorer
+	$(BIN)/snakemake -j$(CORES) explorer $(if $(STUDY),--configfile $(STUDY))
 
 # The paper's cases with modes normalised as Eq. (17) says, and what that changes.
 orthonormal: reproduce
@@ -66,6 +67,7 @@ $(VENV)/.docs: requirements-docs.lock $(STAMP)
 # The pages of docs/ and the reference as a site, in docs/_build/html; a warning, as of a link that leads nowhere, ends it.
 docs: $(VENV)/.docs kernels
 	$(BIN)/sphinx-build -q -W --keep-going -b html docs docs/_build/html
+	@echo "The site begins at docs/_build/html/index.html"
 
 # Links to the outside, which need the network.
 linkcheck: $(VENV)/.docs

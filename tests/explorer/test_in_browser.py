@@ -30,7 +30,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     Image.new("RGB", (1200, 500), "#0072B2").save(folder / "one.png")
     Image.new("RGB", (1200, 900), "#D55E00").save(folder / "two.png")
     pictures = [Picture("Figures", name, f"The caption of {name}.", folder / f"{name}.png") for name in ("one", "two")]
-    (folder / "explorer.html").write_text(page("Made up", made_up.contents(), pictures), encoding="utf-8")
+    (folder / "explorer.html").write_text(page("Made up", made_up.contents()[::-1], pictures), encoding="utf-8")
     return folder / "explorer.html"
 
 
@@ -113,6 +113,11 @@ def test_it_fits_the_window_and_needs_no_network(shown: Page) -> None:
     )
     # small type of books, in CSS pixels
     assert min(sizes) >= 12
+
+
+def test_it_opens_on_the_growth_map(shown: Page) -> None:
+    """It opened on the first study, and on its first variable."""
+    assert text(shown, "map-title").startswith("A plane <b>: growth rate")
 
 
 def test_every_choice_draws_something(shown: Page) -> None:

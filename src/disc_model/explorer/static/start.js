@@ -48,7 +48,8 @@ function listen() {
 
 async function start() {
   try {
-    await chooseStudy(contents.studies[0].name);
+    const [first] = [...contents.studies].sort((a, b) => mapped(b) - mapped(a)); // the largest growth map
+    await chooseStudy(first.name);
   } catch (error) {
     element("map-title").textContent = `This browser cannot unpack the studies: ${error}`;
     return;

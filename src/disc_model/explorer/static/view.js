@@ -4,6 +4,12 @@ const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: 
 
 const long = (study) => study.dims.filter((dim) => dim.values.length > 1);
 const along = (variable, ...dims) => dims.every((dim) => dim === NONE || variable.dims.includes(dim));
+const growth = (variable) => variable.name === "growth_rate";
+/** Points of a study's growth map; 0 if it has none. */
+const mapped = (study) =>
+  long(study).filter((dim) => !dim.words).length > 1 && study.variables.some(growth)
+    ? study.dims.reduce((product, dim) => product * dim.values.length, 1)
+    : 0;
 const selectors = () =>
   view.study.dims.filter((dim) => ![view.x, view.y].includes(dim.name) && view.variable.dims.includes(dim.name));
 
@@ -29,7 +35,7 @@ function chooseAxes() {
   if (!variablesShown().length) view.y = NONE;
   const fitting = variablesShown();
   const said = (one) => !one.name.endsWith("status");
-  if (!fitting.includes(view.variable)) view.variable = fitting.find(said) ?? fitting[0];
+  if (!fitting.includes(view.variable)) view.variable = fitting.find(growth) ?? fitting.find(said) ?? fitting[0];
   const simulated = marks().find(([, variable, word]) => variable.name === "origin" && word === "simulation");
   view.mark = simulated ? simulated[0] : NONE;
 }

@@ -1,0 +1,53 @@
+"""What a public host is told: addresses, and definitions for GitHub Actions."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import tomllib
+from pathlib import Path
+
+import yaml
+
+from tests import needs
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+WORKFLOWS = {path.stem: path for path in (ROOT / ".github" / "workflows").glob("*.yml")}
+
+
+def test_addresses_are_those_of_pyproject() -> None:
+    urls = PROJECT["urls"]
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert (cited["repository-code"], cited["url"]) == (urls["Repository"], urls["Documentation"])
+    assert f"https://doi.org/{cited['doi']}" == urls["DOI"]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    for name, address in urls.items():
+        assert f"[{name}]({address})" in readme
+    # no other page names another place of the project
+    owner = re.compile(r"https://(?:github\.com/(\w+)/disc_model|(\w+)\.github\.io/disc_model)")
+    texts = [path.read_text(encoding="utf-8") for path in (*ROOT.glob("*.*"), *ROOT.glob("docs/*.*")) if path.is_file()
+             and path.suffix in (".md", ".cff", ".toml", ".py")]  # fmt: skip
+    assert len({one or other for text in texts for one, other in owner.findall(text)}) == 1
+
+
+@needs.ACTIONLINT.mark
+def test_definitions_for_actions_have_no_faults() -> None:
+    found = subprocess.run(
+        [needs.program("actionlint"), *map(str, WORKFLOWS.values())], capture_output=True, text=True, check=False
+    )
+    assert (found.returncode, found.stdout) == (0, "")
+
+
+def test_each_supported_python_is_tested_and_released() -> None:
+    supported = [name.rsplit(" ", 1)[1] for name in PROJECT["classifiers"] if re.search(r"Python :: \d\.\d+$", name)]
+    for name, job in (("tests", "test"), ("release", "wheels")):
+        jobs = yaml.safe_load(WORKFLOWS[name].read_text(encoding="utf-8"))["jobs"]
+        assert jobs[job]["strategy"]["matrix"]["python"] == supported == list(needs.PYTHONS)
+
+
+def test_actions_call_targets_that_make_has() -> None:
+    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+    for path in WORKFLOWS.values():
+        called = re.findall(r"make (?:PYTHON=python )?([\w-]+)", path.read_text(encoding="utf-8"))
+        assert set(called) <= targets, path.name
