@@ -15,6 +15,7 @@ import pytest
 
 from disc_model import Parameters, progress, simulate
 from disc_model.progress import COMPILING, compiling, simulating
+from disc_model.simulation import api
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 
@@ -50,6 +51,7 @@ EVERYWHERE = pytest.mark.parametrize("where", ["terminal", "notebook", "file"])
 def test_a_long_simulation_is_shown(where: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Outside of the command line it never was, and there only on a terminal."""
     monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(api, "STEPS_PER_PAUSE", 10)  # as if it were long: it pauses
     texts = watched(where, monkeypatch)
     simulate(P, 0.05)
     if where == "terminal":

@@ -116,20 +116,21 @@ def simulate(
     t_end, tol, max_steps = float(t_end), float(tol), None if max_steps is None else int(max_steps)
     start = 0.0 if initial_state is None else float(initial_state.time)
     record = record.resolved(start, t_end)
-    with compiling(told=progress is not False):
-        run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps)
+    run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps, told=progress is not False)
     for window in record.outside(start, t_end):
         warnings.warn(f"{window}: stays empty, the run is from {start:g} to {t_end:g} s", stacklevel=2)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
     if kept is not None and (contents := kept.load()) is not None:
         run.restore(contents)
         log.info("goes on at t = %.9g s from checkpoint %s", run.time, kept.path)
-    code = outcomes.PAUSED
-    with simulating(progress, float(t_end)) as tell:
-        while code == outcomes.PAUSED:
-            code = run.advance()
-            if kept is not None and code == outcomes.PAUSED and kept.due:
-                kept.save(run.contents())
+    code = run.advance()
+    if code == outcomes.PAUSED or callable(progress):  # a short run has nothing to show, and does without
+        with simulating(progress, t_end) as tell:
+            while code == outcomes.PAUSED:
+                if kept is not None and kept.due:
+                    kept.save(run.contents())
+                tell(run.time)
+                code = run.advance()
             tell(run.time)
     result = run.result(_STATUS[code])
     run.close()
@@ -151,8 +152,9 @@ class _Run:
         stop_at: str | None,
         max_steps: int | None,
         ramps: tuple[Ramp, ...],
+        told: bool,
     ) -> None:
-        self.p, self.t_end, self.tol, self.record, self.stop_at = p, t_end, tol, record, stop_at
+        self.p, self.t_end, self.tol, self.record, self.stop_at, self.told = p, t_end, tol, record, stop_at, told
         # who follows a case without ramps need not look at them: the one piece that there is is said here
         steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
         self.ramps, self.pieces = ramps, courses.pieces(p, ramps) if ramps else (steady,)
@@ -191,7 +193,7 @@ class _Run:
         """Go on with another piece of the ramps."""
         self.place[0] = place
         self.model = self._model_of(self.pieces[place])
-        self.engine = _engine_for(self.model, self._arguments)
+        self.engine = _engine_for(self.model, self._arguments, self.told)
 
     def _begin_at_switch(self) -> None:
         """Let the engine find out what holds at this instant: a run of no time, of which nothing is kept."""
@@ -281,11 +283,12 @@ class _Run:
         give_back(self.case, self.order, self.workspace)
 
 
-def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]]) -> Callable[..., int]:
+def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]], told: bool) -> Callable[..., int]:
     """The engine, compiled for models of this kind: it decides the types of all ``arguments`` of a run."""
     kind = (len(model.more_blocks), len(model.give), len(model.normal), len(model.ramp))
     if kind not in _ENGINES:
-        _ENGINES[kind] = compiled_for(machine.run, arguments())
+        with compiling(told):
+            _ENGINES[kind] = compiled_for(machine.run, arguments())
     return _ENGINES[kind]
 
 
