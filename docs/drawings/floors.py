@@ -18,6 +18,7 @@ WHAT = {
     "claims": "what the paper says, checked against datasets",
     "explorer": "one page to look at datasets, motions, figures",
     "studies": "YAML to jobs, jobs to results, results to one dataset",
+    "kernels": "what is compiled before jobs need it",
     "mode_choice": "how many modes, by what they are to get right",
     "figures": "datasets to pictures; never simulates",
     "stability": "cycles, their growth rates, curves, exponents",

@@ -38,7 +38,8 @@ class Copy:
         self.kernels = package / SHIPPED.relative_to(Path(disc_model.__file__).parent) / LEVEL
         code = (
             f"import sys; sys.path.insert(0, {str(ROOT / 'workflow/scripts')!r})\n"
-            f"from build_wheel import *; compile_kernels({LEVEL!r}, Path({str(self.kernels)!r}), [{CALL!r}])"
+            f"from build_wheel import *\n"
+            f"compile_kernels({LEVEL!r}, Path({str(self.kernels)!r}), ['simulate-rigid_vertical'])"
         )
         self.run(code, cache="not_used")
 

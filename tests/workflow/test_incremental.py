@@ -54,7 +54,7 @@ batch: {over: [Omega, normalization], size: 6}
 MAP_TAIL = {("merge_batches", "inc_map"), ("publish_study", "inc_map"), ("draw_plot", "inc_map")}
 GROWTH_TAIL = {("merge_batches", "inc_growth"), ("publish_study", "inc_growth"), ("draw_plot", "inc_map")}
 Jobs = set[tuple[str, str]]
-RULES = ("warm_studies", "compute_batch", "merge_batches", "publish_study", "draw_plot")
+RULES = ("warm", "compute_batch", "merge_batches", "publish_study", "draw_plot")
 RUN = ("-j2", "--until", "publish_study", "draw_plot")
 """Grid studies alone; the cases beside them have tests of their own."""
 
@@ -188,7 +188,7 @@ ALL: Callable[[Project], Jobs] = lambda project: batches(project, "inc_map") | b
         ("src/disc_model/stability/settling.py", lambda project: batches(project, "inc_map") | MAP_TAIL),
         (
             "src/disc_model/engine/machine.py",
-            lambda project: ALL(project) | MAP_TAIL | GROWTH_TAIL | {("warm_studies", "")},
+            lambda project: ALL(project) | MAP_TAIL | GROWTH_TAIL | {("warm", "")},
         ),
     ],
 )  # fmt: skip

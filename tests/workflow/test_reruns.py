@@ -16,7 +16,7 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 SIMULATIONS = {"simulate_case:F11", "simulate_case:F13", "simulate_case:X"}
 FIGURES = {"draw_figure:fig11", "draw_figure:fig13"}
 TABLES = {"merge_cases", "check_claims", "describe_study"}
-EVERYTHING = {"warm_cache", "warm_studies"} | SIMULATIONS | FIGURES | TABLES
+EVERYTHING = {"warm:simulate-rigid_vertical", "warm:floquet-rigid_vertical"} | SIMULATIONS | FIGURES | TABLES
 
 
 def test_the_study_is_complete(finished: Project) -> None:

@@ -71,7 +71,45 @@ def test_what_runs_a_rival_is_run_again_when_the_rival_changes() -> None:
     assert len(runs) == len(ALONE)
 
 
-def test_jobs_that_use_kernels_find_them_compiled(tmp_path: Path) -> None:
+COUNTS = """
+import atexit, gc, sys
+
+def count():
+    kernels = [one for one in gc.get_objects() if type(getattr(one, "_cache", None)).__name__ == "KernelCache"]
+    if any(one.stats.cache_misses for one in kernels):
+        print(sys.argv, file=open(FILE, "a"))
+
+atexit.register(count)
+"""
+"""Imported by each Python that starts: it writes down which of them compiled kernels."""
+KINDS = """\
+study: kinds
+cases:
+  wide: {title: more modes, parameters: {N: 300, Omega: 20, n_circles: 1}, t_end: 0.5}
+  ramp:
+    title: on a ramp
+    parameters: {N: 300, Omega: 20}
+    t_end: 1
+    ramps: [{parameter: N, to: 310, start: 0.1, end: 1}]
+quantity: outcome
+options: {horizon: 1, late: 0.2, after_separation: 0.2}
+axes: {N: [300], Omega: [20], contact_force: [normal]}
+"""
+
+
+@pytest.mark.parametrize("config", ["config/test.yaml", "config/kinds.yaml"])
+def test_no_job_compiles_kernels_for_itself(tmp_path: Path, config: str) -> None:
+    """Cases with more modes and on ramps compiled theirs, and motions of points under other laws of contact."""
+    cache, counted = tmp_path / "cache", tmp_path / "compiled.txt"
+    project = copy_repository(tmp_path / "project", {"config/kinds.yaml": KINDS}, NUMBA_CACHE_DIR=str(cache))
+    (project.folder / "src" / "sitecustomize.py").write_text(f"FILE = {str(counted)!r}\n{COUNTS}")
+    replace(project, config=config).complete("-j2", "all", "explorer")
+    who = counted.read_text().splitlines()
+    assert who
+    assert [job for job in who if "warm" not in job] == []
+
+
+def test_jobs_that_use_kernels_wait_for_them(tmp_path: Path) -> None:
     """The table of claims was once made while other jobs compiled, and compiled as well."""
     project = copy_repository(tmp_path)
     other = tmp_path / "results" / "paper_orthonormal"  # of a study that is not this one

@@ -1,31 +1,11 @@
 # Named cases: one job for each, and all of them in one file.
 
-SOLVER = source_hash("disc_model.simulation.api")
-
-
-rule warm_cache:
-    # Compiles the solver once, so that parallel jobs find it in the cache. Named by the sources: with one fixed name
-    # the cases would need `ancient`, and Snakemake (9.27) does not look further than a job to be run that is only an
-    # ancient input of the next, so changed sources would compile again and simulate nothing.
-    output:
-        f"results/compiled/{SOLVER}.txt",
-    log:
-        f"results/compiled/{SOLVER}.log",
-    # almost all waits for it; what can be done meanwhile, other kernels, comes after it
-    priority: 2
-    conda:
-        "../envs/disc_model.yaml"
-    message:
-        "Compiling the solver, once: 15 s on one core. What depends on it waits."
-    shell:
-        "python -m disc_model warm > {output} 2> {log}"
-
 
 rule simulate_case:
     # The job is told everything in one text, which Snakemake remembers: a case whose content is the same is not run
     # again, wherever and however its file now says it.
     input:
-        rules.warm_cache.output,
+        lambda wildcards: compiled(kinds_of_case(STUDY.specs[wildcards.case])),
     output:
         case_file("{case}"),
     log:

@@ -9,7 +9,7 @@ SCANNED = {name: merged_file(name) for name in SCANS if name in GRIDS}
 rule check_claims:
     # Some claims ask for multipliers of the case's cycle.
     input:
-        rules.warm_studies.output,
+        compiled(["floquet-rigid_vertical"]),
         cases=rules.merge_cases.output,
         scans=list(SCANNED.values()),
     output:

@@ -31,6 +31,7 @@ try:
         module_of,
         said_parameters,
     )
+    from disc_model.kernels import KINDS, kinds_of_case
     from disc_model.data.provenance import (
         PACKAGE,
         source_hash,
@@ -38,7 +39,6 @@ try:
         why_unknown,
     )
     from disc_model.studies.files import StudyError, read_file
-    from disc_model.studies.grids.schema import LAWS
     from disc_model.studies.schema import study_from_config
 except ModuleNotFoundError as error:
     raise WorkflowError(
@@ -208,12 +208,9 @@ def merged_file(study):
     return f"results/{study}/merged/{GRIDS[study].key}.nc"
 
 
-def compiled_for(study):
-    """What says that the kernels are compiled which a study needs."""
-    first, *others = LAWS
-    marks = {law: f"results/compiled/studies-{COMPILED}-{law}.txt" for law in others}
-    marks[first] = f"results/compiled/studies-{COMPILED}.txt"
-    return [marks[law] for law in GRIDS[study].laws]
+def compiled(kinds):
+    """What says that kernels of these kinds are compiled."""
+    return [f"results/compiled/{COMPILED}/{kind}.txt" for kind in kinds]
 
 
 def merge_plan(study):
@@ -231,7 +228,7 @@ def merge_plan(study):
 CASE_SOURCES = sources_of("simulate_case")
 BATCH_SOURCES = sources_of("compute_batch")
 LABELS = json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False)
-COMPILED = sources_of("warm_studies")
+COMPILED = source_hash("disc_model.engine.variational", "disc_model.engine.machine")
 
 
 def digest(*parts):

@@ -5,42 +5,9 @@
 import json
 
 
-rule warm_studies:
-    input:
-        rules.warm_cache.output,
-    output:
-        f"results/compiled/studies-{COMPILED}.txt",
-    log:
-        f"results/compiled/studies-{COMPILED}.log",
-    priority: 2
-    conda:
-        "../envs/disc_model.yaml"
-    message:
-        "Compiling the stability analysis, once: 15 s on one core. Grid studies wait."
-    shell:
-        "python workflow/scripts/warm_studies.py > {output} 2> {log}"
-
-
-rule warm_law:
-    # Other laws of contact have kernels of their own: they need not wait for those of the paper's.
-    output:
-        f"results/compiled/studies-{COMPILED}-{{law}}.txt",
-    log:
-        f"results/compiled/studies-{COMPILED}-{{law}}.log",
-    wildcard_constraints:
-        law="|".join(list(LAWS)[1:]),
-    priority: 1
-    conda:
-        "../envs/disc_model.yaml"
-    message:
-        "Compiling the stability analysis for another law of contact ({wildcards.law}), once: half a minute on one core."
-    shell:
-        "python workflow/scripts/warm_law.py {wildcards.law} > {output} 2> {log}"
-
-
 rule compute_batch:
     input:
-        lambda wildcards: compiled_for(wildcards.study),
+        lambda wildcards: compiled(GRIDS[wildcards.study].kernels),
     output:
         batch_file("{study}", "{batch}"),
     log:

@@ -34,7 +34,7 @@ rule describe_study:
 rule compare_normalisations:
     # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and asks for this.
     input:
-        rules.warm_studies.output,
+        compiled(["floquet-rigid_vertical"]),
         published="results/paper/cases.nc",
         orthonormal="results/paper_orthonormal/cases.nc",
     output:

@@ -12,18 +12,17 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from disc_model.engine.cache import LEVELS, SHIPPED, TARGETS, VERSIONS, versions
-from measure_compilation import KINDS
+from disc_model.kernels import USUAL
 
 ROOT = Path(__file__).resolve().parents[2]
-SETTING = "import disc_model as dm; p = dm.Parameters(N=385, Omega=15)"
 
 
-def compile_kernels(level: str, target: Path, calls: Iterable[str] = KINDS.values()) -> None:
-    """Compile what calls ask for into the folder of a level."""
+def compile_kernels(level: str, target: Path, kinds: Iterable[str] = USUAL) -> None:
+    """Compile kinds of kernels into the folder of a level."""
     name, features = TARGETS[level]
     with tempfile.TemporaryDirectory() as folder:
         chosen = {"NUMBA_CACHE_DIR": folder, "NUMBA_CPU_NAME": name, "NUMBA_CPU_FEATURES": features}
-        subprocess.run([sys.executable, "-c", "\n".join((SETTING, *calls))], env=os.environ | chosen, check=True)
+        subprocess.run([sys.executable, "-m", "disc_model", "warm", *kinds], env=os.environ | chosen, check=True)
         target.mkdir(parents=True)
         for path in Path(folder).rglob("*.kernel"):
             shutil.move(path, target)

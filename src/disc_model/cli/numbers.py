@@ -9,8 +9,10 @@ import typer
 from rich.console import Console
 
 from disc_model.cli.case import case_lines, choice_lines, number, parameters_of, table, tell, with_case_options
-from disc_model.errors import refuse
-from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_rule
+from disc_model.errors import Fault, refuse, shown, suggestion
+from disc_model.kernels import KINDS
+from disc_model.kernels import warm as compile_kernels
+from disc_model.parameters import CYCLE_TOLERANCES, limits_rule
 
 TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
 
@@ -77,10 +79,14 @@ def floquet(
         raise typer.Exit(1)
 
 
-def warm() -> None:
-    """Compile the kernels into the cache, so that jobs started in parallel find them there."""
-    from disc_model.simulation.api import simulate
-
-    for contact in ("separable", "bonded"):
-        simulate(Parameters(N=385, Omega=15.1, contact=contact), 0.02)
+def warm(
+    kinds: Annotated[
+        list[str] | None, typer.Argument(help="what is compiled: the paper's model if not given", show_default=False)
+    ] = None,
+) -> None:
+    """Compile kernels into the cache, so that jobs started in parallel find them there."""
+    unknown = [kind for kind in kinds or () if kind not in KINDS]
+    refuse([Fault(("kinds",), shown(kind), f"must be a kind of kernel{suggestion(kind, KINDS)}") for kind in unknown])
+    for kind in kinds or ("simulate-rigid_vertical", "floquet-rigid_vertical"):
+        typer.echo(f"{kind}: {compile_kernels(kind):.1f} s")
     typer.echo("kernels compiled and cached")

@@ -23,7 +23,8 @@ from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import ParameterError, suggestion
 from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
 from disc_model.figures.grids.kinds import Fault as PlotFault
-from disc_model.parameters import AUTO, CHOOSING, RESIDUAL, Count, Parameters, Strict, Title, is_number, leaves_modes
+from disc_model.kernels import DECIDING, kinds_of
+from disc_model.parameters import AUTO, CHOOSING, Count, Parameters, Strict, Title, is_number, leaves_modes
 from disc_model.plausibility import RULES
 from disc_model.simulation.case import START, SomeParameters, Start, canonical_json, content_key
 from disc_model.studies.files import (
@@ -228,24 +229,6 @@ class _Header(Strict):
     figures: dict[Name, Any] = Field({})
 
 
-LAWS: dict[str, dict[str, Any]] = {
-    "rigid_vertical": {},
-    "rigid_normal": {"contact_force": "normal"},
-    "compliant_vertical": {"contact_compliance": RESIDUAL},
-    "compliant_normal": {"contact_compliance": RESIDUAL, "contact_force": "normal"},
-}
-"""Laws of contact, the paper's first, each with what makes a case one of it."""
-_OF_LAW: dict[str, Any] = {
-    name: Parameters.model_fields[name].default for name in ("contact_compliance", "contact_force")
-}
-
-
-def _kind_of_law(values: Mapping[str, Any]) -> tuple[bool, str]:
-    """Whether the contact has a compliance, and the direction of its force."""
-    compliance, force = ((_OF_LAW | dict(values))[name] for name in _OF_LAW)
-    return bool(compliance), force
-
-
 @dataclass(frozen=True)
 class GridStudy:
     """A checked grid study.
@@ -283,11 +266,11 @@ class GridStudy:
         return {dim.name: dim.values for dim in self.dims}
 
     @property
-    def laws(self) -> list[str]:
-        """Laws of contact of its points, in `LAWS`: each has kernels of its own."""
-        deciding = [dim for dim in self.dims if not _OF_LAW.keys().isdisjoint(dim.names)]
-        found = {_kind_of_law({**self.base, **point}) for point in points(deciding)}
-        return [law for law, case in LAWS.items() if _kind_of_law(case) in found]
+    def kernels(self) -> list[str]:
+        """Kinds of kernels that its points need, as `disc_model.kernels` names them."""
+        deciding = [dim for dim in self.dims if not DECIDING.isdisjoint(dim.names)]
+        cases = [{**self.base, **point} for point in points(deciding)]
+        return kinds_of(cases, QUANTITIES[self.quantity].tasks)
 
     @property
     def n_points(self) -> int:

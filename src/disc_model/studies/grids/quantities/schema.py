@@ -299,7 +299,8 @@ class Quantity(NamedTuple):
     Options with a property ``scans`` name those parameters themselves. ``motions`` is how many values of each axis get
     a motion to be looked at (`disc_model.studies.grids.motions`): the fewer, the more one costs. 0: none.
     ``motion`` says what they show: where the quantity's ``state_at`` lets the motion go on. ``over`` is the dimension
-    over which `disc_model.studies.grids.summaries` summarises a merged study, which has to have it.
+    over which `disc_model.studies.grids.summaries` summarises a merged study, which has to have it. ``tasks`` are those
+    of `disc_model.kernels` that it needs kernels for.
     """
 
     options: type[Strict]
@@ -309,6 +310,7 @@ class Quantity(NamedTuple):
     motion: str = ""
     tiled: bool = False
     over: str = ""
+    tasks: tuple[str, ...] = ("simulate", "floquet")
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
         """Parameters that the quantity varies by itself, given its options."""
@@ -349,6 +351,7 @@ QUANTITIES = {
         RampsOptions,
         lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.stay) for rate in values_of(o.rates)),
         scans=("Omega",),
+        tasks=("simulate", "ramp"),
     ),
     "basins": Quantity(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.starts * o.horizon / 2),
     "bifurcation": Quantity(

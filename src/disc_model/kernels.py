@@ -1,0 +1,86 @@
+"""Kinds of compiled kernels: which of them cases need, and how each is compiled before jobs need it.
+
+A kind is what the compiler must know: what is computed, the law of contact, and whether one block of lanes holds the
+modes.  Its name is that of a job, such as ``floquet-rigid_normal-wide``.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import product
+from typing import Any
+
+from disc_model.parameters import AUTO, RESIDUAL, Parameters
+from disc_model.simulation.case import CaseSpec
+
+TASKS = ("simulate", "floquet", "ramp")
+"""A motion; a stick-slip cycle and its multipliers, for which the motion is computed as well; a motion on a ramp."""
+LAWS: dict[str, dict[str, Any]] = {
+    "rigid_vertical": {},
+    "rigid_normal": {"contact_force": "normal"},
+    "compliant_vertical": {"contact_compliance": RESIDUAL},
+    "compliant_normal": {"contact_compliance": RESIDUAL, "contact_force": "normal"},
+}
+"""Laws of contact, the paper's first, each with what makes a case one of it."""
+WIDTHS: dict[str, dict[str, Any]] = {"": {}, "-wide": {"n_diameters": 5}}
+"""Whether the pairs of modes fill more than one block of lanes."""
+PAIRS_OF_A_BLOCK = 4
+KINDS = tuple(f"{task}-{law}{width}" for width, law, task in product(WIDTHS, LAWS, TASKS))
+USUAL = tuple(kind for kind in KINDS if ("wide" in kind) + ("ramp" in kind) + ("rigid_vertical" not in kind) < 2)
+"""Those that differ from the paper's in one way at most: they are measured, and shipped with a wheel."""
+DECIDING = frozenset({"contact_compliance", "contact_force", "n_diameters", "n_circles"})
+"""Parameters that decide the kind of a case."""
+_DEFAULTS = {name: Parameters.model_fields[name].default for name in DECIDING}
+
+
+def kinds_of(cases: Iterable[Mapping[str, Any]], tasks: Iterable[str]) -> list[str]:
+    """The kinds that tasks need of cases, given by values of their parameters, in the order of `KINDS`."""
+    found = {f"{task}-{one}" for case in cases for one, task in product(_models(case), tasks)}
+    return [kind for kind in KINDS if kind in found]
+
+
+def kinds_of_case(spec: CaseSpec) -> list[str]:
+    """The kinds that a named case needs, with the motion that prepares it and the choice of its modes."""
+    values: dict[str, Any] = spec.parameters.model_dump()
+    tasks = ["simulate"] + ["ramp"] * bool(spec.ramps)
+    if spec.modes:
+        values["n_diameters"] = AUTO
+        tasks += ["floquet"] * (json.loads(spec.modes)["quantity"] == "growth")
+    found = {*kinds_of([values], tasks)}
+    if spec.start.prepare is not None:
+        found |= {*kinds_of([values | spec.start.prepare.parameters], ["simulate"])}
+    return [kind for kind in KINDS if kind in found]
+
+
+def _models(values: Mapping[str, Any]) -> Iterator[str]:
+    """Law and width of a case; both widths where its modes are yet to be chosen."""
+    known = {name: values.get(name, default) for name, default in _DEFAULTS.items()}
+    law = f"{'compliant' if known['contact_compliance'] else 'rigid'}_{known['contact_force']}"
+    for width in WIDTHS:
+        wide = known["n_diameters"] != AUTO and known["n_diameters"] * (known["n_circles"] + 1) > PAIRS_OF_A_BLOCK
+        if known["n_diameters"] == AUTO or wide == bool(width):
+            yield law + width
+
+
+def example(kind: str) -> Parameters:
+    """A case that needs kernels of a kind."""
+    _, law, *width = kind.split("-")
+    return Parameters(N=385, Omega=15, **LAWS[law], **(WIDTHS["-wide"] if width else {}))
+
+
+def warm(kind: str) -> float:
+    """Have the kernels of a kind compiled, so that jobs find them in the cache; s that it took."""
+    # not above: a study is read without the engine
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.ramps import Ramp
+    from disc_model.stability.cycle import floquet
+
+    began, p = time.perf_counter(), example(kind)
+    if kind.startswith("floquet"):
+        floquet(p)
+    else:
+        ramp = Ramp(parameter="Omega", to=5.0, start=0.0, end=400.0)
+        simulate(p, 0.1, ramps=ramp if kind.startswith("ramp") else ())
+    return time.perf_counter() - began

@@ -1,0 +1,27 @@
+# Kernels, compiled once, so that parallel jobs find them in the cache.
+
+
+rule warm:
+    # Named by the sources: with one fixed name what uses kernels would need `ancient`, and Snakemake (9.27) does not
+    # look further than a job to be run that is only an ancient input of the next, so changed sources would compile
+    # again and compute nothing.
+    input:
+        # a cycle's kernels beside those of the motion, which it needs as well
+        lambda wildcards: compiled(
+            [wildcards.kind.replace("floquet", "simulate")]
+            if wildcards.kind.startswith("floquet")
+            else []
+        ),
+    output:
+        f"results/compiled/{COMPILED}/{{kind}}.txt",
+    log:
+        f"results/compiled/{COMPILED}/{{kind}}.log",
+    wildcard_constraints:
+        kind="|".join(KINDS),
+    priority: 1
+    conda:
+        "../envs/disc_model.yaml"
+    message:
+        "Compiling kernels, once: {wildcards.kind}, 5 to 10 s on one core. What depends on them waits."
+    shell:
+        "python -m disc_model warm {wildcards.kind} > {output} 2> {log}"
