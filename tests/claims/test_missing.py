@@ -53,7 +53,7 @@ def test_a_damaged_case_among_whole_ones_ends_no_claim(damage: str, told: xr.Dat
     cases = views(told)
     for name, view in cases.items():
         hurt = cases | {name: CaseView(name, damaged(view.node, DAMAGES[damage]))}
-        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.needs])
+        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.said.cases])
 
 
 def test_a_failed_case_counts_for_neither_normalisation(told: xr.DataTree) -> None:

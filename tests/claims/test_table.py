@@ -10,11 +10,26 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+import yaml
 
 from disc_model import Parameters
 from disc_model.claims import SCANS, disc, measures
 from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims, views
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Finding, Missing, Needed
+from disc_model.claims.model import (
+    FAILS,
+    HOLDS,
+    NOT_COMPUTED,
+    REMARK,
+    UNDECIDED,
+    Answer,
+    CaseView,
+    Checks,
+    Claim,
+    ClaimError,
+    Finding,
+    Missing,
+    Text,
+)
 from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import events_dataset
 from disc_model.simulation.api import run_case
@@ -48,7 +63,7 @@ def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
 
 
 def test_the_workflow_is_told_of_every_scan() -> None:
-    assert sorted({name for claim in CLAIMS for name in claim.scans}) == sorted(SCANS)
+    assert sorted({name for claim in CLAIMS for name in claim.said.scans}) == sorted(SCANS)
 
 
 @pytest.mark.compiled
@@ -90,12 +105,57 @@ def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -
 
 
 def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
-    case = {"parameters": {"N": 385, "Omega": 15, "n_diameters": 1}, "t_end": 0.01, "start": {"kick": {"f": 1.0}}}
-    needed = {"F11": Needed({"N": 385, "Omega": 15, "n_diameters": 1})}
-    claim = Claim("x", "", "", lambda *_: Finding("", HOLDS), needs=needed)
+    case = {"parameters": {"N": 385, "Omega": 15}, "t_end": 0.01, "start": {"kick": {"f": 1.0}}}
+    claim = Claim("x", Text(location="", claim="", cases={"F11": 0}, ours=""), lambda _: Answer(True))
     said = "case F11 does not begin with the published start in this study"
     assert claim.evaluate(views(tree_of(F11=case))).verdict == f"{NOT_COMPUTED}: {said}"
     assert claim.evaluate(views(tree_of(F11=case | {"start": {}}))).verdict == HOLDS
+
+
+TEXT = {"location": "Sec. 1", "claim": "It moves", "ours": "by {mm:.1f} mm; {rows}", "parts": {"rows": "{N:g} N"}}
+
+
+def claims_from(tmp_path: Path, checks: Checks, **texts: object) -> tuple[Claim, ...]:
+    (tmp_path / "x.yaml").write_text(yaml.safe_dump(texts, sort_keys=False), encoding="utf-8")
+    return checks.claims("x.yaml", folder=tmp_path)
+
+
+def test_a_text_is_filled_with_the_numbers_of_its_check(tmp_path: Path) -> None:
+    checks, extra = Checks(), {"bounds": {"least": 2.0}, "remarks": {"why": "beyond {least:g}", "chaos": None}}
+    checks("A", "B")(lambda least, **_: Answer(True, mm=[1, 2.25], rows=[{"N": 3}, {"N": 5}], why=least > 1, chaos=0))
+    first, second = claims_from(tmp_path, checks, A=TEXT | extra, B=TEXT | {"bounds": {"least": 1.0}})
+    assert first.judge() == Finding("by 1.0, 2.2 mm; 3 N; 5 N", REMARK, "beyond 2")
+    assert second.judge() == Finding("by 1.0, 2.2 mm; 3 N; 5 N", HOLDS)
+
+
+def test_an_open_question_says_why(tmp_path: Path) -> None:
+    checks = Checks()
+    checks("A")(lambda: Answer(None, "chaos", mm=1, rows=[], other=True))
+    (claim,) = claims_from(tmp_path, checks, A=TEXT | {"remarks": {"other": "but"}, "undecided": {"chaos": None}})
+    assert claim.judge() == Finding("by 1.0 mm; ", UNDECIDED, "the 0-1 test lies between regular and chaotic motion")
+
+
+def test_texts_and_checks_that_do_not_fit_are_refused_at_once(tmp_path: Path) -> None:
+    checks = Checks()
+    checks("Known", "Unsaid")(lambda: Answer(True))
+    texts = {"Known": TEXT | {"case": {"F02": 1}}, "Undecidable": TEXT, "Elsewhere": TEXT | {"cases": {"F99": 1}}}
+    with pytest.raises(ClaimError) as refused:
+        claims_from(tmp_path, checks, **texts)
+    assert str(refused.value).splitlines() == [
+        "x.yaml: Known.case: Extra inputs are not permitted",
+        "x.yaml: Undecidable: no check",
+        "x.yaml: Elsewhere: no check",
+        "x.yaml: Elsewhere: no case F99 in the paper's",
+        "Unsaid: a check without a text",
+    ]
+
+
+def test_a_number_that_a_text_lacks_is_named(tmp_path: Path) -> None:
+    checks = Checks()
+    checks("A")(lambda: Answer(True, mm=1))
+    (claim,) = claims_from(tmp_path, checks, A=TEXT)
+    with pytest.raises(ClaimError, match=r"^claim A: no value 'rows' among those of its check: mm$"):
+        claim.judge()
 
 
 def test_no_result_is_typed_in() -> None:

@@ -3,6 +3,12 @@
 
 from disc_model.claims import SCANS
 
+# What claims and their pages say is data beside the checks; what each case has to be is the paper's study.
+CLAIM_TEXTS = [
+    *sorted((PACKAGE / "claims").glob("*.yaml")),
+    PACKAGE / "claims" / "page.html",
+    PACKAGE / "config" / "paper.yaml",
+]
 SCANNED = {name: merged_file(name) for name in SCANS if name in GRIDS}
 
 
@@ -28,7 +34,7 @@ rule check_claims:
     params:
         made_of=digest(merged_cases_made_of(), [grid_made_of(name) for name in SCANNED]),
         scans=[f"--scan {name}={file}" for name, file in SCANNED.items()],
-        sources=sources_of("check_claims"),
+        sources=sources_of("check_claims", files=CLAIM_TEXTS),
     shell:
         "python workflow/scripts/check_claims.py {input.cases} {params.scans}"
         " --csv {output.csv} --md {output.md} --html {output.html} > {log} 2>&1"
@@ -67,7 +73,7 @@ rule make_table:
         "../envs/disc_model.yaml"
     params:
         made_of=lambda wildcards: cases_made_of(["F13"]),
-        sources=sources_of("make_table"),
+        sources=sources_of("make_table", files=CLAIM_TEXTS),
     shell:
         "python workflow/scripts/make_table.py {wildcards.table} {input}"
         " --csv {output.csv} --md {output.md} --html {output.html} > {log} 2>&1"

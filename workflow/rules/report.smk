@@ -26,7 +26,7 @@ rule describe_study:
         # a function: braces in a title are no wildcards
         title=lambda wildcards: STUDY.title or STUDY.name,
         made_of=merged_cases_made_of(),
-        sources=sources_of("describe_study"),
+        sources=sources_of("describe_study", files=CLAIM_TEXTS),
     shell:
         "python workflow/scripts/describe_study.py {input} {output} --title {params.title:q} > {log} 2>&1"
 
@@ -50,7 +50,7 @@ rule compare_normalisations:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("compare_normalisations"),
+        sources=sources_of("compare_normalisations", files=CLAIM_TEXTS),
     shell:
         "python workflow/scripts/compare_normalisations.py {input.published} {input.orthonormal} --md {output.md} --html {output.html} > {log} 2>&1"
 
@@ -80,7 +80,7 @@ rule judge_survival:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("judge_survival"),
+        sources=sources_of("judge_survival", files=CLAIM_TEXTS),
     shell:
         "(python workflow/scripts/judge_survival.py {input.cases} {input.grids} --md {output.md} --html {output.html}"
         " && cp {input.png} {output.png}) > {log} 2>&1"

@@ -3,29 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-from html import escape
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from disc_model.claims import disc, measures, section41, section42, section43, section44
-from disc_model.claims.cases import AGAIN
-from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Missing
-from disc_model.claims.pages import page, table_html
-from disc_model.data.dataset import markdown_table
+from disc_model.claims.model import CHECKS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Missing
+from disc_model.claims.pages import Comparison, page_texts
 from disc_model.figures.paper.catalogue import said_parameters
+from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
 COLUMNS = ("id", "location", "claim", "paper_value", "ours", "tolerance", "reason", "verdict", "remark")
-CLAIMS: tuple[Claim, ...] = tuple(
-    found
-    for section in (disc, section41, section42, section43, section44)
-    for found in vars(section).values()
-    if isinstance(found, Claim)
-)
+SECTIONS = (disc, section41, section42, section43, section44)
+CLAIMS: tuple[Claim, ...] = CHECKS.claims(*(f"{section.__name__.rpartition('.')[2]}.yaml" for section in SECTIONS))
 """In the order in which they stand in the files."""
 
 
@@ -40,9 +33,9 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     cases = views(tree, scans)
     rows = []
     for claim in CLAIMS:
-        found = claim.evaluate(cases)
-        said = (claim.id, claim.location, claim.text, claim.paper, found.ours, claim.tolerance, claim.reason)
-        rows.append((*said, found.verdict, found.remark))
+        found, said = claim.evaluate(cases), claim.said
+        texts = (claim.id, said.location, claim.text, said.paper, found.ours, claim.tolerance, said.reason)
+        rows.append((*texts, found.verdict, found.remark))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -56,63 +49,41 @@ def views(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> d
 # The same cases under both normalisations, side by side
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """Sections of a page: heading, text, table."""
-
-    title: str
-    sections: tuple[tuple[str, str, pd.DataFrame], ...]
-
-    def markdown(self) -> str:
-        lines = [f"# {self.title}", ""]
-        for heading, text, table in self.sections:
-            lines += [f"## {heading}", "", text, "", *markdown_table(table.columns, table.itertuples(index=False)), ""]
-        return "\n".join(lines)
-
-    def html(self) -> str:
-        body = [f"<h2>{escape(h)}</h2><p>{escape(text)}</p>{table_html(table)}" for h, text, table in self.sections]
-        return page(self.title, *body)
-
-
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
     """Compare merged cases (see `disc_model.data.dataset`) of the two normalisations."""
-    old, new = views(published), views(orthonormal)
-    shared = [name for name in old if name in new and name not in AGAIN]
+    texts, old, new = page_texts("normalisation"), views(published), views(orthonormal)
+    shared = _once([case for name, case in old.items() if name in new])
     failed = [name for name in shared if "failed" in (old[name].status, new[name].status)]
-    lost = [name for name in shared if name not in failed and old[name].separates and not new[name].separates]
-    gained = [name for name in shared if name not in failed and new[name].separates and not old[name].separates]
-    both = [name for name in shared if new[name].separates and old[name].separates]
-    text = (
-        f"Of {len(shared)} cases of the paper, {len(lost) + len(both)} separate with the modes as published and "
-        f"{len(both) + len(gained)} with normalised ones. No longer: {_listed(lost)}. At another time: "
-        f"{_listed(both)}. Only now: {_listed(gained)}. Growth is that of the stick-slip cycle; a dash means that "
-        "no such cycle was found near the published start, or that nothing was recorded."
+    whole = [name for name in shared if name not in failed]
+    lost, gained, both = (
+        [name for name in whole if (old[name].separates, new[name].separates) == kind]
+        for kind in ((True, False), (False, True), (True, True))
     )
+    text = texts["cases"].format(
+        shared=len(shared), before=len(lost + both), after=len(both + gained),
+        lost=_listed(lost), both=_listed(both), gained=_listed(gained),
+    )  # fmt: skip
     if failed:
-        text += f" Without a result: {_listed(failed)}."
+        text += texts["failed"].format(failed=_listed(failed))
     only = [case for name, case in new.items() if name not in old]
-    instead = [("Where instability goes instead", _INSTEAD, _elsewhere(only))] if only else []
-    sections = (
-        ("The modes", _MODES_TEXT, _modes()),
+    sections = [
+        ("The modes", texts["modes"], _modes()),
         ("The cases of the paper", text, _cases([old[name] for name in shared], [new[name] for name in shared])),
-        *instead,
-        ("Statements of the paper whose verdict changes", _VERDICTS, _verdicts(published, orthonormal)),
-    )
-    return Comparison("What changes when the modes are normalised as Eq. (17) says", sections)
+    ]
+    if only:
+        sections.append(("Where instability goes instead", texts["instead"], _elsewhere(only)))
+    changed = _verdicts(published, orthonormal)
+    sections.append(("Statements of the paper whose verdict changes", texts["verdicts"], changed))
+    return Comparison(texts["title"], tuple(sections))
 
 
-_MODES_TEXT = (
-    "The published numbers come from mode shapes R scaled so that the coefficient of J_l is 1; Eq. (17) asks for "
-    "2π/b² ∫ R² r dr = 1. What matters for the dynamics is psi_l², the modal amplitude under the slider: the modes "
-    "with one nodal diameter take part far too strongly as published, the others too weakly. The frequencies of the "
-    "disc are the same, those with the slider attached are not."
-)
-_INSTEAD = (
-    "Higher speeds and loads, from the same start: with normalised modes the stick-slip cycle is stable, or grows far "
-    "more slowly, where the paper works; separation follows further up. At large loads and low speeds the vibration is "
-    "unstable and stays in contact."
-)
-_VERDICTS = "Judged by the same checks; statements about single times of the published cases are among them."
+def _once(cases: Sequence[CaseView]) -> list[str]:
+    """Names of cases from the published start, without those that repeat an earlier one at another tolerance."""
+    names: dict[Parameters, str] = {}
+    for case in cases:
+        if "start" not in case.node.attrs:
+            names.setdefault(case.parameters, case.name)
+    return [*names.values()]
 
 
 def _listed(names: list[str]) -> str:
@@ -201,6 +172,6 @@ def _growth(case: CaseView) -> str:
 
 def _late(case: CaseView) -> str:
     try:
-        return measures.late_range(case, "P").said(1)
+        return f"{measures.late_range(case, 'P'):.1f}"
     except Missing:
         return "–"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -15,8 +15,7 @@ from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Kind, Motion, motion_of, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.analysis.spectra import Line
-from disc_model.claims.cases import SEPARATED
-from disc_model.claims.model import STRETCH, Absent, CaseView, Finding, Missing, Range, finding, undecided
+from disc_model.claims.model import STRETCH, Absent, CaseView, Missing, Range
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.parameters import Parameters
 
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
 
 
 Array = NDArray[np.float64]
-SHOWN = 10.0
-"""s; the longest stretch of which the paper shows a spectrum."""
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 
 
@@ -59,16 +56,6 @@ def first_separation(case: CaseView, *repeats: CaseView) -> str:
     digits, unit = max(0, -order), 10.0**order
     low, high = unit * math.floor(min(times) / unit), unit * math.ceil(max(times) / unit)
     return f"first separation at {low:.{digits}f} to {high:.{digits}f} s: that depends on the tolerance"
-
-
-def separates_at(case: CaseView, paper: float, within: float) -> Finding:
-    """Whether a case first separates when the paper says, s."""
-    return finding(first_separation(case), bool(abs(case["first_separation"] - paper) <= within))
-
-
-def many(values: Iterable[float], digits: int = 2) -> str:
-    """Numbers in a row."""
-    return ", ".join(f"{value:.{digits}f}" for value in values)
 
 
 def switches(case: CaseView, kind: str) -> xr.Dataset:
@@ -106,47 +93,23 @@ def late_motion(case: CaseView) -> tuple[Motion, str]:
     return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
 
-def is_quasi_periodic(case: CaseView, other: CaseView) -> Finding:
-    """Whether the in-plane motion is quasi-periodic, as the paper says of several cases.
-
-    other : the same parameters from another start
-    """
-    motion, ours = late_motion(case)
-    remark = ""
-    if motion.kind is Kind.PERIODIC:
-        longer = release_intervals(case)[: motion.period].sum() > SHOWN
-        remark = f"it repeats {'only after longer than' if longer else 'within'} the {SHOWN:g} s of the paper's spectra"
-    elif motion.kind is Kind.IRREGULAR:
-        remark = "it does not repeat within the record, nor is it quasi-periodic by the 0-1 test"
-    return of_kind(Kind.QUASI_PERIODIC, motion, ours, remark=joined(remark, another_motion((case, other))))
-
-
-def of_kind(kind: Kind, motion: Motion, ours: str, *, besides: bool = True, remark: str = "") -> Finding:
-    """Whether a motion is of a kind and what else is claimed, `besides`, is so; undecided where that hangs on chaos."""
+def is_kind(kind: Kind, motion: Motion, besides: bool = True) -> tuple[bool | None, str]:
+    """Whether a motion is of a kind and what else is claimed, `besides`, is so; or why that is open."""
     if besides and motion.kind is Kind.UNDECIDED:
-        return undecided(ours, "the 0-1 test lies between regular and chaotic motion")
-    return finding(ours, besides and motion.kind is kind, remark)
+        return None, "chaos"
+    return besides and motion.kind is kind, ""
 
 
-def is_intricate(case: CaseView, other: CaseView) -> Finding:
-    """Whether the in-plane motion has no period of fewer than 4 releases; `other` as in `is_quasi_periodic`."""
-    motion, ours = late_motion(case)
-    remark = joined("periodic all the same" if motion.period else "", another_motion((case, other)))
-    return finding(ours, not 0 < motion.period < 4, remark)
-
-
-def another_motion(*pairs: tuple[CaseView, CaseView]) -> str:
-    """Where another start leads to a motion that does not stick although the case does, in words; nothing if nowhere.
+def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
+    """Where another start leads to a motion that does not stick although the case does, and to which.
 
     pairs : a case from the published start, and the same parameters begun in a separated motion
     """
-    said = [
+    return [
         f"at {place_of(case)} {_by_separations(other)}"
         for case, other in pairs
         if other.separates and stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
     ]
-    start = f"from the published start; begun in the separated motion of {place(**SEPARATED)} it does not stick: "
-    return start + ", ".join(said) if said else ""
 
 
 def _by_separations(case: CaseView) -> str:
@@ -173,9 +136,15 @@ def place_of(case: CaseView) -> str:
     return place(case["N"], case["Omega"])
 
 
-def joined(*remarks: str) -> str:
-    """Those remarks that say something."""
-    return "; ".join(remark for remark in remarks if remark)
+def extent(values: Iterable[float]) -> Range:
+    """Least and greatest of some numbers."""
+    found = np.asarray(values)
+    return Range(float(found.min()), float(found.max()))
+
+
+def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> str:
+    """A number with its unit, or what stands for one that is missing."""
+    return without if math.isnan(value) else f"{value:{spec}}{unit}"
 
 
 def rate_of(case: CaseView, kind: str) -> float:
@@ -251,10 +220,10 @@ def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -
         raise Absent(f"case {case.name}: {error} in w_point") from None
 
 
-def trajectory_change(case: CaseView) -> tuple[str, bool]:
-    """The section of the in-plane motion before the first separation and long after it, and whether it changes.
+def trajectory_change(case: CaseView, share: float) -> tuple[bool, dict[str, Any]]:
+    """Whether the in-plane motion's section changes from before the first separation to long after it; and both.
 
-    It does if its width, or the share of time in stick, changes by three tenths.
+    It does if its width, or the share of time in stick, changes by more than a share of what it was.
     """
     samples, first = case.samples("poincare"), case["first_separation"]
     time, psi = samples["time"].values, samples["psi"].values
@@ -265,10 +234,9 @@ def trajectory_change(case: CaseView) -> tuple[str, bool]:
     then = phase_share(case, "stick")
     # of the events only late ones are kept: what the whole run sticks less what it sticks after separation
     stick = max(0.0, case["time_stick"] - then * (case["time_reached"] - first)) / first
-    said = f"{case.name}: ψ spans {before:.3f} rad before, {after:.3f} after; sticks {100 * stick:.1f} % of the time "
-    said += f"before, {100 * then:.1f} % after"
     wider = ratio(after, before, f"the width of the section of case {case.name} before separation")
-    return said, abs(wider - 1) > 0.3 or abs(then - stick) > 0.3 * stick
+    changes = abs(wider - 1) > share or abs(then - stick) > share * stick
+    return changes, {"name": case.name, "before": before, "after": after, "stick": 100 * stick, "then": 100 * then}
 
 
 def late_points(case: CaseView, last: int) -> int:
@@ -310,7 +278,7 @@ def growth_or_nan(p: Parameters) -> float:
 
 def said_rate(rate: float, unit: str = "", without: str = "no cycle") -> str:
     """A growth rate, or what stands for one without a cycle."""
-    return without if math.isnan(rate) else f"{rate:+.4f}{unit}"
+    return or_none(rate, "+.4f", unit, without)
 
 
 def said_growth(case: CaseView) -> str:

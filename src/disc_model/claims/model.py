@@ -1,18 +1,28 @@
-"""What a claim is, what a check finds, and what it may look at."""
+"""What a claim is: a text, a check, and the cases that the check looks at.
+
+The text is data, in the YAML file beside the module that holds the check; see `Text` for what it may say.  The check
+is given cases and bounds; it returns an `Answer`: a verdict, and the numbers that the text's sentences are filled with.
+"""
 
 from __future__ import annotations
 
 import json
+import string
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
+import yaml
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import STATUSES
+from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 
 __all__ = ["Missing"]  # beside what is defined here
@@ -25,43 +35,24 @@ NOT_COMPUTED = "not computed"
 STRETCHES, STRETCH, STEADY = 3, 20.0, 0.01
 """A motion is steady if the ranges of contact force and disc over its last three stretches of 20 s differ by no more
 than 1 % of the widest. What grows or decays by 3e-4/s or more does not pass."""
+FOLDER = Path(__file__).parent
+PAPER = FOLDER.parent / "config" / "paper.yaml"
 
 
 class Absent(Missing):
     """The evidence is there, and what a claim finds in it is not: the claim does not hold."""
 
 
-@dataclass(frozen=True)
-class Finding:
-    """Outcome of a check: what we found, whether the claim holds, and what should be known besides."""
-
-    ours: str
-    verdict: str
-    remark: str = ""
+class ClaimError(DiscModelError):
+    """Texts and checks that do not fit together."""
 
 
-@dataclass(frozen=True)
-class Needed:
-    """A case that a claim is about.
-
-    Attributes
-    ----------
-    parameters : values it must have beside base values
-    until : s, how far it must run
-    separates : whether the claim is about what separation does: without one it does not hold
-    steady : whether the claim is about its steady state: one that has not come to it by its end decides nothing
-    after : parameters of the motion in whose last state it must begin; None for the published start
-    """
-
-    parameters: Mapping[str, Any]
-    until: float = 0.0
-    separates: bool = False
-    steady: bool = False
-    after: Mapping[str, Any] | None = None
+# ----------------------------------------------------------------------------------------------------
+# What a check looks at
 
 
 class Range(NamedTuple):
-    """Least and greatest value."""
+    """Least and greatest value; formatted as ``low..high``."""
 
     low: float
     high: float
@@ -70,8 +61,8 @@ class Range(NamedTuple):
     def width(self) -> float:
         return self.high - self.low
 
-    def said(self, digits: int) -> str:
-        return f"{self.low:.{digits}f}..{self.high:.{digits}f}"
+    def __format__(self, spec: str) -> str:
+        return f"{self.low:{spec}}..{self.high:{spec}}"
 
 
 @dataclass(frozen=True)
@@ -144,75 +135,235 @@ class CaseView:
             raise Missing(f"case {self.name} {reason}") from None
 
 
-def finding(ours: str, holds: bool, remark: str = "") -> Finding:
-    """What was found, with the verdict that follows: for a statement that holds or not, with or without a remark."""
-    kept = REMARK if remark else HOLDS
-    return Finding(ours, kept if holds else FAILS, remark)
+def _read(path: Path) -> dict[str, Any]:
+    found: dict[str, Any] = yaml.safe_load(path.read_text(encoding="utf-8"))
+    return found
 
 
-def undecided(ours: str, why: str) -> Finding:
-    """What was found, where it decides nothing, and why not."""
-    return Finding(ours, UNDECIDED, why)
+@cache
+def paper_cases() -> Mapping[str, Mapping[str, Any]]:
+    """The named cases of config/paper.yaml: what it says of each beside the study's base values."""
+    cases: dict[str, Mapping[str, Any]] = _read(PAPER)["cases"]
+    return cases
 
 
-Check = Callable[..., Finding]
-"""Is given what its claim needs: the cases, then the grid studies, each in the order in which the claim names them."""
+# ----------------------------------------------------------------------------------------------------
+# What a check finds, and how that is said
 
 
-def _without_check(*evidence: Any) -> Finding:
-    raise Missing("nothing checks it")
+class Answer:
+    """What a check finds.
+
+    Parameters
+    ----------
+    holds : whether the claim holds; None if the evidence does not decide it
+    why : in that case, which of the text's reasons for it applies
+    values : what the sentences are filled with; a remark is added if the value of its name is true
+    """
+
+    def __init__(self, holds: bool | np.bool_ | None, why: str = "", /, **values: Any) -> None:
+        self.holds, self.why, self.values = holds, why, values
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Outcome of a check in words: what we found, whether the claim holds, and what should be known besides."""
+
+    ours: str
+    verdict: str
+    remark: str = ""
+
+
+class Part(BaseModel):
+    """A sentence that is said of each row of a value, and what stands between two of them."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    each: str
+    between: str = "; "
+
+
+class Sentences(string.Formatter):
+    """`str.format` for lists as well: of numbers, ``{values:.2f}``, and of rows, each said by the part of its name."""
+
+    def __init__(self, parts: Mapping[str, Part], values: Mapping[str, Any]) -> None:
+        self.parts, self.values = parts, values
+
+    def fill(self, template: str) -> str:
+        return self.vformat(template, (), self.values)
+
+    def get_value(self, key: int | str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
+        value = kwargs[str(key)]
+        if key not in self.parts:
+            return value
+        part, rows = self.parts[str(key)], value if isinstance(value, list) else [value]
+        return part.between.join(self.vformat(part.each, (), {**kwargs, **row}) for row in rows)
+
+    def format_field(self, value: Any, spec: str) -> str:
+        if isinstance(value, list | np.ndarray):
+            return ", ".join(format(each, spec) for each in value)
+        return format(value, spec)
+
+
+Names = Literal[True] | tuple[str, ...]
+
+
+class Text(BaseModel):
+    """What a file says of a claim.
+
+    Attributes
+    ----------
+    location : the place in the paper
+    claim : the statement in our own words
+    paper : the value the paper gives, or "" if it only shows it
+    tolerance, reason : what counts as agreement, and why that much
+    bounds : numbers that the check is given, and that sentences may be filled with
+    cases : those of config/paper.yaml that the check is given, each with the time in s to which it must have run
+    separates : those of them that the claim says something of after separation: without one it does not hold; true
+        stands for all in which contact can be lost
+    steady : those whose steady state it is about: one that has not come to it by its end decides nothing
+    scans : the grid studies that the check is given besides
+    ours : what we found
+    remark, remarks : what should be known besides: in any case; where the value of that name is true
+    undecided : by name, reasons why the evidence may decide nothing
+    parts : by name of a value, how its rows are said
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    location: str
+    claim: str
+    paper: str = ""
+    tolerance: str = ""
+    reason: str = ""
+    bounds: dict[str, float] = {}
+    cases: dict[str, float] = {}
+    separates: Names = ()
+    steady: Names = ()
+    scans: tuple[str, ...] = ()
+    ours: str
+    remark: str = ""
+    remarks: dict[str, str] = {}
+    undecided: dict[str, str] = {}
+    parts: dict[
+        str, Annotated[Part, BeforeValidator(lambda part: {"each": part} if isinstance(part, str) else part)]
+    ] = {}
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper. As a decorator it becomes the one that the function below decides.
-
-    Attributes
-    ----------
-    id, location : our name, and the place in the paper
-    text : the statement in our own words
-    paper : the value the paper gives, or "" if it only shows it
-    tolerance, reason : what counts as agreement, and why that much
-    needs : the cases it is about
-    scans : the grid studies that it looks at besides, which stand among the cases under their names
-    """
+    """A statement of the paper, under our name for it, with the check that decides it."""
 
     id: str
-    location: str
-    text: str
-    check: Check = _without_check
-    paper: str = ""
-    tolerance: str = ""
-    reason: str = ""
-    needs: Mapping[str, Needed] = field(default_factory=dict)
-    scans: tuple[str, ...] = ()
+    said: Text
+    check: Callable[..., Answer]
 
-    def __call__(self, check: Check) -> Claim:
-        return replace(self, check=check)
+    @property
+    def text(self) -> str:
+        return self.said.claim
+
+    @property
+    def tolerance(self) -> str:
+        return Sentences({}, self.said.bounds).fill(self.said.tolerance)
+
+    @property
+    def separating(self) -> tuple[str, ...]:
+        """The cases without whose separation the claim does not hold."""
+        if self.said.separates is True:
+            known = paper_cases()
+            return tuple(name for name in self.said.cases if known[name]["parameters"].get("contact") != "bonded")
+        return self.said.separates
+
+    @property
+    def steady(self) -> tuple[str, ...]:
+        """The cases whose steady state it is about."""
+        return tuple(self.said.cases) if self.said.steady is True else self.said.steady
 
     def judge(self, *evidence: Any) -> Finding:
         """What the check makes of this evidence; the verdict says what that lacks."""
         try:
-            return self.check(*evidence)
+            return self._found(self.check(*evidence, **self.said.bounds))
         except Missing as missing:
             return _without(missing)
 
     def evaluate(self, cases: Mapping[str, CaseView]) -> Finding:
         """Check the claim; without the evidence it needs, the verdict says what is missing."""
         try:
-            needed = {name: _needed(cases, name, what) for name, what in self.needs.items()}
-            for name in self.scans:
+            needed = {name: _needed(cases, name, until) for name, until in self.said.cases.items()}
+            for name in self.said.scans:
                 if name not in cases:
                     raise Missing(f"study {name} is not among those of this run")
-            quiet = [case for name, case in needed.items() if self.needs[name].separates and not case.separates]
+            quiet = [needed[name] for name in self.separating if not needed[name].separates]
             if quiet:
                 said = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(said, FAILS)
-            scans = [cases[name].node.to_dataset() for name in self.scans]
-            found = self.check(*needed.values(), *scans)
-            return _of_steady_state(found, [case for name, case in needed.items() if self.needs[name].steady])
+            scans = [cases[name].node.to_dataset() for name in self.said.scans]
+            found = self._found(self.check(*needed.values(), *scans, **self.said.bounds))
+            return _of_steady_state(found, [needed[name] for name in self.steady])
         except Missing as missing:
             return _without(missing)
+
+    def _found(self, answer: Answer) -> Finding:
+        said, values = self.said, self.said.bounds | answer.values
+        if answer.holds is None:
+            remarks, verdict = [said.undecided[answer.why]], UNDECIDED
+        else:
+            remarks = [*filter(None, [said.remark]), *(text for name, text in said.remarks.items() if values[name])]
+            verdict = (REMARK if remarks else HOLDS) if answer.holds else FAILS
+        sentences = Sentences(said.parts, values)
+        try:
+            return Finding(sentences.fill(said.ours), verdict, "; ".join(map(sentences.fill, remarks)))
+        except KeyError as name:
+            raise ClaimError(
+                f"claim {self.id}: no value {name} among those of its check: {', '.join(values)}"
+            ) from None
+
+
+class Checks(dict[str, Callable[..., Answer]]):
+    """Checks by the claim that they decide; as a decorator it takes up one more."""
+
+    def __call__(self, *names: str) -> Callable[[Callable[..., Answer]], Callable[..., Answer]]:
+        def take(check: Callable[..., Answer]) -> Callable[..., Answer]:
+            self.update(dict.fromkeys(names, check))
+            return check
+
+        return take
+
+    def claims(self, *files: str, folder: Path = FOLDER) -> tuple[Claim, ...]:
+        """The claims of these files, each with its check, in the files' order.
+
+        Raises
+        ------
+        ClaimError
+            For a text without a check, a check without a text, and whatever else is wrong with a text: all at once.
+        """
+        faults, found = [], []
+        common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
+        for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
+            raw["remark"] = common.get(raw.get("remark"), raw.get("remark", ""))
+            for key in ("remarks", "undecided"):  # one without a text has the common one
+                raw[key] = {one: text or common.get(one) for one, text in raw.get(key, {}).items()}
+            try:
+                text = Text.model_validate(raw)
+            except ValidationError as error:
+                faults += [f"{file}: {name}.{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()]
+                continue
+            faults += [] if name in self else [f"{file}: {name}: no check"]
+            faults += [
+                f"{file}: {name}: no case {one} in the paper's" for one in text.cases if one not in paper_cases()
+            ]
+            found.append(Claim(name, text, self.get(name, Answer)))
+        said = {name for _, read in texts for name in read}
+        faults += [f"{name}: a check without a text" for name in self if name not in said]
+        if faults:
+            raise ClaimError("\n".join(faults))
+        return tuple(found)
+
+
+CHECKS = Checks()
+"""Of the paper's claims."""
+
+
+# ----------------------------------------------------------------------------------------------------
+# Whether the evidence is what a claim needs
 
 
 def _without(missing: Missing) -> Finding:
@@ -231,27 +382,28 @@ def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
         if not drift <= STEADY
     )
     if moving:
-        return undecided(found.ours, f"not yet steady: {moving}")
+        return Finding(found.ours, UNDECIDED, f"not yet steady: {moving}")
     return replace(found, ours=f"{found.ours} (steady: {', '.join(drifts)})") if drifts else found
 
 
-def _needed(cases: Mapping[str, CaseView], name: str, needed: Needed) -> CaseView:
-    """A case that is as it must be; raises `Missing`."""
+def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
+    """A case that is what the paper's case of this name is, and has run so far (s); raises `Missing`."""
     if name not in cases:
         raise Missing(f"case {name} is not in this study")
-    case = cases[name]
+    case, paper = cases[name], paper_cases()[name]
     if case.status not in ("ok", "stopped"):
         raise Missing(f"{case.status} (case {name})")
     found = case.parameters
-    wanted = Parameters(**needed.parameters, normalization=found.normalization)  # that is the study's choice
+    wanted = Parameters(**paper["parameters"], normalization=found.normalization)  # that is the study's choice
     if wanted != found:
         differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")
-    if _after(case) != needed.after:
-        start = "published start" if needed.after is None else f"last state of {dict(needed.after)}"
+    after = paper.get("start", {}).get("prepare", {}).get("parameters")
+    if _after(case) != after:
+        start = "published start" if after is None else f"last state of {after}"
         raise Missing(f"case {name} does not begin with the {start} in this study")
-    if case.status == "ok" and case["time_reached"] < needed.until:
-        raise Missing(f"case {name} ends at {case['time_reached']:g} s, {needed.until:g} s are needed")
+    if case.status == "ok" and case["time_reached"] < until:
+        raise Missing(f"case {name} ends at {case['time_reached']:g} s, {until:g} s are needed")
     return case
 
 

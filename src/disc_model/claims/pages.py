@@ -4,36 +4,39 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
 from html import escape
+from string import Template
 from typing import Any
 
 import pandas as pd
+import yaml
 
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED
+from disc_model.claims.model import FAILS, FOLDER, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED
 from disc_model.data.dataset import markdown_table
 
-STYLE = """
-:root { color-scheme: light dark; --text: #1b1b1b; --back: #ffffff; --line: #cccccc; --head: #f2f2f2; --soft: #555555;
-  --good: #00684b; --note: #7a4f00; --bad: #a63c00; }
-@media (prefers-color-scheme: dark) { :root { --text: #e6e6e6; --back: #16181b; --line: #444444; --head: #24272b;
-  --soft: #a8a8a8; --good: #4fd0a5; --note: #f0b54a; --bad: #ff9459; } }
-body { font: 14px/1.45 system-ui, sans-serif; color: var(--text); background: var(--back); margin: 1.5rem; }
-h1 { font-size: 1.3rem; margin: 0 0 .5rem; } p { max-width: 60rem; }
-table { border-collapse: collapse; width: 100%; } td.number { text-align: right; white-space: nowrap; }
-th, td { border-bottom: 1px solid var(--line); padding: .35rem .5rem; text-align: left; vertical-align: top; }
-th { background: var(--head); position: sticky; top: 0; }
-.small { color: var(--soft); font-size: 12px; } .verdict { font-weight: 600; }
-.good { color: var(--good); } .note { color: var(--note); } .bad { color: var(--bad); } .none { color: var(--soft); }
-"""
 CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad", UNDECIDED: "note", NOT_COMPUTED: "none"}
+CLAIM_WIDTHS = (5, 11, 18, 13, 30, 9, 14)
+"""Of the columns of the ledger, in hundredths."""
+
+
+@cache
+def _all_texts() -> Mapping[str, Any]:
+    texts: Mapping[str, Any] = yaml.safe_load((FOLDER / "pages.yaml").read_text(encoding="utf-8"))
+    return texts
+
+
+def page_texts(name: str) -> Mapping[str, Any]:
+    """The texts of a page."""
+    texts: Mapping[str, Any] = _all_texts()[name]
+    return texts
 
 
 def page(title: str, *body: str) -> str:
     """A whole HTML document."""
-    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{STYLE}</style>'
-    return f'<!doctype html>\n<html lang="en"><head>{head}</head>\n<body><h1>{escape(title)}</h1>\n' + "\n".join(
-        [*body, "</body></html>\n"]
-    )
+    template = Template((FOLDER / "page.html").read_text(encoding="utf-8"))
+    return template.substitute(title=escape(title), body="\n".join(body))
 
 
 def to_markdown(table: pd.DataFrame) -> str:
@@ -46,10 +49,9 @@ def to_markdown(table: pd.DataFrame) -> str:
 
 def ledger(table: pd.DataFrame) -> str:
     """The table of claims as a page, with the counts of the verdicts above it."""
-    summary = f"{len(table)} statements; {_counts(table)}"
+    texts, summary = page_texts("ledger"), f"{len(table)} statements; {_counts(table)}"
     rows = [_claim(row) for row in table.to_dict("records")]
-    head = ("", "Place", "Statement, in our words", "Paper", "Computed", "Verdict", "Tolerance")
-    return page("The paper's claims, checked", f"<p>{escape(summary)}.</p>", _table(head, rows, CLAIM_WIDTHS))
+    return page(texts["title"], f"<p>{escape(summary)}.</p>", _table(texts["head"], rows, CLAIM_WIDTHS))
 
 
 def _counts(table: pd.DataFrame) -> str:
@@ -76,6 +78,24 @@ def _small(text: str) -> str:
     return f'<div class="small">{escape(text)}</div>'
 
 
+@dataclass(frozen=True)
+class Comparison:
+    """Sections of a page: heading, text, table."""
+
+    title: str
+    sections: tuple[tuple[str, str, pd.DataFrame], ...]
+
+    def markdown(self) -> str:
+        lines = [f"# {self.title}", ""]
+        for heading, text, table in self.sections:
+            lines += [f"## {heading}", "", text, "", *markdown_table(table.columns, table.itertuples(index=False)), ""]
+        return "\n".join(lines)
+
+    def html(self) -> str:
+        body = [f"<h2>{escape(h)}</h2><p>{escape(text)}</p>{table_html(table)}" for h, text, table in self.sections]
+        return page(self.title, *body)
+
+
 def table_page(title: str, note: str, table: pd.DataFrame, names: Mapping[str, str] | None = None) -> str:
     """Any table as a page; `names` are headings by column."""
     return page(title, f"<p>{escape(note)}</p>" if note else "", table_html(table.rename(columns=names or {})))
@@ -91,10 +111,6 @@ def _cell(value: object) -> str:
     if isinstance(value, float):
         return f'<td class="number">{"" if math.isnan(value) else f"{value:g}"}</td>'
     return f"<td>{escape(str(value))}</td>"
-
-
-CLAIM_WIDTHS = (5, 11, 18, 13, 30, 9, 14)
-"""Of the columns of the ledger, in hundredths."""
 
 
 def _table(head: Sequence[str], rows: Iterable[Iterable[str]], widths: Sequence[int] = ()) -> str:

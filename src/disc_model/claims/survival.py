@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, Kind, motion_of, stick_disappears
 from disc_model.claims import measures
-from disc_model.claims.ledger import Comparison
-from disc_model.claims.measures import many, place_of, said_rate
-from disc_model.claims.model import STRETCH, STRETCHES, CaseView, Claim, Finding, Missing, finding, undecided
+from disc_model.claims.measures import or_none, place_of, said_rate
+from disc_model.claims.model import STRETCH, STRETCHES, Answer, CaseView, Checks, Missing
+from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.variables import flag_names
 
 Array = NDArray[np.float64]
@@ -97,21 +97,13 @@ def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
 # ----------------------------------------------------------------------------------------------------
 # Conclusions
 
-LARGE = 300.0
-"""N, the least preload that counts as large; the paper shows 385 N."""
+CHECKS = Checks()
 SLOW = 1e-3
 """1/s, a growth rate below which a cycle counts as neither stable nor unstable."""
 
 
-@Claim(
-    "Onset",
-    "Conclusions",
-    "Friction makes the stick-slip cycle unstable, and separation follows from that only.",
-    tolerance="nowhere on a grid of speeds and preloads does the published start separate where the cycle is stable; "
-    "within 0.1 rad/s of the fold at which the cycle ends, that is a remark",
-    reason="simulations that are never left early, beside multipliers; growth below 1e-3 per second shows too late",
-)
-def onset(found: Evidence) -> Finding:
+@CHECKS("Onset")
+def onset(found: Evidence, *, beside: float) -> Answer:
     points = found.grid("survival_outcome")
     outcome, growth = _beside(points, found.grid("survival_growth"))
     if (outcome == "unknown").any():
@@ -119,24 +111,22 @@ def onset(found: Evidence) -> Finding:
     apart = outcome == "separation"
     stable, unstable, none = growth < -SLOW, growth > SLOW, np.isnan(growth)
     counts = [int((apart & where).sum()) for where in (unstable, none, stable)]
-    ours = (
-        f"{int(apart.sum())} of {apart.size} points separate: {counts[0]} from an unstable cycle, {counts[1]} where "
-        f"none is found, {counts[2]} from a stable one; {int((stable & ~apart).sum())} with a stable cycle do not"
-    )
     early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
-    if not all(_ends_soon(found, load, speed) for load, speed in early):
-        return finding(ours, False)
-    if not counts[0] or not stable.any():
-        return undecided(ours, "separation and a stable cycle are not both there to compare")
-    if not early:
-        return finding(ours, True)
-    places = ", ".join(measures.place(*at) for at in early)
-    return finding(ours, True, f"it separates shortly before the stable cycle ends at a fold, too: {places}")
-
-
-def _ends_soon(found: Evidence, load: float, speed: float) -> bool:
-    """Whether a stable cycle ends at a fold just above a speed: there, little keeps a motion with it."""
-    return any(0 <= fold - speed <= 0.1 for fold in _folds_at(found.grid("survival_curves"), load))
+    folds = found.grid("survival_curves")
+    # where a stable cycle ends at a fold just above a speed, little keeps a motion with it
+    soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(folds, load)) for load, speed in early)
+    compared = counts[0] > 0 and bool(stable.any())
+    return Answer(
+        soon if compared or not soon else None,
+        "nothing",
+        apart=int(apart.sum()),
+        count=apart.size,
+        unstable=counts[0],
+        none=counts[1],
+        stable=counts[2],
+        quiet=int((stable & ~apart).sum()),
+        early=[measures.place(*at) for at in early] if soon else [],
+    )
 
 
 def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], Array]:
@@ -149,40 +139,26 @@ def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], 
     return flag_names(words), there["growth_rate"].transpose("N", "Omega").values
 
 
-NEAR_FOLD = 385.0
-"""N, the preload at which the paper finds its critical speed between 15 and 15.1 rad/s."""
-
-
-@Claim(
-    "Fold at N = 385 N",
-    "Conclusions",
-    "At N = 385 N separation begins where the quiet cycle ends, at a fold.",
-    tolerance="a fold lies within 0.05 rad/s of the interval in which separation begins as the speed rises; it does "
-    "not hold where the cycle goes on unstable at the speeds of the growth map on both sides",
-    reason="a fold is read off between points of its curve, to a hundredth; the interval is what bisection left; where "
-    "some curve could not be followed, a fold may have been missed",
-)
-def fold(found: Evidence) -> Finding:
-    folds = np.array(sorted(_folds_at(found.grid("survival_curves"), NEAR_FOLD)))
-    highs, width = _beginnings(found.grid("survival_speed"), NEAR_FOLD)
-    begins = many(highs, 1) or "none"
-    ours = f"folds beside a stable cycle: {many(folds, 3) or 'none'}; separation begins: {begins} (rad/s)"
+@CHECKS("Fold at N = 385 N")
+def fold(found: Evidence, *, load: float, within: float) -> Answer:
+    folds = np.array(sorted(_folds_at(found.grid("survival_curves"), load)))
+    highs, width = _beginnings(found.grid("survival_speed"), load)
+    said = {"folds": [f"{speed:.3f}" for speed in folds] or ["none"], "begins": [f"{v:.1f}" for v in highs] or ["none"]}
     if not highs.size:
-        return undecided(ours, "no speed at which separation begins was found")
+        return Answer(None, "no_speed", growth=[], **said)
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
-    if min(off) <= 0.05:
-        return finding(ours, True)
-    beside = [_growth_beside(found.grid("survival_growth"), high - width, high) for high in highs]
-    ours += "; growth there " + ", ".join(f"{said_rate(low, '/s')} to {said_rate(high, '/s')}" for low, high in beside)
-    if all(rate > SLOW for rates in beside for rate in rates):
-        return finding(ours, False)
+    if min(off) <= within:
+        return Answer(True, growth=[], **said)
+    beside = [_growth_beside(found.grid("survival_growth").sel(N=load), high - width, high) for high in highs]
+    rows = [f"{said_rate(low, '/s')} to {said_rate(high, '/s')}" for low, high in beside]
     missed = int(found.grid("survival_curves")["n_unfollowed"])
-    return undecided(ours, f"{missed} curves could not be followed") if missed else finding(ours, False)
+    goes_on = all(rate > SLOW for rates in beside for rate in rates)
+    return Answer(None if missed and not goes_on else False, "missed", missed=missed, growth=[{"rates": rows}], **said)
 
 
 def _growth_beside(growth: xr.Dataset, low: float, high: float) -> tuple[float, float]:
     """Growth rates at the nearest speeds of the map below and above an interval, 1/s; nan where there is no cycle."""
-    speed, rate = growth["Omega"].values, growth["growth_rate"].sel(N=NEAR_FOLD).values
+    speed, rate = growth["Omega"].values, growth["growth_rate"].values
     below, above = np.searchsorted(speed, low, side="right") - 1, np.searchsorted(speed, high)
     if below < 0 or above >= speed.size:
         raise Missing("study survival_growth does not reach as far as survival_speed")
@@ -214,113 +190,69 @@ def _require_ok(grid: xr.Dataset, name: str) -> None:
         raise Missing(f"study {name} has points that failed")
 
 
-@Claim(
-    "Critical speed",
-    "Conclusions",
-    "The lowest speed with separation falls with the preload at first, then rises.",
-    tolerance="between preloads at both of which it is higher, by 0.3 rad/s or more, or there is no separation at all",
-    reason="speeds are found to 0.1 rad/s, but for stripes narrower than the scan's 1 rad/s; how long one waits, "
-    "1000 s here, moves them all",
-)
-def falls_then_rises(found: Evidence) -> Finding:
+@CHECKS("Critical speed")
+def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
     study = found.grid("survival_speed").isel(horizon=0)
     _require_ok(study, "survival_speed")
     speed, load = study["critical_speed"].values, study["N"].values
-    ours = "; ".join(f"{N:g} N: {'none' if math.isnan(v) else f'{v:.1f}'}" for N, v in zip(load, speed, strict=True))
     height = np.where(np.isnan(speed), np.inf, speed)
-    if np.isfinite(height).sum() < 3:
-        return undecided(f"{ours} (rad/s)", "fewer than three preloads separate")
-    dips = [bool(min(height[:i].max(), height[i + 1 :].max()) >= height[i] + 0.3) for i in range(1, len(height) - 1)]
-    return finding(f"{ours} (rad/s)", any(dips))
+    dips = [min(height[:i].max(), height[i + 1 :].max()) >= height[i] + depth for i in range(1, len(height) - 1)]
+    rows = [{"N": N, "speed": or_none(v, ".1f")} for N, v in zip(load, speed, strict=True)]
+    return Answer(any(dips) if np.isfinite(height).sum() >= 3 else None, "few", speeds=rows)
 
 
-@Claim(
-    "Smaller vibration",
-    "Conclusions",
-    "Separation keeps the disc's vibration smaller than it is where separation is ignored.",
-    tolerance="over the last half of the time after the first separation it is narrower than any 20 s without "
-    "separation",
-    reason="motions that wander have no single range; one whose last quarter is a fifth wider than the one before "
-    "decides nothing",
-)
-def smaller_vibration(found: Evidence) -> Finding:
+@CHECKS("Smaller vibration")
+def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
     smaller: list[bool | None] = []
-    words = []
+    rows = []
     for free, bonded in found.pairs():
         fourth, third = free.last_quarters("w_point")
         other = bonded.last_widths("w_point", STRETCH, STRETCHES)
-        settled = fourth <= (1 + 0.2) * third
+        settled = fourth <= (1 + wider) * third
         if min(third, fourth) >= max(other):
             smaller.append(False)
         else:
             smaller.append(True if settled and max(third, fourth) < min(other) else None)
-        words.append(f"{place_of(free)}: {1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm")
-    return _of_cases(words, smaller)
+        rows.append({"place": place_of(free), "free": 1e3 * max(third, fourth), "bonded": 1e3 * min(other)})
+    return Answer(*_all_cases(smaller), cases=rows)
 
 
-@Claim(
-    "Stick vanishes",
-    "Conclusions",
-    "After a separation the stick phase disappears, under certain parameter values.",
-    tolerance="0.1 % of the last 60 s in at least one case that stuck before; where it does not, that is a remark",
-    reason="a stray stick would not refute the statement",
-)
-def stick_vanishes(found: Evidence) -> Finding:
-    stays, words = [], []
+@CHECKS("Stick vanishes")
+def stick_vanishes(found: Evidence, *, share: float) -> Answer:
+    stays, rows = [], []
     for case in found.separating():
         late = measures.phase_share(case, "stick")
-        if not stick_disappears(case["time_stick"] / case["time_reached"], late, 1e-3):
+        if not stick_disappears(case["time_stick"] / case["time_reached"], late, share):
             stays.append(place_of(case))
-        words.append(f"{place_of(case)}: {100 * late:.2g} %")
-    if not words:
-        return undecided("", "no case separates")
-    return finding("; ".join(words), len(stays) < len(words), f"not at {', '.join(stays)}" if stays else "")
+        rows.append({"place": place_of(case), "percent": 100 * late})
+    return Answer(len(stays) < len(rows) if rows else None, "none", cases=rows, stays=stays)
 
 
-@Claim(
-    "Damper normal to the disc",
-    "Conclusions",
-    "Damping normal to the disc stabilises.",
-    tolerance="c = 0.5 N s/m lowers the growth rate of every cycle that grows without it by 1e-3 per second or more",
-    reason="growth rates are right to 1e-7; a cycle that is lost or found with the damper has no two rates to compare",
-)
-def normal_damping(found: Evidence) -> Finding:
+@CHECKS("Damper normal to the disc")
+def normal_damping(found: Evidence) -> Answer:
     without, with_damper, _ = _damped(found, "c")
     compared = (without > SLOW) & np.isfinite(with_damper)
-    lower = compared & (with_damper < without)
-    stable = compared & (with_damper < 0)
-    ours = (
-        f"lower at {int(lower.sum())} of {int(compared.sum())} points with a growing cycle, stable at "
-        f"{int(stable.sum())}"
-    )
-    if not compared.any():
-        return undecided(ours, "no cycle grows without the damper")
-    return finding(ours, bool(lower.sum() == compared.sum()))
+    lower, stable = compared & (with_damper < without), compared & (with_damper < 0)
+    lowered, count = int(lower.sum()), int(compared.sum())
+    return Answer(lowered == count if count else None, "none", lower=lowered, count=count, stable=int(stable.sum()))
 
 
-@Claim(
-    "Damper in the disc's plane",
-    "Conclusions",
-    "In-plane damping destabilises at some large preloads.",
-    tolerance="at 300 N or more, somewhere on a grid, c_p = 0.5 N s/m raises a growth rate that is positive with it by "
-    "1e-3 per second or more, or a stable cycle ends",
-    reason="one place decides; ten cycles or more have to be there for none to mean anything",
-)
-def inplane_damping(found: Evidence) -> Finding:
+@CHECKS("Damper in the disc's plane")
+def inplane_damping(found: Evidence, *, large: float, fewest: float) -> Answer:
     without, damped, status = _damped(found, "c_p")
-    large = (found.grid("survival_damping")["N"].values >= LARGE)[:, None]
+    heavy = (found.grid("survival_damping")["N"].values >= large)[:, None]
     both = np.isfinite(without) & np.isfinite(damped)
     higher = both & (damped > 0) & (damped > without + SLOW)
-    ended = (without < -SLOW) & np.isin(status, ("no_cycle", "separates"))
-    grows = [int((higher & place).sum()) for place in (large, ~large)]
-    ends = measures.counted(int((ended & large).sum()), "stable cycle")
-    ours = (
-        f"at {LARGE:g} N or more higher at {grows[0]} of {int((both & large).sum())} points, and {ends} ended; below, "
-        f"higher at {grows[1]} of {int((both & ~large).sum())}"
+    ended = int(((without < -SLOW) & np.isin(status, ("no_cycle", "separates")) & heavy).sum())
+    above, below = ({"higher": int((higher & at).sum()), "of": int((both & at).sum())} for at in (heavy, ~heavy))
+    destabilises = above["higher"] + ended > 0
+    return Answer(
+        destabilises if destabilises or above["of"] >= fewest else None,
+        "few",
+        above=above,
+        ended=measures.counted(ended, "stable cycle"),
+        below=below,
     )
-    if grows[0] or (ended & large).any():
-        return finding(ours, True)
-    return finding(ours, False) if (both & large).sum() >= 10 else undecided(ours, "too few cycles to mean anything")
 
 
 def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]:
@@ -335,19 +267,13 @@ def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]
     return one["growth_rate"].values, two["growth_rate"].values, flag_names(two["status"])
 
 
-@Claim(
-    "Not periodic afterwards",
-    "Conclusions",
-    "After a separation the motion does not settle to a periodic one.",
-    tolerance="no period within half of the last 60 s, by releases of stick, or by separations where it hardly sticks: "
-    "in every case; 1e-8 s",
-    reason="far above rounding, far below what an irregular motion leaves; the paper judges sections by their looks",
-)
-def not_periodic(found: Evidence) -> Finding:
+@CHECKS("Not periodic afterwards")
+def not_periodic(found: Evidence) -> Answer:
     cases = found.separating()
     repeats = [_repeats(case) for case in cases]
-    words = [f"{place_of(case)}: {told}" for case, (_, told) in zip(cases, repeats, strict=True)]
-    return _of_cases(words, [None if kind is Kind.UNDECIDED else kind is not Kind.PERIODIC for kind, _ in repeats])
+    rows = [{"place": place_of(case), "motion": told} for case, (_, told) in zip(cases, repeats, strict=True)]
+    holds = [None if kind is Kind.UNDECIDED else kind is not Kind.PERIODIC for kind, _ in repeats]
+    return Answer(*_all_cases(holds), cases=rows)
 
 
 def _repeats(case: CaseView) -> tuple[Kind, str]:
@@ -363,18 +289,14 @@ def _repeats(case: CaseView) -> tuple[Kind, str]:
     return Kind.UNDECIDED, "too few switches"
 
 
-def _of_cases(words: Sequence[str], holds: Sequence[bool | None]) -> Finding:
+def _all_cases(holds: Sequence[bool | None]) -> tuple[bool | None, str]:
     """The verdict on a statement about every case: one against it is enough, an open one (None) leaves it open."""
-    ours = "; ".join(words)
     if False in holds:
-        return finding(ours, False)
-    if None in holds or not holds:
-        return undecided(ours, "not every case decides" if holds else "no case separates")
-    return finding(ours, True)
+        return False, ""
+    return (None, "open" if holds else "none") if None in holds or not holds else (True, "")
 
 
-CONCLUSIONS = tuple(one for one in list(vars().values()) if isinstance(one, Claim))
-"""In the order in which they stand here."""
+CONCLUSIONS = CHECKS.claims("survival.yaml")
 
 # ----------------------------------------------------------------------------------------------------
 # The page
@@ -391,25 +313,19 @@ def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["conclusion", "model", "verdict", "ours", "remark"])
 
 
-INTRODUCTION = (
-    "Four models: the paper's (as published); the same with orthonormal modes, Eq. (17); with residual flexibility in "
-    "the contact besides; with the contact force normal to the deformed disc besides, so that the last has all three "
-    "changes. Nine modes, base values, the published start; the same checks for each. Undecided means that the motions "
-    "computed do not tell."
-)
-
-
 def page_of(table: pd.DataFrame) -> Comparison:
     """What `judge` found, as a page: all verdicts at a glance, then what each rests on."""
+    texts = page_texts("survival")
     verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
     first = pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})
     for model in MODELS:
         first[model.name[0].upper() + model.name[1:]] = verdicts[model.name].to_numpy()
-    sections = [("At a glance", INTRODUCTION, first)]
+    sections = [("At a glance", texts["introduction"], first)]
     for one in CONCLUSIONS:
         rows = table[table["conclusion"] == one.id].drop(columns="conclusion")
         shown = rows.rename(columns={"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"})
         if not rows["remark"].any():
             shown = shown.drop(columns="Remark")
-        sections.append((one.id, f"{one.text} Rule: {one.tolerance}. Why: {one.reason}.", shown))
-    return Comparison("What survives of the paper's conclusions", tuple(sections))
+        rule = texts["rule"].format(text=one.text, tolerance=one.tolerance, reason=one.said.reason)
+        sections.append((one.id, rule, shown))
+    return Comparison(texts["title"], tuple(sections))
