@@ -29,6 +29,7 @@ from disc_model.claims.model import (
     Finding,
     Missing,
     Text,
+    paper_cases,
 )
 from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import events_dataset
@@ -60,6 +61,16 @@ def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
     assert [*table.reset_index().columns] == list(COLUMNS)
     assert list(table.index) == [claim.id for claim in CLAIMS]
     assert table.index.is_unique
+
+
+def test_cases_are_those_that_the_texts_speak_of() -> None:
+    count = 0
+    for claim in CLAIMS:
+        if said := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.text):
+            p = paper_cases()[next(iter(claim.said.cases))]["parameters"]
+            assert (p["N"], p["Omega"]) == tuple(map(float, said.groups())), claim.id
+            count += 1
+    assert count > 10
 
 
 def test_the_workflow_is_told_of_every_scan() -> None:

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from disc_model import Parameters
-from disc_model.claims.cases import PARAMETERS
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.files import StudyError
 from disc_model.studies.schema import load_study, parse_study, study_from_config
@@ -35,12 +34,6 @@ def raw_study() -> dict[str, Any]:
 @pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
 def test_shipped_files_are_valid_and_named_after_their_study(path: Path) -> None:
     assert load_study(path).name == path.stem
-
-
-def test_paper_has_the_cases_that_claims_are_about() -> None:
-    specs = load_study(ROOT / "config" / "paper.yaml").specs
-    wanted = {name: Parameters(**values) for name, values in PARAMETERS.items()}
-    assert {name: specs[name].parameters for name in wanted} == wanted
 
 
 def test_cases_inherit_and_override() -> None:
