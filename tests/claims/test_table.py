@@ -67,8 +67,8 @@ def test_cases_are_those_that_the_texts_speak_of() -> None:
     count = 0
     for claim in CLAIMS:
         if said := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.text):
-            p = paper_cases()[next(iter(claim.said.cases))]["parameters"]
-            assert (p["N"], p["Omega"]) == tuple(map(float, said.groups())), claim.id
+            found = {(p["N"], p["Omega"]) for p in (paper_cases()[name]["parameters"] for name in claim.said.cases)}
+            assert tuple(map(float, said.groups())) in found, claim.id
             count += 1
     assert count > 10
 
