@@ -13,7 +13,7 @@ from snakemake.settings.enums import PersistenceBackend
 
 from disc_model.data import provenance
 from disc_model.data.provenance import PACKAGE, git_commit, source_files, source_hash, unrecorded, versions, why_unknown
-from disc_model.figures.paper.catalogue import CATALOGUE, module_of
+from disc_model.figures.paper.catalogue import CATALOGUE
 
 
 def names(*modules: str) -> set[str]:
@@ -34,9 +34,9 @@ def test_a_simulation_depends_on_the_whole_engine_and_on_no_figure_or_claim() ->
 @pytest.mark.parametrize("figure", CATALOGUE)
 def test_a_figure_depends_on_its_module_and_the_style_but_not_on_the_solver(figure: str) -> None:
     def file_of(name: str) -> str:
-        return module_of(name).removeprefix("disc_model.").replace(".", "/") + ".py"
+        return CATALOGUE[name].plot.module.removeprefix("disc_model.").replace(".", "/") + ".py"
 
-    found = names(module_of(figure))
+    found = names(CATALOGUE[figure].plot.module)
     assert {file_of(figure), "figures/parts.py"} <= found
     assert not {name for name in found if name.startswith(("engine/", "claims/")) or name == "simulation/api.py"}
     # figures of one kind share a module; another kind's module must not make this one be drawn again

@@ -66,20 +66,19 @@ def run(script: str, *arguments: str) -> None:
 
 def case(folder: Path) -> None:
     """F02 of config/test.yaml: its text, its dataset and Fig. 2."""
-    from disc_model.figures.paper.catalogue import CATALOGUE, caption, function_of, module_of
+    from disc_model.figures.paper.catalogue import CATALOGUE, caption
     from disc_model.studies.schema import study_from_config
 
     study = study_from_config(yaml.safe_load(CONFIG.read_text(encoding="utf-8")), [CONFIG])
     dataset = str(folder / "F02.nc")
     run("simulate_case", study.specs["F02"].canonical, dataset)
-    options, out = json.dumps(CATALOGUE["fig02"].options), str(folder / "fig02.png")
+    plot, out = CATALOGUE["fig02"].plot.model_dump_json(), str(folder / "fig02.png")
     title = caption(
         "fig02",
         {name: spec.parameters for name, spec in study.specs.items()},
         {name: spec.sections for name, spec in study.specs.items()},
     )
-    drawn_by = module_of("fig02"), function_of("fig02")
-    run("draw_figure", *drawn_by, dataset, "--options", options, "--title", title, "--out", out)
+    run("draw_figure", plot, f"F02={dataset}", "--title", title, "--out", out)
 
 
 def point(folder: Path) -> None:

@@ -178,7 +178,7 @@ ALL: Callable[[Project], Jobs] = lambda project: batches(project, "inc_map") | b
     [
         ("src/disc_model/figures/grids/stability_map.py", lambda _: {("draw_plot", "inc_map")}),
         ("src/disc_model/figures/disc_model.mplstyle", lambda _: {("draw_plot", "inc_map")}),
-        ("workflow/scripts/draw_plot.py", lambda _: {("draw_plot", "inc_map")}),
+        ("workflow/scripts/draw_figure.py", lambda _: {("draw_plot", "inc_map")}),
         (f"{GRIDS}/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
         (f"{GRIDS}/schema.py", lambda _: set()),
         # the options by which a summary is made are checked at each merge

@@ -191,7 +191,11 @@ rule draw_benchmark:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("draw_benchmark", files=[STYLE]),
+        plot=lambda wildcards: OwnFigure(
+            by="benchmark.draw", options={"figure": wildcards.figure}
+        ).model_dump_json(),
+        sources=sources_of("draw_figure", "disc_model.figures.benchmark", files=[STYLE]),
+        files=lambda wildcards, input: [f"{Path(file).stem}={file}" for file in input],
     shell:
-        "python workflow/scripts/draw_benchmark.py {wildcards.figure} {input} --out {output.pdf} --out {output.png}"
+        "python workflow/scripts/draw_figure.py {params.plot:q} {params.files:q} --out {output.pdf} --out {output.png}"
         " > {log} 2>&1"

@@ -20,15 +20,13 @@ SOURCES = (WORKFLOW.parent / "src").resolve()
 if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
 try:
-    from disc_model.figures.cases.kinds import MODULE
+    from disc_model.figures import STYLE
+    from disc_model.figures.kinds import OwnFigure
     from disc_model.figures.paper.catalogue import (
         CATALOGUE,
         SECTIONS,
-        STYLE,
         caption,
-        function_of,
         label,
-        module_of,
         said_parameters,
     )
     from disc_model.kernels import KINDS, kinds_of_case
@@ -252,7 +250,7 @@ def grid_made_of(study):
 def plot_made_of(study, name):
     plot = GRIDS[study].plots[name]
     shown = [grid_made_of(other) for _, other in sorted(plot.others.items())]
-    sources = sources_of("draw_plot", plot.module, files=[STYLE])
+    sources = sources_of("draw_figure", plot.module, files=[STYLE])
     return digest(plot.model_dump_json(), grid_made_of(study), shown, sources)
 
 
@@ -265,26 +263,25 @@ def shown_by(wildcards):
 
 def cases_of(figure):
     plot = STUDY.plots.get(figure)
-    return list(CATALOGUE[figure].cases if plot is None else plot.cases)
+    return list(CATALOGUE[figure].cases) if plot is None else [plot.case]
 
 
-def drawn_by(figure):
-    """The module and the function that draw a figure, the options it is given, and what the figure's file says of it."""
-    if figure in STUDY.plots:
-        plot = STUDY.plots[figure]
+def figure_of(name):
+    """A figure of cases as its kind describes it."""
+    return STUDY.plots[name] if name in STUDY.plots else CATALOGUE[name].plot
+
+
+def caption_of(name):
+    """What a figure of cases says of itself."""
+    if name in STUDY.plots:
+        plot = STUDY.plots[name]
         said = said_parameters(STUDY.specs[plot.case].parameters)
-        return (
-            MODULE,
-            "draw",
-            plot.model_dump(),
-            f"{plot.title or figure}: {plot.case}, {said}",
-        )
-    text = caption(
-        figure,
-        {name: spec.parameters for name, spec in STUDY.specs.items()},
-        {name: spec.sections for name, spec in STUDY.specs.items()},
+        return f"{plot.title or name}: {plot.case}, {said}"
+    return caption(
+        name,
+        {case: spec.parameters for case, spec in STUDY.specs.items()},
+        {case: spec.sections for case, spec in STUDY.specs.items()},
     )
-    return module_of(figure), function_of(figure), CATALOGUE[figure].options, text
 
 
 def motion_file(study, key):
@@ -305,7 +302,7 @@ def explorer_pictures():
                 "Figures of cases" if own else SECTIONS[CATALOGUE[name].section]
             ),
             "title": name if own else label(name),
-            "caption": drawn_by(name)[3],
+            "caption": caption_of(name),
             "file": f"{RESULTS}/figures/{name}.png",
         }
     for name in ASKED:

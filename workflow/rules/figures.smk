@@ -36,19 +36,18 @@ rule draw_figure:
     conda:
         "../envs/disc_model.yaml"
     params:
-        caption=lambda wildcards: drawn_by(wildcards.figure)[3],
-        options=lambda wildcards: json.dumps(
-            drawn_by(wildcards.figure)[2], sort_keys=True
-        ),
-        module=lambda wildcards: drawn_by(wildcards.figure)[0],
-        function=lambda wildcards: drawn_by(wildcards.figure)[1],
+        plot=lambda wildcards: figure_of(wildcards.figure).model_dump_json(),
+        cases=lambda wildcards: [
+            f"{case}={case_file(case)}" for case in cases_of(wildcards.figure)
+        ],
+        caption=lambda wildcards: caption_of(wildcards.figure),
         made_of=lambda wildcards: cases_made_of(cases_of(wildcards.figure)),
         sources=lambda wildcards: sources_of(
-            "draw_figure", drawn_by(wildcards.figure)[0], files=[STYLE]
+            "draw_figure", figure_of(wildcards.figure).module, files=[STYLE]
         ),
     shell:
-        "python workflow/scripts/draw_figure.py {params.module} {params.function} --options {params.options:q}"
-        " --title {params.caption:q} --out {output.pdf} --out {output.png} {input} > {log} 2>&1"
+        "python workflow/scripts/draw_figure.py {params.plot:q} {params.cases:q} --title {params.caption:q}"
+        " --out {output.pdf} --out {output.png} > {log} 2>&1"
 
 
 # A study of cases and a grid of the same name share a folder of figures.

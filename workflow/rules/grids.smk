@@ -102,5 +102,5 @@ rule draw_plot:
             f"{role}={file}" for role, file in shown_by(wildcards).items()
         ],
     shell:
-        "python workflow/scripts/draw_plot.py {params.plot:q} {input.study} {params.others:q}"
+        "python workflow/scripts/draw_figure.py {params.plot:q} study={input.study} {params.others:q}"
         " --out {output.pdf} --out {output.png} > {log} 2>&1"

@@ -165,7 +165,64 @@ def typeset(text: str) -> str:
     return re.sub(r"\b(\w)_(\w)\b", r"$\1_\2$", text)
 
 
-_SYMBOLS = {"Omega": "Ω", "D_star": "D*", "mu_s": "μ_s", "mu_k": "μ_k", "nu": "ν", "rho": "ρ"}
+class Shown(NamedTuple):
+    """How a variable is shown to readers: name, symbol, unit, and the factor to it from SI."""
+
+    name: str
+    symbol: str
+    unit: str
+    factor: float = 1.0
+
+
+SHOWN = {
+    "N": Shown("Preload", "N", "N"),
+    "Omega": Shown("Speed", "Ω", "rad/s"),
+    "D_star": Shown("Damping of the disc", "D*", "10⁻⁵ N m s", 1e5),
+    "c": Shown("Damper", "c", "N s/m"),
+    "c_p": Shown("In-plane damper", "c_p", "N s/m"),
+    "k": Shown("Spring", "k", "kN/m", 1e-3),
+    "k_p": Shown("In-plane spring", "k_p", "kN/m", 1e-3),
+    "E": Shown("Young's modulus", "E", "GPa", 1e-9),
+    "m": Shown("Mass", "m", "g", 1e3),
+    "mu_s": Shown("Static friction", "μ_s", ""),
+    "mu_k": Shown("Kinetic friction", "μ_k", ""),
+    "a": Shown("Inner radius", "a", "mm", 1e3),
+    "b": Shown("Outer radius", "b", "mm", 1e3),
+    "r_0": Shown("Slider's radius", "r_0", "mm", 1e3),
+    "h": Shown("Thickness", "h", "mm", 1e3),
+    "nu": Shown("Poisson's ratio", "ν", ""),
+    "rho": Shown("Density", "ρ", "kg/m³"),
+    "contact_compliance": Shown("Contact compliance C", "", "μm/N", 1e6),
+    "kick_u": Shown("Kick", "", "mm", 1e3),
+    "kick_u_velocity": Shown("Kick", "", "m/s"),
+    "kick_f": Shown("Kick", "", "rad/s"),
+    "n_diameters": Shown("Nodal diameters", "", ""),
+    "n_circles": Shown("Nodal circles", "", ""),
+    "P": Shown("Contact force", "P", "N"),
+    "u": Shown("Slider", "u", "mm", 1e3),
+    "u_velocity": Shown("Slider du/dt", "", "m/s"),
+    "w": Shown("Disc under the slider", "w", "mm", 1e3),
+    "w_point": Shown("Disc at r_0", "", "mm", 1e3),
+    "w_point_velocity": Shown("Disc velocity at r_0", "", "m/s"),
+    "psi": Shown("Angle", "ψ", "rad"),
+    "psi_velocity": Shown("dψ/dt", "", "rad/s"),
+}
+"""Parameters that are numbers, kicks, and what is sampled of a motion."""
+
+
+def symbol_of(name: str) -> str:
+    """A parameter's symbol, or its name if it has none."""
+    return (SHOWN[name].symbol if name in SHOWN else "") or name
+
+
+def axis_of(name: str, where: str = "") -> tuple[str, float]:
+    """Label of the axis of a variable in `SHOWN`, and the factor from SI to its unit.
+
+    where : stands behind the name, such as an angle
+    """
+    shown = SHOWN[name]
+    unit = f" ({shown.unit})" if shown.unit else ""
+    return typeset(f"{shown.name} {shown.symbol}".strip()) + where + unit, shown.factor
 
 
 def said_values(values: Mapping[str, Any]) -> str:
@@ -177,5 +234,5 @@ def said_values(values: Mapping[str, Any]) -> str:
             if name in ("N", "Omega") or value != field.default:
                 number = isinstance(value, float | int)  # some parameters may be words, which have no unit
                 shown = f"{value:g}" + (f" {unit}" if unit not in ("", "1") else "") if number else str(value)
-                said.append(f"{_SYMBOLS.get(name, name)} = {shown}")
+                said.append(f"{symbol_of(name)} = {shown}")
     return ", ".join(said)

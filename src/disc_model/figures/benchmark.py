@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import cycle, product
 from typing import Any
 
@@ -37,7 +37,6 @@ from disc_model.figures.parts import (
     VERMILION,
     halo,
     new_figure,
-    styled,
 )
 
 TITLES = {
@@ -88,7 +87,6 @@ LINES = {
 # Speed against accuracy
 
 
-@styled()
 def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
     """One scene: cost against event-time error and against state error, the fitted order at each line's fine end.
 
@@ -104,7 +102,6 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
     return figure
 
 
-@styled()
 def overview(dataset: xr.Dataset) -> Figure:
     """All scenes: cost against event-time error."""
     figure, axes = _panels(4, "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
@@ -217,7 +214,6 @@ _ENOUGH = "#E4F1E4"
 _RED = "#B2182B"
 
 
-@styled()
 def answers(dataset: xr.Dataset) -> Figure:
     """Wall time against the error of each answer; with their numbers of nodal diameters, the errors of models.
 
@@ -284,7 +280,6 @@ def _number_models(ax: Axes, points: xr.Dataset, least: float) -> None:
             ax.annotate(f"{int(count)}", tuple(at), ha="center", va="center", fontsize=6, path_effects=_HALO)
 
 
-@styled()
 def prices(dataset: xr.Dataset) -> Figure:
     """What each method asks for each right answer: wall time at its cheapest right setting.
 
@@ -346,7 +341,6 @@ def _seconds(value: float) -> str:
 # Where methods fail
 
 
-@styled()
 def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: verdict over setting and number of modes, with what explains the borders."""
     figure, axes = _map_panels(maps, SHADES, row=1.45, more=0.75)
@@ -363,7 +357,6 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     return figure
 
 
-@styled()
 def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: whether it finds the first separation, over setting and number of modes."""
     figure, _ = _map_panels(maps, ANSWER_SHADES, row=1.35, more=0.4)
@@ -472,7 +465,6 @@ _CONTACT_PANELS: Panels = (
 )
 
 
-@styled()
 def contact_truncation(dataset: xr.Dataset) -> Figure:
     """What residual flexibility changes, against the number of real modes; a colour for each case.
 
@@ -520,7 +512,6 @@ def _gone(ax: Axes, line: xr.Dataset, color: str) -> None:
         ax.plot(line["modes"][gone], np.zeros(gone.sum()), "x", color=color, markersize=3.5, zorder=4, **at_foot)
 
 
-@styled()
 def truncation(dataset: xr.Dataset) -> Figure:
     """What a study asks for against the number of real modes, a colour for each number of nodal circles.
 
@@ -595,3 +586,30 @@ def _cut(ax: Axes, values: np.ndarray) -> None:
         ax.text(
             1.0, 0.97, text, transform=ax.transAxes, ha="right", va="top", fontsize=6, color=GREY, path_effects=_HALO
         )
+
+
+# ----------------------------------------------------------------------------------------------------
+# All of them
+
+SCENE = "work_precision_"
+OF_ONE: dict[str, Callable[[xr.Dataset], Figure]] = {
+    "overview": overview,
+    "answers": answers,
+    "prices": prices,
+    "truncation": truncation,
+    "contact_truncation": contact_truncation,
+}
+OF_MAPS: dict[str, Callable[[Sequence[xr.Dataset]], Figure]] = {
+    "failure_maps": failure_maps,
+    "answer_maps": answer_maps,
+}
+
+
+def draw(inputs: Mapping[str, xr.DataTree], *, figure: str) -> Figure:
+    """A figure by its name; that of a scene is called `SCENE` and the scene."""
+    datasets = [tree.to_dataset() for tree in inputs.values()]
+    if figure in OF_MAPS:
+        return OF_MAPS[figure](datasets)
+    if figure.startswith(SCENE):
+        return work_precision(datasets[0], figure.removeprefix(SCENE))
+    return OF_ONE[figure](datasets[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -19,8 +20,9 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import WITHOUT_CYCLE, flag_names, said_values, typeset
+from disc_model.data.variables import SHOWN, WITHOUT_CYCLE, axis_of, flag_names, said_values, typeset
 from disc_model.figures import STYLE
+from disc_model.figures.kinds import CasePlot, OwnFigure, Plot
 
 COLUMN = 89 / 25.4
 """Width of one column, inch."""
@@ -74,6 +76,28 @@ def styled() -> Iterator[None]:
         yield
 
 
+def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -> Figure:
+    """A figure of any kind from what it shows, in the common style.
+
+    Parameters
+    ----------
+    inputs : of a figure of a grid, the study as ``study`` and further ones by their roles; else by name, such as cases
+    """
+    module, _, name = (plot.by if isinstance(plot, OwnFigure) else plot.drawn_by).rpartition(".")
+    function = getattr(importlib.import_module(f"{__package__}.{module}"), name)
+    with styled():
+        if isinstance(plot, Plot):
+            study, *others = (tree.to_dataset() for tree in inputs.values())
+            figure: Figure = function(study, dict(zip([*inputs][1:], others, strict=True)), plot)
+        elif isinstance(plot, CasePlot):
+            (case,) = inputs.values()
+            figure = function(inputs, **plot.options)
+            entitle(figure, plot.title, what_case(json.loads(case.attrs.get("parameters", "{}"))))
+        else:
+            figure = function(inputs, **plot.options)
+    return figure
+
+
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inch, outside of pyplot's state."""
     return Figure(figsize=(width, height), layout="constrained")
@@ -87,34 +111,6 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
         metadata["Title"] = title
     with styled():
         figure.savefig(path, metadata=metadata)
-
-
-SYMBOLS = {
-    "N": ("Preload N", "N", 1.0),
-    "Omega": ("Speed Ω", "rad/s", 1.0),
-    "D_star": ("Damping of the disc D*", "10⁻⁵ N m s", 1e5),
-    "c": ("Damper c", "N s/m", 1.0),
-    "c_p": ("In-plane damper $c_p$", "N s/m", 1.0),
-    "k": ("Spring k", "kN/m", 1e-3),
-    "k_p": ("In-plane spring $k_p$", "kN/m", 1e-3),
-    "E": ("Young's modulus E", "GPa", 1e-9),
-    "m": ("Mass m", "g", 1e3),
-    "mu_s": ("Static friction $\\mu_s$", "", 1.0),
-    "mu_k": ("Kinetic friction $\\mu_k$", "", 1.0),
-    "a": ("Inner radius a", "mm", 1e3),
-    "b": ("Outer radius b", "mm", 1e3),
-    "r_0": ("Slider's radius $r_0$", "mm", 1e3),
-    "h": ("Thickness h", "mm", 1e3),
-    "nu": ("Poisson's ratio ν", "", 1.0),
-    "rho": ("Density ρ", "kg/m³", 1.0),
-    "contact_compliance": ("Contact compliance C", "μm/N", 1e6),
-    "kick_u": ("Kick", "mm", 1e3),
-    "kick_u_velocity": ("Kick", "m/s", 1.0),
-    "kick_f": ("Kick", "rad/s", 1.0),
-    "n_diameters": ("Nodal diameters", "", 1.0),
-    "n_circles": ("Nodal circles", "", 1.0),
-}
-"""Name, unit and factor to it from SI of each parameter that is a number."""
 
 
 @contextmanager
@@ -147,12 +143,6 @@ SAID = {**MODES, **FORCES}
 """Words of parameters as panels are titled, those of the paper first."""
 
 
-def axis_of(name: str) -> tuple[str, float]:
-    """Label of a parameter's axis, and the factor from SI to its unit."""
-    label, unit, factor = SYMBOLS[name]
-    return (f"{label} ({unit})" if unit else label), factor
-
-
 def halo(width: float = 1.5) -> list[AbstractPathEffect]:
     """A white edge of text that lies over lines or colours; width in points."""
     return [withStroke(linewidth=width, foreground="white")]
@@ -160,7 +150,7 @@ def halo(width: float = 1.5) -> list[AbstractPathEffect]:
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Label of the axis of any variable or coordinate, and the factor from SI to its unit."""
-    if variable.name in SYMBOLS:
+    if variable.name in SHOWN:
         return axis_of(str(variable.name))
     words = str(variable.attrs.get("long_name", variable.name))
     unit = str(variable.attrs.get("units", "1")).replace("s-1", "/s").replace(" /", "/")
@@ -292,30 +282,34 @@ def envelope(ax: Axes, history: xr.Dataset, name: str, *, scale: float = 1.0, co
     ax.set_xlim(0, round(time[-1] + (time[-1] - time[-2]) / 2, 2))
 
 
-def disc_label(*windows: xr.Dataset) -> str:
-    """The axis of ``w_point`` in mm: at which angle of the disc it was recorded in these windows."""
-    angles = sorted({float(window.attrs["theta"]) for window in windows})
-    return rf"Disc at $r_0$, $\theta$ = {' and '.join(f'{angle:g}' for angle in angles)} (mm)"
+COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}
+"""Of what is sampled; what is not here belongs to the slider."""
 
 
-SAMPLED = {
-    "P": ("Contact force P (N)", 1.0, FORCE),
-    "u": ("Slider u (mm)", 1e3, SLIDER),
-    "u_velocity": ("Slider du/dt (m/s)", 1.0, SLIDER),
-    "w": ("Disc under the slider w (mm)", 1e3, DISC),
-    "psi": ("ψ (rad)", 1.0, SLIDER),
-    "psi_velocity": ("dψ/dt (rad/s)", 1.0, SLIDER),
-}
-"""Label, factor from SI and colour of what is sampled; labels of the disc's fixed point also say where it is."""
+def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
+    """Label of the axis of what was sampled in windows, the factor from SI to its unit, and its colour.
+
+    Of the disc's fixed point the label says at which angle it is.
+    """
+    angles = sorted({float(window.attrs["theta"]) for window in windows if "theta" in window.attrs})
+    at = " and ".join(f"{angle:g}" for angle in angles)
+    label, factor = axis_of(name, rf", $\theta$ = {at}" if name.startswith("w_point") else "")
+    return label, factor, COLOURS.get(name, SLIDER)
 
 
-def sampled(name: str, window: xr.Dataset) -> tuple[str, float, str]:
-    """Label of the axis of a variable that was sampled in a window, the factor from SI to its unit, and its colour."""
-    if name == "w_point":
-        return disc_label(window), 1e3, DISC
-    if name == "w_point_velocity":
-        return rf"Disc velocity at $r_0$, $\theta$ = {float(window.attrs['theta']):g} (m/s)", 1.0, DISC
-    return SAMPLED[name]
+def show_run(ax: Axes, case: xr.DataTree, name: str, until: float = np.inf) -> str:
+    """The range of a variable over the run, with its first separation; the label of its axis."""
+    ranges = history(case, until)
+    label, factor, colour = sampled(name, ranges)
+    envelope(ax, ranges, name, scale=factor, color=colour)
+    mark_first_separation(ax, case)
+    return label
+
+
+def headroom(ax: Axes, share: float) -> None:
+    """Leave room above what is shown, a share of its height."""
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + share * (high - low))
 
 
 def stretches(there: np.ndarray) -> list[tuple[int, int]]:
@@ -324,9 +318,9 @@ def stretches(there: np.ndarray) -> list[tuple[int, int]]:
     return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
 
 
-def mark_first_separation(ax: Axes, time: float) -> None:
+def mark_first_separation(ax: Axes, case: xr.DataTree) -> None:
     """A line at the first separation, with its time above it; nothing if there was none in the time shown."""
-    low, high = ax.get_xlim()
+    time, (low, high) = float(case["first_separation"]), ax.get_xlim()
     if not low <= time <= high:
         return
     ax.axvline(time, color=SEPARATED, linewidth=0.8, linestyle=(0, (4, 2)))

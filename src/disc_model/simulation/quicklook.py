@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from disc_model.data.variables import said_values, typeset
+from disc_model.data.variables import axis_of, said_values, typeset
 from disc_model.errors import Fault, ParameterError
 
-PANELS = (("P", 1.0, "contact force P (N)"), ("w", 1e3, "disc under the slider w (mm)"))
+PANELS = ("P", "w")
 
 
 class Sampled(Protocol):
@@ -64,12 +64,13 @@ def quicklook(result: Sampled) -> Figure:
         FigureClass=_ShownOnce,
     )
     for column, window in enumerate(result.samples):
-        for row, (name, scale, label) in enumerate(PANELS):
+        for row, name in enumerate(PANELS):
+            label, scale = axis_of(name)
             _draw(axes[row, column], window, name, scale)
             if column == 0:
                 axes[row, column].set_ylabel(label)
         _mark_separation(axes[:, column], window["time"], result.first_separation)
-        axes[-1, column].set_xlabel("time (s)")
+        axes[-1, column].set_xlabel("Time (s)")
     p = result.parameters
     figure.suptitle(typeset(f"{said_values(p.model_dump())}, {p.normalization.replace('_', ' ')}, {p.contact}"))
     return figure

@@ -12,8 +12,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from disc_model.figures.cases.kinds import CASE_PLOTS
-from disc_model.figures.grids.kinds import PLOTS
+from disc_model.figures.kinds import CASE_PLOTS, PLOTS
 from disc_model.figures.paper.catalogue import CATALOGUE
 from disc_model.parameters import AUTO, Parameters
 from disc_model.simulation.case import Start

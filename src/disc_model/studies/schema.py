@@ -17,8 +17,7 @@ from pydantic import Field, model_validator
 
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS
 from disc_model.errors import DiscModelError, ParameterError, suggestion
-from disc_model.figures.cases.kinds import CASE_PLOTS, CasePlot
-from disc_model.figures.grids.kinds import PLOTS
+from disc_model.figures.kinds import CASE_PLOTS, PLOTS, CasePlot
 from disc_model.figures.paper.catalogue import CATALOGUE, lacking
 from disc_model.parameters import AUTO, Parameters, Positive, Real, Strict, Tolerance, leaves_modes
 from disc_model.plausibility import RULES

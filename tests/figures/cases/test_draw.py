@@ -10,9 +10,9 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from disc_model.figures.cases.draw import draw
-from disc_model.figures.cases.kinds import CASE_PLOTS
-from disc_model.figures.parts import SAMPLED, save
+from disc_model.data.variables import axis_of
+from disc_model.figures.kinds import CASE_PLOTS
+from disc_model.figures.parts import draw, save
 from tests.claims.damaged import damaged
 from tests.figures.grids.reading import labels
 from tests.figures.paper.test_catalogue import made_up_window
@@ -37,12 +37,12 @@ def case() -> xr.DataTree:
 
 def drawn(case: xr.DataTree, kind: str, **said: Any) -> Figure:
     plot = CASE_PLOTS[kind].model_validate({"kind": kind, "case": "A", **said})
-    return draw({"A": case}, **plot.model_dump())
+    return draw(plot, {"A": case})
 
 
 def test_a_history_has_a_panel_for_each_variable(case: xr.DataTree, tmp_path: Path) -> None:
     figure = drawn(case, "history", window="late", variables=["P", "w_point", "psi"], title="Seen")
-    assert figure.axes[0].get_ylabel() == SAMPLED["P"][0]
+    assert figure.axes[0].get_ylabel() == axis_of("P")[0]
     assert figure.get_suptitle() == "Seen\nN = 200 N, Ω = 20 rad/s"
     assert len(figure.axes) == 3
     line = figure.axes[0].lines[0]
@@ -68,7 +68,7 @@ def test_a_spectrogram_shows_the_frequency_that_is_there(case: xr.DataTree) -> N
 def test_a_portrait_is_coloured_by_phase(case: xr.DataTree) -> None:
     (ax,) = drawn(case, "portrait", window="late").axes
     assert labels(ax) == ["stick", "slip"]
-    assert ax.get_xlabel() == SAMPLED["psi"][0]
+    assert ax.get_xlabel() == axis_of("psi")[0]
 
 
 def test_a_section_has_slider_and_disc(case: xr.DataTree) -> None:

@@ -8,7 +8,7 @@ import xarray as xr
 
 from disc_model.figures.grids import basins as drawn
 from disc_model.figures.grids import critical_speed
-from disc_model.figures.grids.kinds import BasinShares, CriticalSpeed
+from disc_model.figures.kinds import BasinShares, CriticalSpeed
 from disc_model.figures.parts import save
 from disc_model.stability.basins import Attractor, Reached, Signature
 from disc_model.studies.grids.quantities import basins

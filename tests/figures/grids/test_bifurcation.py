@@ -10,7 +10,7 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.grids import bifurcation as attractors
-from disc_model.figures.grids.kinds import Bifurcation
+from disc_model.figures.kinds import Bifurcation
 from disc_model.figures.parts import save
 from tests.figures.grids.reading import crosses, labels, lines
 from tests.studies.grids.conftest import SMALL, computed, made_up_samples, with_failed
@@ -77,5 +77,5 @@ def test_a_diagram_without_exponents_has_one_panel() -> None:
     samples, _ = made_up_samples()
     samples["P"] = xr.full_like(samples["psi"], 1.0).assign_attrs(units="N")
     (ax,) = attractors.draw(samples, {}, Bifurcation(x="N", variable="P", scale=1.0)).axes
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Preload N (N)", "Contact force (N)")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Preload N (N)", "Contact force P (N)")
     assert len(ax.lines) == 1  # all of it stick

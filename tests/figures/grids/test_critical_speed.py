@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.figures.grids import critical_speed as curves
-from disc_model.figures.grids.kinds import CriticalSpeed
+from disc_model.figures.kinds import CriticalSpeed
 from disc_model.figures.parts import save
 from tests.figures.grids.reading import labels, lines
 from tests.studies.grids.conftest import growth_over

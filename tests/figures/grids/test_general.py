@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import parts
 from disc_model.figures.grids import curve, heat_map
-from disc_model.figures.grids.kinds import MOST_PANELS, CurvePlot, HeatMap
+from disc_model.figures.kinds import MOST_PANELS, CurvePlot, HeatMap
 from disc_model.figures.parts import save
 from tests.figures.grids.reading import labels, lines
 

@@ -8,7 +8,7 @@ import xarray as xr
 from disc_model.figures.grids import bifurcation as attractors
 from disc_model.figures.grids import critical_speed as curves
 from disc_model.figures.grids import growth_map, thresholds
-from disc_model.figures.grids.kinds import Bifurcation, CriticalSpeed, GrowthMap, Thresholds
+from disc_model.figures.kinds import Bifurcation, CriticalSpeed, GrowthMap, Thresholds
 from tests.figures.grids.reading import crosses, lines
 from tests.studies.grids.conftest import growth_over, in_base, made_up_samples, with_failed
 

@@ -8,7 +8,7 @@ from matplotlib.colors import AsinhNorm
 
 from disc_model.figures.grids import growth_map, stability_map
 from disc_model.figures.grids.cells import GREATEST
-from disc_model.figures.grids.kinds import GrowthMap, StabilityMap
+from disc_model.figures.kinds import GrowthMap, StabilityMap
 from disc_model.figures.parts import save
 from tests.figures.grids.reading import labels
 from tests.studies.grids.conftest import growth_over

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from disc_model.figures.grids.kinds import PLOTS, General, Plot
+from disc_model.figures.kinds import PLOTS, General, Plot
 from disc_model.parameters import Parameters
 from disc_model.studies.grids.quantities.schema import QUANTITIES
 from disc_model.studies.grids.schema import load_grids

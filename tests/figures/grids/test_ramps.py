@@ -8,7 +8,7 @@ import xarray as xr
 
 from disc_model.figures.grids import ramps as drawn
 from disc_model.figures.grids.growth_map import Curve, crossings
-from disc_model.figures.grids.kinds import RampedSpeeds
+from disc_model.figures.kinds import RampedSpeeds
 from disc_model.figures.parts import save
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import ramps

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.collections import LineCollection, QuadMesh
 
 from disc_model.figures.grids import region_map as maps
-from disc_model.figures.grids.kinds import Mark, RegionMap
+from disc_model.figures.kinds import Mark, RegionMap
 from disc_model.figures.parts import axis_of, save
 from disc_model.studies.grids.quantities import regions
 from tests.figures.grids.reading import ON_EACH_SCALE, labels

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from disc_model.figures.grids import stability_map as maps
-from disc_model.figures.grids.kinds import Mark, StabilityMap
+from disc_model.figures.kinds import Mark, StabilityMap
 from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import outcome
 from tests.figures.grids.reading import ON_EACH_SCALE, labels

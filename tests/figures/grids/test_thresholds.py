@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from disc_model.figures.grids import separating, thresholds
 from disc_model.figures.grids.growth_map import Curve
-from disc_model.figures.grids.kinds import Thresholds
+from disc_model.figures.kinds import Thresholds
 from disc_model.figures.parts import save
 from tests.figures.grids.reading import labels
 from tests.studies.grids.conftest import growth_over

@@ -12,7 +12,7 @@ from matplotlib.colors import to_hex
 
 from disc_model.figures.grids import campbell, sensitivity
 from disc_model.figures.grids.campbell import gaps, noted, spread
-from disc_model.figures.grids.kinds import Campbell, Sensitivity
+from disc_model.figures.kinds import Campbell, Sensitivity
 from disc_model.figures.parts import GREY, SKY
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.schema import parse_grid
@@ -29,9 +29,9 @@ def test_bars_and_probabilities_are_those_of_the_study() -> None:
     widths = [bar.get_width() for bar in first.patches]
     cell = study.isel(N=0).sel(output="instability")
     np.testing.assert_allclose(widths, [*cell["first_index"].values, *cell["total_index"].values])
-    assert [label.get_text() for label in first.get_yticklabels()] == ["k", "$\\mu_s$"]
+    assert [label.get_text() for label in first.get_yticklabels()] == ["k", "$μ_s$"]
     assert "N = 200 N" in first.get_title(loc="left")
-    assert "k, $\\mu_s$ ± 10 %" in figure.get_suptitle()
+    assert "k, $μ_s$ ± 10 %" in figure.get_suptitle()
 
 
 def test_what_lies_beyond_a_panel_of_indices_is_marked_and_what_is_not_known_grey() -> None:

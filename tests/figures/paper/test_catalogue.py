@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from pathlib import Path
 
 import matplotlib as mpl
@@ -13,11 +12,12 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window
-from disc_model.data.variables import KICKS
-from disc_model.figures.paper import catalogue
+from disc_model.data.variables import KICKS, SHOWN
+from disc_model.figures.kinds import OwnFigure
 from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, number_of, said_parameters
 from disc_model.figures.paper.separations import complete_separations, contact_force, separations
-from disc_model.figures.parts import COLUMN, PAGE, SYMBOLS, VERMILION, save
+from disc_model.figures.parts import COLUMN, PAGE, VERMILION, save
+from disc_model.figures.parts import draw as draw_figure
 from tests.claims.damaged import DAMAGES, damaged
 
 
@@ -99,9 +99,8 @@ def draw(name: str, *, separates: bool = True) -> Figure:
 
 
 def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
-    function = getattr(importlib.import_module(catalogue.module_of(name)), catalogue.function_of(name))
-    figure: Figure = function(cases, **OPTIONS.get(name, CATALOGUE[name].options))
-    return figure
+    plot = CATALOGUE[name].plot
+    return draw_figure(OwnFigure(by=plot.by, options=OPTIONS.get(name, plot.options)), cases)
 
 
 @pytest.mark.parametrize("separates", [True, False])
@@ -187,7 +186,7 @@ def test_parameters_that_are_words_are_said_as_words() -> None:
 def test_every_number_that_varies_has_a_symbol() -> None:
     """A map over the compliance of the contact passed the check of its file and ended in a KeyError."""
     numbers = [name for name in Parameters.model_fields if Parameters.unit(name)]
-    assert {*numbers, *KICKS} <= SYMBOLS.keys()
+    assert {*numbers, *KICKS} <= SHOWN.keys()
 
 
 def test_two_angles_are_both_named() -> None:

@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.kinds import BasinShares
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PURPLE, SEPARATED, new_figure, styled
+from disc_model.figures.kinds import BasinShares
+from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PURPLE, SEPARATED, new_figure
 
 COLOURS = {
     "quiet": BLUE,
@@ -31,7 +31,6 @@ ASIDE = 0.06
 """Marks of different fates stand beside each other, by this share of the least step."""
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares) -> Figure:
     """(a) shares of all starts; (b) range of each attractor, its mark as large as its share; (c) kicks."""
     study = parts.of_one(study, {})[1].transpose(plot.x, ...)

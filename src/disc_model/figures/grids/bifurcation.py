@@ -14,11 +14,9 @@ from matplotlib.lines import Line2D
 
 from disc_model.data.variables import flag_names, said_values
 from disc_model.figures import parts
-from disc_model.figures.grids.kinds import Bifurcation
-from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, PHASE_COLOURS, new_figure, styled
+from disc_model.figures.kinds import Bifurcation
+from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, PHASE_COLOURS, new_figure
 
-MOTION = {"psi": "Angle ψ", "psi_velocity": "dψ/dt", "P": "Contact force", "u": "Slider", "w_point": "Disc"}
-"""What is sampled of a motion."""
 SWITCHES = {"stick": "at release of stick", "separation": "at loss of contact"}
 """What samples at switches are called, by the phase that ends or begins there."""
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
@@ -27,7 +25,6 @@ ERRORS = 4
 """Of an exponent, in half of the band about it."""
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
     """Samples against a parameter; those in stick apart from those in slip or separation, and grey where the motion
     was not steady yet.
@@ -65,7 +62,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     unit = study[plot.variable].attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(xlabel)
-    ax.set_ylabel(f"{MOTION[plot.variable]} ({prefix}{unit.replace(' s-1', '/s')})")
+    ax.set_ylabel(f"{parts.axis_of(plot.variable)[0].rpartition(' (')[0]} ({prefix}{unit.replace(' s-1', '/s')})")
     if "lyapunov" in others:
         exponents = parts.without_failed(others["lyapunov"], "exponent", "exponent_error")
         _exponents(axes[1], exponents, plot.x)

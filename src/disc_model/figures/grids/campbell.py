@@ -15,8 +15,8 @@ from scipy.optimize import isotonic_regression
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.kinds import Campbell
-from disc_model.figures.parts import BLACK, BLUE, BROWN, COLUMN, GREY, SKY, SLIDER, new_figure, styled
+from disc_model.figures.kinds import Campbell
+from disc_model.figures.parts import BLACK, BLUE, BROWN, COLUMN, GREY, SKY, SLIDER, new_figure
 
 COLOURS = ("#332288", BLUE, "#999933", "#882255", SKY, BROWN)
 """Of the disc's modes by their nodal diameters; those of six or more as those of six fewer. None is that of a phase."""
@@ -28,7 +28,6 @@ LINEAR = 1.0
 """1/s: growth rates up to which their scale is linear."""
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:
     """(a) frequencies, (b) growth rates by mode; what happens to the cycle is numbered and said below."""
     norm = plot.normalization or parts.normalizations(study)[0]

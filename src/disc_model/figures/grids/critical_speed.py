@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from disc_model.figures import parts
-from disc_model.figures.grids.kinds import CriticalSpeed
 from disc_model.figures.grids.separating import draw_behind, draw_ends, draw_onsets, ends_handle, map_horizon
+from disc_model.figures.kinds import CriticalSpeed
 from disc_model.figures.parts import (
     BLACK,
     BLUE,
@@ -29,7 +29,6 @@ from disc_model.figures.parts import (
     PURPLE,
     SKY,
     new_figure,
-    styled,
 )
 
 COLORS = (SKY, BLUE, BLACK, GREEN, PURPLE)
@@ -40,7 +39,6 @@ WIDTH = 20.0
 """Of what is measured at one load, N: well within the step of the sweeps."""
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
     """(a) speeds at which separation begins within each horizon, (b) the same beside a sweep of the speed."""
     norm, study, others = parts.of_one(study, others)

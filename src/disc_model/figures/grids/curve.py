@@ -15,11 +15,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
-from disc_model.figures.grids.kinds import CurvePlot
-from disc_model.figures.parts import BLACK, COLUMN, new_figure, styled
+from disc_model.figures.kinds import CurvePlot
+from disc_model.figures.parts import BLACK, COLUMN, new_figure
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:
     """A line, or one for each value of a second dimension; marks at the axis where there is no value.
 

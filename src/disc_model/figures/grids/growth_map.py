@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells
-from disc_model.figures.grids.kinds import GrowthMap
-from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, axis_of, new_figure, styled
+from disc_model.figures.kinds import GrowthMap
+from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, axis_of, new_figure
 from disc_model.stability.resonances import Tongue
 
 Array = NDArray[np.float64]
@@ -150,7 +150,6 @@ def span(values: Array) -> tuple[float, float]:
     return float(values.min()), float(values.max())
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
     """A panel for each normalization, with the further study ``curves`` if it is given."""
     norms = parts.normalizations(study)

@@ -17,8 +17,8 @@ from matplotlib.patches import Patch
 
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
-from disc_model.figures.grids.kinds import HeatMap
-from disc_model.figures.parts import BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, new_figure, styled
+from disc_model.figures.kinds import HeatMap
+from disc_model.figures.parts import BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, new_figure
 
 WORDS = (BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE, GREY)
 """Colours of the values of a flag."""
@@ -26,7 +26,6 @@ HATCH = "//////"
 """Where there is no value."""
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> Figure:
     """Panels of one scale of colours; hatched where there is no value.
 

@@ -12,13 +12,12 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import parts
 from disc_model.figures.grids.growth_map import Curve, crossings, curves_of
-from disc_model.figures.grids.kinds import RampedSpeeds
-from disc_model.figures.parts import COLUMN, END, ONSET, new_figure, styled
+from disc_model.figures.kinds import RampedSpeeds
+from disc_model.figures.parts import COLUMN, END, ONSET, new_figure
 
 BEYOND = "none up to the highest speed"
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
     """One point; with the further study ``curves``, the speeds at which the cycle ends."""
     norm, study, others = parts.of_one(study, others)

@@ -21,9 +21,9 @@ from scipy.sparse.csgraph import connected_components
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids import cells
-from disc_model.figures.grids.kinds import RegionMap
 from disc_model.figures.grids.stability_map import legend_below_head, paper_ring, paper_rings, set_scales
-from disc_model.figures.parts import PAGE, new_figure, styled
+from disc_model.figures.kinds import RegionMap
+from disc_model.figures.parts import PAGE, new_figure
 
 PALER = 0.35
 """How far the colours of what is inferred are from the others' towards white."""
@@ -33,7 +33,6 @@ NAMES = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 Mask = NDArray[np.bool_]
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
     """Two panels for each normalization: outcomes, and growth rates; the paper's cases are marked."""
     norms = parts.normalizations(study)

@@ -13,10 +13,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from disc_model.data.variables import SAMPLE
+from disc_model.data.variables import SAMPLE, SHOWN, symbol_of, typeset
 from disc_model.figures import parts
-from disc_model.figures.grids.kinds import Sensitivity
-from disc_model.figures.parts import BLACK, BLUE, GREY, PAGE, SEPARATED, SKY, new_figure, styled
+from disc_model.figures.kinds import Sensitivity
+from disc_model.figures.parts import BLACK, BLUE, GREY, PAGE, SEPARATED, SKY, new_figure
 
 OUTPUTS = {"instability": "Instability, index", "growth_rate": "Growth rate, index"}
 PROBABILITIES = {
@@ -33,7 +33,6 @@ WIDEST = 1.0
 """Width of an interval beyond which nothing is known of an index."""
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
     """(a) probabilities with 95 % intervals; beside it indices with theirs, a column a point and a row an output.
 
@@ -72,7 +71,7 @@ def _spread(name: str, how: Mapping[str, Any]) -> str:
     """How one is, in words."""
     if how["distribution"] == "uniform" and how["relative"] and np.isclose(how["low"] + how["high"], 2):
         return f"± {50 * (how['high'] - how['low']):g} %"
-    _, unit, factor = ("", "times its value", 1.0) if how["relative"] else parts.SYMBOLS[name]
+    unit, factor = ("times its value", 1.0) if how["relative"] else SHOWN[name][2:]
     said = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
     texts = [f"{said['low']} to {said['high']} {unit}"] if "low" in said else []
     texts += [f"normal, {said['mean']} ± {said['deviation']} {unit}"] if "mean" in said else []
@@ -136,4 +135,4 @@ def _bars(ax: Axes, cell: xr.Dataset, labelled: bool) -> None:
 
 def symbol(name: str) -> str:
     """A parameter's symbol."""
-    return parts.SYMBOLS[name][0].split()[-1] if name in parts.SYMBOLS else name.replace("_", " ")
+    return typeset(symbol_of(name)) if name in SHOWN else name.replace("_", " ")

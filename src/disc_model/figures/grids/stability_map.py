@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import OUTCOMES, cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
-from disc_model.figures.grids.kinds import StabilityMap
-from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure, styled
+from disc_model.figures.kinds import StabilityMap
+from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure
 
 MARKS = {
     "stable": ("o", "white", 9),
@@ -33,7 +33,6 @@ LARGE = 55.0
 """Area of the marks of the paper."""
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
     """One panel for each normalization; the paper's cases are marked in that of the published modes."""
     norms = parts.normalizations(study)

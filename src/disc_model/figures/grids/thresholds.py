@@ -14,7 +14,6 @@ from matplotlib.patches import Patch
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import edges_of, fill, patch
 from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span, unfollowed_handle
-from disc_model.figures.grids.kinds import Thresholds
 from disc_model.figures.grids.separating import (
     BEHIND,
     draw_behind,
@@ -24,12 +23,12 @@ from disc_model.figures.grids.separating import (
     horizon_of,
     separates,
 )
-from disc_model.figures.parts import COLUMN, ONSET, new_figure, styled
+from disc_model.figures.kinds import Thresholds
+from disc_model.figures.parts import COLUMN, ONSET, new_figure
 
 MARKS: dict[str, Any] = {"color": ONSET, "marker": "o", "markersize": 3, "linewidth": 1.0}
 
 
-@styled()
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Thresholds) -> Figure:
     """Where the cycle becomes unstable or ends, and where separation follows within a stated time, on one chart.
 

@@ -6,11 +6,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from disc_model.data.variables import said_values
-from disc_model.figures import STYLE
+from disc_model.figures.kinds import HIGHEST, OwnFigure, spectrum_faults
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, Window
-
-__all__ = ["CATALOGUE", "STYLE", "Entry", "caption", "function_of", "lacking", "module_of"]
 
 Windows = Mapping[str, Mapping[str, Window | Poincare | None]]
 
@@ -24,7 +22,7 @@ class Entry(NamedTuple):
     title : a few words for lists
     caption : what it shows; `caption` fills in numbers and adds the parameters
     needs : the windows it needs, by case; the Poincare section goes by the name ``poincare``
-    drawn_by : a module beside this one and its function, such as ``"spectra.response"``
+    drawn_by : a module beside this one and its function, such as ``"spectra.response"``, which takes cases by name
     options : keyword arguments of that function
     """
 
@@ -38,6 +36,11 @@ class Entry(NamedTuple):
     @property
     def cases(self) -> tuple[str, ...]:
         return tuple(self.needs)
+
+    @property
+    def plot(self) -> OwnFigure:
+        """What draws it."""
+        return OwnFigure(by=f"paper.{self.drawn_by}", options=dict(self.options))
 
 
 SECTIONS = {
@@ -59,9 +62,10 @@ def _section(section: str, case: str, title: str, what: str) -> Entry:
     return Entry(section, f"Poincare sections, {title}", text, {case: ("poincare",)}, "sections.sections")
 
 
-def _ranges(case: str, title: str, options: Mapping[str, Any]) -> Entry:
+def _ranges(case: str, title: str, **options: Any) -> Entry:
     text = "(a) Contact force, (b) disc at r_0 and {theta}, as ranges."
-    return Entry("4.2", title, text, {case: ("history",)}, "separations.force_and_disc", options)
+    options |= {"window": "history", "variables": ("P", "w_point")}
+    return Entry("4.2", title, text, {case: ("history",)}, "histories.history", options)
 
 
 def _response(case: str, title: str, text: str, variable: str, window: str, **options: Any) -> Entry:
@@ -131,11 +135,11 @@ CATALOGUE: Mapping[str, Entry] = {
         "Disc, with separation and without",
         "Range of the disc's displacement at r_0 and {theta}, with separation ignored and with separation.",
         {"F02": ("history",), "F04": ("history",)},
-        "separations.with_and_without",
+        "histories.with_and_without",
     ),
-    "fig11": _ranges("F11", "Histories below the critical speed", {}),
+    "fig11": _ranges("F11", "Histories below the critical speed"),
     "fig12": _section("4.2", "F11", "below the critical speed", QUIET),
-    "fig13": _ranges("F13", "Histories above the critical speed", ABOVE),
+    "fig13": _ranges("F13", "Histories above the critical speed", **ABOVE),
     "fig14": _section("4.2", "F13", "above the critical speed", STAGES),
     "fig16": _section("4.3", "F16", "small preload", QUIET),
     "fig17": _section("4.3", "F17", "intermediate preload", STAGES),
@@ -220,10 +224,6 @@ CATALOGUE: Mapping[str, Entry] = {
 
 RANGES = ("history",)
 """Windows that are drawn as ranges and need an envelope; all others are drawn as samples and must have none."""
-SHORTEST_SPECTRUM = 1.1
-"""Length in s that a window needs for a spectrum in time: one window of the transform and two steps."""
-HIGHEST = 1000.0
-"""Highest frequency of a spectrum in time, Hz."""
 ZOOM = 0.2
 """Length of a closer look, s."""
 
@@ -260,24 +260,6 @@ def _faults_of(figure: str, name: str, window: Window) -> Iterator[str]:
     for zoomed, start in CATALOGUE[figure].options.get("zooms", ()):
         if zoomed == name and not (window.start <= start and start + ZOOM <= window.stop):
             yield f"must contain {start:g} to {start + ZOOM:g} s"
-
-
-def spectrum_faults(window: Window, highest: float) -> Iterator[str]:
-    """What keeps a window's spectrum in time from being drawn up to a frequency in Hz."""
-    if window.stop - window.start < SHORTEST_SPECTRUM:
-        yield f"must be {SHORTEST_SPECTRUM:g} s long or more"
-    if window.rate < 2 * highest:
-        yield f"needs a rate of {2 * highest:g} Hz or more"
-
-
-def module_of(name: str) -> str:
-    """Module that draws a figure; its function takes trees of `disc_model.data.dataset.load` by case, and options."""
-    return f"{__package__}.{CATALOGUE[name].drawn_by.partition('.')[0]}"
-
-
-def function_of(name: str) -> str:
-    """Name of that function."""
-    return CATALOGUE[name].drawn_by.partition(".")[2]
 
 
 def number_of(name: str) -> str:

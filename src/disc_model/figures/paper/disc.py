@@ -99,7 +99,6 @@ def motion_of(case: xr.DataTree) -> Motion:
     return Motion(p, time, found[: len(harmonics)], sines, slider, one["u"].values, one["phase"].values)
 
 
-@styled()
 def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
     """The disc from above at instants between two losses of contact, and around its circle of radius r_0."""
     (case,) = cases.values()

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Arc, Circle, Rectangle
 from numpy.typing import NDArray
 
-from disc_model.figures.parts import BLACK, DISC, FORCE, PAGE, SLIDER, styled
+from disc_model.figures.parts import BLACK, DISC, FORCE, PAGE, SLIDER
 from disc_model.parameters import Parameters
 
 Point = tuple[float, float] | NDArray[np.float64]
@@ -28,7 +28,6 @@ OUTER = 1.2
 """Radius of the disc as drawn."""
 
 
-@styled()
 def schematic(cases: Mapping[str, xr.DataTree]) -> Figure:
     """The model of a case."""
     (case,) = cases.values()

@@ -17,7 +17,7 @@ from disc_model.analysis.poincare import Stages, stages
 from disc_model.data import dataset
 from disc_model.data.variables import PHASES
 from disc_model.figures import parts
-from disc_model.figures.parts import AFTER, BEFORE, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, new_figure, styled
+from disc_model.figures.parts import AFTER, BEFORE, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, new_figure
 from disc_model.parameters import Parameters
 
 MARKS: dict[str, dict[str, Any]] = {
@@ -30,22 +30,21 @@ BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "s
 BY_HALVES = {"early": "first half", "later": "second half", "separated": "separated"}
 
 
-@styled()
-def sections(cases: Mapping[str, xr.DataTree]) -> Figure:
+def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> Figure:
     """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle."""
     (case,) = cases.values()
     figure = new_figure(PAGE, 2.75)
     slider, disc = figure.subplots(1, 2)
     with parts.or_say_why(slider, disc):
-        samples = dataset.samples(case, "poincare", at_least=1)
+        samples = dataset.samples(case, window, at_least=1)
         first, end = float(case["first_separation"]), float(case["time_reached"])
         found = stages(samples["time"].values, samples["phase"].values, first, end)
-        _scatter(slider, samples["psi"].values, samples["psi_velocity"].values, found)
-        _scatter(disc, samples["w_point"].values * 1e3, samples["w_point_velocity"].values, found)
-        slider.set(xlabel="ψ (rad)", ylabel="dψ/dt (rad/s)")
-        disc.set(xlabel=parts.disc_label(samples), ylabel=parts.sampled("w_point_velocity", samples)[0])
-        parts.letter(slider, "a")
-        parts.letter(disc, "b")
+        for ax, name, letter in ((slider, "psi", "a"), (disc, "w_point", "b")):
+            pair = (name, f"{name}_velocity")
+            (across, in_x, _), (up, in_y, _) = (parts.sampled(one, samples) for one in pair)
+            _scatter(ax, samples[pair[0]].values * in_x, samples[pair[1]].values * in_y, found)
+            ax.set(xlabel=across, ylabel=up)
+            parts.letter(ax, letter)
         bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
         _legend(figure, disc, found, first, bonded)
     return figure
@@ -72,7 +71,6 @@ def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool)
     figure.legend(handles=[blank, *handles], loc="outside upper right", ncols=len(handles) + 1, handletextpad=0.2)
 
 
-@styled()
 def portrait(
     cases: Mapping[str, xr.DataTree], *, window: str = "orbit", x: str = "psi", y: str = "psi_velocity"
 ) -> Figure:

@@ -1,4 +1,4 @@
-"""The slider leaves the disc and meets it again, over a run and close up; figures 2, 3, 10, 11, 13 and 23."""
+"""The slider leaves the disc and meets it again, over a run and close up; figures 2, 3 and 23."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.figures import parts
-from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
+from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, PAGE, SEPARATED, SLIDER, new_figure
 
 SEPARATION = PHASES.index("separation")
 
@@ -45,17 +45,15 @@ def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
     return [(a, b) for a, b in separations(window) if a > time[0] and b < time[-1]]
 
 
-@styled()
 def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 2: (a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
     case = cases["F02"]
     figure = new_figure(PAGE, 2.3)
     whole, zoom = figure.subplots(1, 2)
     with parts.or_say_why(whole):
-        parts.envelope(whole, parts.history(case), "P", color=FORCE)
+        label = parts.show_run(whole, case, "P")
         _show_zero(whole, case)
-        parts.mark_first_separation(whole, float(case["first_separation"]))
-        whole.set(xlabel="Time (s)", ylabel="Contact force (N)")
+        whole.set(xlabel="Time (s)", ylabel=label)
         parts.letter(whole, "a")
     with parts.or_say_why(zoom):
         _zoom(zoom, case)
@@ -79,7 +77,7 @@ def _zoom(ax: Axes, case: xr.DataTree) -> None:
     shade(ax, spans, start)
     ax.plot((time - start) * 1e3, window["P"].values, color=FORCE)
     _show_zero(ax, case)
-    ax.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Contact force (N)")
+    ax.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=parts.axis_of("P")[0])
     if spans:
         parts.legend_above(ax)
 
@@ -88,7 +86,6 @@ MARGIN = 0.5
 """Time shown before and after, as a share of the separation."""
 
 
-@styled()
 def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 3, slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
 
@@ -121,7 +118,6 @@ SHOWN = 0.025
 """Length of the stretch shown, s."""
 
 
-@styled()
 def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 23, slider and disc from static equilibrium; losses of contact are marked."""
     case = cases["F23"]
@@ -143,39 +139,4 @@ def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
             ax.plot(time, height, "o", color=SEPARATED, markersize=3.5, label="contact lost")
         ax.set_xlabel(f"Time after {start:.4f} s (ms)")
         parts.legend_above(ax)
-    return figure
-
-
-@styled()
-def force_and_disc(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
-    """Figures 11 and 13: ranges of (a) contact force, (b) disc at r_0 and a fixed angle, until a time in s."""
-    (case,) = cases.values()
-    figure = new_figure(COLUMN, 3.4)
-    force, disc = figure.subplots(2, 1, sharex=True)
-    with parts.or_say_why(force, disc):
-        history = parts.history(case, until)
-        parts.envelope(force, history, "P", color=FORCE)
-        parts.envelope(disc, history, "w_point", scale=1e3, color=DISC)
-        force.set(ylabel="Contact force (N)")
-        disc.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
-        for ax, letter in ((force, "a"), (disc, "b")):
-            parts.mark_first_separation(ax, float(case["first_separation"]))
-            parts.letter(ax, letter)
-    figure.align_ylabels()
-    return figure
-
-
-@styled()
-def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Figure 10: range of the disc at r_0 and a fixed angle over the run, contact enforced and separable."""
-    figure = new_figure(COLUMN, 2.4)
-    ax = figure.subplots()
-    with parts.or_say_why(ax):
-        ignored, separating = (parts.history(cases[name]) for name in ("F04", "F02"))
-        for history, color, label in ((ignored, GREY, "separation ignored"), (separating, DISC, "with separation")):
-            parts.envelope(ax, history, "w_point", scale=1e3, color=color, label=label)
-        ax.set(xlabel="Time (s)", ylabel=parts.disc_label(ignored, separating))
-        low, high = ax.get_ylim()
-        ax.set_ylim(low, high + 0.25 * (high - low))
-        ax.legend(loc="upper left")
     return figure

@@ -16,8 +16,9 @@ from disc_model.analysis.spectra import TimeFrequency, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.figures import parts
-from disc_model.figures.paper.catalogue import HIGHEST, ZOOM
-from disc_model.figures.parts import BLACK, DISC, PAGE, SKY, new_figure, styled
+from disc_model.figures.kinds import HIGHEST
+from disc_model.figures.paper.catalogue import ZOOM
+from disc_model.figures.parts import BLACK, PAGE, SKY, new_figure
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
@@ -79,10 +80,20 @@ def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequen
     colour_bar(figure, mesh, ax)
 
 
+def spectrogram_of(cases: Mapping[str, xr.DataTree], *, window: str, variable: str, highest: float) -> Figure:
+    """The spectrum in time of a variable of any case."""
+    (case,) = cases.values()
+    figure = new_figure(PAGE / 2, 2.7)
+    ax = figure.subplots()
+    with parts.or_say_why(ax):
+        spectrum(figure, ax, case, spectrum_in_time(case, window, variable), highest)
+        ax.set_title(parts.sampled(variable, dataset.group(case, window))[0].partition(" (")[0])
+    return figure
+
+
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
 
 
-@styled()
 def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
     """Figure 24: range of the disc's displacement at r_0 and a fixed angle, with the stretches of figure 25."""
     case = cases["F13"]
@@ -93,12 +104,8 @@ def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -
             start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
             ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
             ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
-        history = parts.history(case, until)
-        parts.envelope(ax, history, "w_point", scale=1e3, color=DISC)
-        low, high = ax.get_ylim()
-        ax.set_ylim(low, high + 0.15 * (high - low))
-        parts.mark_first_separation(ax, float(case["first_separation"]))
-        ax.set(xlabel="Time (s)", ylabel=parts.disc_label(history))
+        ax.set(xlabel="Time (s)", ylabel=parts.show_run(ax, case, "w_point", until))
+        parts.headroom(ax, 0.15)
     return figure
 
 
@@ -114,7 +121,6 @@ TABLE_2 = {
 """Lines that the paper lists, Hz; pairs are too near to be named apart."""
 
 
-@styled()
 def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 25: power of the disc's displacement at r_0 and a fixed angle over time and frequency, four stretches.
 
@@ -158,7 +164,6 @@ def _name_lines(ax: Axes) -> None:
     right.set_label("shares the axis to its left")
 
 
-@styled()
 def response(
     cases: Mapping[str, xr.DataTree],
     *,
@@ -201,17 +206,13 @@ def response(
 
 
 def _whole_run(ax: Axes, case: xr.DataTree, variable: str, marked: tuple[float, float] | None, until: float) -> None:
-    history = parts.history(case, until)
-    label, scale, colour = parts.sampled(variable, history)
+    ax.set(xlabel="Time (s)", ylabel=parts.show_run(ax, case, variable, until))
     if marked is not None:
-        ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0)
-        if marked[1] - marked[0] < 0.02 * float(history["time"][-1]):
+        ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0, zorder=0)
+        if marked[1] - marked[0] < 0.02 * ax.get_xlim()[1]:
             # a line where the stretch of (b) is too narrow to be seen
-            ax.axvline(sum(marked) / 2, color=BLACK, linewidth=0.8)
+            ax.axvline(sum(marked) / 2, color=BLACK, linewidth=0.8, zorder=0)
             parts.say_above(ax, sum(marked) / 2, "(b)")
-    parts.envelope(ax, history, variable, scale=scale, color=colour)
-    parts.mark_first_separation(ax, float(case["first_separation"]))
-    ax.set(xlabel="Time (s)", ylabel=label)
     parts.letter(ax, "a")
 
 

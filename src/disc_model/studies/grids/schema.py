@@ -21,8 +21,8 @@ from pydantic import Field
 from disc_model.data.provenance import source_hash
 from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import ParameterError, suggestion
-from disc_model.figures.grids.kinds import PLOTS, General, Plot, RegionMap, Values
-from disc_model.figures.grids.kinds import Fault as PlotFault
+from disc_model.figures.kinds import PLOTS, General, Plot, RegionMap, Values
+from disc_model.figures.kinds import Fault as PlotFault
 from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import AUTO, CHOOSING, Count, Parameters, Strict, Title, is_number, leaves_modes
 from disc_model.plausibility import RULES

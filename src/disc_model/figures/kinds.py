@@ -1,4 +1,4 @@
-"""The kinds of figures of grid studies, and what a study file may say of each. Imports nothing heavy."""
+"""The kinds of figures: what a study file may say of each, what it needs, and what draws it. Imports nothing heavy."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from pydantic import Field
 
 from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import suggestion
-from disc_model.parameters import Parameters, Real, Strict, Title
+from disc_model.parameters import Parameters, Positive, Real, Strict, Title
+from disc_model.simulation.case import Poincare, Window
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
 Values = Mapping[str, Sequence[tuple[Any, ...]]]
@@ -25,6 +26,27 @@ class Fault(NamedTuple):
     place: tuple[str, ...]
     value: Any
     rule: str
+
+
+class Kind(Strict):
+    """A figure: its fields are what a study file may say of it.
+
+    drawn_by : module below `disc_model.figures` and its function, see `disc_model.figures.parts.draw`
+    """
+
+    drawn_by: ClassVar[str]
+
+    kind: str
+    title: Title = ""
+
+    @property
+    def module(self) -> str:
+        """Module that draws it."""
+        return f"{__package__}.{self.drawn_by.rpartition('.')[0]}"
+
+
+# ----------------------------------------------------------------------------------------------------
+# Of grid studies
 
 
 class Role(NamedTuple):
@@ -58,10 +80,8 @@ class Grid(Protocol):
     def values(self) -> Values: ...
 
 
-class Plot(Strict):
-    """A figure of a grid study, drawn by the module beside this one that its kind names.
-
-    That module's ``draw(study, others, plot)`` takes datasets and this.
+class Plot(Kind):
+    """A figure of a grid study, drawn by a function ``draw(study, others, plot)`` that takes datasets and this.
 
     others : further studies it shows, by the role they play in it
     quantities : those that it can show, the usual one first
@@ -75,14 +95,7 @@ class Plot(Strict):
     several: ClassVar[bool] = False
     roles: ClassVar[Roles] = {}
 
-    kind: str
-    title: Title = ""
     others: dict[str, str] = Field({})
-
-    @property
-    def module(self) -> str:
-        """Module that draws it."""
-        return f"{__package__}.{self.kind}"
 
     @property
     def axes(self) -> dict[str, str]:
@@ -162,6 +175,7 @@ CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 class StabilityMap(Plot):
     """What becomes of the published start over two parameters, one panel for each normalization."""
 
+    drawn_by = "grids.stability_map.draw"
     quantities = ("outcome",)
     several = True
     roles: ClassVar[Roles] = {"growth": Role("floquet")}
@@ -184,6 +198,7 @@ class StabilityMap(Plot):
 class RegionMap(StabilityMap):
     """Regions of outcomes over two parameters, and the growth rate of the cycle below."""
 
+    drawn_by = "grids.region_map.draw"
     quantities = ("regions",)
     roles: ClassVar[Roles] = {}
 
@@ -193,6 +208,7 @@ class RegionMap(StabilityMap):
 class CriticalSpeed(Plot):
     """Speeds at which separation begins or ends against the preload, for several horizons."""
 
+    drawn_by = "grids.critical_speed.draw"
     quantities = ("critical_speed",)
     needs = ("N",)
     roles: ClassVar[Roles] = {
@@ -208,6 +224,7 @@ class CriticalSpeed(Plot):
 class Thresholds(CriticalSpeed):
     """Where the cycle becomes unstable and where separation follows, on one chart."""
 
+    drawn_by = "grids.thresholds.draw"
     roles: ClassVar[Roles] = {"curves": CURVES._replace(required=True), "cycle": CYCLE}
 
     kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]
@@ -219,6 +236,7 @@ class GrowthMap(Plot):
     Of the quantity `regions` it is that of the cycle that the published start follows.
     """
 
+    drawn_by = "grids.growth_map.draw"
     quantities = ("floquet", "regions")
     needs = ("N", "Omega")
     several = True
@@ -233,6 +251,7 @@ class Bifurcation(Plot):
     scale : of the variable, 1e3 for mrad or mm
     """
 
+    drawn_by = "grids.bifurcation.draw"
     quantities = ("bifurcation",)
     roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
 
@@ -245,6 +264,7 @@ class Bifurcation(Plot):
 class BasinShares(Plot):
     """Shares of what many starts come to, the attractors, and the least kick that separates, against a parameter."""
 
+    drawn_by = "grids.basins.draw"
     quantities = ("basins",)
 
     kind: Literal["basins"] = "basins"
@@ -254,6 +274,7 @@ class BasinShares(Plot):
 class RampedSpeeds(Plot):
     """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
 
+    drawn_by = "grids.ramps.draw"
     quantities = ("ramps",)
     roles: ClassVar[Roles] = {"curves": CURVES}
 
@@ -267,6 +288,7 @@ MOST_PANELS, MOST_LINES = 4, 12
 class Sensitivity(Plot):
     """Probabilities with their intervals, and Sobol indices of each distributed parameter; for up to four points."""
 
+    drawn_by = "grids.sensitivity.draw"
     quantities = ("sensitivity",)
 
     kind: Literal["sensitivity"] = "sensitivity"
@@ -283,6 +305,7 @@ class Campbell(Plot):
     normalization : the one that is shown, where the study has several
     """
 
+    drawn_by = "grids.campbell.draw"
     quantities = ("campbell",)
     needs = ("Omega",)
 
@@ -373,6 +396,7 @@ def _listed(values: Sequence[Any]) -> str:
 class HeatMap(General):
     """A variable in colour over two dimensions; a panel for each value of a third, if wanted."""
 
+    drawn_by = "grids.heat_map.draw"
     kind: Literal["heat_map"] = "heat_map"
     y: str
 
@@ -380,22 +404,155 @@ class HeatMap(General):
 class CurvePlot(General):
     """A variable against one dimension; a line for each value of a second, if wanted."""
 
+    drawn_by = "grids.curve.draw"
     room = MOST_LINES
 
     kind: Literal["curve"] = "curve"
 
 
-PLOTS: dict[str, type[Plot]] = {
-    "heat_map": HeatMap,
-    "curve": CurvePlot,
-    "stability_map": StabilityMap,
-    "region_map": RegionMap,
-    "critical_speed": CriticalSpeed,
-    "thresholds": Thresholds,
-    "growth_map": GrowthMap,
-    "bifurcation": Bifurcation,
-    "ramps": RampedSpeeds,
-    "basins": BasinShares,
-    "sensitivity": Sensitivity,
-    "campbell": Campbell,
-}
+# ----------------------------------------------------------------------------------------------------
+# Of named cases
+
+Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
+"""What samples hold beside their times and phases."""
+RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")
+"""Of these, what a window with an envelope keeps."""
+Recorded = Mapping[str, Window | Poincare | None]
+"""What a case records: windows by name, and the Poincare section as ``poincare``."""
+SHORTEST_SPECTRUM = 1.1
+"""Length in s that a window needs for a spectrum in time: one window of the transform and two steps."""
+HIGHEST = 1000.0
+"""Highest frequency of a spectrum in time, Hz."""
+
+
+class CasePlot(Kind):
+    """A figure of one named case, from one of its windows; drawn by a function that takes cases by name and `options`.
+
+    case : name of the case
+    window : name of the window under the case's ``record.windows``
+    title : stands above the figure
+    """
+
+    case: str
+    window: str
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What the function is told of the figure."""
+        return self.model_dump(exclude={"kind", "title", "case"})
+
+    def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
+        """What keeps it from being drawn; a case that is None has faults of its own."""
+        if self.case not in cases:
+            yield Fault(("case",), self.case, f"no such case (known: {', '.join(cases) or 'none'})")
+        elif (recorded := cases[self.case]) is not None:
+            found = recorded.get(self.window)
+            if found is None:
+                known = ", ".join(name for name, window in recorded.items() if window is not None)
+                yield Fault(("window",), self.window, f"is not recorded by case {self.case} (known: {known or 'none'})")
+            else:
+                yield from self._misfits(found)
+
+    def _misfits(self, window: Any) -> Iterator[Fault]:
+        """Rules that a window breaks."""
+        if isinstance(window, Poincare):
+            yield Fault(("window",), self.window, "must be a window, not the Poincare section")
+        elif window.envelope is not None:
+            yield Fault(("window",), self.window, "must have no envelope")
+
+
+class History(CasePlot):
+    """Variables against time, one above the other; a window with an envelope as ranges."""
+
+    drawn_by = "paper.histories.history"
+
+    kind: Literal["history"] = "history"
+    variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w")
+
+    def _misfits(self, window: Any) -> Iterator[Fault]:
+        if isinstance(window, Poincare):
+            yield from super()._misfits(window)
+            return
+        if window.count < 2 * (window.envelope or 1):
+            yield Fault(("window",), self.window, "must be two samples, or two envelopes, long or more")
+        for i, name in enumerate(self.variables):
+            if window.envelope is not None and name not in RANGES:
+                yield Fault(("variables", str(i)), name, f"is not kept as ranges (known: {', '.join(RANGES)})")
+
+
+class Section(CasePlot):
+    """The Poincare sections of slider and disc: once a turn of the drive."""
+
+    drawn_by = "paper.sections.sections"
+
+    kind: Literal["poincare"] = "poincare"
+    window: Literal["poincare"] = "poincare"
+
+    def _misfits(self, window: Any) -> Iterator[Fault]:
+        return iter(())
+
+
+class Spectrogram(CasePlot):
+    """Power of a variable over time and frequency, in dB below its strongest line.
+
+    highest : Hz, frequency up to which it is shown
+    """
+
+    drawn_by = "paper.spectra.spectrogram_of"
+
+    kind: Literal["spectrogram"] = "spectrogram"
+    variable: Sampled = "w_point"
+    highest: Positive = HIGHEST
+
+    def _misfits(self, window: Any) -> Iterator[Fault]:
+        yield from super()._misfits(window)
+        if not isinstance(window, Poincare):
+            for rule in spectrum_faults(window, self.highest):
+                yield Fault(("window",), self.window, rule)
+
+
+class Portrait(CasePlot):
+    """One variable over another, coloured by phase."""
+
+    drawn_by = "paper.sections.portrait"
+
+    kind: Literal["portrait"] = "portrait"
+    x: Sampled = "psi"
+    y: Sampled = "psi_velocity"
+
+
+def spectrum_faults(window: Window, highest: float) -> Iterator[str]:
+    """What keeps a window's spectrum in time from being drawn up to a frequency in Hz."""
+    if window.stop - window.start < SHORTEST_SPECTRUM:
+        yield f"must be {SHORTEST_SPECTRUM:g} s long or more"
+    if window.rate < 2 * highest:
+        yield f"needs a rate of {2 * highest:g} Hz or more"
+
+
+# ----------------------------------------------------------------------------------------------------
+# All of them
+
+
+class OwnFigure(Kind):
+    """A figure that no study file asks for, of the paper or of the benchmark: a function with its options."""
+
+    kind: Literal["own"] = "own"
+    by: str
+    options: dict[str, Any] = Field({})
+
+    @property
+    def module(self) -> str:
+        """Module that draws it."""
+        return f"{__package__}.{self.by.rpartition('.')[0]}"
+
+
+def _by_kind(*classes: type[Kind]) -> dict[str, Any]:
+    return {each.model_fields["kind"].default: each for each in classes}
+
+
+PLOTS: dict[str, type[Plot]] = _by_kind(
+    HeatMap, CurvePlot, StabilityMap, RegionMap, CriticalSpeed, Thresholds, GrowthMap, Bifurcation, RampedSpeeds,
+    BasinShares, Sensitivity, Campbell,
+)  # fmt: skip
+CASE_PLOTS: dict[str, type[CasePlot]] = _by_kind(History, Section, Spectrogram, Portrait)
+KINDS: dict[str, type[Plot | CasePlot | OwnFigure]] = {**PLOTS, **CASE_PLOTS, "own": OwnFigure}

@@ -1,1 +1,0 @@
-"""Figures of any named case, by kind."""
