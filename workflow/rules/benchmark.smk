@@ -44,6 +44,8 @@ BENCH_DATA = [
     for name in ("benchmark_reference.json", "separating_start.json", "answers.json")
 ]
 
+BENCH_TEXTS = [PACKAGE / "benchmarks" / "texts.yaml"]
+
 
 rule bench:
     input:
@@ -104,7 +106,7 @@ rule merge_answers:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("merge_answers", files=BENCH_DATA),
+        sources=sources_of("merge_answers", files=BENCH_DATA + BENCH_TEXTS),
     shell:
         "python workflow/scripts/merge_answers.py {input} --out {output.nc} --md {output.md} > {log} 2>&1"
 
@@ -171,7 +173,7 @@ rule tell_truncation:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("tell_truncation"),
+        sources=sources_of("tell_truncation", files=BENCH_TEXTS),
     shell:
         "python workflow/scripts/tell_truncation.py {input} {output} > {log} 2>&1"
 

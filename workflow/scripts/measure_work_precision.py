@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import argparse
 import logging
-import math
 from pathlib import Path
 
 import xarray as xr
 
-from disc_model.benchmarks.machine import vector_flops
-from disc_model.benchmarks.table import DEFAULT, JUDGED, table, to_markdown
+from disc_model.benchmarks.table import table, to_markdown
 from disc_model.benchmarks.work_precision import Point, work_precision
 from disc_model.data.dataset import save
 
@@ -27,9 +25,6 @@ def main() -> None:
     args = parser.parse_args()
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     dataset = work_precision(progress=report)
-    flops = [vector_flops(name, DEFAULT) if name in JUDGED else math.nan for name in map(str, dataset["scene"].values)]
-    about = {"units": "s-1", "long_name": "vector operations of the series engine per simulated second"}
-    dataset["flops"] = ("scene", flops, about)
     save(xr.DataTree(dataset), args.output)
     table(dataset).to_csv(args.csv, index=False)
     args.md.write_text(to_markdown(dataset), encoding="utf-8")

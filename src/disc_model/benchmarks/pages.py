@@ -21,6 +21,7 @@ from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED
 from disc_model.benchmarks.scenes import Verdict as EventVerdict
 from disc_model.benchmarks.table import at_default, headline, measured_points
+from disc_model.benchmarks.texts import TEXTS, plain
 from disc_model.data.dataset import markdown_table
 from disc_model.errors import DiscModelError
 
@@ -54,7 +55,7 @@ def summary(work_precision: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
         "times_slower": headline(points),
         "whole_call": _whole_call(points),
         "stiff": _stiff(points),
-        "sentences": {name: words.sentences(answers, name) for name in asked},
+        "sentences": {name: words.sentence(answers, name) for name in asked},
         "prices": {name: _prices(words.points(answers, name)) for name in asked},
     }
 
@@ -96,51 +97,33 @@ def _stiff(points: pd.DataFrame) -> dict[str, float]:
 
 def passages(run: Summary) -> dict[str, str]:
     """Texts by the name under which pages ask for them."""
-    own, slower = run["own"], run["times_slower"]
-    ours = " and ".join(f"{1e3 * own[s]['cost']:.2g} ms for ({LETTERS[s]})" for s in own)
-    errors = " and ".join(f"{own[s]['error']:.0e}" for s in own)
-    methods = {name for ratios in slower.values() for name in ratios if name != "series"}
-    order = sorted(methods, key=lambda name: min(ratios[name] for ratios in slower.values() if name in ratios))
-    others = "; ".join(f"{METHODS[name].label} {_ratios(slower, name)}" for name in order)
-    stiff = "; ".join(f"{METHODS[name].label} {_plain(1e3 * cost)} ms" for name, cost in run["stiff"].items())
     first = run["prices"]["first_separation"]["series (this package)"]
     cycle = run["prices"]["growth_rate"]["series, from the cycle itself"]
     return {
         "first_separation": f"{1e3 * first['seconds']:.0f} ms",
         "cycle": f"{1e3 * cycle['seconds']:.2g} ms",
-        "speed": (
-            f"On {run['machine']}: at its default tolerance the series engine takes {ours} per simulated second, with "
-            f"event times right to {errors} s. With errors up to 1e-10 s allowed the others take, times that, for (a) "
-            f"and (b): {others}. These are costs of a further second. {_call(run)}On the disc of (d), all but rigid, a "
-            f"simulated second with the right events takes: "
-            f"{stiff}."
-        ),
-        "prices": (
-            "\n\n![What each right answer costs](docs/gallery/prices.png)\n\n*What each method asks for each right "
-            "answer: its time at its cheapest right setting; in red at how many others it answers wrongly, without a "
-            "warning. More on [the page of the benchmark](docs/benchmark.md).*"
-        ),
+        "speed": _speed(run),
+        "prices": TEXTS["prices"].text,
     }
 
 
-def _call(run: Summary) -> str:
-    """What a whole call takes, in words."""
-    call = run["whole_call"]
-    if "heyoka" not in call:
-        return ""
-    return (
-        f"A whole call of `simulate(p, 1.0)` for (a) takes {1e3 * call['seconds']:.2g} ms, all it sets up included; "
-        f"heyoka's integration alone takes {call['heyoka']:.2g} times that. "
+def _speed(run: Summary) -> str:
+    """What a simulated second costs, and how many times that the others take."""
+    own, slower, call = run["own"], run["times_slower"], run["whole_call"]
+    methods = {name for ratios in slower.values() for name in ratios if name != "series"}
+    order = sorted(methods, key=lambda name: min(ratios[name] for ratios in slower.values() if name in ratios))
+    ratios = {
+        name: " and ".join(plain(found[name]) if name in found else "not at all" for found in slower.values())
+        for name in order
+    }
+    return TEXTS["speed"].fill(
+        machine=run["machine"],
+        own=[{"ms": 1e3 * cost["cost"], "letter": LETTERS[scene]} for scene, cost in own.items()],
+        errors=[{"error": cost["error"]} for cost in own.values()],
+        others=[{"label": METHODS[name].label, "ratios": said} for name, said in ratios.items()],
+        call=[{"ms": 1e3 * call["seconds"], "times": call["heyoka"]}] if "heyoka" in call else [],
+        stiff=[{"label": METHODS[name].label, "ms": plain(1e3 * cost)} for name, cost in run["stiff"].items()],
     )
-
-
-def _ratios(slower: Mapping[str, Mapping[str, float]], name: str) -> str:
-    return " and ".join(_plain(ratios[name]) if name in ratios else "not at all" for ratios in slower.values())
-
-
-def _plain(number: float) -> str:
-    """Two digits, without a power of ten."""
-    return f"{float(f'{number:.2g}'):,.10g}"
 
 
 def fill(text: str, known: Mapping[str, str]) -> str:
@@ -163,48 +146,14 @@ def fill(text: str, known: Mapping[str, str]) -> str:
 
 def page(run: Summary) -> str:
     """The page of the benchmark."""
-    known = passages(run)
-    text = [
-        "# Speed against accuracy",
-        "",
-        "Made by `make bench` and `make bench-pages`, on one core; times are the processor's.",
-    ]
-    text += [f"Machine: {run['machine']}.", "", "## Event times", "", "![Speed against accuracy](gallery/overview.png)"]
-    text += ["", known["speed"], "", "## Answers", ""]
-    text += [
-        "What a study asks for, and what each method asks for it: time on one core at its cheapest right setting; in",
-        "red at how many others it answers wrongly, without a warning (the table says at which). Right answers come",
-        "from methods that share no code with the engine. A region's cells are drawn at random, with a fixed seed,",
-        "where all take too long.",
-        "Methods and settings that do not appear were not measured.",
-        "",
-        "![What each right answer costs](gallery/prices.png)",
-        "",
-        "![Error against wall time](gallery/answers.png)",
-        "",
-        "Error against time. Green: right. Hollow, at the right edge: what the method says not to exist, wrongly; at",
-        "the left one: errors below all others, zero among them. Numbers: nodal diameters of a model; dots are further",
-        "ones, between their neighbours.",
-        "",
-    ]
-    for name, sentence in run["sentences"].items():
-        text += [f"**{QUESTIONS[name].title.capitalize()}.** {sentence}", ""]
     lines = dict.fromkeys(label for table in run["prices"].values() for label in table)
     rows = [[label, *(_price(table.get(label)) for table in run["prices"].values())] for label in lines]
     head = ("method", *(QUESTIONS[name].title for name in run["prices"]))
-    text += [*markdown_table(head, rows), ""]
-    text += ["## Where answers are wrong", "", "![Where the first separation is wrong](gallery/answer_maps.png)", ""]
-    text += [
-        "First separation at N = 600 N, 27 rad/s, over tolerance or step and number of modes.",
-        "",
-        "## Where methods fail",
-        "",
-        "![Where methods fail](gallery/failure_maps.png)",
-        "",
-        "Over step or tolerance and number of modes, in the separating second but for (a).",
-        "",
+    sentences = [
+        {"title": QUESTIONS[name].title.capitalize(), "sentence": said} for name, said in run["sentences"].items()
     ]
-    return "\n".join(text)
+    table = "\n".join(markdown_table(head, rows))
+    return TEXTS["page"].fill(machine=run["machine"], speed=_speed(run), sentences=sentences, table=table)
 
 
 def _price(cell: Mapping[str, Any] | None) -> str:
@@ -213,4 +162,4 @@ def _price(cell: Mapping[str, Any] | None) -> str:
     wrong = f"wrong at {', '.join(f'{setting:g}' for setting in cell['wrong'])}" if cell["wrong"] else ""
     if cell["seconds"] is None:
         return wrong or "no answer"
-    return f"{_plain(cell['seconds'])} s ({'; '.join(filter(None, (cell['at'], wrong)))})"
+    return f"{plain(cell['seconds'])} s ({'; '.join(filter(None, (cell['at'], wrong)))})"

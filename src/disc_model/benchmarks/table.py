@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED, VERDICT_WORDS, Verdict
+from disc_model.benchmarks.texts import TEXTS
 from disc_model.data.dataset import markdown_table
 
 DEFAULT = 1e-10
@@ -48,24 +48,9 @@ def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
     return found
 
 
-def _headline_text(points: pd.DataFrame) -> Iterator[str]:
-    for scene, ratios in headline(points).items():
-        others = sorted((ratio, METHODS[name].label) for name, ratio in ratios.items() if name != "series")
-        if others:
-            listed = ", ".join(f"{label} {ratio:.3g}" for ratio, label in others)
-            yield f"Times slower than the series engine at its default, {scenes.TITLES[scene]}, event-time error within"
-            yield from (f"1e-10 s: {listed}.", "")
-
-
 def at_default(points: pd.DataFrame) -> pd.DataFrame:
     """Those of the series engine at its default."""
     return points[(points["solver"] == "series") & (points["value"] == DEFAULT)]
-
-
-def _arithmetic_text(points: pd.DataFrame) -> Iterator[str]:
-    for scene, flops, cost in at_default(points)[["scene", "flops", "cost"]].dropna().to_numpy():
-        yield f"{scenes.TITLES[scene]}: {flops / 1e6:.1f} MFlop in vectors per simulated second at tol=1e-10,"
-        yield from (f"{flops / cost / 1e9:.1f} GFlop/s.", "")
 
 
 def table(dataset: xr.Dataset) -> pd.DataFrame:
@@ -107,17 +92,13 @@ def _cost_at(line: pd.DataFrame, wanted: Any) -> float:
 
 def to_markdown(dataset: xr.Dataset) -> str:
     """The table as Markdown, a section a scene, with the machine above and the orders beside each method."""
-    frame = table(dataset)
-    text = ["# Speed against accuracy", "", f"Machine: {dataset.attrs['machine']}, one core. Medians of repeats.", ""]
-    points = measured_points(dataset)
-    text += _headline_text(points)
-    if "flops" in points:
-        text += _arithmetic_text(points)
-    text += [
-        "Cost is seconds of wall time per simulated second; `x series` is cost over that of the series engine at the",
-        "same or a smaller event-time error, in the same run. A dash: events are missing or invented.",
-        "",
+    frame, ratios = table(dataset), headline(measured_points(dataset))
+    headlines = [
+        {"title": scenes.TITLES[scene], "others": [{"label": label, "ratio": ratio} for ratio, label in others]}
+        for scene, found in ratios.items()
+        if (others := sorted((ratio, METHODS[name].label) for name, ratio in found.items() if name != "series"))
     ]
+    sections = []
     for scene, part in frame.groupby("scene", sort=False):
         columns = {
             "method": [METHODS[name].label for name in part["method"]],
@@ -130,13 +111,9 @@ def to_markdown(dataset: xr.Dataset) -> str:
             "order": [*map(_order_text, part["order_event"], part["order_theory"])],
             "x series": part["times_series"].map(_short),
         }
-        text += [
-            f"## {scenes.TITLES[str(scene)]}",
-            "",
-            *markdown_table(columns, zip(*columns.values(), strict=True)),
-            "",
-        ]
-    return "\n".join(text)
+        lines = markdown_table(columns, zip(*columns.values(), strict=True))
+        sections.append({"title": scenes.TITLES[str(scene)], "table": "\n".join(lines)})
+    return TEXTS["table"].fill(machine=dataset.attrs["machine"], headlines=headlines, scenes=sections)
 
 
 def _short(x: float) -> str:

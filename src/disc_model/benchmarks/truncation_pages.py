@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import xarray as xr
 
+from disc_model.benchmarks.texts import TEXTS
 from disc_model.data.dataset import markdown_table
 
 Summary = Mapping[str, Any]
@@ -108,25 +109,42 @@ def _alike(value: float | None, last: float | None, tolerance: float) -> bool:
 
 def passages(run: Summary) -> dict[str, str]:
     """Texts by the name under which pages ask for them."""
-    tables = [
-        line
-        for case, contacts in run["values"].items()
-        for line in (f"**{_upper(case)}**", "", *_table(run, contacts), "")
-    ]
-    late = f"{run['late'][0]:g} to {run['late'][0] + run['late'][1]:g} s after the first separation"
-    head = (
-        "Each cell: rigid contact / residual flexibility; a dash where there is none: no cycle, no separation within "
-        f"{run['horizon']:g} s, or a motion that could not be followed. Separations, share, range and force from "
-        f"{late}; processor time per simulated second on {run['machine']}."
-    )
+    start, length = run["late"]
+    tables = [{"title": _upper(case), "table": _table(run, contacts)} for case, contacts in run["values"].items()]
+    settled_of: dict[str, list[bool]] = {}
+    rows, lines = [], []
+    for case, contact, values in _each(run):
+        found = {name: _known(run, values, name) for name in QUANTITIES}
+        places = {name: settled(found[name][1], asked.tolerance) for name, asked in QUANTITIES.items()}
+        settled_of.setdefault(contact, []).extend(place is not None for place in places.values())
+        rows.append([case, contact, *(_from_where(found[name], place) for name, place in places.items())])
+        moving = [
+            {"quantity": QUANTITIES[name].title, **_moves(found[name], QUANTITIES[name])}
+            for name, place in places.items()
+            if place is None
+        ]
+        lines.append({"title": _upper(case), "contact": contact, "moving": moving})
+    columns = [f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %" for asked in QUANTITIES.values()]
+    counts = [{"contact": name, "settled": sum(all_), "count": len(all_)} for name, all_ in settled_of.items()]
     return {
-        "truncation_tables": "\n\n" + "\n".join([head, "", *tables]),
-        "truncation_settled": "\n\n" + "\n".join([*_settled_table(run), "", _counted(run)]) + "\n",
-        "truncation_open": "\n\n" + "\n".join(f"- {line}" for line in _unsettled(run)) + "\n",
+        "truncation_tables": TEXTS["truncation_tables"].fill(
+            horizon=run["horizon"], start=start, stop=start + length, machine=run["machine"], tables=tables
+        ),
+        "truncation_settled": TEXTS["truncation_settled"].fill(
+            table="\n".join(markdown_table(["case", "contact", *columns], rows)), most=run["modes"][-1], contacts=counts
+        ),
+        "truncation_open": TEXTS["truncation_open"].fill(lines=lines),
     }
 
 
-def _table(run: Summary, contacts: Mapping[str, Mapping[str, Sequence[float | None]]]) -> list[str]:
+def _each(run: Summary) -> Iterator[tuple[str, str, Mapping[str, Sequence[float | None]]]]:
+    """Case, contact and the values of the models."""
+    for case, contacts in run["values"].items():
+        for contact, values in contacts.items():
+            yield case, contact, values
+
+
+def _table(run: Summary, contacts: Mapping[str, Mapping[str, Sequence[float | None]]]) -> str:
     """The table of a case: a row for each model, rigid and residual in each cell."""
     head = ["diameters, circles", "modes", *(asked.head for asked in QUANTITIES.values()), *COSTS.values()]
     shown = [(name, asked.scale, asked.digits) for name, asked in QUANTITIES.items()]
@@ -138,39 +156,11 @@ def _table(run: Summary, contacts: Mapping[str, Mapping[str, Sequence[float | No
             for name, scale, digits in shown
         ]
         rows.append([model.replace(",", ", "), modes, *cells])
-    return markdown_table(head, rows)
+    return "\n".join(markdown_table(head, rows))
 
 
 def _at(values: Sequence[float | None], i: int) -> float | None:
     return values[i] if i < len(values) else None
-
-
-def _settled_table(run: Summary) -> list[str]:
-    """From how many modes on each quantity has settled, a row for each case and contact."""
-    columns = [f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %" for asked in QUANTITIES.values()]
-    rows = [
-        [
-            case,
-            contact,
-            *(_from_where(_known(run, values, name), asked.tolerance) for name, asked in QUANTITIES.items()),
-        ]
-        for case, contacts in run["values"].items()
-        for contact, values in contacts.items()
-    ]
-    return markdown_table(["case", "contact", *columns], rows)
-
-
-def _counted(run: Summary) -> str:
-    """How many quantities of how many have settled, by contact."""
-    parts = []
-    for contact in next(iter(run["values"].values())):
-        found = [
-            settled(_known(run, contacts[contact], name)[1], asked.tolerance) is not None
-            for contacts in run["values"].values()
-            for name, asked in QUANTITIES.items()
-        ]
-        parts.append(f"{sum(found)} of {len(found)} with {contact} contact")
-    return f"Settled within {run['modes'][-1]} modes: {', '.join(parts)}."
 
 
 def _known(run: Summary, values: Mapping[str, Sequence[float | None]], name: str) -> Line:
@@ -183,36 +173,19 @@ def _known(run: Summary, values: Mapping[str, Sequence[float | None]], name: str
     return [modes for modes, _ in pairs], [value for _, value in pairs]
 
 
-def _from_where(line: Line, tolerance: float) -> str:
+def _from_where(line: Line, place: int | None) -> str:
     modes, values = line
-    place = settled(values, tolerance)
     if place is None:
         return "**not**"
     none = "none" if values[place] is None else ""
     return none if place == 0 and none else f"{none} from {modes[place]}".strip()
 
 
-def _unsettled(run: Summary) -> list[str]:
-    """A sentence for each case and contact: what has not settled, and between what it still moves."""
-    lines = []
-    for case, contacts in run["values"].items():
-        for contact, values in contacts.items():
-            lines_of = {name: _known(run, values, name) for name in QUANTITIES}
-            moving = [
-                f"{asked.title} ({_moves(lines_of[name], asked)})"
-                for name, asked in QUANTITIES.items()
-                if settled(lines_of[name][1], asked.tolerance) is None
-            ]
-            said = f"not settled: {', '.join(moving)}" if moving else "all of it has settled"
-            lines.append(f"{_upper(case)}, {contact}: {said}.")
-    return lines
-
-
-def _moves(line: Line, asked: Asked) -> str:
-    """The values of the three largest models."""
+def _moves(line: Line, asked: Asked) -> dict[str, str]:
+    """The values of the three largest models, and their numbers of modes."""
     modes, values = line
     listed = ", ".join(_number(value, asked.scale, asked.digits) for value in values[-FEWEST:])
-    return f"{listed} with {', '.join(map(str, modes[-FEWEST:]))} modes"
+    return {"values": listed, "modes": ", ".join(map(str, modes[-FEWEST:]))}
 
 
 def _number(value: float | None, scale: float, digits: int) -> str:
@@ -226,9 +199,5 @@ def _upper(case: str) -> str:
 
 def text(study: xr.Dataset) -> str:
     """All of it as one page: the table beside the figures of ``make bench``."""
-    known = passages(summary(study))
-    parts = ("Every model", "truncation_tables"), ("Settled from so many modes on", "truncation_settled")
-    lines = ["# What the number of modes changes"]
-    for title, name in (*parts, ("What has not settled", "truncation_open")):
-        lines += ["", f"## {title}", known[name].strip("\n")]
-    return "\n".join(lines) + "\n"
+    known = {name.removeprefix("truncation_"): said.strip("\n") for name, said in passages(summary(study)).items()}
+    return TEXTS["truncation_page"].fill(**known)

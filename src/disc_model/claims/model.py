@@ -7,20 +7,20 @@ is given cases and bounds; it returns an `Answer`: a verdict, and the numbers th
 from __future__ import annotations
 
 import json
-import string
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
 import yaml
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
+from disc_model.data.texts import Parts, Sentences
 from disc_model.data.variables import STATUSES
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
@@ -174,36 +174,6 @@ class Finding:
     remark: str = ""
 
 
-class Part(BaseModel):
-    """A sentence that is said of each row of a value, and what stands between two of them."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    each: str
-    between: str = "; "
-
-
-class Sentences(string.Formatter):
-    """`str.format` for lists as well: of numbers, ``{values:.2f}``, and of rows, each said by the part of its name."""
-
-    def __init__(self, parts: Mapping[str, Part], values: Mapping[str, Any]) -> None:
-        self.parts, self.values = parts, values
-
-    def fill(self, template: str) -> str:
-        return self.vformat(template, (), self.values)
-
-    def get_value(self, key: int | str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
-        value = kwargs[str(key)]
-        if key not in self.parts:
-            return value
-        part, rows = self.parts[str(key)], value if isinstance(value, list) else [value]
-        return part.between.join(self.vformat(part.each, (), {**kwargs, **row}) for row in rows)
-
-    def format_field(self, value: Any, spec: str) -> str:
-        if isinstance(value, list | np.ndarray):
-            return ", ".join(format(each, spec) for each in value)
-        return format(value, spec)
-
-
 Names = Literal[True] | tuple[str, ...]
 
 
@@ -243,9 +213,7 @@ class Text(BaseModel):
     remark: str = ""
     remarks: dict[str, str] = {}
     undecided: dict[str, str] = {}
-    parts: dict[
-        str, Annotated[Part, BeforeValidator(lambda part: {"each": part} if isinstance(part, str) else part)]
-    ] = {}
+    parts: Parts = {}
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import xarray as xr
 
 from disc_model.benchmarks.answers.measure import Row
 from disc_model.benchmarks.answers.questions import Status, Verdict
+from disc_model.benchmarks.texts import TEXTS
 from disc_model.data.dataset import markdown_table
 
 MODELS = ("rigid", "residual")
@@ -31,47 +32,43 @@ def cheapest_right(found: Sequence[Row]) -> list[Row]:
     return [*best.values()]
 
 
-def sentences(dataset: xr.Dataset, question: str) -> str:
+def sentence(dataset: xr.Dataset, question: str) -> str:
     """Which method answers a question rightly at what price, which wrongly, and which not at all."""
     own, found = json.loads(dataset.attrs["questions"])[question], points(dataset, question)
-    right = cheapest_right(found)
-    unit = "" if own["units"] == "1" else f" {_unit(own['units'])}"
-    priced = _listed(f"{p.label} ({p.at}, {_time(p)})" for p in right)
-    text = [f"Right to {own['enough']:g}{unit}, cheapest first: {priced}."]
-    wrong = [p for p in found if p.verdict is Verdict.WRONG and p.line not in MODELS]
-    if wrong:
-        text.append(f"Wrong without a warning: {_listed(f'{p.label} at {p.at} ({p.says})' for p in wrong)}.")
-    answered = {p.line for p in found if p.verdict is not Verdict.NO_ANSWER}
-    silent = dict.fromkeys(p.label for p in found if p.line not in answered and p.line not in MODELS)
-    if silent:
-        text.append(f"No answer in the time given: {_listed(silent)}.")
-    for model in MODELS:
-        own_points = [p for p in found if p.line == model]
-        enough = [p.setting for p in own_points if p.verdict is Verdict.RIGHT]
-        if enough:
-            text.append(f"Modes, {model} contact: right with {_listed(f'{n:.0f}' for n in enough)} nodal diameters.")
-        elif own_points:
-            most = own_points[-1].setting
-            text.append(f"Modes, {model} contact: with no number of nodal diameters up to {most:.0f}.")
-    return " ".join(text)
+    methods = [p for p in found if p.line not in MODELS]
+    answered = {p.line for p in methods if p.verdict is not Verdict.NO_ANSWER}
+    return TEXTS["answer"].fill(
+        enough=own["enough"],
+        unit="" if own["units"] == "1" else f" {_unit(own['units'])}",
+        right=[{"label": p.label, "at": p.at, "time": _time(p)} for p in cheapest_right(found)],
+        wrong=[{"label": p.label, "at": p.at, "says": p.says} for p in methods if p.verdict is Verdict.WRONG],
+        silent=[{"label": label} for label in dict.fromkeys(p.label for p in methods if p.line not in answered)],
+        models=[
+            {"model": model, "which": _enough(line)}
+            for model in MODELS
+            if (line := [p for p in found if p.line == model])
+        ],
+    )
+
+
+def _enough(model: Sequence[Row]) -> str:
+    """How many nodal diameters of a model do."""
+    right = "; ".join(f"{p.setting:.0f}" for p in model if p.verdict is Verdict.RIGHT)
+    most = max(p.setting for p in model)
+    return f"right with {right} nodal diameters" if right else f"with no number of nodal diameters up to {most:.0f}"
 
 
 def to_markdown(dataset: xr.Dataset) -> str:
     """A section a question: its sentence, its right answer, its table; the machine above."""
-    text = ["# What each answer costs", "", f"Machine: {dataset.attrs['machine']}, one core.", ""]
-    text += [
-        "The error of the lines of modes is that of the model, against the richest disc; that of the others is of the",
-        "numbers, with nine modes. A dash: no answer.",
-        "",
-    ]
     about = json.loads(dataset.attrs["questions"])
+    rows = []
     for question in dict.fromkeys(map(str, dataset["answer"].values)):
-        own, found = about[question], points(dataset, question)
-        text += [f"## {own['title'].capitalize()}", "", sentences(dataset, question), ""]
-        text += [f"Right answer: error {own['error']}.", ""]
+        own = about[question]
         head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "time (s)", "verdict", "status")
-        text += [*markdown_table(head, map(_row, found)), ""]
-    return "\n".join(text)
+        table = "\n".join(markdown_table(head, map(_row, points(dataset, question))))
+        said = {"title": own["title"].capitalize(), "sentence": sentence(dataset, question), "error": own["error"]}
+        rows.append({**said, "table": table})
+    return TEXTS["answers"].fill(machine=dataset.attrs["machine"], questions=rows)
 
 
 def _row(p: Row) -> tuple[str, ...]:
@@ -96,7 +93,3 @@ def _time(p: Row) -> str:
 
 def _unit(units: str) -> str:
     return units.replace("rad s-1", "rad/s").replace("s-1", "1/s")
-
-
-def _listed(parts: Iterable[str]) -> str:
-    return "; ".join(parts) or "none"
