@@ -17,8 +17,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import Fault, ModeError, ParameterError, shown
-from disc_model.parameters import RESIDUAL, Parameters
+from disc_model.errors import Fault, ModeError, ParameterError, refuse, shown
+from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.plate import mode_arrays
 
 Array = NDArray[np.float64]
@@ -61,9 +61,12 @@ def residual_flexibility(p: Parameters) -> Flexibility:
 
     Raises
     ------
+    ParameterError
+        If `p` is no `Parameters`.
     ModeError
         If the modes cannot be computed.
     """
+    refuse(foreign_case(p))
     kept = _modal_sum(p)
     if p.normalization == "orthonormal":
         value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)

@@ -8,7 +8,8 @@ import json
 import math
 import numbers
 import operator
-from collections.abc import Mapping
+import sys
+from collections.abc import Iterator, Mapping
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_type_hints
 
@@ -57,11 +58,14 @@ def whole(value: Any) -> Any:
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is a number already, and not what `number` would make one of."""
-    # the usual types first: to ask for the abstract one takes several times as long
-    if isinstance(value, float) or type(value) is int:
+    """Whether a value is a number already, within the range of floats, and not what `number` would make one of."""
+    # the usual type first: to ask for the abstract one takes several times as long
+    if isinstance(value, float):
         return True
-    return isinstance(value, numbers.Real) and not isinstance(value, bool)
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        return False
+    # a larger whole number, of which no float can be made, compares as less than infinity
+    return -sys.float_info.max <= value <= sys.float_info.max  # type: ignore[operator,no-any-return]
 
 
 def is_whole(value: object) -> TypeGuard[int]:
@@ -114,6 +118,18 @@ CycleTolerance = Annotated[Real, _within(CYCLE_TOLERANCES)]
 # Bases
 
 
+def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
+    """Names that are no text, at any depth: pydantic makes keywords of those inside another model, a `TypeError`."""
+    if isinstance(data, dict):
+        for name, value in data.items():
+            if not isinstance(name, str):
+                yield Fault((*path, repr(name)), shown(value), "a name must be text")
+            yield from faults_of_names(value, (*path, str(name)))
+    elif isinstance(data, list | tuple):
+        for i, value in enumerate(data):
+            yield from faults_of_names(value, (*path, str(i)))
+
+
 class Strict(BaseModel):
     """What a file says: immutable, unknown keys refused."""
 
@@ -153,9 +169,10 @@ class Checked(Strict, metaclass=_OwnNames):
             name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
             said = ", ".join(f"{key}={shown(value)}" for key, value in named)
             raise ParameterError(f"{name} takes named values: {name}({said})")
-        faults: list[str] = []
+        faults: list[str] = list(faults_of_names(data))
         try:
-            super().__init__(**data)
+            if not faults:
+                super().__init__(**data)
         except ValidationError as error:
             faults += faults_of(error, data, type(self), self._word)
         faults += self._more_faults(data)
@@ -171,9 +188,8 @@ class Checked(Strict, metaclass=_OwnNames):
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """From a mapping, with the same errors as the constructor."""
         if isinstance(obj, Mapping):
-            if unnamed := [key for key in obj if not isinstance(key, str)]:
-                rule = f"a {cls._word}'s name must be text"
-                raise ParameterError(*(Fault((repr(key),), shown(obj[key]), rule) for key in unnamed))
+            if unnamed := list(faults_of_names(obj)):
+                raise ParameterError(*unnamed)
             return cls(**obj)
         if isinstance(obj, cls):
             return obj
@@ -356,6 +372,11 @@ class Parameters(Checked):
         """SI unit of a parameter; "1" if it has no dimension, "" if it is a choice."""
         extra = cls.model_fields[name].json_schema_extra
         return str(extra["unit"]) if isinstance(extra, dict) else ""
+
+
+def foreign_case(p: object) -> list[str]:
+    """What is no case."""
+    return [] if isinstance(p, Parameters) else [Fault(("p",), shown(p), "must be Parameters")]
 
 
 def leaves_modes(values: Mapping[str, Any]) -> bool:

@@ -21,12 +21,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg, special
 
-from disc_model.errors import ModeError, shown
+from disc_model.errors import ModeError, refuse, shown
+from disc_model.parameters import Parameters, foreign_case
 
 if TYPE_CHECKING:
     import pandas as pd
-
-    from disc_model.parameters import Parameters
 
 Array = NDArray[np.float64]
 
@@ -59,11 +58,14 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
 
     Raises
     ------
+    ParameterError
+        If `p` is no `Parameters`.
     ModeError
         If the modes cannot be told apart or an amplitude overflows.
     """
     import pandas as pd
 
+    refuse(foreign_case(p))
     return pd.DataFrame(vars(mode_arrays(p)))
 
 
@@ -105,8 +107,10 @@ def slider_at_rest_frequencies(p: Parameters) -> Array:
 
     Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an amplitude
     under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Shape
-    (number of real modes,). Contact is the paper's, rigid, whatever the case says.
+    (number of real modes,). Contact is the paper's, rigid, whatever the case says. Raises ParameterError if `p` is no
+    `Parameters`, and ModeError as `plate_modes`.
     """
+    refuse(foreign_case(p))
     modes = mode_arrays(p)
     coupled = coupled_frequencies(modes.omega, modes.psi, p.m, p.k)
     return np.sort(np.concatenate([coupled, modes.omega[modes.diameters > 0]]))

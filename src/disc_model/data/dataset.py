@@ -118,10 +118,12 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
     Raises
     ------
     ParameterError
-        If no file can have this name.
+        If it is no tree, or no file can have this name.
     disc_model.data.dataset.WriteError
         If the disk is full.
     """
+    if not isinstance(tree, xr.DataTree):
+        raise ParameterError(Fault(("tree",), shown(tree), "must be an xarray.DataTree"))
     file, encoding = _file(path), _encoding(tree)
     size = sum(node.to_dataset(inherit=False).nbytes for node in tree.subtree)
     write_whole(file, lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)

@@ -18,7 +18,7 @@ from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
 from disc_model.engine.compile import compiled_for
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
-from disc_model.parameters import TOLERANCES, Parameters, is_number, is_whole, limits_faults
+from disc_model.parameters import TOLERANCES, Parameters, foreign_case, is_number, is_whole, limits_faults
 from disc_model.plate import mode_arrays
 from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
@@ -315,9 +315,7 @@ def _check_arguments(
     ramps: object,
 ) -> None:
     """Raise one ParameterError that lists every fault."""
-    found: list[str] = []
-    if not isinstance(p, Parameters):
-        found.append(Fault(("p",), shown(p), "must be Parameters"))
+    found = foreign_case(p)
     if not isinstance(record, Record):
         found.append(Fault(("record",), shown(record), "must be a Record or a Window"))
     start = 0.0

@@ -49,7 +49,7 @@ class Window(Checked):
     last: Positive | None = None
     rate: Positive
     theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
-    envelope: Annotated[Count, Field(ge=2)] | None = None
+    envelope: Annotated[Count, Field(ge=2, le=2**53)] | None = None
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:

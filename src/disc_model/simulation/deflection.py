@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, foreign_case, is_number
 from disc_model.plate import mode_arrays, mode_shapes
 from disc_model.simulation.api import published_start, simulate
 from disc_model.simulation.case import Record
-from disc_model.simulation.result import State, amplitude_faults
+from disc_model.simulation.result import State, amplitude_faults, is_finite_array
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -130,16 +130,10 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
 def _foreign(p: object, initial_state: object) -> list[str]:
     """Arguments of another type."""
     state = initial_state is None or isinstance(initial_state, State)
-    return broken(
-        (isinstance(p, Parameters), "p", p, "must be Parameters"),
-        (state, "initial_state", initial_state, "must be a State"),
-    )
+    return foreign_case(p) + broken((state, "initial_state", initial_state, "must be a State"))
 
 
 def _numbers(values: ArrayLike) -> Array | None:
     """Finite numbers, shape (n,); None if they are none."""
-    try:
-        array = np.atleast_1d(np.asarray(values, dtype=float))
-    except (TypeError, ValueError):
-        return None
-    return array if array.ndim == 1 and bool(np.all(np.isfinite(array))) else None
+    given = [values] if is_number(values) else values
+    return np.asarray(given, dtype=float) if is_finite_array(given) else None

@@ -206,10 +206,15 @@ class Result:
         Raises
         ------
         ParameterError
-            For another name.
+            For another name, or times that are no finite numbers.
         """
-        if name not in RAMPED:
-            raise ParameterError(Fault(("name",), shown(name), f"must be one of {', '.join(RAMPED)}"))
+        known = isinstance(name, str) and name in RAMPED
+        errors.refuse(
+            errors.broken(
+                (known, "name", name, f"must be one of {', '.join(RAMPED)}"),
+                (is_finite_array(times, flat=False), "times", times, "must be finite numbers"),
+            )
+        )
         return values_at(self.parameters, self.ramps, name, times)
 
     def to_tree(self, names: Sequence[str] | None = None) -> xr.DataTree:
@@ -241,8 +246,8 @@ class Result:
             If there is no such group.
         """
         groups = self._groups()
-        if group not in groups:
-            raise ParameterError(f"group={group!r}: must be one of {', '.join(map(repr, groups))}")
+        if not isinstance(group, str) or group not in groups:
+            raise ParameterError(f"group={shown(group)}: must be one of {', '.join(map(repr, groups))}")
         return groups[group]
 
     def _groups(self, names: Sequence[str] | None = None) -> dict[str, xr.Dataset]:
@@ -604,13 +609,14 @@ def _is_among(value: object, known: Collection[int]) -> bool:
     return is_number(value) and value in known
 
 
-def is_finite_array(values: object, size: int) -> bool:
-    """Whether values are so many finite real numbers."""
+def is_finite_array(values: object, size: int | None = None, *, flat: bool = True) -> bool:
+    """Whether values are finite real numbers: so many, or any number of them, and in one dimension if `flat`."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):
         return False
-    return array.dtype.kind in "fiu" and array.shape == (size,) and all(map(math.isfinite, array.tolist()))
+    fits = size in (None, array.size) and (array.ndim == 1 or not flat)
+    return fits and array.dtype.kind in "fiu" and all(map(math.isfinite, array.ravel().tolist()))
 
 
 # ----------------------------------------------------------------------------------------------------

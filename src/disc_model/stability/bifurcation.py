@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from disc_model.data.variables import SERIES, Variable
 from disc_model.errors import Status, broken, refuse
-from disc_model.parameters import Parameters, is_whole
+from disc_model.parameters import Parameters, foreign_case, is_number, is_whole
 from disc_model.progress import compiling
 from disc_model.simulation.api import carried_over, simulate
 from disc_model.simulation.case import Poincare, Record
-from disc_model.simulation.result import State
+from disc_model.simulation.result import State, is_finite_array
 
 if TYPE_CHECKING:
     import xarray as xr
 
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
+MOST_SAMPLES = 1_000_000
+"""Of one value: hours of work, and 40 MB."""
 STATUS_NAMES = tuple(status.value for status in Status)
 
 
@@ -64,8 +66,9 @@ def bifurcation_samples(
     """
     import xarray as xr
 
-    values = [float(value) for value in values]
-    _check(p, name, values, transient, samples)
+    values = list(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes | Mapping) else values
+    _check(p, name, values, transient, samples, follow, initial_state)
+    values = list(map(float, values))
     cases = [p.replace(**{name: value}) for value in values]
     shape = (len(values), samples)
     data = {variable: np.full(shape, math.nan) for variable in SAMPLED}
@@ -108,17 +111,24 @@ def bifurcation_samples(
     )
 
 
-def _check(p: object, name: str, values: list[float], transient: float, samples: int) -> None:
-    case = isinstance(p, Parameters)
-    real = not case or (name in Parameters.model_fields and isinstance(getattr(p, name), float))
-    slowest = min(values if name == "Omega" else [getattr(p, "Omega", 1.0)], default=1.0)
-    refuse(
-        broken(
-            (case, "p", p, "must be Parameters"),
-            (real, "name", name, "must be a parameter that is a real number"),
-            (values, "values", values, "must not be empty"),
-            (0 <= transient < math.inf, "transient", transient, "must be finite and >= 0"),
-            (is_whole(samples) and samples >= 1, "samples", samples, "must be a whole number >= 1"),
-            (slowest > 0, "Omega", slowest, "must be > 0, because samples are taken once a turn"),
-        )
+def _check(
+    p: object, name: str, values: Any, transient: float, samples: int, follow: object, initial_state: object
+) -> None:
+    wrong = foreign_case(p)
+    known = isinstance(name, str) and name in Parameters.model_fields
+    real = known and (wrong or isinstance(getattr(p, name), float))
+    numbers = is_finite_array(values) and len(values) > 0
+    speeds = [getattr(p, "Omega", 1.0)] if not known or name != "Omega" else values if numbers else [1.0]
+    counts = is_whole(samples) and 1 <= samples <= MOST_SAMPLES
+    lasts = is_number(transient) and 0 <= transient < math.inf
+    starts = initial_state is None or isinstance(initial_state, State)
+    wrong += broken(
+        (real, "name", name, "must be a parameter that is a real number"),
+        (numbers, "values", values, "must be finite numbers, one or more"),
+        (lasts, "transient", transient, "must be finite and >= 0"),
+        (counts, "samples", samples, f"must be a whole number from 1 to {MOST_SAMPLES}"),
+        (isinstance(follow, bool | np.bool_), "follow", follow, "must be True or False"),
+        (starts, "initial_state", initial_state, "must be a State"),
+        (min(speeds) > 0, "Omega", min(speeds), "must be > 0, because samples are taken once a turn"),
     )
+    refuse(wrong)

@@ -10,14 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError, broken, refuse
-from disc_model.parameters import CYCLE_TOLERANCES, Parameters, limits_faults
-from disc_model.simulation.result import State
+from disc_model.parameters import CYCLE_TOLERANCES, Parameters, foreign_case, is_number, is_whole, limits_faults
+from disc_model.simulation.result import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
     OUTCOMES,
@@ -206,14 +206,38 @@ class Branch:
         return [kind_of(complex(m[0])) for m in self.multipliers]
 
 
-def check(p: object, names: tuple[str, ...], count: int, tol: float, more: Sequence[str] = ()) -> None:
-    """Raise `ParameterError` on these faults and on those of a case, of names of parameters and of a tolerance."""
-    free = len(names) == count == len(set(names)) and set(names) <= set(PARAMETERS)
+def check(
+    p: object,
+    count: int,
+    names: object,
+    bounds: object,
+    tol: float,
+    *,
+    max_points: object,
+    direction: object = 1,
+    lengths: Mapping[str, object],
+    more: Sequence[str] = (),
+) -> None:
+    """Raise `ParameterError` on these faults and on those of what continuations are given.
+
+    count, names, bounds : the free parameter and its bounds; of two, both names and a mapping of them to bounds
+    lengths : what has to be a positive number, by name
+    """
+    given = names if isinstance(names, tuple | list) else [names]
+    known = all(isinstance(name, str) and name in PARAMETERS for name in given)
+    free = known and len({*given}) == len(given) == count
+    pairs: list[Any] = [bounds] if count == 1 else []
+    if free and count > 1:
+        pairs = [bounds.get(name) if isinstance(bounds, Mapping) else None for name in given]
+    within = all(is_finite_array(pair, 2) and pair[0] < pair[1] for pair in pairs)
     wrong = broken(
-        (isinstance(p, Parameters), "p", p, "must be Parameters"),
-        (free, "names", names, f"must be {count} of {', '.join(PARAMETERS)}"),
+        (free, "name" if count == 1 else "names", names, f"must be {count} of {', '.join(PARAMETERS)}"),
+        (within, "bounds", bounds, "must be two ascending finite numbers" + ", by name" * (count > 1)),
+        (is_whole(max_points) and max_points >= 1, "max_points", max_points, "must be a whole number >= 1"),
+        (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),  # type: ignore[arg-type]
+        *((is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0") for name, x in lengths.items()),  # type: ignore[operator]
     )
-    refuse([*wrong, *limits_faults("tol", tol, CYCLE_TOLERANCES), *more])
+    refuse([*foreign_case(p), *wrong, *limits_faults("tol", tol, CYCLE_TOLERANCES), *more])
 
 
 def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:

@@ -85,7 +85,9 @@ def continue_cycle(
         Bad input, or no cycle to start from.
     """
     beside = broken((near is None or start is None, "start", start, "must not be given beside near"))
-    check(p, (name,), 1, tol, [*faults_near(near, releases), *beside])
+    lengths = {"step": step, "longest": longest, "shortest": shortest} | ({} if scale is None else {"scale": scale})
+    more = [*faults_near(near, releases), *beside]
+    check(p, 1, name, bounds, tol, max_points=max_points, direction=direction, lengths=lengths, more=more)
     cycle = find_cycle(p, tol, start) if near is None else find_cycle_near(p, near, releases, tol)
     order = None if near is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol, order)
@@ -206,8 +208,10 @@ def continue_border(
     ParameterError
         Bad input, no cycle to start from, or no curve of this kind near it.
     """
+    known = broken((isinstance(kind, str) and kind in ("neutral", "fold"), "kind", kind, "must be 'neutral' or 'fold'"))
+    lengths = {"step": step, "longest": longest, "shortest": shortest}
+    check(p, 2, names, bounds, tol, max_points=max_points, direction=direction, lengths=lengths, more=known)
     names = tuple(names)  # type: ignore[assignment]
-    check(p, names, 2, tol)
     problem = CycleProblem(p, names, None, tol)
     point = starting_point(problem, find_cycle(p, tol, start))
     test, mu = (_on_circle, complex(multipliers(point.jacobian)[0])) if kind == "neutral" else (_at_one, 1.0 + 0j)

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError
-from disc_model.parameters import Parameters
+from disc_model.errors import ParameterError, broken
+from disc_model.parameters import Parameters, is_whole
 from disc_model.progress import compiling
+from disc_model.simulation.result import is_finite_array
+from disc_model.stability.branch import check
 from disc_model.stability.continuation import UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Tongue, nearest_tongue
@@ -24,6 +26,8 @@ SAME_PLACE, SAME_PERIOD = 0.01, 0.02
 OTHERS_GROW = 1e-3
 """1/s; a neutral curve is the border of stability where no other multiplier grows faster than this."""
 
+MOST_POINTS = 100_000
+"""Along a line: an hour of work."""
 SHORTEST = 1e-4
 """Arclength of the shortest step: where more is needed, as where switches graze, a curve ends."""
 
@@ -86,7 +90,22 @@ def stability_curves(
     Returns
     -------
     The curves, and what could not be followed, in words.
+
+    Raises
+    ------
+    ParameterError
+        Bad input; the message names each argument, its value and the rule.
     """
+    other = broken(
+        (is_finite_array(lines), "lines", lines, "must be finite numbers"),
+        (
+            is_whole(points) and 2 <= points <= MOST_POINTS,
+            "points",
+            points,
+            f"must be a whole number from 2 to {MOST_POINTS}",
+        ),
+    )
+    check(p, 2, names, bounds, tol, max_points=max_points, lengths={"longest": longest}, more=other)
     how = {"max_points": max_points, "longest": longest, "shortest": SHORTEST, "tol": tol}
     found: list[StabilityCurve] = []
     notes: list[str] = []

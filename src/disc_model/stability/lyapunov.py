@@ -239,11 +239,11 @@ def _check(
     faults = case_faults(p, "lyapunov_exponents")
     lasts = _is_within(duration, sys.float_info.min)
     most = layout.WIDTH if faults else min(layout.WIDTH, len(_coordinates(engine_case(p).model)))
-    most -= bool(leave_out_trivial)
+    leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
+    most -= leaves_out and bool(leave_out_trivial)
     counts = isinstance(count, int | np.integer) and not isinstance(count, bool) and 1 <= count <= most
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
     starts = initial_state is None or isinstance(initial_state, State)
-    leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
     faults += broken(
         (lasts, "duration", duration, "must be finite and > 0"),
         (_is_within(transient, 0), "transient", transient, "must be finite and >= 0"),

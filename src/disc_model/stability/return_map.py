@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from disc_model.engine import layout, outcomes, switches, variational
 from disc_model.engine import tangent as columns
 from disc_model.errors import broken, refuse
-from disc_model.parameters import RESIDUAL, Parameters
+from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ OUTCOMES = {
 def case_faults(p: object, analysis: str) -> list[str]:
     """What is no case, or one that ``analysis`` cannot do: without modes nothing could lose its stability."""
     if not isinstance(p, Parameters):
-        return broken((False, "p", p, "must be Parameters"))
+        return foreign_case(p)
     return broken(
         (p.n_diameters >= 0, "n_diameters", p.n_diameters, f"must be >= 0: {analysis} needs modes of the disc")
     )

@@ -12,6 +12,7 @@ import yaml
 from pydantic import BaseModel, StringConstraints, ValidationError
 
 from disc_model.errors import DiscModelError, Fault, faults_of, shown
+from disc_model.parameters import faults_of_names
 
 # ----------------------------------------------------------------------------------------------------
 # Faults, each with its path
@@ -73,13 +74,16 @@ def _depth(mapping: Any, place: tuple[str, ...]) -> int:
 
 def validated(model: type[M], raw: Any, path: tuple[str, ...], faults: Faults, place: Origin | None = None) -> M | None:
     """`raw` as a model, or None and its faults under `path`; `place` tells where inherited values stand."""
-    try:
-        return model.model_validate(raw)
-    except ValidationError as error:
-        for fault in faults_of(error, raw, model):
-            where = place.of(fault.path) if place and fault.path else (*path, *fault.path)
-            faults.add_shown(where, fault.value, fault.rule)
-        return None
+    found = list(faults_of_names(raw))
+    if not found:
+        try:
+            return model.model_validate(raw)
+        except ValidationError as error:
+            found += faults_of(error, raw, model)
+    for fault in found:
+        where = place.of(fault.path) if place and fault.path else (*path, *fault.path)
+        faults.add_shown(where, fault.value, fault.rule)
+    return None
 
 
 def add_parameter_faults(found: Iterable[str], place: Callable[[str], tuple[str, ...]], faults: Faults) -> None:

@@ -1,0 +1,154 @@
+"""Wrong types and sizes, for each argument of every public function: each is named, with its value and the rule."""
+
+from __future__ import annotations
+
+import inspect
+import math
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+import disc_model
+from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, State, Window, simulate
+from disc_model.data import dataset
+from disc_model.simulation.api import published_start
+from disc_model.stability.bifurcation import bifurcation_samples
+from disc_model.stability.continuation import continue_border, continue_cycle
+from disc_model.stability.curves import stability_curves
+from disc_model.stability.lyapunov import lyapunov_exponents
+
+P = Parameters(N=200, Omega=20, n_diameters=1)
+HOSTILE: dict[str, Any] = {
+    "text": "x",
+    "digits": "1",
+    "long": "x" * 5000,
+    "bytes": b"1",
+    "None": None,
+    "True": True,
+    "nan": math.nan,
+    "inf": math.inf,
+    "negative": -1.5,
+    "zero": 0,
+    "huge": 10**400,
+    "complex": 1j,
+    "list": [1.0, "x"],
+    "pair": (2, 1),
+    "array": np.array([1.0, math.nan]),
+    "matrix": np.eye(2),
+    "dict": {1: 2},
+    "empty": (),
+    "object": object(),
+}
+FILE = "text digits"
+ANY = "zero negative pair empty matrix"
+
+
+def start(**changes: object) -> None:
+    simulate(P, 1.0, initial_state=published_start(P).replace(**changes))
+
+
+start.__signature__ = inspect.signature(State)  # type: ignore[attr-defined]
+RUN = simulate(P, 1e-4, record=Window(rate=1e5), progress=False)
+PLANE = {"p": P, "names": ("Omega", "N"), "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}}
+#: Functions, arguments that are right, and for each of `HOSTILE` that are right as well, or not looked at.
+SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
+    (disc_model.plate_modes, {}, {}),
+    (disc_model.slider_at_rest_frequencies, {}, {}),
+    (disc_model.residual_flexibility, {}, {}),
+    (disc_model.steady_sliding, {}, {}),
+    (disc_model.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None digits", "rich": "pair"}),
+    (
+        simulate,
+        {"p": P, "t_end": 1.0},
+        {
+            **dict.fromkeys(("initial_state", "record", "stop_at"), "None"),
+            "max_steps": "None huge",
+            "progress": "None True",
+            "ramps": "empty",
+            "checkpoint": f"None {FILE}",
+            "checkpoint_every": "zero",
+        },
+    ),
+    (
+        start,
+        {},
+        dict.fromkeys(("time", "psi", "u_velocity"), "zero negative")
+        | {
+            **dict.fromkeys(("time_low", "f", "known"), "zero"),
+            **dict.fromkeys(("a", "b", "alpha", "beta"), "pair"),
+            "mode_amplitudes": "None",
+            "case_key": " ".join(HOSTILE),
+            "direction": " ".join(HOSTILE),
+        },
+    ),
+    (disc_model.snapshots, {"p": P, "times": 1e-4}, {"times": "zero empty", "initial_state": "None"}),
+    (
+        disc_model.deflection,
+        {"p": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0},
+        {"states": "empty", "r": "empty", "theta": "zero negative pair empty"},
+    ),
+    (disc_model.floquet, {"p": P}, {"near": "None"}),
+    (
+        bifurcation_samples,
+        {"p": P, "name": "Omega", "values": [20.0], "transient": 0.1, "samples": 2},
+        {
+            "values": "pair",
+            "transient": "zero",
+            "follow": "True",
+            "initial_state": "None",
+            "theta": "zero negative digits",
+        },
+    ),
+    (
+        continue_cycle,
+        {"p": P, "name": "Omega", "bounds": (10.0, 30.0)},
+        dict.fromkeys(("near", "start", "scale"), "None") | {"max_points": "huge"},
+    ),
+    (continue_border, PLANE | {"kind": "fold"}, {"start": "None", "max_points": "huge"}),
+    (stability_curves, PLANE | {"lines": (200.0,)}, {"lines": "pair empty", "max_points": "huge"}),
+    (
+        lyapunov_exponents,
+        {"p": P, "duration": 0.1},
+        {"transient": "zero", "initial_state": "None", "leave_out_trivial": "True"},
+    ),
+    (
+        Window,
+        {"rate": 1.0},
+        {**dict.fromkeys(("last", "envelope"), "None"), "start": "zero", "stop": "inf huge", "theta": "zero negative"},
+    ),
+    (Poincare, {}, {"start": "zero", "stop": "inf huge", "theta": "zero negative"}),
+    (Record, {}, {"windows": "empty", "poincare": "None", "events": "True zero bytes", "energy": "True zero bytes"}),
+    (Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {"start": "zero"}),
+    (RUN.value_at, {"name": "N", "times": 0.0}, {"times": ANY}),
+    (RUN.to_tree, {}, {"names": f"None {FILE}"}),
+    (RUN.to_dataset, {}, {}),
+    (RUN.save, {"path": "x"}, {"path": FILE, "names": f"None {FILE}"}),
+    (RUN.final_state.save, {}, {"path": FILE}),
+    (State.load, {}, {"path": FILE}),
+    (disc_model.load, {}, {"path": FILE}),
+    (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": FILE}),
+]
+MODELS = (Window, Poincare, Record, Ramp)
+"""What files are checked by: digits are numbers there."""
+ARGUMENTS = [
+    pytest.param(function, given, name, right.get(name, ""), id=f"{function.__qualname__}-{name}")
+    for function, given, right in SURFACE
+    for name in inspect.signature(function).parameters
+]
+
+
+@pytest.mark.parametrize(("function", "given", "name", "right"), ARGUMENTS)
+def test_a_wrong_argument_is_named(function, given, name, right, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for label, value in HOSTILE.items():
+        if label in right.split() or (function in MODELS and label == "digits"):
+            continue
+        try:
+            function(**given | {name: value})
+        except ParameterError as error:
+            said = error.faults
+        else:
+            said = ("nothing",)
+        assert any(name in re.findall(r"\w+", fault) for fault in said), (label, said)
