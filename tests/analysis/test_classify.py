@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from disc_model.analysis import classify
-from disc_model.analysis.classify import Kind, motion_of, separation_location, stick_disappears, zero_one
+from disc_model.analysis.classify import motion_of, separation_location, stick_disappears, zero_one
+from disc_model.data.variables import Outcome
 
 
 def logistic(r: float, n: int) -> np.ndarray:
@@ -27,7 +28,7 @@ def test_periods_are_found_and_named(period: int) -> None:
     """The search used to end at 12 releases; motions of the paper repeat after 45, 180 and 280."""
     intervals = wandering(period, 20)[: max(2 * period + 7, 40)]
     motion = motion_of(intervals + 1e-12 * np.cos(np.arange(intervals.size)))
-    assert (motion.kind, motion.period) == (Kind.PERIODIC, period)
+    assert (motion.kind, motion.period) == (Outcome.OTHER_CYCLE, period)
     assert motion.closure < 1e-8
     assert str(motion) == f"periodic, repeats after {period} releases"
 
@@ -55,9 +56,9 @@ def test_the_near_returns_of_a_quasi_periodic_motion_are_no_period(size: float) 
     found = motion_of(intervals)
     assert classify.closure(intervals, 1000) < 1e-2 * size
     if size > 1e-8:
-        assert (found.kind, found.period, found.longest) == (Kind.QUASI_PERIODIC, 0, 4000)
+        assert (found.kind, found.period, found.longest) == (Outcome.QUASI_PERIODIC, 0, 4000)
     else:  # smaller than what a period has to close to
-        assert (found.kind, found.period) == (Kind.PERIODIC, 1)
+        assert (found.kind, found.period) == (Outcome.OTHER_CYCLE, 1)
 
 
 def test_a_slow_approach_to_a_period_is_periodic_only_to_its_tolerance() -> None:
@@ -73,14 +74,14 @@ GOLDEN = (5**0.5 - 1) / 2
 @pytest.mark.parametrize(
     ("varied", "kind"),
     [
-        (2e-3 * np.cos(2 * np.pi * GOLDEN * J), Kind.QUASI_PERIODIC),
-        (1e-3 * np.cos(2**0.5 * J) + 1e-3 * np.sin(3**0.5 * J), Kind.QUASI_PERIODIC),
-        (5e-3 * logistic(4.0, 3000), Kind.IRREGULAR),
-        (5e-3 * np.random.default_rng(3).random(2000), Kind.IRREGULAR),
+        (2e-3 * np.cos(2 * np.pi * GOLDEN * J), Outcome.QUASI_PERIODIC),
+        (1e-3 * np.cos(2**0.5 * J) + 1e-3 * np.sin(3**0.5 * J), Outcome.QUASI_PERIODIC),
+        (5e-3 * logistic(4.0, 3000), Outcome.IRREGULAR),
+        (5e-3 * np.random.default_rng(3).random(2000), Outcome.IRREGULAR),
     ],
     ids=["two frequencies", "three frequencies", "logistic", "random"],
 )
-def test_what_does_not_repeat_is_quasi_periodic_or_irregular(varied: np.ndarray, kind: Kind) -> None:
+def test_what_does_not_repeat_is_quasi_periodic_or_irregular(varied: np.ndarray, kind: Outcome) -> None:
     motion = motion_of(0.01 + varied)
     assert (motion.kind, motion.period) == (kind, 0)
     assert motion.spread == pytest.approx(np.std(varied) / (0.01 + np.mean(varied)))

@@ -366,7 +366,7 @@ def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
     return xr.DataTree.from_dict({f"/{name}": tell(specs[name], story) for name, story in stories.items()})
 
 
-def scans(least: float = 0.2, settled: bool = True, softest: str = "unstable") -> dict[str, xr.Dataset]:
+def scans(least: float = 0.2, settled: bool = True, softest: str = "growing") -> dict[str, xr.Dataset]:
     """Grid studies: stick without separation, and what becomes of the published start on softer and stiffer discs.
 
     least, settled : share of stick where it is least, and whether the motion there has settled
@@ -375,8 +375,8 @@ def scans(least: float = 0.2, settled: bool = True, softest: str = "unstable") -
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
     bonded = {"share_stick": (("Omega", "N"), shares), "settled": (("Omega", "N"), times)}
-    kinds = ["unknown", "stable", "unstable", "separation"]
-    outcome = np.full((3, 2, 2), kinds.index("stable"), dtype=np.int8)
+    kinds = ["failed", "quiet", "growing", "separation"]
+    outcome = np.full((3, 2, 2), kinds.index("quiet"), dtype=np.int8)
     outcome[0, 1], outcome[2] = kinds.index(softest), kinds.index("separation")
     flags = {"flag_values": np.arange(len(kinds), dtype=np.int8), "flag_meanings": " ".join(kinds)}
     return {

@@ -49,9 +49,9 @@ def growth(*rates: float) -> xr.Dataset:
 
 def outcome(letters: str) -> xr.Dataset:
     """A letter for each point: s separates, q is quiet, g grows without, x failed."""
-    words = {"s": "separation", "q": "stable", "g": "unstable", "x": "unknown"}
+    words = {"s": "separation", "q": "quiet", "g": "growing", "x": "failed"}
     found = np.array([words[letter] for letter in letters]).reshape(2, 3)
-    return xr.Dataset({"outcome": flag(found, ("unknown", "stable", "unstable", "separation"), ("N", "Omega"))}, POINTS)
+    return xr.Dataset({"outcome": flag(found, ("failed", "quiet", "growing", "separation"), ("N", "Omega"))}, POINTS)
 
 
 NAN = float("nan")

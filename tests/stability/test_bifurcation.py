@@ -11,7 +11,7 @@ import pytest
 from disc_model import ParameterError, Parameters, Poincare, Record, simulate
 from disc_model.stability import bifurcation
 from disc_model.stability.bifurcation import STATUS_NAMES, bifurcation_samples
-from tests.stability.test_settling import paradox
+from tests.stability.test_attractor import paradox
 
 BASE = Parameters(N=200, Omega=50, n_diameters=1)
 

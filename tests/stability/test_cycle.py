@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
+from disc_model.data.variables import Outcome
 from disc_model.engine import layout, saltation
 from disc_model.errors import DiscModelError
 from disc_model.stability import return_map as return_map_module
+from disc_model.stability.attractor.near import cycle_near
 from disc_model.stability.cycle import (
     CycleError,
     CycleStatus,
-    cycle_neared,
     find_cycle,
     find_cycle_near,
     growth_rate,
@@ -116,17 +117,13 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     result, map_ = floquet(stable), ReturnMap(stable)
     assert result.stable
     x = map_.point(result.state)
-    away = map_.state(x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0])
-    found = cycle_neared(stable, away, releases=6)
-    assert found.releases == 1  # not six times around
-    assert found.growth_rate == pytest.approx(result.growth_rate, rel=1e-6)
-    # so slow an approach shows nothing
-    slow = P.replace(N=100, Omega=15)
-    assert floquet(slow).stable
-    assert cycle_neared(slow, floquet(slow).state, releases=1) is None
+    away = x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0]
+    found = cycle_near(map_, away, (1e-4, 6))
+    assert found.cycle.releases == 1  # not six times around
+    assert found.kind is Outcome.QUIET
+    assert found.cycle.growth_rate == pytest.approx(result.growth_rate, rel=1e-6)
     assert not floquet(P).stable
-    assert cycle_neared(P, floquet(P).state, releases=1) is None
-    assert cycle_neared(P.replace(Omega=0), away, releases=1) is None
+    assert cycle_near(ReturnMap(P), ReturnMap(P).point(floquet(P).state), (0.0, 1)) is None
 
 
 def test_no_cycle_near_a_state_is_said():

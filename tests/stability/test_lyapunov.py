@@ -13,7 +13,7 @@ from disc_model.simulation.result import State
 from disc_model.stability import lyapunov
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
 from disc_model.stability.sliding import SteadySliding
-from tests.stability.test_settling import paradox
+from tests.stability.test_attractor import paradox
 
 STICK = Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0, D_star=2e-4)
 """Of a slow drive, for seconds."""

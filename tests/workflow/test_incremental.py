@@ -185,7 +185,7 @@ ALL: Callable[[Project], Jobs] = lambda project: batches(project, "inc_map") | b
         (f"{GRIDS}/quantities/schema.py", lambda _: MAP_TAIL | GROWTH_TAIL),
         (f"{GRIDS}/quantities/hysteresis.py", lambda _: set()),
         (f"{GRIDS}/quantities/floquet.py", lambda project: batches(project, "inc_growth") | GROWTH_TAIL),
-        ("src/disc_model/stability/settling.py", lambda project: batches(project, "inc_map") | MAP_TAIL),
+        ("src/disc_model/stability/attractor/course.py", lambda project: batches(project, "inc_map") | MAP_TAIL),
         (
             "src/disc_model/engine/machine.py",
             lambda project: ALL(project) | MAP_TAIL | GROWTH_TAIL | {("warm", "")},

@@ -8,11 +8,13 @@ Dyn. Syst. 8, 129-145, 2009).
 
 from __future__ import annotations
 
-import enum
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import correlate
+
+from disc_model.data.variables import Outcome
 
 Array = NDArray[np.float64]
 NEAR_RETURN = 1e-3
@@ -20,17 +22,11 @@ NEAR_RETURN = 1e-3
 of n must close a thousand times better than that."""
 FEWEST = 20
 """Fewest intervals that a motion is judged by."""
+REGULAR = 0.3
+"""Result of the 0-1 test, which tends to 0 or to 1 with more intervals, below which a motion is regular; and as far
+below 1, above which it is chaotic. Signals of known nature stay within a tenth of these ends."""
 FREQUENCIES = 101
 """Of which the 0-1 test takes the median."""
-
-
-class Kind(enum.StrEnum):
-    """Kinds of in-plane motion."""
-
-    PERIODIC = "periodic"
-    QUASI_PERIODIC = "quasi-periodic"
-    IRREGULAR = "irregular"
-    UNDECIDED = "undecided"
 
 
 class Motion(NamedTuple):
@@ -38,7 +34,8 @@ class Motion(NamedTuple):
 
     Attributes
     ----------
-    kind : see `Kind`
+    kind : `OTHER_CYCLE` (in contact, the quiet one included) or `SEPARATING` if it repeats, else `QUASI_PERIODIC`,
+        `IRREGULAR` or, where the 0-1 test lies between the two, `UNDECIDED`
     period : number of releases after which it repeats, 0 if it does not
     spread : standard deviation over mean of the intervals; 0 for a motion with one release a period
     closure : s, largest difference of an interval and the one `period` (or one) later
@@ -46,7 +43,7 @@ class Motion(NamedTuple):
     longest : longest period that the record could have shown, in releases
     """
 
-    kind: Kind
+    kind: Outcome
     period: int
     spread: float
     closure: float
@@ -54,19 +51,20 @@ class Motion(NamedTuple):
     longest: int
 
     def __str__(self) -> str:
-        if self.kind is Kind.PERIODIC:
+        if self.period:
             return "periodic" if self.period == 1 else f"periodic, repeats after {self.period} releases"
-        return str(self.kind)
+        return str(self.kind).replace("_", "-")
 
 
-def motion_of(intervals: Array, tolerance: float = 1e-8) -> Motion:
-    """Classify a motion by the intervals between its releases.
+def motion_of(intervals: Array, tolerance: float = 1e-8, *, separates: bool = False) -> Motion:
+    """Classify a motion by the intervals between its releases, or between its separations.
 
     Parameters
     ----------
     intervals : s, shape (n,)
     tolerance : s, how exactly a periodic motion has to repeat: above what is left of the approach to it, far below
         the intervals' own differences
+    separates : whether it loses contact
 
     Raises
     ------
@@ -78,9 +76,12 @@ def motion_of(intervals: Array, tolerance: float = 1e-8) -> Motion:
     spread = irregularity(intervals)
     longest = intervals.size // 2
     if period := shortest_period(intervals, tolerance):
-        return Motion(Kind.PERIODIC, period, spread, closure(intervals, period), np.nan, longest)
+        kind = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
+        return Motion(kind, period, spread, closure(intervals, period), np.nan, longest)
     chaos = zero_one(intervals)
-    kind = Kind.IRREGULAR if chaos > 0.7 else Kind.QUASI_PERIODIC if chaos < 0.3 else Kind.UNDECIDED
+    kind = (
+        Outcome.QUASI_PERIODIC if chaos < REGULAR else Outcome.IRREGULAR if chaos > 1 - REGULAR else Outcome.UNDECIDED
+    )
     return Motion(kind, 0, spread, closure(intervals, 1), chaos, longest)
 
 
@@ -94,19 +95,19 @@ def closure(intervals: Array, period: int) -> float:
     return float(np.max(np.abs(intervals[period:] - intervals[:-period])))
 
 
-def shortest_period(intervals: Array, tolerance: float) -> int:
+def shortest_period(intervals: Array, tolerance: float, near_return: float = NEAR_RETURN) -> int:
     """Least number of releases after which intervals repeat to `tolerance` s; 0 if there is none.
 
-    At most half the intervals: a period must be seen twice. One that closes no better than
-    the near returns of a quasi-periodic motion do (see `NEAR_RETURN`) is none, but for a period of 1: from one release
-    to the next there is no near return, only a slow approach or drift, which `tolerance` is there to allow.
+    At most half the intervals: a period must be seen twice. One that closes no better than the near returns of a
+    quasi-periodic motion do (see `NEAR_RETURN`, or another share) is none, but for a period of 1: from one release to
+    the next there is no near return, only a slow approach or drift, which `tolerance` is there to allow.
     """
-    extent = float(np.ptp(intervals))
+    extent = float(np.ptp(intervals)) if intervals.size else 0.0
     for n in range(1, intervals.size // 2 + 1):
         if abs(intervals[n] - intervals[0]) > tolerance:
             continue
         apart = closure(intervals, n)
-        if apart <= tolerance and (n == 1 or apart <= NEAR_RETURN * extent / n):
+        if apart <= tolerance and (n == 1 or apart <= near_return * extent / n):
             return n
     return 0
 
@@ -137,7 +138,10 @@ def zero_one(values: Array) -> float:
 def _growth(signal: Array, c: float, steps: NDArray[np.int64], count: int) -> float:
     """Correlation of the mean square displacement with time; its oscillating part is subtracted."""
     path = np.cumsum(signal * np.exp(1j * c * np.arange(1, signal.size + 1)))
-    square = np.array([np.mean(np.abs(path[j : j + count] - path[:count]) ** 2) for j in steps])
+    sums = np.append(0.0, np.cumsum(np.abs(path) ** 2))
+    # of |path[i + j] - path[i]|^2 over i < count
+    together = correlate(path, path[:count], mode="valid", method="fft").real
+    square = (sums[count + steps] - sums[steps] + sums[count] - 2 * together[steps]) / count
     square -= signal.mean() ** 2 * (1 - np.cos(c * steps)) / (1 - np.cos(c))
     if np.ptp(square) == 0:
         return 0.0

@@ -12,11 +12,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import FEWEST, Kind, Motion, motion_of, stick_disappears
+from disc_model.analysis.classify import FEWEST, Motion, motion_of, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.analysis.spectra import Line
 from disc_model.claims.model import STRETCH, Absent, CaseView, Missing, Range
-from disc_model.data.variables import EVENT_KINDS, PHASES
+from disc_model.data.variables import EVENT_KINDS, PHASES, Outcome
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
@@ -93,9 +93,9 @@ def late_motion(case: CaseView) -> tuple[Motion, str]:
     return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
 
-def is_kind(kind: Kind, motion: Motion, besides: bool = True) -> tuple[bool | None, str]:
+def is_kind(kind: Outcome, motion: Motion, besides: bool = True) -> tuple[bool | None, str]:
     """Whether a motion is of a kind and what else is claimed, `besides`, is so; or why that is open."""
-    if besides and motion.kind is Kind.UNDECIDED:
+    if besides and motion.kind is Outcome.UNDECIDED:
         return None, "chaos"
     return besides and motion.kind is kind, ""
 

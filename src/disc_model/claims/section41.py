@@ -9,10 +9,11 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import Kind, closure, irregularity, stick_disappears
+from disc_model.analysis.classify import closure, irregularity, stick_disappears
 from disc_model.claims import measures
 from disc_model.claims.measures import first_separation, is_kind, pairs
 from disc_model.claims.model import CHECKS, Answer, CaseView, Missing
+from disc_model.data.variables import Outcome
 
 FULL = 1.1
 """A section is full if its last points hold no more different ones than the last half of them, but for so much."""
@@ -72,12 +73,12 @@ def is_quasi_periodic(case: CaseView, other: CaseView, *, shown: float) -> Answe
     motion, said = measures.late_motion(case)
     length = measures.release_intervals(case)[: motion.period].sum() if motion.period else 0.0
     return Answer(
-        *is_kind(Kind.QUASI_PERIODIC, motion),
+        *is_kind(Outcome.QUASI_PERIODIC, motion),
         said=said,
         longer=length > shown,
         within=0 < length <= shown,
-        irregular=motion.kind is Kind.IRREGULAR,
-        another=motion.kind is not Kind.UNDECIDED and measures.another_motion((case, other)),
+        irregular=motion.kind is Outcome.IRREGULAR,
+        another=motion.kind is not Outcome.UNDECIDED and measures.another_motion((case, other)),
     )
 
 

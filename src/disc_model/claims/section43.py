@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.analysis.classify import Kind, closure, irregularity, separation_location
+from disc_model.analysis.classify import closure, irregularity, separation_location
 from disc_model.claims import measures
 from disc_model.claims.disc import moving_load_speed
 from disc_model.claims.measures import first_separation, growth_or_nan, is_kind, said_growth, said_onset, said_rate
 from disc_model.claims.model import CHECKS, Answer, CaseView, Missing
 from disc_model.claims.section42 import between_only, by_load
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import Outcome, flag_names
 
 STIFFNESSES = {"k": (50, 60, 70, 80, 90, 100, 110, 130, 148, 200), "k_p": (20, 30, 36, 47, 55, 63, 73, 84, 130, 200)}
 """Of the springs normal to the disc and in its plane, kN/m: between those that the paper tries."""
@@ -204,12 +204,12 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
     motion, said = measures.late_motion(case)
     within = max(third.width, last.width) < bounded * min(third.width, last.width)
     return Answer(
-        *is_kind(Kind.IRREGULAR, motion, not case.separates and last.width > factor * early.width and within),
+        *is_kind(Outcome.IRREGULAR, motion, not case.separates and last.width > factor * early.width and within),
         first=first_separation(case),
         early=early,
         last=last,
         said=said,
-        irregular=motion.kind is Kind.IRREGULAR,
+        irregular=motion.kind is Outcome.IRREGULAR,
     )
 
 
@@ -226,7 +226,7 @@ def normal_stiffness(*cases: CaseView) -> Answer:
 @CHECKS("F22")
 def soft_inplane(case: CaseView) -> Answer:
     motion, said = measures.late_motion(case)
-    holds = is_kind(Kind.IRREGULAR, motion, case.separates)
+    holds = is_kind(Outcome.IRREGULAR, motion, case.separates)
     return Answer(*holds, first=first_separation(case), said=said, repeats=motion.period > 0)
 
 
@@ -320,7 +320,7 @@ def elasticity(*cases: CaseView) -> Answer:
 def soft_enough(study: xr.Dataset) -> Answer:
     study = study.sel(normalization="as_published").sortby(["E", "Omega"])
     outcome = flag_names(study["outcome"].transpose("E", "Omega"))
-    if np.any(outcome == "unknown"):
+    if np.any(outcome == "failed"):
         raise Missing("study map_E has points that failed")
     E, Omega = study["E"].values / 1e9, study["Omega"].values
     apart = outcome == "separation"

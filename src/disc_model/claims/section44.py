@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import Kind
 from disc_model.claims import measures
 from disc_model.claims.measures import is_kind
 from disc_model.claims.model import CHECKS, Answer, CaseView, Missing
 from disc_model.claims.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
+from disc_model.data.variables import Outcome
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
 EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
@@ -257,7 +257,7 @@ def erratic(case: CaseView, *, several: float, part: float) -> Answer:
     motion, said = measures.late_motion(case)
     second = further[1].amplitude / further[0].amplitude if len(further) >= several else 1.0
     return Answer(
-        *is_kind(Kind.IRREGULAR, motion, len(further) >= several),
+        *is_kind(Outcome.IRREGULAR, motion, len(further) >= several),
         count=len(found),
         rate=rate,
         further=len(further),

@@ -18,12 +18,12 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis.classify import FEWEST, Kind, motion_of, stick_disappears
+from disc_model.analysis.classify import FEWEST, motion_of, stick_disappears
 from disc_model.claims import measures
 from disc_model.claims.measures import or_none, place_of, said_rate
 from disc_model.claims.model import STRETCH, STRETCHES, Answer, CaseView, Checks, Missing
 from disc_model.claims.pages import Comparison, page_texts
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import Outcome, flag_names
 
 Array = NDArray[np.float64]
 
@@ -106,7 +106,7 @@ SLOW = 1e-3
 def onset(found: Evidence, *, beside: float) -> Answer:
     points = found.grid("survival_outcome")
     outcome, growth = _beside(points, found.grid("survival_growth"))
-    if (outcome == "unknown").any():
+    if (outcome == "failed").any():
         raise Missing("study survival_outcome has points that failed")
     apart = outcome == "separation"
     stable, unstable, none = growth < -SLOW, growth > SLOW, np.isnan(growth)
@@ -272,11 +272,14 @@ def not_periodic(found: Evidence) -> Answer:
     cases = found.separating()
     repeats = [_repeats(case) for case in cases]
     rows = [{"place": place_of(case), "motion": told} for case, (_, told) in zip(cases, repeats, strict=True)]
-    holds = [None if kind is Kind.UNDECIDED else kind is not Kind.PERIODIC for kind, _ in repeats]
+    holds = [
+        None if kind is Outcome.UNDECIDED else kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
+        for kind, _ in repeats
+    ]
     return Answer(*_all_cases(holds), cases=rows)
 
 
-def _repeats(case: CaseView) -> tuple[Kind, str]:
+def _repeats(case: CaseView) -> tuple[Outcome, str]:
     """What a motion is by the intervals between its releases, or separations; and that in words."""
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
         intervals = np.diff(measures.times_of(case, kind))
@@ -285,8 +288,8 @@ def _repeats(case: CaseView) -> tuple[Kind, str]:
             if motion.period:
                 length = float(intervals[: motion.period].sum())
                 return motion.kind, f"repeats after {measures.counted(motion.period, name)} = {length:.4g} s"
-            return motion.kind, f"{motion.kind} by its {name}s"
-    return Kind.UNDECIDED, "too few switches"
+            return motion.kind, f"{motion} by its {name}s"
+    return Outcome.UNDECIDED, "too few switches"
 
 
 def _all_cases(holds: Sequence[bool | None]) -> tuple[bool | None, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import enum
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -17,6 +18,38 @@ PHASES = ("stick", "slip", "separation")
 EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
 """Phases and kinds of switch, in the order of the engine's numbers for them."""
 STATUSES = (*(status.value for status in Status), "failed")
+
+
+class Outcome(enum.StrEnum):
+    """What a motion comes to, in the words of all datasets; `disc_model.stability.attractor` says how each is told."""
+
+    QUIET = "quiet"
+    """the stable stick-slip cycle of the published start"""
+    OTHER_CYCLE = "other_cycle"
+    """another stable cycle in contact"""
+    SEPARATING = "separating"
+    """a stable cycle that loses contact"""
+    QUASI_PERIODIC = "quasi_periodic"
+    """a motion that has settled, is regular and does not repeat"""
+    IRREGULAR = "irregular"
+    """a motion that has settled and is chaotic"""
+    SLIDING = "sliding"
+    """steady sliding"""
+    RESTING = "resting"
+    """the slider stuck to the disc for good"""
+    UNDECIDED = "undecided"
+    """none of these could be shown"""
+    GROWING = "growing"
+    """undecided at the horizon, in contact so far and on the way away from an unstable cycle"""
+    SEPARATION = "separation"
+    """contact is lost before the horizon, and what comes after is not asked"""
+
+
+LASTING = ("failed", *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)))
+"""The flags of what motions come to that are followed as long as it takes; `failed`: not computed."""
+_SETTLED = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
+COURSES = ("failed", *(word for word in Outcome if word not in _SETTLED))
+"""Of those followed to a horizon, or until they separate."""
 
 
 class Variable(NamedTuple):

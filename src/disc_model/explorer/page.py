@@ -28,7 +28,15 @@ SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")
 """In the order in which they use each other."""
 PALETTE = (BLUE, ORANGE, SKY, GREEN, PURPLE, BROWN, GREY, VERMILION)
 """Of flags whose words have no colour of their own, told apart by colour-blind readers too."""
-WORDS = {**PHASE_COLOURS, "ok": SKY, "stable": BLUE, "unstable": ORANGE, "failed": BLACK}
+WORDS = {
+    **PHASE_COLOURS,
+    "ok": SKY,
+    "quiet": BLUE,
+    "stable": BLUE,
+    "growing": ORANGE,
+    "unstable": ORANGE,
+    "failed": BLACK,
+}
 
 
 class Picture(NamedTuple):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import suggestion
@@ -160,12 +160,19 @@ def _normalizations(study: Grid) -> set[str]:
     return {str(value) for (value,) in study.values.get(NORM, [(study.base.get(NORM),)])}
 
 
+FORMER = {"stable": "quiet", "unstable": "growing"}
+"""What outcomes were called, by which files may still name them."""
+
+
 class Mark(Strict):
     """A case of the paper: where it lies, and what the paper says of it."""
 
     x: Number
     y: Number
-    paper: Literal["stable", "unstable", "separation"]
+    paper: Annotated[
+        Literal["quiet", "growing", "separation", "stable", "unstable"],
+        AfterValidator(lambda said: FORMER.get(said, said)),
+    ]
 
 
 CYCLE = Role("floquet", ("N", "Omega"), instead="regions")

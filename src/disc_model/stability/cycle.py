@@ -37,13 +37,6 @@ RETURNS_TRIED = (1, 2, 3)
 """Cycles with up to so many releases a period are looked for."""
 TRANSIENT = 60
 """Returns simulated from the published start before Newton's method is tried again."""
-FALLS, NEARER = 8.0, 4.0
-"""A motion is followed until it should be so much nearer to its cycle by the leading multiplier; and so much nearer it
-has to be, since others act at first."""
-SLOWEST = 60.0
-"""Time that this may take, s: of a slower approach nothing is said."""
-SAME_POINT = 1e-8
-"""A motion so near to its cycle, relative, is on it."""
 
 
 class CycleStatus(StatusBase):
@@ -206,31 +199,7 @@ def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-1
     return cycle_of(map_, tol, found)
 
 
-def cycle_neared(p: Parameters, state: State, releases: int) -> FloquetResult | None:
-    """The stable cycle to which a motion comes that nearly repeats after some releases; None if that is not shown.
-
-    That a motion nearly repeats proves nothing: one on a torus does as well. So Newton's method is begun at its next
-    release; the cycle has to be stable, and the motion to come nearer to it.
-    """
-    if not may_stick_and_slip(p):
-        return None
-    tol = 1e-12
-    map_ = ReturnMap(p, tol, patience=PATIENT)
-    code, x = map_.next_release(state)
-    found = newton(map_, x, tol=tol, releases=releases, may_separate=True) if code == RETURNED else None
-    if found is None:
-        return None
-    cycle = cycle_of(map_, tol, found)
-    if not -cycle.growth_rate > math.log(FALLS) / SLOWEST:
-        return None
-    periods = math.ceil(math.log(FALLS) / -cycle.growth_rate / cycle.period)
-    flight, later, _, _ = map_.evaluate(x, releases=periods * releases, tangent=False, may_separate=True)
-    left, size = (float(np.linalg.norm(at - found.x)) for at in (later, np.zeros_like(x)))
-    nearer = left <= max(float(np.linalg.norm(x - found.x)) / NEARER, SAME_POINT * size)
-    return cycle_of(map_, tol, _once(map_, tol, found)) if flight.outcome == RETURNED and nearer else None
-
-
-def _once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
+def run_through_once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
     """A cycle run through several times, as one that is run through once if it is that."""
     times = found.flight.counts.releases
     for releases in (n for n in range(1, times) if times % n == 0):
@@ -245,10 +214,14 @@ def may_stick_and_slip(p: Parameters) -> bool:
     return min(p.Omega, p.N, p.mu_s, p.k_p) > 0
 
 
+def never_pulls(p: Parameters) -> bool:
+    """Whether nothing pulls at a slider that sticks so that it would ever slip: it rests on the disc for good."""
+    return p.Omega == 0 or (p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N)
+
+
 def _degenerate(p: Parameters, tol: float) -> FloquetResult:
     """What a case is that cannot stick and slip."""
-    held = p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N
-    if p.Omega == 0 or held:
+    if never_pulls(p):
         return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
     return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
 
@@ -263,7 +236,7 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
     for releases in RETURNS_TRIED:
         found = newton(map_, x, tol=tol, releases=releases)
         if found is not None:
-            return cycle_of(map_, tol, _once(map_, tol, found))
+            return cycle_of(map_, tol, run_through_once(map_, tol, found))
     tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
     return _none(p, tol, CycleStatus.NO_CYCLE, tried)
 

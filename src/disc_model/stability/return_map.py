@@ -31,8 +31,9 @@ PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 ROUGHEST = 1e-10
 """Tolerance of flights, whatever residual is asked for: a rougher map is too rough itself for a residual of 1e-8."""
 
-PATIENT = 20.0
-"""Patience with motions that may separate: the slider then passes many places at which the quiet one would stick."""
+PATIENT = 60.0
+"""Patience with motions that may separate: the slider then passes many places at which the quiet one would stick. They
+are given some 5 s, as long as the stretches that are looked at."""
 
 COARSE, COARSE_ORDER, COLUMNS_COARSE = 1e-9, 20, 1e-5
 """Tolerance and order of the series and tolerance of the columns where a Jacobian only has to point the right way."""

@@ -6,16 +6,21 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.data.variables import Outcome
 from disc_model.figures.grids import basins as drawn
 from disc_model.figures.grids import critical_speed
 from disc_model.figures.kinds import BasinShares, CriticalSpeed
 from disc_model.figures.parts import save
-from disc_model.stability.basins import Attractor, Reached, Signature
+from disc_model.stability.attractor.many import Arrival, Attractor
 from disc_model.studies.grids.quantities import basins
 from tests.figures.grids.reading import labels, lines
+from tests.stability.test_attractor import stretch
 from tests.studies.grids.conftest import computed, growth_over, with_failed
 
-QUIET, APART = Attractor("quiet", Signature(1e-5, 0, 0.3, 0)), Attractor("separating", Signature(0.03, 135, 0.2, 0.1))
+QUIET, APART = (
+    Attractor(Outcome.QUIET, stretch(u_min=0, u_max=1e-5, separation_rate=0, share_stick=0.3, share_separation=0)),
+    Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03)),
+)
 
 
 @pytest.fixture
@@ -26,9 +31,9 @@ def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
         def __init__(self, p, *_, **__) -> None:
             self.least = {12: 9.0, 13: 0.5, 14: 0.05, 15: -1.0}[p.Omega]
 
-        def reached(self, energy: float) -> Reached:
+        def reached(self, energy: float) -> Arrival:
             attractor = APART if energy > self.least else QUIET
-            return Reached(attractor.kind, attractor, 50.0, False)
+            return Arrival(attractor.kind, attractor, 50.0, False)
 
     monkeypatch.setattr(basins, "Basins", Made)
     monkeypatch.setattr(basins, "random_kick", lambda p, state, energy, key: energy)

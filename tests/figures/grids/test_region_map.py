@@ -24,9 +24,9 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     growth = np.where(np.arange(len(values)) < 2, -0.1, 0.1)[None, :, None] * np.ones(shape)
     growth[2:] = np.nan
     followed = np.where(np.isfinite(growth), 1, 0)
-    outcome = np.where(np.isnan(growth), 4, np.where(growth < 0, 1, 3))
-    outcome[3, 0] = 2
-    codes = {"outcome": outcome, "origin": np.full(shape, 2)}
+    outcome = np.where(np.isnan(growth), "undecided", np.where(growth < 0, "quiet", "separation"))
+    outcome[3, 0] = "growing"
+    codes = {"outcome": np.vectorize(regions.COURSES.index)(outcome), "origin": np.full(shape, 2)}
     codes |= dict.fromkeys(("cycle", "joined_first", "joined_second"), followed)
     data = {
         name: (dims, values, {"flag_meanings": " ".join(regions.COLUMNS[name].variable.flags)})
@@ -44,7 +44,7 @@ def lengths(ax) -> list[int]:
 @ON_EACH_SCALE
 def test_cells_borders_and_marks(x: str, values: list[float], scale: str, tmp_path) -> None:
     study = made_up(x, values, ["as_published", "orthonormal"])
-    marks = {"F2": Mark(x=values[0], y=100, paper="stable"), "b": Mark(x=values[-1], y=400, paper="separation")}
+    marks = {"F2": Mark(x=values[0], y=100, paper="quiet"), "b": Mark(x=values[-1], y=400, paper="separation")}
     figure = maps.draw(study, {}, RegionMap(x=x, y="N", marks=marks))
     outcome, _, growth, _ = figure.axes[:4]
     assert outcome.get_xscale() == scale
@@ -88,7 +88,7 @@ def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
     study = made_up("Omega", [5.0, 10, 20], ["as_published"])
     for name, code in (
         ("cycle", regions.CYCLES.index("only_near")),  # another is near
-        ("outcome", regions.OUTCOMES.index("stable")),  # it is inferred to stay quiet
+        ("outcome", regions.COURSES.index("quiet")),  # it is inferred to stay quiet
     ):
         other = study.copy(deep=True)
         other[name][2:] = code
@@ -111,9 +111,9 @@ def test_what_did_not_vary_is_said() -> None:
 def test_points_unlike_all_beside_them_are_counted() -> None:
     """An outcome of its own in a corner, one in the middle; two that lie side by side are not alone."""
     study = made_up("Omega", [0.0, 1, 2, 3, 4], ["as_published"])
-    study["outcome"][:] = regions.OUTCOMES.index("stable")
+    study["outcome"][:] = regions.COURSES.index("quiet")
     for row, column in ((0, 0), (2, 1), (1, 3), (2, 3)):
-        study["outcome"][row, column] = regions.OUTCOMES.index("unstable")
+        study["outcome"][row, column] = regions.COURSES.index("growing")
     assert maps.standing_alone(study, PLOT) == 2
     assert maps.standing_alone(study.isel(N=[1, 2], Omega=[3, 4]), PLOT) == 0
 
@@ -121,7 +121,7 @@ def test_points_unlike_all_beside_them_are_counted() -> None:
 def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> None:
     study = made_up("Omega", [5.0, 10, 20], ["as_published"])
     marks = {
-        "F1": Mark(x=5, y=100, paper="stable"),  # quiet, as the paper says, and the cycle is stable
+        "F1": Mark(x=5, y=100, paper="quiet"),  # quiet, as the paper says, and the cycle is stable
         "F2": Mark(x=5, y=200, paper="separation"),  # quiet, and the paper separates
         "F3": Mark(x=20, y=100, paper="separation"),
     }

@@ -11,10 +11,9 @@ import xarray as xr
 from disc_model.figures.grids import stability_map as maps
 from disc_model.figures.kinds import Mark, StabilityMap
 from disc_model.figures.parts import save
-from disc_model.studies.grids.quantities import outcome
 from tests.figures.grids.reading import ON_EACH_SCALE, labels
 
-OUTCOMES = {"flag_meanings": " ".join(outcome.OUTCOMES)}
+OUTCOMES = {"flag_meanings": "failed quiet growing separation"}
 
 
 @ON_EACH_SCALE

@@ -68,7 +68,7 @@ def test_no_separation_is_presumed_between_loads(monkeypatch: pytest.MonkeyPatch
 
 
 def test_areas_are_the_outcomes_of_a_map_where_there_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    codes, words = np.repeat([[0], [1], [2]], 10, axis=1), {"flag_meanings": "stable unstable separation"}
+    codes, words = np.repeat([[0], [1], [2]], 10, axis=1), {"flag_meanings": "quiet growing separation"}
     data = {"growth_rate": (("N", "Omega"), codes - 0.1), "outcome": (("N", "Omega"), codes, words)}
     cycle = xr.Dataset(data, {"N": LOADS, "Omega": SPEEDS}, {"options": json.dumps({"horizon": 1000.0})})
     figure = chart(monkeypatch, cycle=cycle)

@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 from disc_model.errors import Status
-from disc_model.stability.settling import Late
+from disc_model.stability.attractor.course import Stretch
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import critical_speed, hysteresis
@@ -56,8 +56,8 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         """Separation begins at 14 rad/s on the way up, and stays down to 13."""
         apart = p.Omega >= 14 or (state is not None and state and p.Omega >= 13)
         share = 0.25 if apart else 0.0
-        values = dict.fromkeys(Late.__dataclass_fields__, 0.0)
-        found = Late(**values | {"share_separation": share, "share_slip": 1 - share, "separation_rate": 40 * share})
+        values = dict.fromkeys(Stretch.__dataclass_fields__, 0.0)
+        found = Stretch(**values | {"share_separation": share, "share_slip": 1 - share, "separation_rate": 40 * share})
         return SimpleNamespace(final_state=apart, status=Status.OK, message=""), found
 
     monkeypatch.setattr(critical_speed, "motion", motion)

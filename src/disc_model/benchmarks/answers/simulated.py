@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.optimize import curve_fit
 from scipy.signal import find_peaks
 
+from disc_model.analysis.classify import shortest_period
 from disc_model.analysis.sobol import share
 from disc_model.benchmarks.answers import questions
 from disc_model.benchmarks.answers.questions import SIDE, Found, Status
@@ -103,10 +104,7 @@ def period(releases: Array) -> float:
     releases : times of the releases from stick, s
     """
     gaps = np.diff(releases)
-    for n in range(1, len(gaps) // 2 + 1):
-        if np.max(np.abs(gaps[n:] - gaps[:-n])) <= ALIKE * np.max(gaps):
-            return float(n)
-    return math.nan
+    return float(shortest_period(gaps, ALIKE * np.max(gaps, initial=0.0), near_return=np.inf) or np.nan)
 
 
 def onset(solve: Solve, budget: float, within: float = questions.ONSET_WITHIN) -> Answers:

@@ -13,18 +13,32 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.kinds import BasinShares
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PURPLE, SEPARATED, new_figure
+from disc_model.figures.parts import (
+    BLACK,
+    BLUE,
+    BROWN,
+    COLUMN,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SEPARATED,
+    SKY,
+    new_figure,
+)
 
 COLOURS = {
     "quiet": BLUE,
-    "vibrating": ORANGE,
+    "other_cycle": ORANGE,
     "separating": SEPARATED,
+    "quasi_periodic": SKY,
+    "irregular": BROWN,
     "sliding": PURPLE,
     "resting": GREEN,
     "undecided": GREY,
     "failed": BLACK,
 }
-SAID = {"vibrating": "vibrating in contact"}
+SAID = {"other_cycle": "another cycle in contact", "quasi_periodic": "quasi-periodic"}
 LARGEST = 36.0
 """Area of the mark of an attractor that all starts reach, square points."""
 ASIDE = 0.06

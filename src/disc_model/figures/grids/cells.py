@@ -37,11 +37,14 @@ class Look(NamedTuple):
 HATCH = 8 * "/"
 """So dense that a cell of a fiftieth of a panel has two lines."""
 OUTCOMES = {
-    "stable": Look("stays quiet", "#e9eef2"),
-    "unstable": Look("grows, no separation", "#a9b4bd"),
+    "quiet": Look("stays quiet", "#e9eef2"),
+    "sliding": Look("slides steadily", "#e4dcec"),
+    "resting": Look("rests on the disc", "#dcebe1"),
+    "other_cycle": Look("another cycle in contact", "#7f93a3"),
+    "growing": Look("grows, no separation", "#a9b4bd"),
     "separation": Look("separation", SEPARATED),
     "undecided": Look("undecided", "#a98b6d"),
-    "unknown": Look("failed", "#333333"),
+    "failed": Look("failed", "#333333"),
 }
 CYCLES = {
     "slides": Look(WITHOUT_CYCLE["no_stick_slip"], "#d9cfe3"),

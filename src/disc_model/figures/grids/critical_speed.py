@@ -100,7 +100,7 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
     """
     load = json.loads(basins.attrs["base"])["N"]
     speeds = basins["Omega"].values
-    both = (basins["share_low"].sel(fate=["quiet", "separating"]) > 0).all("fate").values
+    both = ((basins["share_low"].sel(fate="quiet") > 0) & (basins["separating_share_low"] > 0)).values
     for i, (first, after) in enumerate(parts.stretches(both)):
         low, high = speeds[first], speeds[after - 1]
         ax.bar(

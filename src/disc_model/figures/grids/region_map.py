@@ -113,7 +113,7 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> set[str]:
     growth = data["growth_rate"].transpose(plot.y, plot.x).values
     stable, unstable = growth < 0, growth > 0
     gone = cells.words_of(data, "cycle", plot.x, plot.y) == "none_found"
-    gone &= cells.words_of(data, "outcome", plot.x, plot.y) != "stable"
+    gone &= cells.words_of(data, "outcome", plot.x, plot.y) != "quiet"
     lines: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
     up, right = _joined(data, plot)
 
@@ -175,7 +175,7 @@ def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
     yield f"{(origin == 'simulation').sum()} of {outcome.size} points simulated.{named}"
     if alone := standing_alone(study, plot):
         yield f"Points unlike all beside them: {alone}."
-    quiet = (outcome == "stable") & (origin == "undivided_cell") & np.isin(cycle, ["only_near", "none_found"])
+    quiet = (outcome == "quiet") & (origin == "undivided_cell") & np.isin(cycle, ["only_near", "none_found"])
     if quiet.any():
         yield f"Inferred to stay quiet, though the start was followed to no cycle: {quiet.sum()}."
     yield from contradictions(study, plot)
@@ -203,7 +203,7 @@ def contradictions(study: xr.Dataset, plot: RegionMap) -> list[str]:
         found = cells.OUTCOMES[outcome].label
         if outcome != mark.paper:
             said.append(f"{name}: the paper says “{cells.OUTCOMES[mark.paper].label}”, the published start: {found}.")
-        if (outcome == "stable") != (rate < 0) and np.isfinite(rate):
+        if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
             said.append(f"{name}: {found}, beside a cycle that is {kind} ({rate:.2g}/s): {why}.")

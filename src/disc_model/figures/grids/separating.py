@@ -20,14 +20,13 @@ from disc_model.figures.parts import BLACK
 Array = NDArray[np.float64]
 
 BEHIND = {
-    "stable": OUTCOMES["stable"],
-    "unstable": paler(OUTCOMES["unstable"], 0.35),
+    **OUTCOMES,
+    "other_cycle": paler(OUTCOMES["other_cycle"], 0.35),
+    "growing": paler(OUTCOMES["growing"], 0.35),
     "separation": paler(OUTCOMES["separation"], 0.75),
-    "undecided": OUTCOMES["undecided"],
-    "unknown": OUTCOMES["unknown"],
 }
 """What becomes of the published start, behind curves and marks."""
-STABLE = Look("stick-slip cycle stable; white: none is", OUTCOMES["stable"].face)
+STABLE = Look("stick-slip cycle stable; white: none is", OUTCOMES["quiet"].face)
 
 
 def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
@@ -123,7 +122,7 @@ def draw_behind(ax: Axes, cycle: xr.Dataset, x: str, y: str) -> list[Patch]:
     edges = edges_of(cycle, x, y)
     if "outcome" not in cycle:
         stable = cycle["growth_rate"].transpose(y, x).values < 0
-        fill(ax, edges, np.where(stable, "stable", ""), BEHIND)
+        fill(ax, edges, np.where(stable, "quiet", ""), BEHIND)
         return [patch(STABLE)]
     words = words_of(cycle, "outcome", x, y)
     fill(ax, edges, words, BEHIND)

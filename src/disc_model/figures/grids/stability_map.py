@@ -23,10 +23,14 @@ from disc_model.figures.kinds import StabilityMap
 from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure
 
 MARKS = {
-    "stable": ("o", "white", 9),
-    "unstable": ("^", "#9a9a9a", 13),
+    "quiet": ("o", "white", 9),
+    "sliding": ("o", "#c9b8dc", 9),
+    "resting": ("o", "#b9dcc6", 9),
+    "other_cycle": ("v", "white", 13),
+    "growing": ("^", "#9a9a9a", 13),
+    "undecided": ("D", "white", 9),
     "separation": ("s", BLACK, 10),
-    "unknown": ("x", BLACK, 12),
+    "failed": ("x", BLACK, 12),
 }
 """Shape, face and area of the mark of each outcome."""
 LARGE = 55.0

@@ -79,7 +79,7 @@ def _growing(ax: Axes, cycle: xr.Dataset, study: xr.Dataset, horizon: float) -> 
     """
     rate = cycle["growth_rate"].transpose("N", "Omega")
     apart = separates(study, horizon, rate["N"].values, rate["Omega"].values)
-    words = np.where(~(rate.values < 0) & ~apart, "unstable", "")
+    words = np.where(~(rate.values < 0) & ~apart, "growing", "")
     fill(ax, edges_of(cycle, "Omega", "N"), words, BEHIND)
     said = "no stable cycle, no separation;\nwhite: all else, or not known"
-    return [patch(BEHIND["unstable"]._replace(label=said))]
+    return [patch(BEHIND["growing"]._replace(label=said))]

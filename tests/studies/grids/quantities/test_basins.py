@@ -7,32 +7,41 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
+from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
-from disc_model.stability.basins import Attractor, Reached, Signature
+from disc_model.stability.attractor.many import Arrival, Attractor
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import basins
 from disc_model.studies.grids.quantities.schema import BasinsOptions
 from disc_model.studies.grids.run import compute
+from tests.stability.test_attractor import stretch
 from tests.studies.grids.conftest import computed
 
-QUIET = Attractor("quiet", Signature(1e-5, 0, 0.3, 0), 0.015, 1, -0.1, np.zeros((1, 2)))
-APART = Attractor("separating", Signature(0.03, 135, 0.2, 0.1))
+QUIET = Attractor(
+    Outcome.QUIET,
+    stretch(u_min=0, u_max=1e-5, separation_rate=0, share_stick=0.3, share_separation=0),
+    0.015,
+    1,
+    -0.1,
+    np.zeros((1, 2)),
+)
+APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 
 
 class Made:
     """Of a start i, what is kicked by more than 0.02 (i + 1) J separates; further starts are as said."""
 
-    fates: ClassVar[dict[int, Reached]] = {}
+    fates: ClassVar[dict[int, Arrival]] = {}
 
     def __init__(self, p, horizon, **_) -> None:
         self.known = [QUIET, APART]
 
-    def reached(self, state: tuple[float, int]) -> Reached:
+    def reached(self, state: tuple[float, int]) -> Arrival:
         energy, i = state
         if i in self.fates:
             return self.fates[i]
         attractor = APART if energy > 0.02 * (i + 1) else QUIET
-        return Reached(attractor.kind, attractor, 50.0, attractor is APART)
+        return Arrival(attractor.kind, attractor, 50.0, attractor is APART)
 
 
 @pytest.fixture
@@ -69,8 +78,8 @@ def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: N
 
 
 def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    lost = Reached("failed", None, 3.0, False, "paradox", "paradox: at t = 3 s")
-    monkeypatch.setattr(Made, "fates", {1: lost, 2: Reached("undecided", None, 200.0, True)})
+    lost = Arrival(None, None, 3.0, False, "paradox", "paradox: at t = 3 s")
+    monkeypatch.setattr(Made, "fates", {1: lost, 2: Arrival(Outcome.UNDECIDED, None, 200.0, True)})
     table = found(energies=[0.1], starts=4)
     fates = list(basins.FATES)
     assert STATUSES[table.arrays["status"][0]] == "ok"
@@ -106,4 +115,4 @@ def test_kicks_of_an_axis_are_starts_of_their_own() -> None:
     options = {"horizon": 200, "bisected": 0}
     plane = computed(quantity="basins", options=options, base={"N": 385, "Omega": 15}, axes=axes)
     kinds = plane["kind"].squeeze().values
-    assert [basins.KINDS[kind] for kind in kinds] == ["quiet", "separating"]
+    assert [basins.LASTING[kind] for kind in kinds] == ["quiet", "separating"]

@@ -11,7 +11,7 @@ import xarray as xr
 
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.settling import Late
+from disc_model.stability.attractor.course import Stretch
 from disc_model.studies.grids.quantities import hysteresis
 from disc_model.studies.grids.quantities.schema import HysteresisOptions
 from disc_model.studies.grids.run import Table, compute
@@ -35,7 +35,7 @@ def test_a_sweep_that_cannot_go_on_says_where(monkeypatch: pytest.MonkeyPatch) -
     def late_stretch(p, state, *_):
         failed = p.Omega > 13
         result = SimpleNamespace(status=Status.PARADOX if failed else Status.OK, message="why", final_state=state)
-        return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, 0)
+        return result, None if failed else Stretch(1, 2, 3, 4, 0.5, 0.5, 0, 0)
 
     monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
     table = swept(200, SCAN)
@@ -58,7 +58,7 @@ def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
         rate = float(p.Omega >= (13 if down else 14))
         end = "down" if down or p.Omega == 15 else "up"
         result = SimpleNamespace(status=Status.STALLED if failed else Status.OK, message="why", final_state=end)
-        return result, None if failed else Late(1, 2, 3, 4, 0.5, 0.5, 0, rate)
+        return result, None if failed else Stretch(1, 2, 3, 4, 0.5, 0.5, 0, rate)
 
     monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
     found = swept(200, SCAN).arrays

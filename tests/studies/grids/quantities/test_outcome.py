@@ -2,26 +2,19 @@
 
 from __future__ import annotations
 
-import math
 import sys
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from disc_model.data.variables import flag_names
-from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.stability.settling import Settling, follow
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import floquet, outcome
 from disc_model.studies.grids.quantities.schema import FloquetOptions, OutcomeOptions
 from disc_model.studies.grids.run import compute
-from tests.stability.test_settling import impatient
 from tests.studies.grids.conftest import SMALL, computed
-
-__all__ = ["impatient"]
 
 
 def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.ndarray], list[str]]:
@@ -41,16 +34,11 @@ SLOW_GROWTH = [
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("known_cycle", [True, False])
 @pytest.mark.parametrize("case", SLOW_GROWTH, ids=str)
-def test_slow_growth_is_never_taken_for_rest(
-    case: dict[str, float], known_cycle: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    if not known_cycle:
-        monkeypatch.setattr(Settling, "cycle", None)
-    followed = follow(Parameters(**case), 1000, tol=1e-10, settled=1e-9, near=1e-4)
-    assert not followed.settled
-    assert followed.settling.growing or math.isfinite(followed.first_separation)
+def test_slow_growth_is_never_taken_for_rest(case: dict[str, float]) -> None:
+    found, words = outcomes([Parameters(**case)])
+    assert np.isnan(found["settled"][0])
+    assert words in (["growing"], ["separation"])
 
 
 QUIET = [
@@ -70,26 +58,26 @@ def test_a_motion_left_early_would_have_stayed_quiet(case: dict[str, float]) -> 
     whole, whole_words = outcomes([p], settled=0, near=0)
     assert left["time_reached"][0] < 400
     assert whole["time_reached"][0] == 1000
-    assert words == whole_words == ["stable"]
+    assert words == whole_words == ["quiet"]
     for name in ("P_min", "P_max"):
         assert left[name][0] - p.N == pytest.approx(whole[name][0] - p.N, rel=0.02)
     assert left["share_stick"][0] == pytest.approx(whole["share_stick"][0], abs=0.01)
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("N", "Omega"), [(385, 15), (50, 15)])
-def test_the_observed_rate_of_decay_is_that_of_the_multipliers(N: float, Omega: float) -> None:
-    p = Parameters(N=N, Omega=Omega)
-    followed = follow(p, 60 if N == 385 else 120, tol=1e-10, settled=0, near=0)
+def test_the_observed_rate_of_decay_is_that_of_the_multipliers() -> None:
+    p = Parameters(N=50, Omega=15)
+    found, words = outcomes([p], horizon=300, settled=0, near=0)
     rate = compute(floquet, [p], FloquetOptions()).arrays["growth_rate"][0]
-    assert followed.settling.rate == pytest.approx(rate, rel=0.4 if N == 385 else 0.05)
-    assert followed.settling.distance < 1e-3
+    assert words == ["quiet"]
+    assert found["difference_rate"][0] == pytest.approx(rate, rel=0.2)
+    assert found["distance"][0] < 1e-2
 
 
 @pytest.mark.compiled
 def test_a_bond_that_holds_cannot_separate() -> None:
     _, words = outcomes([Parameters(N=385, Omega=15.1, contact="bonded")], horizon=60)
-    assert words == ["unstable"]
+    assert words == ["growing"]
 
 
 @pytest.mark.compiled
@@ -104,11 +92,11 @@ def test_following_does_not_move_the_first_separation() -> None:
 
 
 @pytest.mark.compiled
-def test_a_slider_that_never_sticks_is_followed_by_its_contact_force() -> None:
+def test_a_slider_that_swings_for_ever_has_come_to_nothing() -> None:
+    """Without friction and damper nothing brings it to steady sliding; that it did not grow was called stable."""
     arrays, words = outcomes([Parameters(N=100, Omega=10, mu_s=0, mu_k=0)], horizon=100)
-    assert words == ["stable"]
+    assert words == ["undecided"]
     assert arrays["share_slip"][0] == 1
-    assert 0 < arrays["difference"][0] < 1e-3
     assert arrays["P_max"][0] == pytest.approx(100, abs=0.05)
 
 
@@ -116,19 +104,17 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
     # the package shows the function under the module's name
     monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "_step_limit", lambda model, duration: 100)
     arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=20)
-    assert words == ["unknown"]
+    assert words == ["failed"]
     assert STATUSES[arrays["status"][0]] == "step_limit"
 
 
-@pytest.mark.usefixtures("impatient")
 def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
     options = {"horizon": 3.0, "late": 0.05, "after_separation": 0.05, "tol": 1e-9}
     base = SMALL | {"c": 20.0, "D_star": 1e-3}
     damped = computed(quantity="outcome", options=options, base=base, axes={"N": [200], "Omega": [20]}).squeeze()
-    assert flag_names(damped["outcome"]) == "stable"
+    assert flag_names(damped["outcome"]) == "quiet"
     assert damped["settled"] == damped["time_reached"] < 3.0
-    assert damped["distance"] < 1e-4
-    assert damped["difference_rate"] < 0
+    assert 0 < damped["distance"] < 0.1
     # the late stretch is the cycle itself
     assert damped["share_stick"] + damped["share_slip"] == pytest.approx(1)
     base = SMALL | {"mu_s": 1.4, "mu_k": 0.2, "k": 0}
@@ -137,24 +123,3 @@ def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
     assert apart["time_reached"] == pytest.approx(float(apart["first_separation"]) + 0.05)
     assert np.isnan(apart["settled"])
     assert apart["P_min"] == 0
-
-
-def test_growth_without_separation_is_unstable(monkeypatch: pytest.MonkeyPatch) -> None:
-    def followed(status: Status, growing: bool) -> SimpleNamespace:
-        state = SimpleNamespace(time=7.0)
-        return SimpleNamespace(
-            result=SimpleNamespace(status=status, message="why", final_state=state),
-            settling=SimpleNamespace(growing=growing, rate=0.1, differences=[0.5]),
-            orbit=None, late=None, settled=False, first_separation=math.nan, simulated=7.0,
-        )  # fmt: skip
-
-    for status, growing, expected in (
-        (Status.OK, True, "unstable"),
-        (Status.OK, False, "stable"),
-        (Status.STEP_LIMIT, True, "unknown"),
-    ):
-        monkeypatch.setattr(outcome, "follow", lambda *_, s=status, g=growing, **__: followed(s, g))
-        table = compute(outcome, [Parameters(N=1, Omega=1)], OutcomeOptions(horizon=9))
-        assert outcome.OUTCOMES[table.arrays["outcome"][0]] == expected
-        assert table.arrays["difference"][0] == 0.5
-        assert list(table.messages) == ["why" if status is Status.STEP_LIMIT else ""]

@@ -12,13 +12,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import Outcome, flag_names
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
+from disc_model.stability.attractor.course import Reached
+from disc_model.stability.attractor.near import Near
 from disc_model.stability.cycle import CycleStatus
-from disc_model.stability.fate import Fate, Near
 from disc_model.studies.grids.quantities import regions
 from disc_model.studies.grids.quantities.schema import RegionsOptions
 from disc_model.studies.grids.schema import parse_grid
@@ -45,13 +46,13 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
     """Motions that separate within an ellipse and stay quiet outside, of which multipliers say nothing; those asked."""
     asked: list[Parameters] = []
 
-    def fate(p: Parameters, horizon: float, **_) -> Fate:
+    def come_to(p: Parameters, horizon: float, **_) -> Reached:
         asked.append(p)
-        return Fate("separation" if separates(p) else "stable", 1.0, None, first_separation=p.N)
+        return Reached(Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N)
 
     nothing = SimpleNamespace(status=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(regions, "published_start_near", lambda p: nothing)
-    monkeypatch.setattr(regions, "fate", fate)
+    monkeypatch.setattr(regions, "come_to", come_to)
     return asked
 
 
@@ -106,7 +107,7 @@ def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
 
 
 def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
-    marks = {"here": {"x": 12.03125, "y": 187.5, "paper": "stable"}}
+    marks = {"here": {"x": 12.03125, "y": 187.5, "paper": "quiet"}}
     plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": marks}
     study = parse_grid(raw(figures={"map": plot}))
     texts = [json.loads(text) for text in study.batches.values()]
@@ -124,8 +125,8 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
 
 
 def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:
-    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": {"a": {"x": 50, "y": 600, "paper": "stable"}}}
-    plot["marks"]["b"] = {"x": 47.890625, "y": 588.541666667, "paper": "stable"}
+    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": {"a": {"x": 50, "y": 600, "paper": "quiet"}}}
+    plot["marks"]["b"] = {"x": 47.890625, "y": 588.541666667, "paper": "quiet"}
     study = computed(**raw(figures={"map": plot})).isel(normalization=0)
     for mark in plot["marks"].values():
         here = study.sel(Omega=mark["x"], N=mark["y"], method="nearest")
@@ -133,14 +134,14 @@ def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:
 
 
 def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatch: pytest.MonkeyPatch) -> None:
-    fate = regions.fate
+    come_to = regions.come_to
 
-    def failing(p: Parameters, horizon: float, **how) -> Fate:
+    def failing(p: Parameters, horizon: float, **how) -> Reached:
         if p.Omega == 50 and p.N == 600:
             raise DiscModelError("no luck")
-        return fate(p, horizon, **how)
+        return come_to(p, horizon, **how)
 
-    monkeypatch.setattr(regions, "fate", failing)
+    monkeypatch.setattr(regions, "come_to", failing)
     study = computed(**raw()).isel(normalization=0)
     corner = study.sel(Omega=50, N=600)
     assert flag_names(corner["status"]) == "failed"
@@ -152,7 +153,7 @@ def test_between_two_corners_that_are_alike_a_neighbour_may_still_find_another(m
     """The middle of an edge is presumed in the finest cells only: the made-up border crosses edges twice."""
     study = computed(**raw(options={"horizon": 10, "coarse": 2})).isel(normalization=0)
     assert wrong(study).mean() <= 2e-3
-    assert (flag_names(study["outcome"]) != "unknown").all()
+    assert (flag_names(study["outcome"]) != "failed").all()
 
 
 OPTIONS = RegionsOptions(horizon=10, coarse=8)
@@ -167,7 +168,7 @@ def tile_of(
         return round(p.N - 100), round(p.Omega - 10)
 
     monkeypatch.setattr(regions, "published_start_near", lambda p: start(*place(p)))
-    monkeypatch.setattr(regions, "fate", lambda p, *_, **__: Fate(outcome(*place(p)), 1.0, None))
+    monkeypatch.setattr(regions, "come_to", lambda p, *_, **__: Reached(outcome(*place(p)), 1.0, None))
     monkeypatch.setattr(regions, "departs_after", lambda *_: False)
     points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]
     return regions._Tile(points, OPTIONS, [])
@@ -184,8 +185,8 @@ NONE = SimpleNamespace(status=CycleStatus.NO_CYCLE)
 
 def test_a_cycle_that_grows_is_not_filled_as_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
     growing = {(3, 3), (4, 4), (5, 5)}
-    outcome = {(3, 3): "separation", (5, 5): "unstable"}
-    tile = tile_of(9, lambda *at: follows_one(at not in growing), lambda *at: outcome.get(at, "stable"), monkeypatch)
+    outcome = {(3, 3): "separation", (5, 5): "growing"}
+    tile = tile_of(9, lambda *at: follows_one(at not in growing), lambda *at: outcome.get(at, "quiet"), monkeypatch)
     assert {place: tile.outcome(place) for place in outcome} == outcome
     assert set(tile.fates) == growing
 
@@ -194,7 +195,7 @@ def test_where_the_start_follows_no_cycle_thin_strips_are_worked_out_and_wide_on
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     strip, block = {(1, 1), (3, 2), (5, 3), (7, 4)}, {(i, j) for i in range(3, 6) for j in range(6, 9)}
-    tile = tile_of(9, lambda *at: NONE if at in strip | block else follows_one(True), lambda *_: "stable", monkeypatch)
+    tile = tile_of(9, lambda *at: NONE if at in strip | block else follows_one(True), lambda *_: "quiet", monkeypatch)
     assert strip <= set(tile.fates)
     assert len(block & set(tile.fates)) <= 1
 
@@ -203,7 +204,7 @@ def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkey
     """A stripe one interval wide, which no corner of the coarse cells meets."""
 
     def outcome(i: int, j: int) -> str:
-        return "separation" if j - i // 4 in (11, 12) else "unstable"
+        return "separation" if j - i // 4 in (11, 12) else "growing"
 
     tile = tile_of(33, lambda *_: NONE, outcome, monkeypatch)
     there = [(i, j) for i in range(33) for j in range(33) if outcome(i, j) == "separation"]
@@ -213,7 +214,7 @@ def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkey
     assert len(found & set(there)) > 0.9 * len(there)
     assert len(found - set(there)) < 0.1 * len(there)
     assert len(tile.fates) < 0.4 * 33 * 33
-    quiet = tile_of(33, lambda *_: NONE, lambda *_: "stable", monkeypatch)
+    quiet = tile_of(33, lambda *_: NONE, lambda *_: "quiet", monkeypatch)
     assert len(quiet.fates) == 5 * 5
 
 

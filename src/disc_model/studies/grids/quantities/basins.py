@@ -14,42 +14,45 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.analysis.sobol import share
-from disc_model.data.variables import Column, Variable
+from disc_model.data.variables import LASTING, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared, published_start
 from disc_model.simulation.result import State
-from disc_model.stability.basins import KINDS, Attractor, Basins, Reached, random_kick
+from disc_model.stability.attractor.many import Arrival, Attractor, Basins, random_kick
 from disc_model.studies.grids.points import STATUS, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import BasinsOptions
 
-FATES = KINDS[1:]
+FATES = (*LASTING[1:], LASTING[0])
 """What a start can come to."""
 ROOM = 12
 """For attractors, those reached by most starts; there are seven at 10 rad/s and 385 N."""
+SHOWN = ("range", "separation_rate", "share_stick", "share_separation")
+"""What is said of a stretch of an attractor."""
 SMALLEST = 2.0**-40
 """Of the least energy that separates in the sample: where the search for one that does not is given up."""
 _EACH, _SHARES, _POOLED, _KNOWN = ("energy", "start"), ("energy", "fate"), ("fate",), ("attractor",)
 
 
-def _share(what: str, dims: tuple[str, ...]) -> dict[str, Column]:
+def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Column]:
     bounds = {"": "", "_low": ", lower end of its confidence interval", "_high": ", upper end of it"}
-    return {f"{what}{end}": Column("1", f"share of the starts{more}", dims=dims) for end, more in bounds.items()}
+    return {f"{what}{end}": Column("1", f"share of the starts{that}{more}", dims=dims) for end, more in bounds.items()}
 
 
 COLUMNS = {
     "status": Column(*STATUS),
-    "kind": Column("1", "what the start comes to", KINDS, dims=_EACH),
+    "kind": Column("1", "what the start comes to", LASTING, dims=_EACH),
     "reached": Column("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
     "simulated": Column("s", "simulated time until that was known", dims=_EACH),
     "separated": Column("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
     **_share("energy_share", _SHARES),
     **_share("share", _POOLED),
+    **_share("separating_share", (), " that go on losing contact, be it periodic or not"),
     "least_kick": Column("J", "least energy found that leads to lasting separation, by bisection"),
     "least_kick_not": Column("J", "greatest energy below it, in the same direction, that does not"),
     "least_kick_sample": Column("J", "least energy among the starts that come to lasting separation"),
-    "attractor_kind": Column("1", "what the attractor is", KINDS, dims=_KNOWN),
+    "attractor_kind": Column("1", "what the attractor is", LASTING, dims=_KNOWN),
     "attractor_starts": Column("1", "number of starts that reach it", dims=_KNOWN, whole=True),
     "attractor_range": Column("m", "range of the slider's height on it", dims=_KNOWN),
     "attractor_separation_rate": Column("s-1", "separations per second on it", dims=_KNOWN),
@@ -78,16 +81,18 @@ def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
     attractors = [attractor for attractor, _ in starts.most_common()]
     numbers = {attractor: i for i, attractor in enumerate([None, *attractors])}
-    failed = [reached for reached in rows if reached.kind == "failed"]
+    failed = [reached for reached in rows if reached.kind is None]
     values: dict[str, Any] = {
         "status": failed[0].status if len(failed) == len(rows) else "ok",
-        "kind": [[reached.kind for reached in row] for row in found],
+        "kind": [[reached.kind or "failed" for reached in row] for row in found],
         "reached": [[numbers[reached.attractor] for reached in row] for row in found],
         "simulated": [[reached.simulated for reached in row] for row in found],
         "separated": [["yes" if reached.separated else "no" for reached in row] for row in found],
     }
     values |= _shares("energy_share", found, options.confidence)
     values |= {name: one for name, (one,) in _shares("share", [rows], options.confidence).items()}
+    shown = share(sum(reached.separates for reached in rows), len(rows), confidence=options.confidence)
+    values |= dict(zip(("separating_share", "separating_share_low", "separating_share_high"), shown, strict=True))
     values |= sample.least_kick() | _described(starts)
     message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
     return values, message
@@ -104,7 +109,7 @@ class _Sample:
         all_of = [[self.kicked(energy, j, i) for j, energy in energies] for i in range(options.starts)]
         self.found = list(zip(*all_of, strict=True))
 
-    def kicked(self, energy: float, j: int, i: int) -> Reached:
+    def kicked(self, energy: float, j: int, i: int) -> Arrival:
         """What a kick of any energy in the direction of a start comes to."""
         return self.basins.reached(random_kick(self.p, self.start, energy, (self.options.seed, j, i)))
 
@@ -115,14 +120,14 @@ class _Sample:
             (energies[j], i, j)
             for j, row in enumerate(self.found)
             for i, reached in enumerate(row)
-            if reached.kind == "separating"
+            if reached.separates
         )
         if not separating:
             return {}
         least = {"least_kick_sample": separating[0][0]}
         if separating[0][0] == 0 or not self.options.bisected:
             return least
-        if self.kicked(0.0, 0, 0).kind == "separating":
+        if self.kicked(0.0, 0, 0).separates:
             return least | {"least_kick": 0.0}
         low, high = min((self._bisected(*one) for one in separating[: self.options.bisected]), key=lambda ends: ends[1])
         return least | {"least_kick_not": low, "least_kick": high}
@@ -130,23 +135,26 @@ class _Sample:
     def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
         """Energies without and with lasting separation, nearer to each other than the precision asked for."""
         low, first = high / 4, high
-        while self.kicked(low, j, i).kind == "separating":
+        while self.kicked(low, j, i).separates:
             low, high = low / 4, low
             if low < SMALLEST * first:
                 return math.nan, high
         while high > low * (1 + self.options.precision):
             middle = math.sqrt(low * high)
-            if self.kicked(middle, j, i).kind == "separating":
+            if self.kicked(middle, j, i).separates:
                 high = middle
             else:
                 low = middle
         return low, high
 
 
-def _shares(name: str, found: Sequence[Sequence[Reached]], confidence: float) -> dict[str, Any]:
+def _shares(name: str, found: Sequence[Sequence[Arrival]], confidence: float) -> dict[str, Any]:
     """Shares of what each row comes to, with Wilson's intervals: shape (rows, fates)."""
     shares = [
-        [share(sum(reached.kind == fate for reached in row), len(row), confidence=confidence) for fate in FATES]
+        [
+            share(sum((reached.kind or "failed") == fate for reached in row), len(row), confidence=confidence)
+            for fate in FATES
+        ]
         for row in found
     ]
     return dict(zip((name, f"{name}_low", f"{name}_high"), np.moveaxis(np.array(shares), -1, 0), strict=True))
@@ -161,7 +169,7 @@ def _described(starts: Counter[Attractor]) -> dict[str, Any]:
             "attractor_releases": attractor.releases,
             "attractor_period": attractor.period,
             "attractor_growth_rate": attractor.growth_rate,
-            **{f"attractor_{name}": value for name, value in attractor.signature._asdict().items()},
+            **{f"attractor_{name}": getattr(attractor.stretch, name) for name in SHOWN},
         }
         for attractor, count in starts.most_common()
     ]

@@ -3,40 +3,29 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import pandas as pd
+from scipy.stats import wasserstein_distance
 
 from disc_model.analysis.classify import closure, shortest_period
-from disc_model.data.variables import PHASES, SCALARS, SERIES, Column, Variable
+from disc_model.data.variables import LASTING, PHASES, SCALARS, SERIES, Column, Outcome, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import after, prepared, simulate
 from disc_model.simulation.case import Record
-from disc_model.simulation.result import State
+from disc_model.simulation.result import Result, State
+from disc_model.stability.attractor.course import FIRST_LEG, at_rest
+from disc_model.stability.attractor.many import SAME, SMALLEST, cycle_reached, regularity
 from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
-from disc_model.stability.cycle import cycle_neared
 from disc_model.stability.return_map import case_faults
 from disc_model.studies.grids.points import STATUS
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import BifurcationOptions
 
-STRETCH = 5.0
-"""Length of a stretch of samples, s: some three hundred stick-slip cycles of the published cases."""
-ALIKE = 0.05
-"""Largest difference of two stretches that are alike, as a share of their spread."""
-FEW = 8
-"""Points up to which a motion is compared point by point."""
-VISIBLE = 1e-3
-"""Least spread, relative to the mean, that counts as one: below it a slow approach goes on unseen."""
-SAME_INTERVAL = 1e-6
-"""How nearly intervals repeat, s, for which a cycle is looked for; and at most by this share of their own differences,
-over the number of switches after which they do: among n returns a motion on a torus misses by about 1/n."""
-NEARLY = 0.05
 REPEATS = 1e-11
 """Intervals that repeat this exactly, s, are periodic: roundings leave 1e-13 s of a cycle."""
-TRIED = 3
-"""Numbers of switches for which a cycle is looked for, at most."""
 STEADY = ("unknown", "no", "yes")
 COLUMNS = {
     "status": Column(*STATUS),
@@ -46,6 +35,7 @@ COLUMNS = {
     "separations": Column("1", "number of separations, transient included", whole=True),
     "transient": Column("s", "time left out before the samples"),
     "steady": Column("1", "whether two stretches of samples, at switches, were alike", STEADY),
+    "kind": Column("1", "what the motion has come to, at switches", LASTING),
     "period": Column("1", "number of switches after which the motion repeats, 0 if that is not shown", whole=True),
     "closure": Column(
         "s", "largest difference between an interval and the one a period later: what is left of the approach"
@@ -85,9 +75,9 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
     state, begin, transient = prepared(p, options, options.tol), 0.0, options.transient
     first, separations, stick = math.nan, 0, 0.0
     while True:
-        stretches: list[Any] = []
+        stretches: list[Result] = []
         for recorded in (False, True, True):
-            stop = begin + STRETCH if recorded else transient
+            stop = begin + FIRST_LEG if recorded else transient
             if stop <= begin:
                 continue
             run = simulate(p, stop, tol=options.tol, initial_state=state, record=Record(events=recorded))
@@ -99,49 +89,71 @@ def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, 
                 known = {"status": run.status.value, "first_separation": first, "separations": separations}
                 return known, f"the simulation ended early: {run.status}"
             if recorded:
-                stretches.append(run.events)
-        kind = "separation" if any((events["kind"] == "separation").any() for events in stretches) else "stick_to_slip"
-        before, after_ = (events[events["kind"] == kind] for events in stretches)
-        assert state is not None
-        period, apart = _period(p, stretches[-1], kind, state)
-        steady = period > 0 or alike(before["psi"].to_numpy(), after_["psi"].to_numpy())
-        over = period > 0 or (steady and len(after_) < 2)
+                stretches.append(run)
+        events = pd.concat([run.events for run in stretches])
+        kind = "separation" if (events["kind"] == "separation").any() else "stick_to_slip"
+        before, taken = (run.events[run.events["kind"] == kind] for run in stretches)
+        found = _periodic(p, stretches[-1], kind)
+        steady = found.period > 0 or alike(before["psi"].to_numpy(), taken["psi"].to_numpy())
+        over = found.period > 0 or (steady and len(taken) < 2)
         if over or 2 * transient > options.longest:
             break
         transient *= 2
-    taken = after_.iloc[-options.samples :]
-    columns = {"psi": taken["psi"], "psi_velocity": p.Omega - taken["f"], "P": taken["P"], "u": taken["u"]}
+    if found.kind is Outcome.UNDECIDED and steady:
+        found = _aperiodic(p, stretches[-1], options.tol)
+    if found.state is not None:
+        # what the motion tends to is known exactly
+        events = simulate(p, found.state.time + FIRST_LEG, tol=options.tol, initial_state=found.state).events
+        taken = events[events["kind"] == kind]
+    shown = taken.iloc[-options.samples :]
+    columns = {"psi": shown["psi"], "psi_velocity": p.Omega - shown["f"], "P": shown["P"], "u": shown["u"]}
     values: dict[str, Any] = {name: column.to_numpy(dtype=float) for name, column in columns.items()}
     values |= {
+        "kind": found.kind,
+        "period": found.period,
+        "closure": found.closure,
         "status": "ok",
-        "phase": ["separation" if kind == "separation" else "stick"] * len(taken),
+        "phase": ["separation" if kind == "separation" else "stick"] * len(shown),
         "first_separation": first,
         "separations": separations,
         "stick_fraction": stick / begin,
         "transient": transient,
         "steady": "yes" if steady else "no",
-        "period": period,
-        "closure": apart,
     }
     return values, "" if steady else f"not steady after {transient:g} s"
 
 
-def _period(p: Parameters, events: Any, kind: str, state: State) -> tuple[int, float]:
-    """Number of switches after which the motion repeats, and how nearly it does so by now (s); 0 and nan if none.
+class Periodic(NamedTuple):
+    """Number of switches after which a motion repeats, how nearly by now (s), what it is, and a state on it."""
 
-    events : of the last stretch, which ends at `state`; those of the kind count
-    """
-    at = (events["kind"] == kind).to_numpy()
-    intervals = np.diff(events["time"].to_numpy()[at])
+    period: int
+    closure: float
+    kind: Outcome
+    state: State | None = None
+
+
+def _periodic(p: Parameters, stretch: Result, kind: str) -> Periodic:
+    """Of the switches of a kind in a stretch: a stable cycle that the motion follows, or intervals that repeat."""
+    at = (stretch.events["kind"] == kind).to_numpy()
+    intervals = np.diff(stretch.events["time"].to_numpy(dtype=float)[at])
+    near = None if case_faults(p, "a cycle") else cycle_reached(p, stretch)
+    if near is not None:
+        n = near.cycle.separations if kind == "separation" else near.cycle.releases
+        if 0 < n < len(intervals):
+            return Periodic(n, closure(intervals, n), near.kind, near.cycle.state)
     if n := repeats(intervals):
-        return n, closure(intervals, n)
-    releases = int((events["kind"] == "stick_to_slip").sum())
-    for n in nearly(intervals) if releases and not case_faults(p, "a cycle") else ():
-        cycle = cycle_neared(p, state, max(1, round(n * releases / at.sum())))
-        if cycle is not None:
-            found = cycle.separations if kind == "separation" else cycle.releases
-            return found, closure(intervals, found)
-    return 0, math.nan
+        separates = kind == "separation"
+        return Periodic(n, closure(intervals, n), Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE)
+    return Periodic(0, math.nan, Outcome.UNDECIDED)
+
+
+def _aperiodic(p: Parameters, stretch: Result, tol: float) -> Periodic:
+    """Of a motion that has settled, and repeats after more switches than a stretch has if at all."""
+    calm = at_rest(p, stretch, tol)
+    motion = regularity(p, stretch.final_state, tol) if calm is None else None
+    if motion is None:
+        return Periodic(0, math.nan, calm or Outcome.UNDECIDED)
+    return Periodic(motion.period, motion.closure if motion.period else math.nan, motion.kind)
 
 
 def repeats(intervals: np.ndarray) -> int:
@@ -152,29 +164,13 @@ def repeats(intervals: np.ndarray) -> int:
     return 0 if drifts else n
 
 
-def nearly(intervals: np.ndarray) -> list[int]:
-    """Numbers of intervals after which they nearly repeat, which proves nothing; the smallest ones."""
-    extent = float(np.ptp(intervals)) if intervals.size else 0.0
-    found = []
-    for n in range(1, intervals.size // 2 + 1):
-        bound = SAME_INTERVAL if n == 1 else min(SAME_INTERVAL, NEARLY * extent / n)
-        if abs(intervals[n] - intervals[0]) <= bound and closure(intervals, n) <= bound:
-            found.append(n)
-    return found[:TRIED]
-
-
 def alike(one: np.ndarray, two: np.ndarray) -> bool:
-    """Whether two stretches show the same motion: the same few points, or as many with equal quantiles."""
+    """Whether two stretches show the same motion: about as many points that are distributed alike."""
     if min(len(one), len(two)) < 2:
         return len(one) == len(two)
-    spread = max(np.ptp(one), np.ptp(two), VISIBLE * abs(float(np.mean(two))))
-    # few points are the same ones; many have the same quantiles, which a sample more or less does not move
-    sets = [np.unique(np.round(stretch / (ALIKE * spread))) for stretch in (one, two)]
-    if max(map(len, sets)) <= FEW:
-        return len(sets[0]) == len(sets[1]) and bool(np.max(np.abs(sets[0] - sets[1])) <= 1)
-    quantiles = [np.quantile(stretch, np.linspace(0, 1, 21)) for stretch in (one, two)]
-    counts = abs(len(one) - len(two)) <= max(1, ALIKE * len(two))
-    return bool(counts and np.max(np.abs(quantiles[0] - quantiles[1])) <= ALIKE * spread)
+    spread = max(np.ptp(one), np.ptp(two), SMALLEST * abs(float(np.mean(two))))
+    counts = abs(len(one) - len(two)) <= max(1, SAME * len(two))
+    return bool(counts and wasserstein_distance(one, two) <= SAME * spread)
 
 
 def state_at(p: Parameters, options: BifurcationOptions) -> State:

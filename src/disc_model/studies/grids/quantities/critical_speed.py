@@ -1,6 +1,6 @@
 """The speeds at which separation within a horizon begins or ends: all of them, since there may be several.
 
-Where multipliers tell how a motion departs from its cycle (`disc_model.stability.fate`), only what follows is
+Where multipliers tell how a motion departs from its cycle (`disc_model.stability.attractor`), only what follows is
 simulated. The first separation is then known to a fraction of the time in which the departure grows by e; where this
 does not say on which side of a horizon it lies, the motion is simulated from its start.
 """
@@ -16,10 +16,7 @@ import numpy as np
 
 from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import may_stick_and_slip
-from disc_model.stability.fate import Fate, fate
-from disc_model.stability.return_map import case_faults
-from disc_model.stability.settling import follow
+from disc_model.stability.attractor.course import Reached, come_to
 from disc_model.studies.grids.dimensions import values_of
 from disc_model.studies.grids.points import STATUS, listed
 
@@ -115,19 +112,16 @@ class Motion(NamedTuple):
 
 def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
     """The motion from the published start, up to the longest horizon."""
-    horizon, simulated = options.horizons[-1], 0.0
-    if not case_faults(case, "fate") and may_stick_and_slip(case):
-        found = fate(case, horizon, tol=options.tol, furthest=FURTHEST)
-        if not _doubtful(found, options.horizons):
-            return Motion(found.first_separation, found.simulated, found.status, found.message)
-        simulated = found.simulated
-    whole = follow(case, horizon, tol=options.tol, settled=options.settled, near=options.near)
-    status = whole.result.status
-    word = "ok" if status.complete else status.value
-    return Motion(whole.first_separation, simulated + whole.simulated, word, whole.result.message)
+    horizon, early = options.horizons[-1], bool(options.settled or options.near)
+    found = come_to(case, horizon, tol=options.tol, furthest=FURTHEST, early=early)
+    simulated = found.simulated
+    if _doubtful(found, options.horizons):
+        found = come_to(case, horizon, tol=options.tol, furthest=0.0)
+        simulated += found.simulated
+    return Motion(found.first_separation, simulated, found.status.value, found.message)
 
 
-def _doubtful(found: Fate, horizons: Sequence[float]) -> bool:
+def _doubtful(found: Reached, horizons: Sequence[float]) -> bool:
     """Whether a first separation, known to a fraction of the time of growth, lies too near to a horizon to be told."""
     if found.departed is None:
         return False

@@ -10,7 +10,7 @@ import numpy as np
 from disc_model.data.variables import Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
-from disc_model.stability.settling import late_stretch
+from disc_model.stability.attractor.course import late_stretch
 from disc_model.studies.grids.dimensions import values_of
 from disc_model.studies.grids.points import STATUS, STATUSES
 

@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from disc_model.data.variables import SCALARS, Column
+import numpy as np
+
+from disc_model.data.variables import COURSES, SCALARS, Column, Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared
 from disc_model.simulation.result import Result, State
-from disc_model.stability.settling import Followed, Late, follow, late_stretch
+from disc_model.stability.attractor.course import Reached, Stretch, come_to, late_stretch
 from disc_model.studies.grids.points import STATUS
 
 if TYPE_CHECKING:
     from disc_model.studies.grids.quantities.schema import OutcomeOptions
 
-OUTCOMES = ("unknown", "stable", "unstable", "separation")
+FEWEST = 4
+"""Looks at a motion from which a rate is told."""
 COLUMNS = {
     "status": Column(*STATUS),
-    "outcome": Column("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES),
+    "outcome": Column("1", "what the motion comes to, or whether it separates", COURSES),
     "first_separation": Column(*SCALARS["first_separation"]),
     "settled": Column("s", "time at which the motion was left because it had settled, nan if it was not"),
     "time_reached": Column(*SCALARS["time_reached"]),
-    "distance": Column("1", "relative distance from the stick-slip cycle where the motion was left for it"),
+    "distance": Column("1", "relative distance from the cycle where the motion was left for it"),
     "difference": Column("1", "relative difference of successive cycles at the last probe"),
     "difference_rate": Column("s-1", "growth rate of that difference over the last probes"),
     "P_min": Column("N", "least contact force over the late stretch"),
@@ -38,55 +42,57 @@ COLUMNS = {
 
 def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     """The late stretch of a point that separates lies ``after_separation`` later."""
-    followed, result, late = _late(p, options)
-    separated = followed.result.status.value == "stopped"
-    values = {
-        "status": "ok" if result.status.complete else result.status.value,
-        "outcome": _outcome(followed),
-        "first_separation": followed.first_separation,
-        "time_reached": result.final_state.time if separated else followed.simulated,
-        "difference_rate": followed.settling.rate,
+    reached, result, late = _late(p, options)
+    last = reached if result is None else result
+    values: dict[str, Any] = {
+        "status": "ok" if last.status.complete else last.status.value,
+        "outcome": reached.outcome or "failed",
+        "first_separation": reached.first_separation,
+        "time_reached": reached.time,
+        "difference_rate": _rate(reached),
+        "distance": reached.distance,
     }
-    if followed.settling.differences:
-        values["difference"] = followed.settling.differences[-1]
-    if followed.orbit is not None:
-        values["distance"] = followed.settling.distance
-    if followed.settled:
-        values["settled"] = followed.simulated
+    if reached.changes:
+        values["difference"] = reached.changes[-1]
+    if reached.outcome is Outcome.SEPARATION and result is not None:
+        values["time_reached"] = result.final_state.time
+    elif reached.outcome is not None and reached.time < options.horizon:
+        values["settled"] = reached.time
     if late is not None:
         values |= asdict(late)
-    return values, "" if result.status.complete else result.message
+    return values, "" if last.status.complete else last.message
 
 
 def state_at(p: Parameters, options: OutcomeOptions) -> State:
     """Where the late stretch ends; raises `SimulationError` if the motion did not get there."""
-    _, result, _ = _late(p, options)
-    return result.raise_for_status().final_state
+    reached, result, _ = _late(p, options)
+    last = reached.failed or result
+    state = reached.state if last is None else last.raise_for_status().final_state
+    assert state is not None
+    return state
 
 
-def _late(p: Parameters, options: OutcomeOptions) -> tuple[Followed, Result, Late | None]:
-    """The motion as it was followed, the last run of it, and its late stretch, None if it did not get there."""
-    followed = follow(
+def _late(p: Parameters, options: OutcomeOptions) -> tuple[Reached, Result | None, Stretch | None]:
+    """What the motion has come to, the run that shows it if there is one beyond that, and the late stretch."""
+    reached = come_to(
         p,
         options.horizon,
         tol=options.tol,
-        settled=options.settled,
-        near=options.near,
+        furthest=0.0,
+        start=prepared(p, options, options.tol),
+        early=bool(options.settled or options.near),
         late=options.late,
-        initial_state=prepared(p, options, options.tol),
     )
-    result, late = followed.result, followed.late
-    if result.status.value == "stopped":
-        result, late = late_stretch(p, result.final_state, options.after_separation, options.late, options.tol)
-    elif followed.settled and followed.orbit is not None:
-        # what the motion tends to is known exactly
-        result, late = late_stretch(p, followed.orbit, options.late, options.late, options.tol)
-    return followed, result, late
+    if reached.outcome is Outcome.SEPARATION:
+        return reached, *late_stretch(p, reached.state, options.after_separation, options.late, options.tol)
+    if reached.outcome is None or reached.stretch is not None:
+        return reached, None, reached.stretch
+    # what the motion tends to is known exactly, or it is steady
+    on = reached.state if reached.cycle is None else reached.cycle.state
+    return reached, *late_stretch(p, on, options.late, options.late, options.tol)
 
 
-def _outcome(followed: Followed) -> str:
-    if followed.result.status.value == "stopped":
-        return "separation"
-    if not followed.result.status.complete:
-        return "unknown"
-    return "stable" if followed.orbit is not None or not followed.settling.growing else "unstable"
+def _rate(reached: Reached) -> float:
+    """Growth rate of the changes over the last looks, 1/s; nan if there are too few."""
+    t, d = np.array(reached.times[-FEWEST:]), np.array(reached.changes[-FEWEST:])
+    return float(np.polyfit(t, np.log(d), 1)[0]) if len(t) == FEWEST and np.all(d > 0) else math.nan

@@ -1,7 +1,7 @@
 """What becomes of the published start over two parameters, refined where it changes; and the cycle at every point.
 
 A batch is a tile of the plane. The cycle is found at each of its points, which is cheap. What becomes of the published
-start (`disc_model.stability.fate`) follows from the cycle's multipliers where it is quiet, or grows so slowly that
+start (`disc_model.stability.attractor`) follows from the cycle's multipliers where it is quiet, or grows so slowly that
 nothing else happens within the horizon. Elsewhere it is simulated at the corners of coarse cells, or at one point
 inside if multipliers tell of all corners. A cell is divided where these differ, or where slow growth lies beside
 separation, and once where all grow without separation, since stripes of separation run through such growth. Neutral
@@ -21,12 +21,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.data.variables import SCALARS, Column
+from disc_model.data.variables import COURSES, SCALARS, Column, Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
+from disc_model.stability.attractor.course import Reached, come_to
+from disc_model.stability.attractor.near import CYCLE_TOL, SAME_POINT, Near, departs_after, published_start_near
 from disc_model.stability.cycle import CycleStatus, FloquetResult
-from disc_model.stability.fate import CYCLE_TOL, Fate, Near, departs_after, fate, published_start_near
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import ReturnMap, newton
 from disc_model.studies.grids.points import NUMERICAL, STATUS, Point, Row
@@ -38,13 +39,12 @@ Array = NDArray[np.float64]
 T = TypeVar("T")
 Place = tuple[int, int]
 
-OUTCOMES = ("unknown", "stable", "unstable", "separation", "undecided")
 ORIGINS = ("none", "multipliers", "simulation", "undivided_cell")
 JOINED = ("no", "yes")
 CYCLES = ("none_found", "followed", "only_near", "slides", "sticks")
 COLUMNS = {
     "status": Column(*STATUS),
-    "outcome": Column("1", "what becomes of the published start; unstable: growth without separation", OUTCOMES),
+    "outcome": Column("1", "what the published start comes to, or whether it separates", COURSES),
     "origin": Column("1", "how the outcome is known; undivided_cell: like that cell's corners", ORIGINS),
     "first_separation": Column(*SCALARS["first_separation"]),
     "simulated": Column("s", "simulated time"),
@@ -68,16 +68,13 @@ SMOOTH = 0.002
 """Cycles of neighbours nearer than this, over the static deflection, are one that goes on."""
 ANOTHER = 0.02
 """Cycles of neighbours further apart than this, over the static deflection, may be different ones."""
-SAME = 1e-4
-"""Cycles of one point nearer than this are one."""
 SCATTERED = 1
 """Points without a cycle that have so many such neighbours at most lie on strips thinner than the grid."""
 SEPARATING = 5.0
 """How long a motion is followed for its history, beyond where its fate was known, s."""
 MOST_CYCLES = 4
 """Cycles carried from point to point, at most."""
-TOLD = {"quiet": "stable", "slow": "unstable"}
-"""Outcomes that multipliers tell."""
+CALM = (Outcome.QUIET, Outcome.SLIDING, Outcome.RESTING)
 
 
 def over(
@@ -89,7 +86,7 @@ def over(
 
 def state_at(p: Parameters, options: RegionsOptions) -> State:
     """What the motion has come to; raises `SimulationError` if it did not get there."""
-    found = fate(p, options.horizon, tol=options.tol)
+    found = come_to(p, options.horizon, tol=options.tol)
     if found.cycle is not None and found.cycle.stable:
         state = found.cycle.state
         assert state is not None
@@ -114,7 +111,7 @@ class _Tile:
         self.shape = len(points), len(points[0])
         places = product(range(self.shape[0]), range(self.shape[1]))
         self.starts = {place: self._start(place) for place in places}
-        self.fates: dict[Place, Fate | Exception] = {}
+        self.fates: dict[Place, Reached | Exception] = {}
         self.filled: dict[Place, str] = {}
         self.presumed: dict[Place, str] = {}
         self.trends = {place: self._trend(place) for place in self.starts}
@@ -148,42 +145,43 @@ class _Tile:
         """
         for (i, j), outcome in (self.presumed | self.filled).items():
             beside = [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
-            doubtful = outcome == "stable"
+            doubtful = outcome in CALM
             if self._own((i, j)) is None:
                 doubtful = sum(self._own(there) is None for there in beside) <= SCATTERED
             if doubtful:
                 self.outcome((i, j))
 
     def outcome(self, place: Place) -> str:
-        """Of the published start at a point, worked out once."""
+        """Of the published start at a point, worked out once; another cycle counts as growth for the cells around."""
         if place not in self.fates:
             self.fates[place] = self._fate(place)
         found = self.fates[place]
-        return found.outcome if isinstance(found, Fate) else "unknown"
+        word = found.outcome if isinstance(found, Reached) else None
+        return Outcome.GROWING if word is Outcome.OTHER_CYCLE else word or "failed"
 
-    def _fate(self, place: Place) -> Fate | Exception:
+    def _fate(self, place: Place) -> Reached | Exception:
         point, start = self.points[place[0]][place[1]], self.starts[place]
         if isinstance(start, Exception):
             return start
         assert isinstance(point, Parameters)
-        return _tried(lambda: fate(point, self.options.horizon, tol=self.options.tol, start=start))
+        return _tried(lambda: come_to(point, self.options.horizon, tol=self.options.tol, near=start))
 
     def _trend(self, place: Place) -> str:
-        """What multipliers say of a point: "quiet", "slow" (it grows until the horizon, and no more), or "open"."""
+        """What multipliers say of a point: its outcome, or "" if they leave that open."""
         start = self._own(place)
         if start is None:
-            return "open"
+            return ""
         if start.cycle.stable:
-            return "quiet"
-        return "slow" if departs_after(start, self.options.horizon) else "open"
+            return Outcome.QUIET
+        return Outcome.GROWING if departs_after(start, self.options.horizon) else ""
 
     def _refine(self, rows: Place, columns: Place) -> None:
         """Divide a cell, given by the indices of its edges, or fill it."""
         inside = list(product(range(rows[0], rows[1] + 1), range(columns[0], columns[1] + 1)))
-        undecided = [place for place in inside if self.trends[place] == "open"]
+        undecided = [place for place in inside if not self.trends[place]]
         if not undecided:
             return
-        corners = [corner for corner in product(rows, columns) if self.trends[corner] == "open"]
+        corners = [corner for corner in product(rows, columns) if not self.trends[corner]]
         for place in corners or ([] if any(place in self.fates for place in undecided) else [_middle(undecided)]):
             if place not in self.presumed:
                 self.outcome(place)
@@ -191,10 +189,10 @@ class _Tile:
         # where that is all that corners say, stripes of separation may lie between: these cells are divided once more
         outcomes = {self.outcome(place) for place in undecided if place in self.fates}
         outcomes |= {self.presumed[corner] for corner in corners if corner not in self.fates}
-        outcomes |= {"unstable" for place in inside if self.trends[place] == "slow"}
+        outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
-        if len(outcomes) == 1 and (outcomes != {"unstable"} or side <= max(1, self.options.coarse // 2)):
+        if len(outcomes) == 1 and (outcomes != {Outcome.GROWING} or side <= max(1, self.options.coarse // 2)):
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
             if side <= FINE:
@@ -208,13 +206,13 @@ class _Tile:
         edges += [((rows[0], column), (rows[1], column)) for column in columns]
         for one, two in edges:
             middle = (one[0] + two[0]) // 2, (one[1] + two[1]) // 2
-            if middle not in (one, two) and self.trends[middle] == "open" and self._said(one) == self._said(two):
+            if middle not in (one, two) and not self.trends[middle] and self._said(one) == self._said(two):
                 self.presumed.setdefault(middle, self._said(one))
 
     def _said(self, place: Place) -> str:
         """The outcome at a corner, worked out or presumed."""
-        if self.trends[place] != "open":
-            return TOLD[self.trends[place]]
+        if self.trends[place]:
+            return self.trends[place]
         return self.presumed[place] if place not in self.fates else self.outcome(place)
 
     def rows(self) -> list[list[tuple[Row, str]]]:
@@ -229,8 +227,10 @@ class _Tile:
         stand out among their neighbours.
         """
         own, found = self._own(place), self.fates.get(place)
-        leaves = own is None or (isinstance(found, Fate) and found.outcome == "stable" and found.cycle is not own.cycle)
-        if isinstance(found, Fate) and leaves:
+        leaves = own is None or (
+            isinstance(found, Reached) and found.outcome is Outcome.QUIET and found.cycle is not own.cycle
+        )
+        if isinstance(found, Reached) and leaves:
             if found.cycle is None or found.cycle.state is None:
                 return None
             map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
@@ -248,7 +248,7 @@ class _Tile:
         if np.linalg.norm(x - two.x) <= SMOOTH * size:
             return "yes"
         found = newton(two.map, x, tol=CYCLE_TOL, releases=two.cycle.releases)
-        return "yes" if found is not None and np.linalg.norm(found.x - two.x) <= SAME * size else "no"
+        return "yes" if found is not None and np.linalg.norm(found.x - two.x) <= SAME_POINT * size else "no"
 
     def _row(self, place: Place, others: int) -> tuple[Row, str]:
         start, found = self.starts[place], self.fates.get(place)
@@ -257,19 +257,19 @@ class _Tile:
             return {"status": "failed"}, f"{type(error).__name__}: {error}"
         row: dict[str, Any] = {"status": "ok", "other_cycles": others}
         message = ""
-        if isinstance(found, Fate):
+        if isinstance(found, Reached):
             row |= {
                 "status": found.status,
-                "outcome": found.outcome,
+                "outcome": found.outcome or "failed",
                 "origin": "simulation" if found.simulated else "multipliers",
                 "first_separation": found.first_separation,
                 "simulated": found.simulated,
             }
             message = found.message
-        elif self.trends[place] == "open":
+        elif not self.trends[place]:
             row |= {"outcome": self.filled.get(place, self.presumed.get(place)), "origin": "undivided_cell"}
         else:
-            row |= {"outcome": TOLD[self.trends[place]], "origin": "multipliers"}
+            row |= {"outcome": self.trends[place], "origin": "multipliers"}
         row["joined_first"] = self._joined(place, (place[0] + 1, place[1]))
         row["joined_second"] = self._joined(place, (place[0], place[1] + 1))
         followed = self.followed.get(place)
@@ -313,7 +313,7 @@ class _Tile:
             if min(np.linalg.norm(scale * cycle - x) for x in known[here]) <= ANOTHER * size:
                 continue
             found = newton(start.map, scale * cycle, tol=CYCLE_TOL, releases=there.cycle.releases)
-            if found is not None and min(np.linalg.norm(found.x - x) for x in known[here]) > SAME * size:
+            if found is not None and min(np.linalg.norm(found.x - x) for x in known[here]) > SAME_POINT * size:
                 known[here].append(found.x)
 
 
@@ -324,9 +324,9 @@ def _tried(compute: Callable[[], T]) -> T | Exception:
         return error
 
 
-def _without(start: Near | FloquetResult, found: Fate | None) -> str:
+def _without(start: Near | FloquetResult, found: Reached | None) -> str:
     """What there is at a point whose motion follows no cycle."""
-    if found is not None and found.sliding:
+    if found is not None and found.outcome is Outcome.SLIDING:
         return "slides"
     if isinstance(start, Near):
         return "only_near"

@@ -25,7 +25,7 @@ Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
 
 
 class SettlingOptions(Strict):
-    """When a motion without separation may be left before the horizon; see `disc_model.stability.settling`.
+    """When a motion without separation may be left before the horizon; see `disc_model.stability.attractor`.
 
     settled : successive cycles that agree this well, relative, end the simulation; 0 never does
     near : a motion this near to a stable stick-slip cycle, relative, and ever nearer, ends it too; 0 never does
@@ -184,7 +184,7 @@ class LyapunovOptions(Lead):
 
 
 class BasinsOptions(Lead):
-    """What many starts come to; see `disc_model.stability.basins`.
+    """What many starts come to; see `disc_model.stability.attractor`.
 
     energies : J, of the kicks that are added to the start in random directions; 0 adds nothing
     starts : of each energy

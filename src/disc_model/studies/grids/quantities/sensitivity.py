@@ -19,8 +19,8 @@ from scipy.stats import qmc
 
 from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
+from disc_model.stability.attractor.course import come_to
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
-from disc_model.stability.fate import fate
 from disc_model.studies.grids.draws import CYCLES, DRAWS, OUTCOMES
 from disc_model.studies.grids.points import NUMERICAL, STATUS
 
@@ -157,8 +157,7 @@ def cycle_word(found: FloquetResult) -> str:
 def _followed(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
     """What becomes of the published start."""
     try:
-        found = fate(p, options.horizon, tol=options.motion_tol)
+        found = come_to(p, options.horizon, tol=options.motion_tol)
     except NUMERICAL as error:
         return {"outcome": "failed"}, f"{type(error).__name__}: {error}"
-    outcome = "failed" if found.outcome == "unknown" else found.outcome
-    return {"outcome": outcome, "first_separation": found.first_separation}, found.message
+    return {"outcome": found.outcome or "failed", "first_separation": found.first_separation}, found.message

@@ -1,0 +1,17 @@
+"""What a motion comes to: one answer for maps, basins, diagrams, ramps, claims and benchmarks.
+
+The words are those of `disc_model.data.variables.Outcome`. Each is decided by one test:
+
+- `quiet`, `other_cycle`, `separating`: the motion is near a stable cycle of the return map, and nears it over seconds
+  as the cycle's multipliers say (`near.cycle_near`). It is separating if the cycle loses contact; quiet if the cycle is
+  that of the published start, or within a tenth of the static deflection of that start.
+- `sliding`: it slides near stable steady sliding, and nears it as the eigenvalues there say (`near.nears_sliding`).
+- `resting`: it has stuck for a whole leg, and nothing will ever pull the slider off the disc (`course.at_rest`).
+- `quasi_periodic`, `irregular`: it has settled (`many.Basins`), is near no stable cycle, and the 0-1 test calls the
+  intervals between its switches regular, or chaotic (`disc_model.analysis.classify`).
+- `growing`: it is in contact at the horizon and departs from an unstable cycle, or changes from one period to the next
+  have risen (`course.growing`). `separation`: contact is lost before the horizon.
+- `undecided`: none of these.
+
+`course` follows one motion to a horizon, `many` compares many of one case with the attractors that are known.
+"""

@@ -1,0 +1,302 @@
+"""What becomes of one motion within a horizon: told by multipliers where they prove it, else simulated.
+
+The published start is a point of the section of `disc_model.stability.return_map`, and usually lies near the cycle that
+Newton's method finds from it.  What follows from that, and what is simulated, is said in docs/studies.md, Regions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from disc_model.data.variables import Outcome
+from disc_model.errors import Status
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Record, Window
+from disc_model.simulation.result import Result, State
+from disc_model.stability.attractor.near import (
+    AMPLITUDES,
+    ARRIVED,
+    CYCLE_TOL,
+    Near,
+    cycle_near,
+    departure,
+    first_release,
+    nears_sliding,
+    published_start_near,
+    recurrence,
+)
+from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
+from disc_model.stability.return_map import RETURNED, ReturnMap, case_faults
+
+FIRST_LEG = 5.0
+"""s, simulated before a motion is looked at again: dozens of cycles, and some turns of the disc at published speeds."""
+GROWTH = 1.5
+"""How much a change over a period must rise above its least value before to be called growth: roundings and beats with
+modes that die out make less."""
+RATE = 4000.0
+"""Sampling rate of stretches, Hz: above twice the disc's highest frequency kept."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """What a stretch of motion was like.
+
+    P_min, P_max : N, range of the contact force
+    u_min, u_max : m, of the slider's height over static equilibrium
+    share_stick, share_slip, share_separation : of the time
+    separation_rate : 1/s
+    """
+
+    P_min: float
+    P_max: float
+    u_min: float
+    u_max: float
+    share_stick: float
+    share_slip: float
+    share_separation: float
+    separation_rate: float
+
+    @property
+    def range(self) -> float:
+        """Of the slider's height, m."""
+        return self.u_max - self.u_min
+
+
+@dataclass(frozen=True, eq=False)
+class Reached:
+    """What a motion has come to.
+
+    Attributes
+    ----------
+    outcome : None if the simulation failed
+    simulated : s, 0 if multipliers decide
+    cycle : the stable one to which it has come, or else the unstable one from which it departs; None if neither
+    departed : the unstable cycle from which its multipliers have led it away, None if all was simulated
+    first_separation : s, nan if there was none
+    time : s, at which that was known
+    state : where the simulation ended; None if there was none
+    failed : the simulation that could not go on
+    changes : from one period to the next, over the static deflection, at the end of each leg
+    times : of these ends, s
+    distance : from the cycle, over the static deflection, where it was left for it
+    stretch : the last one before the horizon, if it was asked for and got there
+    """
+
+    outcome: Outcome | None
+    simulated: float
+    cycle: FloquetResult | None
+    departed: FloquetResult | None = None
+    first_separation: float = math.nan
+    time: float = 0.0
+    state: State | None = None
+    failed: Result | None = None
+    changes: Sequence[float] = ()
+    times: Sequence[float] = ()
+    distance: float = math.nan
+    stretch: Stretch | None = None
+
+    @property
+    def status(self) -> Status:
+        """Of the simulation."""
+        return Status.OK if self.failed is None else self.failed.status
+
+    @property
+    def message(self) -> str:
+        """Why it could not go on."""
+        return "" if self.failed is None else self.failed.message
+
+
+def come_to(
+    p: Parameters,
+    horizon: float,
+    *,
+    tol: float = 1e-10,
+    near: Near | FloquetResult | None = None,
+    furthest: float = AMPLITUDES[0],
+    start: State | None = None,
+    early: bool = True,
+    late: float = 0.0,
+) -> Reached:
+    """What a motion comes to within a horizon (s), or whether it separates first.
+
+    Parameters
+    ----------
+    tol : of what is simulated, as in `simulate`
+    near : what `published_start_near` says, if it is known
+    furthest : distance from a cycle, over the static deflection, up to which multipliers may tell of a departure: the
+        shorter, the better is the time of the first separation known; 0: all of it is simulated
+    start : where to start, at time 0; None is the published start
+    early : whether a motion is left once its outcome is shown; else it is followed to the horizon
+    late : s, length of the stretch before the horizon that is to be described
+    """
+    course = _Course(p, horizon, tol, furthest, start, early, late)
+    if early and start is None and course.map is not None:
+        near = published_start_near(p) if near is None else near
+        return course.run(near if isinstance(near, Near) and near.own else None)
+    return course.run(None)
+
+
+class _Course:
+    """A motion on its way: where it is, and what was seen so far.
+
+    shown : the cycle that it follows linearly: the first, or the stable one to which it has come
+    left : the unstable cycle that it has departed from
+    """
+
+    def __init__(
+        self, p: Parameters, horizon: float, tol: float, furthest: float, start: State | None, early: bool, late: float
+    ) -> None:
+        self.p, self.tol, self.furthest, self.early = p, tol, furthest, early
+        self.marks = (horizon - late, horizon) if late else (horizon,)
+        self.horizon, self.late = horizon, late
+        has_section = not case_faults(p, "the return map") and may_stick_and_slip(p)
+        self.map = ReturnMap(p, CYCLE_TOL) if has_section else None
+        self.state = start
+        self.time, self.simulated = 0.0, 0.0
+        self.shown: FloquetResult | None = None
+        self.left: Near | None = None
+        self.stretch: Stretch | None = None
+        self.changes: list[float] = []
+        self.times: list[float] = []
+
+    def run(self, near: Near | None) -> Reached:
+        if near is not None:
+            self.time = first_release(self.p)
+        leg = FIRST_LEG
+        while True:
+            over = self.time >= self.horizon
+            if near is not None:
+                self.shown = self.shown or near.cycle
+                if near.cycle.stable:
+                    self.shown = near.cycle
+                    self.time += near.waited
+                    return self._ended(near.kind, distance=float(np.linalg.norm(near.distance)) / near.size)
+                if over or self._depart(near) >= self.horizon:
+                    return self._ended(Outcome.GROWING)
+            elif over:
+                return self._ended(Outcome.GROWING if self.left or growing(self.changes) else Outcome.UNDECIDED)
+            result = self._simulated(leg)
+            leg *= 2
+            if result.status is Status.STOPPED:
+                return self._ended(Outcome.SEPARATION, first_separation=result.first_separation)
+            if not result.status.complete:
+                return self._ended(None, failed=result)
+            near = None
+            if self.early or self.time >= self.horizon:
+                calm = at_rest(self.p, result, self.tol)
+                if calm is not None:
+                    self.shown = None
+                    return self._ended(calm)
+            near = self._look(result.final_state)
+
+    def _simulated(self, leg: float) -> Result:
+        """Go on for a time (s), or to the first separation; the stretch to be described is a leg of its own."""
+        stop = next(min(self.time + leg, mark) for mark in self.marks if self.time < mark)
+        record = Record(events=False)
+        if self.late and stop == self.horizon:
+            record = Record(windows=(Window(start=self.time, stop=stop, rate=RATE),), events=False)
+        result = simulate(
+            self.p, stop, tol=self.tol, initial_state=self.state, record=record, stop_at="first_separation"
+        )
+        if record.windows and result.status.complete:
+            self.stretch = stretch_of(result)
+        self.simulated += result.final_state.time - self.time
+        self.state, self.time = result.final_state, result.final_state.time
+        return result
+
+    def _ended(self, outcome: Outcome | None, **more: Any) -> Reached:
+        return Reached(
+            outcome,
+            self.simulated,
+            self.shown,
+            departed=None if self.left is None else self.left.cycle,
+            time=self.time,
+            state=self.state,
+            changes=self.changes,
+            times=self.times,
+            stretch=self.stretch,
+            **more,
+        )
+
+    def _depart(self, near: Near) -> float:
+        """Follow the linear map away from an unstable cycle, as far as it may be; the time then, s."""
+        begun = self.time + near.waited
+        room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
+        time, distance = departure(near, room, self.furthest)
+        self.time = begun + time
+        self.state = near.map.state(near.x + distance).replace(time=self.time)
+        self.left = near
+        return self.time
+
+    def _look(self, state: State) -> Near | None:
+        """The cycle that the motion follows linearly by now; once it departs from one, only a stable one."""
+        code, x = self.map.next_release(state) if self.map is not None else (None, None)
+        if self.map is None or x is None or code != RETURNED:
+            return None
+        again = recurrence(self.map, x)
+        self.times.append(self.time)
+        self.changes.append(again[0])
+        if not self.early and self.time < self.horizon:
+            return None
+        return cycle_near(self.map, x, again, stable=self.left is not None)
+
+
+def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:
+    """Whether the slider rests on the disc, for good, or comes to steady sliding; None if that is not shown."""
+    stick, slip, *_ = shares(leg)
+    if stick == 1 and never_pulls(p):
+        return Outcome.RESTING
+    return Outcome.SLIDING if slip == 1 and nears_sliding(p, leg.final_state, tol) else None
+
+
+def growing(changes: Sequence[float]) -> bool:
+    """Whether changes have risen, over two or more: an instability, even if it is bounded by now."""
+    d = np.array(changes)
+    if len(d) < 3:
+        return False
+    least = np.fmin.accumulate(d[:-2])
+    later = np.fmin(d[1:-1], d[2:])
+    return bool(np.any((later > ARRIVED) & (later > GROWTH * least)))
+
+
+# ----------------------------------------------------------------------------------------------------
+# What a stretch was like
+
+
+def late_stretch(
+    p: Parameters, state: State | None, duration: float, late: float, tol: float
+) -> tuple[Result, Stretch | None]:
+    """Go on from a state (None: the published start) for a duration (s) and describe the last stretch of it.
+
+    There is no stretch if the simulation did not get there.
+    """
+    begin = 0.0 if state is None else state.time
+    stop = begin + duration
+    if stop - late > begin:
+        result = simulate(p, stop - late, tol=tol, initial_state=state, record=Record(events=False))
+        if not result.status.complete:
+            return result, None
+        state = result.final_state
+    window = Window(start=stop - late, stop=stop, rate=RATE)
+    result = simulate(p, stop, tol=tol, initial_state=state, record=Record(windows=(window,)))
+    return result, stretch_of(result) if result.status.complete else None
+
+
+def stretch_of(result: Result) -> Stretch:
+    """Ranges over the one window of samples of a result, and shares of all its time."""
+    P, u = result.samples[0]["P"], result.samples[0]["u"] - result.u_0
+    return Stretch(float(P.min()), float(P.max()), float(u.min()), float(u.max()), *shares(result))
+
+
+def shares(result: Result) -> tuple[float, float, float, float]:
+    """Of the time of a result: spent in stick, slip and separation; and separations per second."""
+    statistics = result.statistics
+    stick, slip, separation = (statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
+    total = stick + slip + separation
+    return stick / total, slip / total, separation / total, statistics["separations"] / total
