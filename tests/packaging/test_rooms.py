@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
             {"studies/schema.py", "simulation/api.py", "plate.py", "data/dataset.py"},
             "fig02.png",
         ),
-        ("point", 22, {"studies/grids/schema.py", "studies/grids/run.py", "plate.py", "data/dataset.py"}, "batch.nc"),
+        ("point", 25, {"studies/grids/schema.py", "studies/grids/run.py", "plate.py", "data/dataset.py"}, "batch.nc"),
     ],
 )
 def test_a_way_enters_few_rooms(way: str, most: int, some: set[str], written: str, tmp_path: Path) -> None:
