@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters
-from disc_model.engine import layout, machine, switches
+from disc_model.engine import laws, layout, machine, switches
 from disc_model.flexibility import contact_give
 from disc_model.simulation.result import engine_case, write_state
 from tests.references import stored, taylor
@@ -81,4 +81,5 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
         compare(s.switch, p.mu_s * press - pull, 1e-9)
         compare(s.switch2, p.mu_s * press + pull, 1e-9)
         held = np.array([pull[0], press[0]], float)
-        np.testing.assert_allclose(switches.grip(model, state, switches.stick_force(model, state)), held, rtol=1e-10)
+        i, _ = switches.instant(model, state)
+        np.testing.assert_allclose(laws.grip(model, i, laws.vertical_in_stick(model, i)), held, rtol=1e-10)

@@ -40,16 +40,20 @@ FUNCTIONS = {
     ),
     "engine/coasting.py": ("coast_length", "coast_to", "_times"),
     "engine/stick_modes.py": ("_eigenmodes", "_compliant_eigenmodes", "_decomposed", "_under_unit_load", "_packed"),
+    "engine/laws.py": (
+        *("spring_force", "free_force", "stick_numerator", "vertical_in_stick", "slip_denominator", "slip_numerator"),
+        *("slip_rates", "grip", "impact"),
+    ),
     "engine/switches.py": (
-        *("disc_point", "spring_force", "_compliant_force", "_free_acceleration", "_free_force", "stick_force", "grip"),
-        *("force_in_stick", "slip_denominator", "slip_force", "impact"),
+        *("disc_point", "spring_force", "_free_acceleration", "_deflection_size", "_rounding", "force_in_stick"),
+        *("slip_force", "impact", "switch_function"),
     ),
     "flexibility.py": (
         *("residual_flexibility", "harmonic_flexibility", "_point_load", "_moment", "_shear", "_power"),
         *("_high_harmonics", "_axisymmetric", "_first", "_logarithmic", "_with_edges"),
     ),
     "engine/saltation.py": (
-        *("rates", "_force_change", "_pull_change", "_inertia", "_release_change", "_compliant_switch_change"),
+        *("rates", "_free_change", "_put_changes", "_change", "_set_derivative", "switch_gradient"),
         *("switch_change", "switch_times", "shift", "impact_change"),
     ),
     "engine/tangent.py": (
@@ -80,7 +84,7 @@ EQUIVALENT: dict[str, str] = {
     "engine/audit.py:_powers_in: + damped -> -": "a size, without abs() as it is never negative",
     "engine/stick_modes.py:_compliant_eigenmodes: + k -> -": "the scale of u is free",
     "engine/stick_modes.py:_compliant_eigenmodes: 1.0 -> 2.0": "the scale of u is free",
-    "engine/switches.py:_free_force: + model.m * size -> -": "a size, without abs() as it is never negative",
+    "engine/switches.py:_rounding: + i.m * size -> -": "a size, without abs() as it is never negative",
     "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
     "stability/sliding.py:_jacobian: + p.m * weight * (2 * l * beta - 2 * l ** 2 * p.Omega * a) -> -": (
         "zero at the equilibrium, where beta = l Omega a"

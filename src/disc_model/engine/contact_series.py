@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from .compile import inlined
 from .lanes import WIDTH, add, fma, item, mul, splat, total
+from .laws import slip_denominator
 from .layout import (
     DOWN,
     DRIVE_SERIES,
@@ -47,7 +48,6 @@ from .series import (
     lane_count,
     load_at,
 )
-from .switches import slip_denominator
 
 
 @inlined
@@ -221,7 +221,7 @@ def compliant_stick_series(model, s, order):
 
 @inlined
 def release_series(model, s, order):
-    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``switches.grip``.
+    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``laws.grip``.
 
     Where nothing but the slope pulls at a slider that may leave the disc, over their common factor V: mu_s +/- beta.
     """
@@ -266,7 +266,7 @@ def normal_slip_series(model, s, order, direction):
     s.slider[U_SERIES], s.slider[V_SERIES], slope = _disc_point(model, s)
     beta = slope / model.r_0
     s.slider[SLOPE_SERIES] = beta
-    denominator = slip_denominator(model, direction, slope)
+    denominator = slip_denominator(model, model.m, direction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
     now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from . import laws
 from .compile import helper, inlined
 from .lanes import WIDTH, absolute, add, load, mul, splat, total
+from .laws import Instant
 from .layout import (
     COASTED,
     DIRECTION,
@@ -63,35 +65,6 @@ def slider_motion(model, state):
 
 
 @inlined
-def spring_force(model, state):
-    """F = k_p psi + c_p (Omega - f), N/m... the in-plane force divided by r_0."""
-    return model.k_p * state.x[PSI] + model.c_p * (drive_now(model, state) - state.x[SPEED])
-
-
-@inlined
-def never_pulled(model, state):
-    """Whether the drive neither pulls at the slider in stick nor ever will."""
-    return model.k_p * model.Omega == 0.0 and spring_force(model, state) == 0.0
-
-
-@inlined
-def _compliant_force(model, state):
-    """V = (w - u) / give, the vertical force of a compliant contact; size of its terms.
-
-    Those are the modes' shares of w, not w, which may be a difference of far larger ones.
-    """
-    shares, sizes = splat(0.0), splat(0.0)
-    for b in range(0, len(model.force), WIDTH):
-        share = mul(load(model.force, b), load(state.z, b))
-        shares, sizes = add(shares, share), add(sizes, absolute(share))
-    w, size, give = total(shares), total(sizes) + abs(state.x[U]), give_of(model.give)
-    for j in range(len(model.force0)):
-        part = model.force0[j] * state.y[j]
-        w, size = w + part, size + abs(part)
-    return (w - state.x[U]) / give, size / give
-
-
-@inlined
 def _free_acceleration(model, state):
     """A: u'' of the disc under the slider but for P and f'; size of its terms."""
     f, acceleration, size = state.x[SPEED], 0.0, 0.0
@@ -109,37 +82,52 @@ def _free_acceleration(model, state):
 
 
 @inlined
-def _free_force(model, state):
-    """N + k (u - u_0) + c u' + m A, which is P but for its denominator and the term with B; size of its terms."""
-    u, v, _ = disc_point(model, state)
-    acceleration, size = _free_acceleration(model, state)
-    spring, damper = model.k * (u - model.u_0), model.c * v
-    N = load_now(model, state)
-    value = N + spring + damper + model.m * acceleration
-    return value, N + abs(spring) + abs(damper) + model.m * size
+def instant(model, state):
+    """The numbers on which the laws of contact depend; size of the terms of A."""
+    x, (w, velocity, slope), (free, size) = state.x, disc_point(model, state), _free_acceleration(model, state)
+    return Instant(
+        load_now(model, state), model.k, model.c, model.m, model.k_p, model.c_p, drive_now(model, state),
+        give_of(model.give), x[PSI], x[SPEED], w, velocity, slope, free, x[U], x[U_VELOCITY],
+    ), size  # fmt: skip
+
+
+@inlined
+def spring_force(model, state):
+    """F = k_p psi + c_p (Omega - f): the in-plane force over r_0, N/m."""
+    return model.k_p * state.x[PSI] + model.c_p * (drive_now(model, state) - state.x[SPEED])
+
+
+@inlined
+def never_pulled(model, state):
+    """Whether the drive neither pulls at the slider in stick nor ever will."""
+    return model.k_p * model.Omega == 0.0 and spring_force(model, state) == 0.0
+
+
+@inlined
+def _deflection_size(model, state):
+    """Size of w - u on a compliant contact: of the modes' shares of w, which may be a difference of far larger ones."""
+    sizes = splat(0.0)
+    for b in range(0, len(model.force), WIDTH):
+        sizes = add(sizes, absolute(mul(load(model.force, b), load(state.z, b))))
+    size = total(sizes) + abs(state.x[U])
+    for j in range(len(model.force0)):
+        size += abs(model.force0[j] * state.y[j])
+    return size
+
+
+@inlined
+def _rounding(model, state, i, size):
+    """How much of V in stick, or of the numerator of P where B F is rounded too, may be rounding."""
+    if is_compliant(model):
+        return ROUNDING * _deflection_size(model, state) / i.give
+    return ROUNDING * (i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * size)
 
 
 @inlined
 def stick_force(model, state):
     """Vertical contact force in stick (f = 0): P, or V under the normal force."""
-    if is_compliant(model):
-        return _compliant_force(model, state)[0]
-    force, _ = _free_force(model, state)
-    return force / (1.0 + model.m * model.compliance)
-
-
-@inlined
-def grip(model, state, V):
-    """Pull and press of stick, where V is the vertical force: friction holds while abs(pull) <= mu_s press.
-
-    Under the normal force both are in units of 1 / (1 + (B / r_0)^2): T and R have that in common.
-    """
-    pull, press = model.r_0 * spring_force(model, state), V
-    if is_normal(model):
-        _, _, slope = disc_point(model, state)
-        press += spring_force(model, state) * slope
-        pull -= slope / model.r_0 * V
-    return pull, press
+    i, _ = instant(model, state)
+    return laws.vertical_in_stick(model, i)
 
 
 @inlined
@@ -158,48 +146,42 @@ def usual_denominator(model):
 
 
 @inlined
-def slip_denominator(model, direction, slope):
-    """The denominator of the contact force in slip, P or R; slope is B of the disc under the slider."""
-    friction = direction * model.mu_k
-    if is_normal(model):
-        beta = slope / model.r_0
-        if is_compliant(model):
-            return 1.0 - friction * beta
-        return (1.0 + model.m * model.compliance) * (1.0 - friction * beta) + (friction + beta) * beta
-    if is_compliant(model):
-        return 1.0
-    return 1.0 + model.m * model.compliance + friction * slope / model.r_0
-
-
-@inlined
 def slip_force(model, state, direction):
     """Contact force in slip (P, or R under the normal force), its denominator, and how much of it may be rounding."""
-    _, _, slope = disc_point(model, state)
-    denominator = slip_denominator(model, direction, slope)
-    if is_compliant(model):
-        V, size = _compliant_force(model, state)
-        return V / denominator, denominator, ROUNDING * size / abs(denominator)
-    force, size = _free_force(model, state)
-    pull = slope * spring_force(model, state)
-    return (force + pull) / denominator, denominator, ROUNDING * (size + abs(pull)) / abs(denominator)
+    i, size = instant(model, state)
+    denominator = laws.slip_denominator(model, i.m, direction, i.slope)
+    noise = _rounding(model, state, i, size)
+    if not is_compliant(model):
+        noise += ROUNDING * abs(i.slope * laws.spring_force(i))
+    return laws.slip_numerator(model, i) / denominator, denominator, noise / abs(denominator)
 
 
 @inlined
 def impact(model, state):
-    """Plastic impact (Eqs. 29-37).  Returns the impulse p; the slider takes the disc's velocity.
-
-    Under the normal force the slope takes its share of the impulse from f.
-    """
-    _, v, slope = disc_point(model, state)
-    lever = slope / (model.m * model.r_0**2) if is_normal(model) else 0.0
-    p = (v - state.x[U_VELOCITY]) / (model.compliance + 1.0 / model.m + slope * lever)
-    state.x[SPEED] -= p * lever
+    """Plastic impact (Eqs. 29-37).  Returns the impulse p; the slider takes the disc's velocity."""
+    i, _ = instant(model, state)
+    p, state.x[SPEED] = laws.impact(model, i)
     for j in range(len(model.shift)):
         state.e[j] -= model.force[j] * p
     for j in range(len(model.force0)):
         state.g[j] -= model.force0[j] * p
     state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
     return p
+
+
+@inlined
+def switch_function(model, i, cause, slipping):
+    """What vanishes at a switch of an instant; slipping: whether it ends slip."""
+    if cause == AT_REST:
+        return i.f
+    if cause == GAP_CLOSED:
+        return i.u - i.w
+    if cause == CONTACT_LOST:
+        if is_compliant(model):
+            return i.w - i.u
+        return laws.slip_numerator(model, i) if slipping else laws.stick_numerator(model, i)
+    pull, press = laws.grip(model, i, laws.vertical_in_stick(model, i))
+    return model.mu_s * press - (1.0 if cause == RELEASE_FORWARD else -1.0) * pull
 
 
 @inlined
@@ -273,8 +255,8 @@ def lose_contact(model, state):
     if state.x[PHASE] == SLIP:
         P, _, noise = slip_force(model, state, state.x[DIRECTION])
     else:
-        P, size = _compliant_force(model, state) if is_compliant(model) else _free_force(model, state)
-        noise = ROUNDING * size
+        i, size = instant(model, state)
+        P, noise = laws.stick_numerator(model, i), _rounding(model, state, i, size)
     _enter_separation(model, state, P, noise)
     return CONSISTENT
 
@@ -283,8 +265,9 @@ def lose_contact(model, state):
 def come_to_rest(model, state):
     """f has reached zero: stick if friction can hold the spring, else slip to the side of the spring's pull."""
     state.x[SPEED] = 0.0
-    P = stick_force(model, state)
-    pull, press = grip(model, state, P)
+    i, _ = instant(model, state)
+    P = laws.vertical_in_stick(model, i)
+    pull, press = laws.grip(model, i, P)
     if abs(pull) < model.mu_s * press:
         _enter_stick(state, force_in_stick(model, state, P))
         return CONSISTENT

@@ -18,9 +18,9 @@ import numpy as np
 
 from .compile import helper, inlined
 from .lanes import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
+from .laws import N_ENTRIES, slip_denominator
 from .layout import HALF, SEPARATION, SLIP, STICK, Model, give_of, is_compliant, is_normal
 from .packing import packed
-from .switches import slip_denominator
 
 # Entries of ``Tangent.log``; ``variational`` says what they are.
 LOG_SIZE = 16
@@ -28,8 +28,8 @@ LOG_SIZE = 16
 # Rows of the slider in a column, behind those of the disc, which stand in the order of ``State.disc``.
 PSI_ROW, F_ROW, U_ROW, V_ROW, N_SLIDER_ROWS = range(5)
 
-# Rows of the parameters' changes that a column carries (of the contact's compliance: relative); after them stiffness
-# and damping of all lanes and of the axisymmetric modes.
+# Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N - k u_0; D_GIVE:
+# relative); after them stiffness and damping of all lanes and of the axisymmetric modes.
 LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, D_GIVE, N_SCALARS = range(9)
 
 
@@ -45,7 +45,8 @@ class Tangent(NamedTuple):
     parameters: np.ndarray  # [block][row][8], changes of parameters
     before: np.ndarray  # [row][8], rates before a switch in the first lane
     after: np.ndarray
-    still: np.ndarray  # like ``parameters``, zero, eight columns
+    change: np.ndarray  # [entry of an Instant][8], of a block of columns
+    gradient: np.ndarray  # [2][entry], derivatives of laws
     tau: np.ndarray  # [column], change of a switch's time
     log: np.ndarray
     columns: int
@@ -68,11 +69,13 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
     rows, parameters = n_rows(model), N_SCALARS + 2 * len(model.force) + 2 * len(model.force0)
     order_size = (order + 2) * columns
-    series, force, slope, now, changes, before, after, still, tau, log, base_slope = aligned_pieces(
+    series, force, slope, now, changes, before, after, change, gradient, tau, log, base_slope = aligned_pieces(
         order_size * rows, order_size, order_size, rows * columns, parameters * columns,
-        rows * WIDTH, rows * WIDTH, parameters * WIDTH, columns, LOG_SIZE, order + 2,
+        rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
     )  # fmt: skip
-    return Tangent(series, force, slope, base_slope, now, changes, before, after, still, tau, log, columns, plain)
+    return Tangent(
+        series, force, slope, base_slope, now, changes, before, after, change, gradient, tau, log, columns, plain
+    )
 
 
 @inlined
@@ -332,7 +335,7 @@ def tangent_series(model, s, t, order, phase, direction):
             elif other_law and phase == SLIP:
                 if not is_compliant(model):
                     free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
-                mu, denominator = direction * model.mu_k, slip_denominator(model, direction, B0)
+                mu, denominator = direction * model.mu_k, slip_denominator(model, model.m, direction, B0)
                 P, V, rate_f = _forces_in_slip(model, s, t, block, k, R, mu, denominator, free, vertical, pull)
                 if is_compliant(model):
                     acceleration = mul(lightness, sub(V, vertical))

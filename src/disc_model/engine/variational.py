@@ -9,10 +9,12 @@ import numpy as np
 from .compile import helper, inlined, kernel
 from .dense_output import state_at
 from .lanes import WIDTH, mul, splat, store
-from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME, is_compliant, is_normal
+from .laws import PSI as ANGLE
+from .laws import TINY, stepped
+from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME, is_compliant
 from .outcomes import LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
 from .packing import packed
-from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_times
+from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_gradient, switch_times
 from .stepping import advance_time, expand, first_switch, step_size
 from .switches import (
     AT_REST,
@@ -23,10 +25,11 @@ from .switches import (
     RELEASE_BACKWARD,
     RELEASE_FORWARD,
     change_phase,
-    disc_point,
+    instant,
     stick_force,
+    switch_function,
 )
-from .tangent import PSI_ROW, n_inputs, n_rows_of, slider_row, tangent_at, tangent_series
+from .tangent import PSI_ROW, n_rows_of, slider_row, tangent_at, tangent_series
 
 # What a flight counts, entries of ``Tangent.log``.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
@@ -169,19 +172,12 @@ def _place(model, state, row, value):
         state.x[PSI + slider] = value
 
 
-@inlined
-def _lift(model, state):
-    """B / r_0 where it matters to stick: under the normal force."""
-    _, _, slope = disc_point(model, state)
-    return slope / model.r_0 if is_normal(model) else 0.0
-
-
 @kernel
 def release_angle(model, state):
-    """psi at which stick is released forwards: r_0 F = V mu_s, or V (mu_s + beta) / (1 - mu_s beta) on a slope."""
-    force, beta = stick_force(model, state), _lift(model, state)
-    pull = model.mu_s * force if not is_normal(model) else (model.mu_s + beta) * force / (1.0 - model.mu_s * beta)
-    return (pull / model.r_0 - model.c_p * model.Omega) / model.k_p
+    """psi at which stick is released forwards: the switch function is linear in it."""
+    i, _ = instant(model, state)
+    margin = switch_function(model, stepped(i, ANGLE), RELEASE_FORWARD, False)
+    return i.psi - margin.real / (margin.imag / TINY)
 
 
 @kernel
@@ -202,15 +198,14 @@ def section_map(model, s, state, t, course, section, start):
         return OFF_SECTION
     state.x[PSI] = release_angle(model, state)
     if course.tangent:
-        beta = _lift(model, state)
         t.now[:] = 0.0
         for i in range(len(rows)):
             t.now[((i // WIDTH) * R + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
+        switch_gradient(model, state, t, RELEASE_FORWARD)
+        by_psi = splat(-1.0 / t.gradient[ANGLE])
         for c in range(0, t.columns, WIDTH):
-            at, q = c * R, c * n_inputs(model)
-            change = switch_change(model, state, RELEASE_FORWARD, t.now, at, t.parameters, q, c >= t.plain)
-            dpsi = mul(splat(1.0 / (model.r_0 * (1.0 - model.mu_s * beta) * model.k_p)), change)
-            store(t.now, at + slider_row(model, PSI_ROW) * WIDTH, dpsi)
+            dpsi = mul(by_psi, switch_change(model, state, t, t.now, c, c >= t.plain))
+            store(t.now, c * R + slider_row(model, PSI_ROW) * WIDTH, dpsi)
     if change_phase(model, state, RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
     # the release itself is that of the flight which ended here

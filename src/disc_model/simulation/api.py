@@ -152,7 +152,7 @@ class _Run:
         stop_at: str | None,
         max_steps: int | None,
         ramps: tuple[Ramp, ...],
-        told: bool,
+        told: bool = True,
     ) -> None:
         self.p, self.t_end, self.tol, self.record, self.stop_at, self.told = p, t_end, tol, record, stop_at, told
         # who follows a case without ramps need not look at them: the one piece that there is is said here
