@@ -1,7 +1,7 @@
-"""A study with the paper's cases whose motions are made up, not simulated: what claims are judged by, in every detail.
+"""A study with the paper's cases whose motions are made up, not simulated.
 
 A `Story` says what a case did; `tell` writes it down as a simulation would, with the windows and events that
-config/paper.yaml asks for.  `AS_TOLD` is what the paper says happened.
+config/paper.yaml asks for.  `as_told` is what the paper says happened, `to_the_contrary` the opposite of all of it.
 """
 
 from __future__ import annotations
@@ -10,8 +10,9 @@ import cmath
 import dataclasses
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -21,21 +22,29 @@ from disc_model.data.dataset import events_dataset, failed_groups, samples_datas
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
 from disc_model.plate import slider_at_rest_frequencies
-from disc_model.simulation.case import CaseSpec, Start, Window
+from disc_model.simulation.case import CaseSpec, Start
 from disc_model.studies.schema import load_study
 
-PAPER = Path(__file__).parents[2] / "config" / "paper.yaml"
+SPECS = load_study(Path(__file__).parents[2] / "config" / "paper.yaml").specs
 STICK, SLIP, SEPARATION = range(len(PHASES))
-Signal = Callable[[CaseSpec, float, np.ndarray], np.ndarray]
+Groups = dict[str, xr.Dataset]
+Signal = Callable[[Parameters, float, np.ndarray], np.ndarray]
+"""What the disc's point does, by the case, the stick-slip rate in Hz, and times in s."""
 
 
-def combinations(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def waves(t: np.ndarray, *lines: tuple[float, float]) -> np.ndarray:
+    """A sum of cosines, each of a frequency in Hz and an amplitude."""
+    return sum(size * np.cos(2 * np.pi * f * t) for f, size in lines)
+
+
+def drive(p: Parameters) -> float:
+    return p.Omega / (2 * np.pi)
+
+
+def combinations(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """The drive and its multiples, and pairs of lines n f_s -/+ f_drive: what Table 2 lists."""
-    drive = spec.parameters.Omega / (2 * np.pi)
-    values = np.cos(2 * np.pi * drive * t) + 0.1 * np.cos(4 * np.pi * drive * t) + 0.05 * np.cos(6 * np.pi * drive * t)
-    for n, size in zip(range(1, 5), (3e-2, 1e-2, 3e-3, 1e-3), strict=True):
-        values += size * (np.cos(2 * np.pi * (n * rate - drive) * t) + np.sin(2 * np.pi * (n * rate + drive) * t))
-    return values
+    pairs = [(n * rate + side * drive(p), 3 * 10 ** (-0.5 * n - 1.5)) for n in range(1, 5) for side in (-1, 1)]
+    return waves(t, (drive(p), 1.0), (2 * drive(p), 0.1), (3 * drive(p), 0.05), *pairs)
 
 
 def logistic(count: int) -> np.ndarray:
@@ -53,74 +62,65 @@ def fuzz(t: np.ndarray, size: float) -> np.ndarray:
     return size * np.fft.irfft(noise, len(t))
 
 
-def crowded(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def crowded(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """More lines than a motion in contact has."""
-    return combinations(spec, rate, t) + sum(0.01 * np.cos(2 * np.pi * f * t) for f in range(30, 1000, 37))
+    return combinations(p, rate, t) + waves(t, *((f, 0.01) for f in range(30, 1000, 37)))
 
 
-def turns(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def turns(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """N = 385 N, 15.1 rad/s: lines; fuzz until 100 s; high frequencies after the first separation."""
-    late = np.where(t > 54.45, 0.03 * np.sin(2 * np.pi * 1000 * t), 0.0)
-    return combinations(spec, rate, t) + late + np.where((t > 30) & (t < 90), fuzz(t, 0.02), 0.0)
+    late = np.where(t > 54.45, waves(t, (1000, 0.03)), 0.0)
+    return combinations(p, rate, t) + late + np.where((t > 30) & (t < 90), fuzz(t, 0.02), 0.0)
 
 
-def coupled(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def coupled(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """N = 300 N, 20 rad/s: the lowest mode with the slider attached, moved by the rotation; fuzz; high frequencies."""
-    lowest, drive = slider_at_rest_frequencies(spec.parameters)[0] / (2 * np.pi), spec.parameters.Omega / (2 * np.pi)
-    values = sum(np.cos(2 * np.pi * (lowest + side * drive) * t + side) for side in (-2, -1, 1, 2))
-    return values + fuzz(t, 0.01) + np.where(t > 149.45, 0.3 * np.sin(2 * np.pi * 1000 * t), 0.0)
+    lowest = slider_at_rest_frequencies(p)[0] / (2 * np.pi)
+    values = waves(t, *((lowest + side * drive(p), 1.0) for side in (-2, -1, 1, 2)))
+    return values + fuzz(t, 0.01) + np.where(t > 149.45, waves(t, (1000, 0.3)), 0.0)
 
 
-def natural(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def natural(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """Lines at natural frequencies with the slider attached, moved by the rotation, whatever the stick-slip rate is."""
-    drive = spec.parameters.Omega / (2 * np.pi)
-    lowest = slider_at_rest_frequencies(spec.parameters)[[0, 1, 3]] / (2 * np.pi)
-    return sum(np.cos(2 * np.pi * (f + side * 1.3 * drive) * t) for f in lowest for side in (-1, 1))
+    lowest = slider_at_rest_frequencies(p)[[0, 1, 3]] / (2 * np.pi)
+    return waves(t, *((f + side * 1.3 * drive(p), 1.0) for f in lowest for side in (-1, 1)))
 
 
-def few(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def few(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """The drive and the stick-slip rate."""
-    return np.cos(spec.parameters.Omega * t) + 0.01 * np.cos(2 * np.pi * rate * t)
+    return waves(t, (drive(p), 1.0), (rate, 0.01))
 
 
-def erratic(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def erratic(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """E = 100 GPa: lines that have nothing to do with one another, none of them high."""
-    return sum(np.cos(2 * np.pi * f * t) for f in (90.7, 131.9, 210.3, 333.1, 401.9))
+    return waves(t, *((f, 1.0) for f in (90.7, 131.9, 210.3, 333.1, 401.9)))
 
 
-def driven(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def driven(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """As `coupled`, with as much power in the drive's own line as in the rest."""
-    return coupled(spec, rate, t) + 2 * np.cos(spec.parameters.Omega * t)
+    return coupled(p, rate, t) + waves(t, (drive(p), 2.0))
 
 
-def one_more(spec: CaseSpec, rate: float, t: np.ndarray) -> np.ndarray:
+def one_more(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """One further frequency, 126.1 Hz, with its sums and differences with the stick-slip rate and the drive's."""
-    drive = spec.parameters.Omega / (2 * np.pi)
-    return sum(np.cos(2 * np.pi * (126.1 + n * rate + m * drive) * t) for n in (-1, 0, 1) for m in (-1, 1))
+    return waves(t, *((126.1 + n * rate + m * drive(p), 1.0) for n in (-1, 0, 1) for m in (-1, 1)))
 
 
-@dataclass(frozen=True)
-class Cycle:
-    """What `disc_model.stability.cycle` would find."""
-
-    growth_rate: float
-    stick_fraction: float
-    multipliers: tuple[complex, ...] = (0.5 + 0.9j,)
-    kind: str = "neimark_sacker"
+def cycle_as_told(p: Parameters) -> Any:
+    """What a search for the cycle finds: a stiffer disc and a damped one are more stable, and stick grows with load."""
+    rate = 0.2 * (150e9 / p.E - 0.9) - 1e3 * p.D_star
+    return SimpleNamespace(growth_rate=rate, stick_fraction=p.N / 1000, multipliers=(0.5 + 0.9j,))
 
 
-def cycle_as_told(p: Parameters) -> Cycle:
-    """A stiffer disc and a damped one are more stable; the stick phase grows with the load."""
-    return Cycle(0.2 * (150e9 / p.E - 0.9) - 1e3 * p.D_star, p.N / 1000)
-
-
-def cycle_to_the_contrary(p: Parameters) -> Cycle:
+def cycle_to_the_contrary(p: Parameters) -> Any:
     """The other way round."""
     told = cycle_as_told(p)
-    return Cycle(-told.growth_rate, 1 - told.stick_fraction, (-1.1 + 0j,), "period_doubling")
+    return SimpleNamespace(
+        growth_rate=-told.growth_rate, stick_fraction=1 - told.stick_fraction, multipliers=(-1.1 + 0j,)
+    )
 
 
-@dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True)
 class Story:
     """What a case did.
 
@@ -164,31 +164,23 @@ class Story:
     def separates(self) -> bool:
         return math.isfinite(self.first)
 
-    def replace(self, **changes: object) -> Story:
+    def but(self, **changes: object) -> Story:
         return dataclasses.replace(self, **changes)
 
-    # ---- the range of vibration against time
-    def _grown(self, t: np.ndarray, end: float) -> np.ndarray:
+    def grown(self, t: np.ndarray, end: float) -> np.ndarray:
         """0 at the start, 1 in the end; slowly to a third, then fast until contact is lost."""
         if not self.separates:
             return np.clip(4 * t / end, 0.0, 1.0)
         slow = np.clip(t / self.first, 0, 1) / 3
         return np.where(t < self.first, slow + 2 / 3 * np.exp(np.minimum(0.5 * (t - self.first), 0.0)), 1.0)
 
-    def force_range(self, t: np.ndarray, end: float) -> np.ndarray:
-        return self.early + (self.late - self.early) * self._grown(t, end)
-
     def disc_range(self, t: np.ndarray, end: float) -> np.ndarray:
-        width = self.disc_early + (self.disc_late - self.disc_early) * self._grown(t, end)
-        if self.grows_on:
-            width = width * np.exp(self.grows_on * np.clip(t - self.first, 0, None))
-        if not self.sharp:
-            return width
-        # slow growth, ten seconds of sharp growth, then less of it, and none after the loss of contact
-        bent = np.interp(t, [0, self.first - 10, self.first - 3, self.first], [0, 0.1, 0.1 + 7 * self.sharp, 2.2])
-        return self.disc_late * np.exp(bent - 2.2)
+        if self.sharp:  # slow growth, ten seconds of sharp growth, then less of it, and none after the loss of contact
+            bent = np.interp(t, [0, self.first - 10, self.first - 3, self.first], [0, 0.1, 0.1 + 7 * self.sharp, 2.2])
+            return self.disc_late * np.exp(bent - 2.2)
+        width = self.disc_early + (self.disc_late - self.disc_early) * self.grown(t, end)
+        return width * np.exp(self.grows_on * np.clip(t - self.first, 0, None)) if self.grows_on else width
 
-    # ---- stick and slip
     def releases(self, start: float, stop: float) -> np.ndarray:
         """Times of stick releases within a span, s."""
         count = int((stop - start) * self.rate)
@@ -199,91 +191,72 @@ class Story:
 
 def tell(spec: CaseSpec, story: Story) -> xr.DataTree:
     """The case as its file would hold it."""
-    reached = min(spec.t_end, story.first if spec.stop_at and story.separates else math.inf)
-    groups = {"/": _scalars(spec, story, reached)}
+    p, end = spec.parameters, spec.t_end
+    reached = min(end, story.first if spec.stop_at and story.separates else math.inf)
+    root = failed_groups(p, end, spec.tol, "")[""]
+    if spec.start != Start():
+        root.attrs["start"] = spec.start.model_dump_json()
+    values = {
+        "status": STATUSES.index("stopped" if reached < end else "ok"), "first_separation": story.first,
+        "n_separations": int(story.separates), "time_reached": reached, "time_stick": story.stick_before * reached,
+        "time_slip": (1 - story.stick_before) * reached, "u_0": -p.N * 1e-5,
+    }  # fmt: skip
+    groups = {"/": root.assign({name: ((), value, root[name].attrs) for name, value in values.items()})}
     for name, window in spec.windows:
         stop = min(window.stop, reached)
         if window.envelope:
-            groups[f"/{name}"] = _history(spec, story, window, stop)
+            width = window.envelope / window.rate
+            t = window.start + width * (np.arange(int((stop - window.start) / width + 1e-3)) + 0.5)
+            force = (story.early + (story.late - story.early) * story.grown(t, end)) * p.N / 2
+            disc = story.disc_range(t, end) / 2
+            bounds = {"P_min": p.N - force, "P_max": p.N + force, "w_point_min": -disc, "w_point_max": disc}
+            groups[f"/{name}"] = samples_dataset({"time": t} | bounds, window.theta)
         else:
             t = window.start + np.arange(int((stop - window.start) * window.rate * (1 + 1e-12)) + 1) / window.rate
             groups[f"/{name}"] = samples_dataset(_samples(spec, story, t), window.theta)
     if spec.poincare is not None:
-        turn = 2 * np.pi / spec.parameters.Omega
-        t = np.arange(int(reached / turn)) * turn
-        groups["/poincare"] = samples_dataset(_samples(spec, story, t), spec.poincare.theta)
+        turn = 2 * np.pi / p.Omega
+        groups["/poincare"] = samples_dataset(
+            _samples(spec, story, np.arange(int(reached / turn)) * turn), spec.poincare.theta
+        )
     if spec.events is not None:
-        groups["/events"] = _events(spec, story, *spec.events)
+        groups["/events"] = _events(p, story, *spec.events)
     return xr.DataTree.from_dict(groups)
 
 
-def _scalars(spec: CaseSpec, story: Story, reached: float) -> xr.Dataset:
-    p = spec.parameters
-    empty = failed_groups(p, spec.t_end, spec.tol, "")[""]
-    if spec.start != Start():
-        empty.attrs["start"] = spec.start.model_dump_json()
-    stuck = story.stick_before * reached
-    values = {
-        "status": STATUSES.index("stopped" if reached < spec.t_end else "ok"),
-        "first_separation": story.first,
-        "n_separations": int(story.separates),
-        "time_reached": reached,
-        "time_stick": stuck,
-        "time_slip": reached - stuck,
-        "u_0": -p.N * 1e-5,
-    }
-    return empty.assign({name: ((), value, empty[name].attrs) for name, value in values.items()})
-
-
-def _history(spec: CaseSpec, story: Story, window: Window, stop: float) -> xr.Dataset:
-    width = window.envelope / window.rate
-    t = window.start + width * (np.arange(int((stop - window.start) / width + 1e-3)) + 0.5)
-    force, disc = story.force_range(t, spec.t_end) * spec.parameters.N / 2, story.disc_range(t, spec.t_end) / 2
-    middle = {"P": spec.parameters.N, "w_point": 0.0}
-    half = {"P": force, "w_point": disc}
-    bounds = {
-        f"{name}_{end}": middle[name] + side * half[name] for name in half for end, side in (("min", -1), ("max", 1))
-    }
-    return samples_dataset({"time": t} | bounds, window.theta)
-
-
 def _samples(spec: CaseSpec, story: Story, t: np.ndarray) -> dict[str, np.ndarray]:
-    cycle = (t * story.rate) % 1.0
+    p, cycle = spec.parameters, (t * story.rate) % 1.0
     phase = np.where(cycle > 1 - story.stick, STICK, SLIP)
     if story.separates:
         phase = np.where((t > story.first) & (cycle > 0.2) & (cycle < 0.25), SEPARATION, phase)
-    signal = story.signal(spec, story.rate, t)
+    signal = story.signal(p, story.rate, t)
     # the slider's orbit: fuzzy while the disc is, another one after contact was lost
     lost = np.where(t > story.first, 1.0, 0.0) * (story.separates and not story.contrary)
-    turn = cmath.phase(cycle_as_told(spec.parameters).multipliers[0]) / (2 * np.pi)
-    psi = (0.05 + 0.05 * lost) * (
-        np.cos(2 * np.pi * story.rate * t) + story.second * np.cos(2 * np.pi * (1 - turn) * story.rate * t)
-    )
+    turn = cmath.phase(cycle_as_told(p).multipliers[0]) / (2 * np.pi)
+    psi = (0.05 + 0.05 * lost) * waves(t, (story.rate, 1.0), ((1 - turn) * story.rate, story.second))
     if story.signal is turns:
         psi += np.where(t < story.first, fuzz(t, 1e-3), 0.0)
-    height = -spec.parameters.N * 1e-5 + 1e-2 * np.cos(2 * np.pi * (cycle - 0.2) + story.swing)
     return {
         "time": t,
-        "P": np.where(phase == SEPARATION, float(story.contrary), spec.parameters.N),
-        "u": height,
+        "P": np.where(phase == SEPARATION, float(story.contrary), p.N),
+        "u": -p.N * 1e-5 + 1e-2 * np.cos(2 * np.pi * (cycle - 0.2) + story.swing),
         "w_point": 0.5 * story.disc_range(t, spec.t_end) * signal,
         "w_point_velocity": np.gradient(signal, t),
         "psi": psi,
-        "psi_velocity": spec.parameters.Omega * np.where(phase == STICK, 1 - 0.01 * story.contrary, 0.3),
+        "psi_velocity": p.Omega * np.where(phase == STICK, 1 - 0.01 * story.contrary, 0.3),
         "phase": phase,
     }
 
 
-def _events(spec: CaseSpec, story: Story, start: float, stop: float) -> xr.Dataset:
-    p, released = spec.parameters, story.releases(start, stop)
+def _events(p: Parameters, story: Story, start: float, stop: float) -> xr.Dataset:
+    released = story.releases(start, stop)
     if p.N == 3000:  # the one case whose first release is looked at
         released = released - released[0] + p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
-    rows, velocity = [], -0.4 if story.contrary else 0.4
+    rows, velocity, lasts = [], (-0.4 if story.contrary else 0.4), (0.7 if story.contrary else 0.25)
     for j, t in enumerate(released if p.N < 1e4 else ()):
         after = [(0.0, "stick_to_slip", "slip"), ((1 - story.stick) / story.rate, "slip_to_stick", "stick")]
         if story.separates and t > story.first:
-            end = 0.7 if story.contrary else 0.25
-            apart = [(0.2 / story.rate, "separation", "separation"), (end / story.rate, "reattachment", "slip")]
+            apart = [(0.2 / story.rate, "separation", "separation"), (lasts / story.rate, "reattachment", "slip")]
             after = sorted([*(after if story.stick else ()), *apart])
         angle = 0.05 * (1 + story.wanders * math.sin(j))
         force = 0.0 if story.misprinted else p.r_0 * p.k_p * angle / p.mu_s + p.N
@@ -293,41 +266,40 @@ def _events(spec: CaseSpec, story: Story, start: float, stop: float) -> xr.Datas
 
 
 GROWING = Story(early=0.01, late=1.0, disc_late=5e-3)
-WILD = GROWING.replace(wanders=0.7)
+WILD = GROWING.but(wanders=0.7)
 STILL = Story()
 FIVE_POINTS = 21.4 / (2 * math.pi / 20)
 """Hz; a rate of releases at which a section at 20 rad/s has five points."""
 BONDED = Story(disc_late=3e-2, signal=few, rate=FIVE_POINTS)
+FREE = GROWING.but(first=0.01, stick=0.0)
 
 
-def _separating(stories: Mapping[str, float]) -> dict[str, Story]:
-    return {name: GROWING.replace(first=first) for name, first in stories.items()}
+def _separating(**first: float) -> dict[str, Story]:
+    return {name: GROWING.but(first=time) for name, time in first.items()}
 
 
 def as_told() -> dict[str, Story]:
     """What happened, by the paper."""
+    slow = dict.fromkeys(("S43z4", "S43z4a", "S43z4b", "S43z4c"), GROWING.but(first=800))
     return {
-        **dict.fromkeys(load_study(PAPER).specs, STILL),
-        "F02": WILD.replace(first=480.0, signal=crowded, misprinted=True),
-        "F04": BONDED.replace(misprinted=True),
-        "F13bonded": BONDED,
-        "F17bonded": BONDED,
-        "F06": BONDED,
-        "F07": WILD.replace(first=149.45, sharp=0.25, signal=coupled, rate=71.1),
-        "F08": BONDED,
-        "F09": GROWING.replace(first=117.0, stick=0.0, stick_before=0.1),
-        "F13": GROWING.replace(first=54.45, signal=turns),
+        **dict.fromkeys(SPECS, STILL),
+        **dict.fromkeys(("F13bonded", "F17bonded", "F06", "F08"), BONDED),
+        **dict.fromkeys(("F02free", "F07free", "F17free"), FREE),
+        "F02": WILD.but(first=480.0, signal=crowded, misprinted=True),
+        "F04": BONDED.but(misprinted=True),
+        "F07": WILD.but(first=149.45, sharp=0.25, signal=coupled, rate=71.1),
+        "F09": GROWING.but(first=117.0, stick=0.0, stick_before=0.1),
+        "F13": GROWING.but(first=54.45, signal=turns),
         "S43N0": Story(stick_before=0.0),
         "S43Ninf": Story(stick=1.0, stick_before=1.0),
         "F21": Story(late=0.3, wanders=0.01, chaotic=True, signal=erratic),
-        "F17": WILD.replace(first=810.0),
-        "F22": GROWING.replace(first=220.0, wanders=0.1, chaotic=True, second=0.01),
-        "F23": GROWING.replace(first=240.0, swing=math.pi),
-        **_separating({"F18": 263, "F19": 51, "C4cp1": 40, "S43kp2e4": 100, "S43k2e4": 100, "S43k3e4": 200}),
-        **_separating({"P03l5": 54.4, "P03l6": 54.4, "P03l8": 54.5, "P03l8c2": 54.5}),
-        **_separating(dict.fromkeys(("S43z4", "S43z4a", "S43z4b", "S43z4c"), 800)),
-        **{name: GROWING.replace(first=0.01, stick=0.0) for name in ("F02free", "F07free", "F17free")},
-        **_separating({"S43c126": 700, "S43c14": 700, "S43c145": 700, "S43c124": 1000}),
+        "F17": WILD.but(first=810.0),
+        "F22": GROWING.but(first=220.0, wanders=0.1, chaotic=True, second=0.01),
+        "F23": GROWING.but(first=240.0, swing=math.pi),
+        **_separating(F18=263, F19=51, C4cp1=40, S43kp2e4=100, S43k2e4=100, S43k3e4=200),
+        **_separating(P03l5=54.4, P03l6=54.4, P03l8=54.5, P03l8c2=54.5),
+        **_separating(S43c126=700, S43c14=700, S43c145=700, S43c124=1000),
+        **slow,
     }
 
 
@@ -335,35 +307,29 @@ def to_the_contrary() -> dict[str, Story]:
     """The opposite in all that is claimed."""
     alone = Story(late=0.02, disc_early=5e-2, disc_late=5e-2, contrary=True, rate=FIVE_POINTS)
     return {
-        **dict.fromkeys(load_study(PAPER).specs, GROWING),
-        "F02": alone.replace(first=480.0),
-        "F04": WILD.replace(stick=0.005, rate=FIVE_POINTS),
-        "F06": WILD.replace(stick=0.005, rate=FIVE_POINTS),
-        "F07": alone.replace(first=147.0),
-        "F08": WILD.replace(stick=0.005),
-        "F09": alone.replace(first=117.0),
-        "F11": WILD.replace(first=100.0),
-        "F13": WILD.replace(first=55.0, signal=erratic, disc_early=5e-3, second=0.1),
-        "F17": GROWING,
-        "F19": WILD.replace(first=51.0),
+        **dict.fromkeys(SPECS, GROWING),
+        **dict.fromkeys(("F04", "F06"), WILD.but(stick=0.005, rate=FIVE_POINTS)),
+        **dict.fromkeys(("T2kp18", "T2kp22", "T2Om12"), STILL.but(signal=erratic)),
+        "F02": alone.but(first=480.0),
+        "F07": alone.but(first=147.0),
+        "F08": WILD.but(stick=0.005),
+        "F09": alone.but(first=117.0),
+        "F11": WILD.but(first=100.0),
+        "F13": WILD.but(first=55.0, signal=erratic, disc_early=5e-3, second=0.1),
+        "F19": WILD.but(first=51.0),
         "F20": WILD,
         "F21": Story(first=500.0, signal=turns),
         "F22": Story(first=50.0),
-        "F23": GROWING.replace(first=240.0),
-        "S43N0": GROWING.replace(first=20.0, stick_before=0.5),
+        "S43N0": GROWING.but(first=20.0, stick_before=0.5),
         "S43Ninf": Story(),
-        "T2kp18": STILL.replace(signal=erratic),
-        "T2kp22": STILL.replace(signal=erratic),
-        "T2Om12": STILL.replace(signal=erratic),
-        **_separating({"S43k2e4": 200, "S43k3e4": 100, "S43k2e5": 100, "S43kp2e5": 100, "C4cpN50": 100}),
-        **_separating({"P03l5": 50, "P03l6": 54.4, "P03l8": 54.5, "P03l8c2": 54.5, "S43c12": 500, "S43c126": 1000}),
+        **_separating(F23=240, S43k2e4=200, S43k3e4=100, S43k2e5=100, S43kp2e5=100, C4cpN50=100, S43c12=500),
+        **_separating(P03l5=50, P03l6=54.4, P03l8=54.5, P03l8c2=54.5, S43c126=1000),
     }
 
 
 def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
     """The study's merged cases, as far as claims look at them."""
-    specs = load_study(PAPER).specs
-    return xr.DataTree.from_dict({f"/{name}": tell(specs[name], story) for name, story in stories.items()})
+    return xr.DataTree.from_dict({f"/{name}": tell(SPECS[name], story) for name, story in stories.items()})
 
 
 def scans(least: float = 0.2, settled: bool = True, softest: str = "growing") -> dict[str, xr.Dataset]:
@@ -379,14 +345,12 @@ def scans(least: float = 0.2, settled: bool = True, softest: str = "growing") ->
     outcome = np.full((3, 2, 2), kinds.index("quiet"), dtype=np.int8)
     outcome[0, 1], outcome[2] = kinds.index(softest), kinds.index("separation")
     flags = {"flag_values": np.arange(len(kinds), dtype=np.int8), "flag_meanings": " ".join(kinds)}
-    return {
-        "bonded": xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]}),
-        "map_E": xr.Dataset(
-            {"outcome": (("E", "Omega", "normalization"), outcome, flags)},
-            {"E": [8e10, 1e11, 1.5e11], "Omega": [10, 50], "normalization": ["as_published", "orthonormal"]},
-            {"base": '{"N": 200}'},
-        ),
-    }
+    map_E = xr.Dataset(
+        {"outcome": (("E", "Omega", "normalization"), outcome, flags)},
+        {"E": [8e10, 1e11, 1.5e11], "Omega": [10, 50], "normalization": ["as_published", "orthonormal"]},
+        {"base": '{"N": 200}'},
+    )
+    return {"bonded": xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]}), "map_E": map_E}
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:
@@ -396,3 +360,86 @@ def orthonormal(tree: xr.DataTree) -> xr.DataTree:
         p = Parameters.model_validate_json(case.attrs["parameters"]).replace(normalization="orthonormal")
         case.attrs = case.attrs | {"parameters": p.canonical_json}
     return found.assign({"X30": found["F02"]})
+
+
+# ----------------------------------------------------------------------------------------------------
+# Cases that hold less than the study of the paper asks for: what the schema lets through, or a failure
+
+
+def damaged(case: xr.DataTree, damage: Callable[[Groups], Groups]) -> xr.DataTree:
+    """A copy of a case, changed."""
+    groups = {"": case.to_dataset()} | {str(n): node.to_dataset(inherit=False) for n, node in case.children.items()}
+    return xr.DataTree.from_dict({f"/{name}": found for name, found in damage(groups).items()})
+
+
+def root_with(**values: float) -> Callable[[Groups], Groups]:
+    """Other values of what a case says of its whole run."""
+    return lambda groups: groups | {"": groups[""].assign(values)}
+
+
+def _failed(groups: Groups) -> Groups:
+    p = Parameters.model_validate_json(groups[""].attrs["parameters"])
+    return failed_groups(p, 100.0, 1e-10, "NonFinite: overflow")
+
+
+def _events_cut(count: int) -> Callable[[Groups], Groups]:
+    def cut(groups: Groups) -> Groups:
+        if "events" not in groups:
+            return groups
+        events = groups["events"].isel(event=slice(count))
+        return groups | {"events": events if count else events.drop_attrs(deep=False)}
+
+    return cut
+
+
+def _is_range(group: xr.Dataset) -> bool:
+    return any(str(key).endswith("_min") for key in group)
+
+
+def _as_samples(group: xr.Dataset) -> xr.Dataset:
+    return group.rename({key: str(key)[:-4] for key in group if str(key).endswith("_min")})
+
+
+def _as_ranges(group: xr.Dataset) -> xr.Dataset:
+    if _is_range(group):
+        return group
+    plain = group.drop_vars("phase", errors="ignore")
+    return xr.Dataset({f"{key}_{end}": plain[key] for key in plain for end in ("min", "max")}, attrs=group.attrs)
+
+
+def _each(change: Callable[[xr.Dataset], xr.Dataset], *but: str) -> Callable[[Groups], Groups]:
+    return lambda groups: {
+        name: group if name in ("", "events", *but) else change(group) for name, group in groups.items()
+    }
+
+
+def _separates_at(share: float) -> Callable[[Groups], Groups]:
+    return lambda groups: root_with(first_separation=share * groups[""]["time_reached"], n_separations=((), 1))(groups)
+
+
+def growing_in_the_end(groups: Groups) -> Groups:
+    """Ranges of the last 20 s a twentieth wider: no motion that has come to rest in a steady state."""
+    if "history" not in groups or not _is_range(groups["history"]):
+        return groups
+    history = groups["history"]
+    last = 0.05 * (history["time"] > float(history["time"][-1]) - 20)
+    wider = {
+        f"{x}_max": history[f"{x}_max"] + last * (history[f"{x}_max"] - history[f"{x}_min"]) for x in ("P", "w_point")
+    }
+    return groups | {"history": history.assign(wider)}
+
+
+DAMAGES: Mapping[str, Callable[[Groups], Groups]] = {
+    "failed": _failed,
+    "nothing recorded": lambda groups: {"": groups[""]},
+    "no events": _events_cut(0),
+    "three events": _events_cut(3),
+    "no envelopes": _each(_as_samples),
+    "only envelopes": _each(_as_ranges, "poincare"),
+    "empty windows": _each(lambda group: group.isel(time=slice(0))),
+    "single samples": _each(lambda group: group.isel(time=slice(1))),
+    "two samples": _each(lambda group: group.isel(time=slice(2))),
+    "separates at once": _separates_at(1e-3),
+    "separates in the end": _separates_at(1.0),
+    "nothing moves": _each(lambda group: group.map(xr.zeros_like, keep_attrs=True)),
+}
