@@ -11,7 +11,8 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.claims.ledger import COLUMNS
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, CaseView
+from disc_model.claims.measures import CaseView
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
 from disc_model.claims.pages import ledger, table_page
 from disc_model.claims.paper_tables import LISTED, TABLE_1, UNNAMED, stick_slip_rate, table_1, table_2, table_2_or_why
 

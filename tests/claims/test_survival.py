@@ -14,7 +14,8 @@ import yaml
 
 from disc_model import Parameters, residual_flexibility
 from disc_model.claims import SURVIVAL_GRIDS
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Finding
+from disc_model.claims.measures import CaseView
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, Finding
 from disc_model.claims.survival import CONCLUSIONS, MODELS, Evidence, judge, page_of
 from disc_model.data.dataset import events_dataset
 from disc_model.data.variables import STATUSES

@@ -15,6 +15,7 @@ import yaml
 from disc_model import Parameters
 from disc_model.claims import SCANS, disc, measures
 from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims, views
+from disc_model.claims.measures import CaseView
 from disc_model.claims.model import (
     FAILS,
     HOLDS,
@@ -22,17 +23,15 @@ from disc_model.claims.model import (
     REMARK,
     UNDECIDED,
     Answer,
-    CaseView,
     Checks,
     Claim,
     ClaimError,
     Finding,
-    Missing,
     Text,
     paper_cases,
 )
 from disc_model.claims.pages import to_markdown
-from disc_model.data.dataset import events_dataset
+from disc_model.data.dataset import Missing, events_dataset
 from disc_model.simulation.api import run_case
 from disc_model.studies.schema import parse_study
 
@@ -218,8 +217,8 @@ def test_growth_is_that_of_the_cycle() -> None:
     found = measures.cycle_of(p)
     assert found is measures.cycle_of(p.replace())
     case = CaseView("X", xr.DataTree(xr.Dataset(attrs={"parameters": p.canonical_json})))
-    assert measures.said_growth(case) == f"growth {found.growth_rate:+.4f}/s"
+    assert case.growth == f"growth {found.growth_rate:+.4f}/s"
     still = CaseView("Y", xr.DataTree(xr.Dataset(attrs={"parameters": p.replace(Omega=0).canonical_json})))
-    assert measures.said_growth(still) == "no stick-slip cycle"
+    assert still.growth == "no stick-slip cycle"
     with pytest.raises(Missing, match="no stick-slip cycle: "):
         measures.cycle_of(still.parameters)

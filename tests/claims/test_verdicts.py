@@ -15,7 +15,9 @@ from disc_model import Parameters
 from disc_model.analysis import classify
 from disc_model.claims import disc, ledger, measures, section44
 from disc_model.claims.ledger import CLAIMS, check_claims, views
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, CaseView, Claim, Finding, Missing
+from disc_model.claims.measures import CaseView
+from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, Claim, Finding
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 from tests.claims import made_up

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from disc_model.claims.model import CaseView
+from disc_model.claims.measures import CaseView
 from disc_model.claims.pages import table_page
 from disc_model.claims.paper_tables import table_1, table_2_or_why
 from disc_model.data.dataset import load_inputs, markdown_table

@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 from scipy.integrate import fixed_quad
 
-from disc_model.claims.measures import phase_share, rate_of
-from disc_model.claims.model import CHECKS, Answer, CaseView
+from disc_model.claims.measures import CaseView, phase_share, rate_of
+from disc_model.claims.model import CHECKS, Answer
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_shapes, plate_modes, slider_at_rest_frequencies
 

@@ -10,8 +10,10 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.claims import disc, measures, section41, section42, section43, section44
-from disc_model.claims.model import CHECKS, HOLDS, NOT_COMPUTED, REMARK, CaseView, Claim, Missing
+from disc_model.claims.measures import CaseView
+from disc_model.claims.model import CHECKS, HOLDS, NOT_COMPUTED, REMARK, Claim
 from disc_model.claims.pages import Comparison, page_texts
+from disc_model.data.dataset import Missing
 from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
@@ -161,7 +163,7 @@ def _first(case: CaseView) -> str:
     time = case["first_separation"]
     if case.status == "failed":
         return "failed"
-    if case.parameters.contact == "bonded":
+    if case.bonded:
         return "ignored"
     return f"none in {case['time_reached']:g} s" if math.isnan(time) else f"{time:.2f} s"
 
@@ -172,6 +174,6 @@ def _growth(case: CaseView) -> str:
 
 def _late(case: CaseView) -> str:
     try:
-        return f"{measures.late_range(case, 'P'):.1f}"
+        return f"{case.late:.1f}"
     except Missing:
         return "–"

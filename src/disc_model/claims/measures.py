@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -15,8 +16,9 @@ from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, motion_of, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.analysis.spectra import Line
-from disc_model.claims.model import STRETCH, Absent, CaseView, Missing, Range
-from disc_model.data.variables import EVENT_KINDS, PHASES, Outcome
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, Outcome
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
@@ -27,12 +29,156 @@ Array = NDArray[np.float64]
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 
 
+STRETCHES, STRETCH, STEADY = 3, 20.0, 0.01
+"""A motion is steady if the ranges of contact force and disc over its last three stretches of 20 s differ by no more
+than 1 % of the widest. What grows or decays by 3e-4/s or more does not pass."""
+
+
+class Absent(Missing):
+    """The evidence is there, and what a claim finds in it is not: the claim does not hold."""
+
+
+class Range(NamedTuple):
+    """Least and greatest value; formatted as ``low..high``."""
+
+    low: float
+    high: float
+
+    @property
+    def width(self) -> float:
+        return self.high - self.low
+
+    def __format__(self, spec: str) -> str:
+        return f"{self.low:{spec}}..{self.high:{spec}}"
+
+
+@dataclass(frozen=True)
+class CaseView:
+    """One case, opened for reading."""
+
+    name: str
+    node: xr.DataTree
+
+    def __getitem__(self, name: str) -> float:
+        """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
+        return float(self.node.dataset[name].item())
+
+    @property
+    def parameters(self) -> Parameters:
+        return Parameters.model_validate_json(self.node.attrs["parameters"])
+
+    @property
+    def status(self) -> str:
+        return STATUSES[int(self["status"])]
+
+    @property
+    def separates(self) -> bool:
+        """Whether contact was ever lost."""
+        return self["n_separations"] > 0
+
+    @property
+    def bonded(self) -> bool:
+        """Whether separation is ignored."""
+        return self.parameters.contact == "bonded"
+
+    @property
+    def place(self) -> str:
+        """Where it is in the plane of preload and speed."""
+        return place(self["N"], self["Omega"])
+
+    @property
+    def first(self) -> str:
+        """When it first separates, in words."""
+        return first_separation(self)
+
+    @property
+    def growth(self) -> str:
+        """How fast small disturbances of its cycle grow, in words."""
+        rate = growth_or_nan(self.parameters)
+        return "no stick-slip cycle" if math.isnan(rate) else f"growth {said_rate(rate)}/s"
+
+    @property
+    def onset(self) -> str:
+        """When it first separates, and how fast small disturbances of its cycle grow."""
+        return f"{self.first}, {self.growth}"
+
+    @property
+    def motion(self) -> str:
+        """What the in-plane motion is within the events kept, in words."""
+        return late_motion(self)[1]
+
+    @property
+    def early(self) -> Range:
+        """Range of the contact force over the first 20 s, the very first one left out, N."""
+        return early_range(self, "P")
+
+    @property
+    def late(self) -> Range:
+        """The same over the last 20 s."""
+        return late_range(self, "P")
+
+    @property
+    def events(self) -> xr.Dataset:
+        """Switches kept; raises `Missing` if the case keeps none."""
+        return self._held(dataset.events)
+
+    def samples(self, window: str) -> xr.Dataset:
+        """Samples of a window, or of the section ``poincare``; raises `Missing`."""
+        return self._held(dataset.samples, window)
+
+    def range_of(self, name: str, start: float, stop: float) -> Range:
+        """Range of a variable from the whole bins of the window `history` between two times; raises `Missing`."""
+        history = self.ranges("history")
+        time = history["time"].values
+        half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # a single bin does not say how long it is
+        inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
+        if not inside.any():
+            raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
+        low, high = (history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
+        return Range(float(low.min()), float(high.max()))
+
+    def last_widths(self, name: str, length: float, count: int) -> list[float]:
+        """Widths of a variable's ranges over so many stretches of a length (s) up to the end, the last one first."""
+        end = self["time_reached"]
+        spans = [(end - (i + 1) * length, end - i * length) for i in range(count)]
+        return [self.range_of(name, *span).width for span in spans]
+
+    def last_quarters(self, name: str) -> list[float]:
+        """The same over the last two quarters of the time after the first separation."""
+        return self.last_widths(name, (self["time_reached"] - self["first_separation"]) / 4, 2)
+
+    def drift(self) -> float:
+        """By how much the ranges of contact force and disc differ among the last stretches, share of the widest."""
+        found = [self.last_widths(name, STRETCH, STRETCHES) for name in ("P", "w_point")]
+        return max((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0 for widths in found)
+
+    def ranges(self, window: str) -> xr.Dataset:
+        """Least and greatest values within the bins of a window; raises `Missing`."""
+        return self._held(dataset.ranges, window)
+
+    def _held(self, ask: Callable[..., xr.Dataset], *args: Any) -> xr.Dataset:
+        try:
+            return ask(self.node, *args)
+        except Missing as reason:
+            raise Missing(f"case {self.name} {reason}") from None
+
+
+def rows(cases: Iterable[CaseView]) -> list[dict[str, Any]]:
+    """A row for each case, in which sentences find it as ``case``."""
+    return [{"case": case} for case in cases]
+
+
 def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     """Cases with separation, each with the one in which separation is ignored, if that is there."""
-    free = [case for case in cases if case.parameters.contact != "bonded"]
-    bonded = {case.parameters: case for case in cases if case.parameters.contact == "bonded"}
+    free = [case for case in cases if not case.bonded]
+    bonded = {case.parameters: case for case in cases if case.bonded}
     wanted = [case.parameters.replace(contact="bonded") for case in free]
     return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True) if p in bonded]
+
+
+def between_only(cases: Sequence[CaseView]) -> bool:
+    """Whether of three cases only the one in between separates."""
+    return [case.separates for case in cases] == [False, True, False]
 
 
 def ratio(part: float, whole: float, what: str) -> float:
@@ -106,7 +252,7 @@ def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
     pairs : a case from the published start, and the same parameters begun in a separated motion
     """
     return [
-        f"at {place_of(case)} {_by_separations(other)}"
+        f"at {case.place} {_by_separations(other)}"
         for case, other in pairs
         if other.separates and stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
     ]
@@ -129,11 +275,6 @@ def counted(count: int, name: str) -> str:
 def place(N: float, Omega: float) -> str:
     """Where in the plane of preload and speed."""
     return f"{N:g} N, {Omega:g} rad/s"
-
-
-def place_of(case: CaseView) -> str:
-    """Where a case is in it."""
-    return place(case["N"], case["Omega"])
 
 
 def extent(values: Iterable[float]) -> Range:
@@ -279,14 +420,3 @@ def growth_or_nan(p: Parameters) -> float:
 def said_rate(rate: float, unit: str = "", without: str = "no cycle") -> str:
     """A growth rate, or what stands for one without a cycle."""
     return or_none(rate, "+.4f", unit, without)
-
-
-def said_growth(case: CaseView) -> str:
-    """How fast small disturbances of a case's cycle grow."""
-    rate = growth_or_nan(case.parameters)
-    return "no stick-slip cycle" if math.isnan(rate) else f"growth {said_rate(rate)}/s"
-
-
-def said_onset(case: CaseView) -> str:
-    """When a case first separates, and how fast small disturbances of its cycle grow."""
-    return f"{first_separation(case)}, {said_growth(case)}"

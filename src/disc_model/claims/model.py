@@ -11,128 +11,29 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
-import xarray as xr
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from disc_model.data import dataset
+from disc_model.claims.measures import STEADY, STRETCH, Absent, CaseView, rows
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Parts, Sentences
-from disc_model.data.variables import STATUSES
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
-
-__all__ = ["Missing"]  # beside what is defined here
 
 HOLDS = "holds"
 REMARK = "holds with a remark"
 FAILS = "does not hold"
 UNDECIDED = "undecided"
 NOT_COMPUTED = "not computed"
-STRETCHES, STRETCH, STEADY = 3, 20.0, 0.01
-"""A motion is steady if the ranges of contact force and disc over its last three stretches of 20 s differ by no more
-than 1 % of the widest. What grows or decays by 3e-4/s or more does not pass."""
 FOLDER = Path(__file__).parent
 PAPER = FOLDER.parent / "config" / "paper.yaml"
 
 
-class Absent(Missing):
-    """The evidence is there, and what a claim finds in it is not: the claim does not hold."""
-
-
 class ClaimError(DiscModelError):
     """Texts and checks that do not fit together."""
-
-
-# ----------------------------------------------------------------------------------------------------
-# What a check looks at
-
-
-class Range(NamedTuple):
-    """Least and greatest value; formatted as ``low..high``."""
-
-    low: float
-    high: float
-
-    @property
-    def width(self) -> float:
-        return self.high - self.low
-
-    def __format__(self, spec: str) -> str:
-        return f"{self.low:{spec}}..{self.high:{spec}}"
-
-
-@dataclass(frozen=True)
-class CaseView:
-    """One case, opened for reading."""
-
-    name: str
-    node: xr.DataTree
-
-    def __getitem__(self, name: str) -> float:
-        """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
-        return float(self.node.dataset[name].item())
-
-    @property
-    def parameters(self) -> Parameters:
-        return Parameters.model_validate_json(self.node.attrs["parameters"])
-
-    @property
-    def status(self) -> str:
-        return STATUSES[int(self["status"])]
-
-    @property
-    def separates(self) -> bool:
-        """Whether contact was ever lost."""
-        return self["n_separations"] > 0
-
-    @property
-    def events(self) -> xr.Dataset:
-        """Switches kept; raises `Missing` if the case keeps none."""
-        return self._held(dataset.events)
-
-    def samples(self, window: str) -> xr.Dataset:
-        """Samples of a window, or of the section ``poincare``; raises `Missing`."""
-        return self._held(dataset.samples, window)
-
-    def range_of(self, name: str, start: float, stop: float) -> Range:
-        """Range of a variable from the whole bins of the window `history` between two times; raises `Missing`."""
-        history = self.ranges("history")
-        time = history["time"].values
-        half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # a single bin does not say how long it is
-        inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
-        if not inside.any():
-            raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
-        low, high = (history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
-        return Range(float(low.min()), float(high.max()))
-
-    def last_widths(self, name: str, length: float, count: int) -> list[float]:
-        """Widths of a variable's ranges over so many stretches of a length (s) up to the end, the last one first."""
-        end = self["time_reached"]
-        spans = [(end - (i + 1) * length, end - i * length) for i in range(count)]
-        return [self.range_of(name, *span).width for span in spans]
-
-    def last_quarters(self, name: str) -> list[float]:
-        """The same over the last two quarters of the time after the first separation."""
-        return self.last_widths(name, (self["time_reached"] - self["first_separation"]) / 4, 2)
-
-    def drift(self) -> float:
-        """By how much the ranges of contact force and disc differ among the last stretches, share of the widest."""
-        found = [self.last_widths(name, STRETCH, STRETCHES) for name in ("P", "w_point")]
-        return max((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0 for widths in found)
-
-    def ranges(self, window: str) -> xr.Dataset:
-        """Least and greatest values within the bins of a window; raises `Missing`."""
-        return self._held(dataset.ranges, window)
-
-    def _held(self, ask: Callable[..., xr.Dataset], *args: Any) -> xr.Dataset:
-        try:
-            return ask(self.node, *args)
-        except Missing as reason:
-            raise Missing(f"case {self.name} {reason}") from None
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -158,7 +59,8 @@ class Answer:
     ----------
     holds : whether the claim holds; None if the evidence does not decide it
     why : in that case, which of the text's reasons for it applies
-    values : what the sentences are filled with; a remark is added if the value of its name is true
+    values : what the sentences are filled with beside bounds and cases (each by its name, the first as ``case``, all as
+        rows of ``cases``); a remark is added if the value of its name is true
     """
 
     def __init__(self, holds: bool | np.bool_ | None, why: str = "", /, **values: Any) -> None:
@@ -264,13 +166,13 @@ class Claim:
                 said = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(said, FAILS)
             scans = [cases[name].node.to_dataset() for name in self.said.scans]
-            found = self._found(self.check(*needed.values(), *scans, **self.said.bounds))
+            found = self._found(self.check(*needed.values(), *scans, **self.said.bounds), needed)
             return _of_steady_state(found, [needed[name] for name in self.steady])
         except Missing as missing:
             return _without(missing)
 
-    def _found(self, answer: Answer) -> Finding:
-        said, values = self.said, self.said.bounds | answer.values
+    def _found(self, answer: Answer, cases: Mapping[str, CaseView] | None = None) -> Finding:
+        said, values = self.said, self.said.bounds | rows_of(cases or {}) | answer.values
         if answer.holds is None:
             remarks, verdict = [said.undecided[answer.why]], UNDECIDED
         else:
@@ -283,6 +185,11 @@ class Claim:
             raise ClaimError(
                 f"claim {self.id}: no value {name} among those of its check: {', '.join(values)}"
             ) from None
+
+
+def rows_of(cases: Mapping[str, CaseView]) -> dict[str, Any]:
+    """Cases as sentences find them."""
+    return {**cases, "cases": rows(cases.values())} | ({"case": next(iter(cases.values()))} if cases else {})
 
 
 class Checks(dict[str, Callable[..., Answer]]):

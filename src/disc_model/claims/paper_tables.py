@@ -9,7 +9,8 @@ import pandas as pd
 
 from disc_model.analysis import spectra
 from disc_model.claims import measures
-from disc_model.claims.model import CaseView, Missing
+from disc_model.claims.measures import CaseView
+from disc_model.data.dataset import Missing
 from disc_model.parameters import Parameters
 
 NATURAL = "natural frequency of the disc with the slider, shifted by the rotation"

@@ -11,8 +11,9 @@ import xarray as xr
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import closure, irregularity, stick_disappears
 from disc_model.claims import measures
-from disc_model.claims.measures import first_separation, is_kind, pairs
-from disc_model.claims.model import CHECKS, Answer, CaseView, Missing
+from disc_model.claims.measures import CaseView, is_kind, pairs
+from disc_model.claims.model import CHECKS, Answer
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
 
 FULL = 1.1
@@ -21,9 +22,9 @@ FULL = 1.1
 
 @CHECKS("F02a")
 def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
-    early, before = measures.early_range(case, "P"), case["first_separation"]
+    before = case["first_separation"]
     late = case.range_of("P", before - 20, before)
-    return Answer(late.width > factor * early.width, early=early, late=late, first=first_separation(case))
+    return Answer(late.width > factor * case.early.width, late=late)
 
 
 @CHECKS("F02b")
@@ -60,21 +61,20 @@ def separations_are_short(case: CaseView, *, part: float) -> Answer:
     )
 
 
-@CHECKS("F04", "F06")
+@CHECKS("F04", "F06", "F12")
 def releases_regularly(case: CaseView, *, within: float) -> Answer:
-    intervals, late = measures.release_intervals(case), measures.late_range(case, "P")
+    intervals = measures.release_intervals(case)
     spread = irregularity(intervals)
-    return Answer(spread <= within, interval=1e3 * intervals.mean(), spread=spread, late=late)
+    return Answer(spread <= within, interval=1e3 * intervals.mean(), rate=1 / intervals.mean(), spread=spread)
 
 
 @CHECKS("F05", "F07", "F28")
 def is_quasi_periodic(case: CaseView, other: CaseView, *, shown: float) -> Answer:
     """Whether the in-plane motion is quasi-periodic; ``other`` has the same parameters and another start."""
-    motion, said = measures.late_motion(case)
+    motion, _ = measures.late_motion(case)
     length = measures.release_intervals(case)[: motion.period].sum() if motion.period else 0.0
     return Answer(
         *is_kind(Outcome.QUASI_PERIODIC, motion),
-        said=said,
         longer=length > shown,
         within=0 < length <= shown,
         irregular=motion.kind is Outcome.IRREGULAR,
@@ -84,60 +84,55 @@ def is_quasi_periodic(case: CaseView, other: CaseView, *, shown: float) -> Answe
 
 @CHECKS("F08")
 def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
-    late, stick = measures.late_range(case, "P"), measures.phase_share(case, "stick")
-    motion, said = measures.late_motion(case)
-    return Answer(stick > share, late=late, percent=100 * stick, said=said, motion=motion, modulated=not motion.period)
+    stick, (motion, _) = measures.phase_share(case, "stick"), measures.late_motion(case)
+    return Answer(stick > share, percent=100 * stick, motion=motion, modulated=not motion.period)
 
 
 @CHECKS("F09")
 def stick_is_gone(case: CaseView, *, share: float) -> Answer:
     whole, late = case["time_stick"] / case["time_reached"], measures.phase_share(case, "stick")
-    holds = stick_disappears(whole, late, share)
-    return Answer(holds, first=first_separation(case), whole=100 * whole, late=100 * late)
+    return Answer(stick_disappears(whole, late, share), whole=100 * whole, late=100 * late)
 
 
-@CHECKS("F10")
-def much_smaller_range(*cases: CaseView, ratio: float) -> Answer:
-    shown, more = _ranges(pairs(cases)[:3]), _ranges(pairs(cases)[3:])
-    exceeds = max(row["ratio"] for row in more) >= ratio
-    return Answer(max(row["ratio"] for row in shown) < ratio, ranges=shown, others=more if exceeds else [])
+@CHECKS("F10", "C3s")
+def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
+    """In the first pairs, those that the paper shows; what becomes of the others is a remark."""
+    rows = _ranges(cases)
+    first, others = rows[: int(shown)], rows[int(shown) :]
+    exceeds = max((row["ratio"] for row in others), default=0.0) >= ratio
+    return Answer(max(row["ratio"] for row in first) < ratio, ranges=first, others=others if exceeds else [])
 
 
-@CHECKS("C3s")
-def smaller_range(*cases: CaseView) -> Answer:
-    found = _ranges(pairs(cases))
-    return Answer(max(row["ratio"] for row in found) < 1, ranges=found)
-
-
-def _ranges(compared: Sequence[tuple[CaseView, CaseView]]) -> list[dict[str, Any]]:
-    """Late ranges of the disc with separation, without it, and their ratio."""
+def _ranges(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
+    """By pair, late ranges of the disc with separation, without it, and their ratio."""
     rows = []
-    for case, ignored in compared:
+    for case, ignored in pairs(cases):
         free, bonded = (measures.late_range(each, "w_point").width for each in (case, ignored))
         ratio = measures.ratio(free, bonded, f"the range of the disc in case {ignored.name}")
-        rows.append({"place": measures.place_of(case), "free": 1e3 * free, "bonded": 1e3 * bonded, "ratio": ratio})
+        rows.append({"case": case, "free": 1e3 * free, "bonded": 1e3 * bonded, "ratio": ratio})
     return rows
 
 
 @CHECKS("S41c")
 def more_frequencies(*cases: CaseView, floor: float) -> Answer:
-    rows = []
+    rows: list[dict[str, Any]] = []
     for pair in pairs(cases):
         windows = [case.samples("late") for case in pair]
         free, bonded = (
             len(spectra.lines(w["time"].values, w["w_point"].values, above=1.0, floor=floor)) for w in windows
         )
-        rows.append({"N": pair[0]["N"], "free": free, "bonded": bonded})
+        rows.append({"case": pair[0], "free": free, "bonded": bonded})
     return Answer(all(row["free"] > row["bonded"] for row in rows), pairs=rows)
 
 
 @CHECKS("S41p")
 def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
     """More than the section without separation can have: as many points as it takes to fill that."""
-    rows, filling, points = [], [], int(last)
+    rows: list[dict[str, Any]] = []
+    filling, points = [], int(last)
     for free, bonded in pairs(cases):
         ours, full = (measures.late_points(case, points) for case in (free, bonded))
-        rows.append({"N": free["N"], "points": ours, "full": full})
+        rows.append({"case": free, "points": ours, "full": full})
         if full > FULL * measures.late_points(bonded, points // 2):
             filling.append(bonded.name)
     more = all(row["points"] >= factor * row["full"] for row in rows)
@@ -148,7 +143,7 @@ def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
 def trajectory_changes(*cases: CaseView, share: float) -> Answer:
     found = [measures.trajectory_change(case, share) for case in cases[:3]]
     another = measures.another_motion(*zip(cases[:2], cases[3:], strict=True))
-    return Answer(all(changed for changed, _ in found), cases=[row for _, row in found], another=another)
+    return Answer(all(changed for changed, _ in found), changes=[row for _, row in found], another=another)
 
 
 @CHECKS("A1")
@@ -166,9 +161,9 @@ def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
 @CHECKS("A2", "F17c")
 def is_intricate(case: CaseView, other: CaseView, *, fewest: float) -> Answer:
     """Whether the in-plane motion has no short period; ``other`` as in `is_quasi_periodic`."""
-    motion, said = measures.late_motion(case)
+    motion, _ = measures.late_motion(case)
     another = measures.another_motion((case, other))
-    return Answer(not 0 < motion.period < fewest, said=said, periodic=motion.period > 0, another=another)
+    return Answer(not 0 < motion.period < fewest, periodic=motion.period > 0, another=another)
 
 
 @CHECKS("E24")

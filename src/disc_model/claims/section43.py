@@ -13,9 +13,17 @@ import xarray as xr
 from disc_model.analysis.classify import closure, irregularity, separation_location
 from disc_model.claims import measures
 from disc_model.claims.disc import moving_load_speed
-from disc_model.claims.measures import first_separation, growth_or_nan, is_kind, said_growth, said_onset, said_rate
-from disc_model.claims.model import CHECKS, Answer, CaseView, Missing
-from disc_model.claims.section42 import between_only, by_load
+from disc_model.claims.measures import (
+    CaseView,
+    between_only,
+    first_separation,
+    growth_or_nan,
+    is_kind,
+    rows,
+    said_rate,
+)
+from disc_model.claims.model import CHECKS, Answer
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 
 STIFFNESSES = {"k": (50, 60, 70, 80, 90, 100, 110, 130, 148, 200), "k_p": (20, 30, 36, 47, 55, 63, 73, 84, 130, 200)}
@@ -38,7 +46,6 @@ def no_preload(case: CaseView, *, step: float, share: float) -> Answer:
     stuck = case["time_stick"] / case["time_reached"]
     return Answer(
         not case.separates and stuck < share and onset > case["Omega"],
-        first=first_separation(case),
         percent=100 * stuck,
         stable_to=onset - step,
         true_speed=abs(onset - moving_load_speed(p)) <= step,
@@ -56,12 +63,8 @@ def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
     expected = p.N / needed
     return Answer(
         stuck["time_slip"] == 0 and abs(released / expected - 1) < share,
-        stuck=stuck["N"],
-        seconds=stuck["time_reached"],
-        large=large["N"],
         released=1e3 * released,
         expected=1e3 * expected,
-        late=measures.late_range(large, "P"),
         needed=needed,
     )
 
@@ -94,44 +97,40 @@ def more_disc_damping(case: CaseView) -> Answer:
 
 def _grew(case: CaseView) -> bool:
     """Whether the contact force ranges wider at the end than at first."""
-    return GREW * measures.early_range(case, "P").width < measures.late_range(case, "P").width
+    return GREW * case.early.width < case.late.width
 
 
 @CHECKS("F16", "F20")
-def stays_small(case: CaseView, *others: CaseView, within: float) -> Answer:
+def stays_small(case: CaseView, *_: CaseView, within: float) -> Answer:
     """Whether a case does not separate, its contact force ranges no wider in the end, and releases are regular."""
     intervals = measures.release_intervals(case)
     spread = irregularity(intervals)
     return Answer(
         not case.separates and not _grew(case) and spread <= within,
-        first=first_separation(case),
-        late=measures.late_range(case, "P"),
         rate=1 / intervals.mean(),
         spread=spread,
-        growth=said_growth(case),
-        others=[said_growth(other) for other in others],
     )
 
 
 @CHECKS("F17", "F18")
 def separates(case: CaseView) -> Answer:
-    return Answer(case.separates, first=first_separation(case), growth=said_growth(case))
+    return Answer(case.separates)
 
 
 @CHECKS("S43N")
 def preload(*cases: CaseView) -> Answer:
     """Larger preloads than those that the paper tries may be unstable again: that is a remark."""
     largest, again = cases[3], cases[4:]
-    beyond = [{"N": again[0]["N"], "onset": first_separation(*again)}] if again[0].separates else []
+    beyond = [{"case": again[0], "onset": first_separation(*again)}] if again[0].separates else []
     if largest.separates or _grew(largest):
-        beyond.append({"N": largest["N"], "onset": said_onset(largest)})
-    return Answer(between_only(cases[:3]), loads=by_load(cases[:3]), beyond=beyond)
+        beyond.append({"case": largest, "onset": largest.onset})
+    return Answer(between_only(cases[:3]), loads=rows(cases[:3]), beyond=beyond)
 
 
 @CHECKS("F18t")
 def undamped_trajectory(case: CaseView, *, share: float) -> Answer:
     changes, found = measures.trajectory_change(case, share)
-    return Answer(changes, case=found, said=measures.late_motion(case)[1])
+    return Answer(changes, changes=found)
 
 
 @CHECKS("S43z")
@@ -142,43 +141,22 @@ def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
         min((case["Omega"] for case in group if case["first_separation"] <= wait), default=math.inf)
         for group in ((undamped, slow[0]), damped)
     ]
-    rows = [
-        {"D_star": case["D_star"], "Omega": case["Omega"], "first": first_separation(case, *again)}
-        for case, *again in runs
-    ]
-    return Answer(lowest[0] < lowest[1], runs=rows)
+    said = [{"case": case, "first": first_separation(case, *again)} for case, *again in runs]
+    return Answer(lowest[0] < lowest[1], runs=said)
 
 
 @CHECKS("S43d")
 def disc_damping(*cases: CaseView) -> Answer:
     rates = {speed: growth_or_nan(cases[1].parameters.replace(Omega=float(speed))) for speed in SPEEDS}
-    rows = [
-        {
-            "Omega": case["Omega"],
-            "first": first_separation(case),
-            "late": measures.late_range(case, "P"),
-            "growth": said_growth(case),
-        }
-        for case in cases
-    ]
+    said = [f"{speed:g}: {said_rate(rate)}" for speed, rate in rates.items()]
     grows = any(rate > 0 for rate in rates.values())
-    return Answer(
-        not any(case.separates or _grew(case) for case in cases),
-        cases=rows,
-        rates=[f"{speed:g}: {said_rate(rate)}" for speed, rate in rates.items()] if grows else [],
-    )
+    return Answer(not any(case.separates or _grew(case) for case in cases), rates=said if grows else [])
 
 
 @CHECKS("F19")
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
-    motion, said = measures.late_motion(case)
-    return Answer(
-        not without.separates and case.separates and motion.period > 0,
-        without=first_separation(without),
-        first=first_separation(case),
-        said=said,
-        **_where_damping_helps(case),
-    )
+    periodic = measures.late_motion(case)[0].period > 0
+    return Answer(not without.separates and case.separates and periodic, **_where_damping_helps(case))
 
 
 @CHECKS("F19d")
@@ -199,16 +177,12 @@ def disc_repeats(case: CaseView, *, within: float) -> Answer:
 @CHECKS("F21")
 def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
     end = case["time_reached"]
-    early = measures.early_range(case, "P")
     third, last = (case.range_of("P", a * end, b * end) for a, b in ((0.5, 0.75), (0.75, 1.0)))
-    motion, said = measures.late_motion(case)
+    motion, _ = measures.late_motion(case)
     within = max(third.width, last.width) < bounded * min(third.width, last.width)
     return Answer(
-        *is_kind(Outcome.IRREGULAR, motion, not case.separates and last.width > factor * early.width and within),
-        first=first_separation(case),
-        early=early,
+        *is_kind(Outcome.IRREGULAR, motion, not case.separates and last.width > factor * case.early.width and within),
         last=last,
-        said=said,
         irregular=motion.kind is Outcome.IRREGULAR,
     )
 
@@ -217,28 +191,20 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
 def normal_stiffness(*cases: CaseView) -> Answer:
     times = [case["first_separation"] for case in cases[:3]]
     base, stiff = cases[2:]
-    rows = [{"k": case["k"], "first": first_separation(case)} for case in cases]
     sooner = bool(np.all(np.diff(times) > 0))  # false if one does not separate
-    holds = sooner and not stiff.separates and not _grew(stiff)
-    return Answer(holds, cases=rows, growth=said_growth(stiff), between=_between(base, "k", 20, 50))
+    return Answer(sooner and not stiff.separates and not _grew(stiff), between=_between(base, "k", 20, 50))
 
 
 @CHECKS("F22")
 def soft_inplane(case: CaseView) -> Answer:
-    motion, said = measures.late_motion(case)
-    holds = is_kind(Outcome.IRREGULAR, motion, case.separates)
-    return Answer(*holds, first=first_separation(case), said=said, repeats=motion.period > 0)
+    motion, _ = measures.late_motion(case)
+    return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates), repeats=motion.period > 0)
 
 
 @CHECKS("S43kp")
 def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
-    return Answer(
-        sooner and not stiff.separates and not _grew(stiff),
-        cases=[{"k_p": case["k_p"], "onset": said_onset(case)} for case in (soft, base, stiff)],
-        late=measures.late_range(stiff, "P"),
-        between=_between(base, "k_p", 50),
-    )
+    return Answer(sooner and not stiff.separates and not _grew(stiff), between=_between(base, "k_p", 50))
 
 
 @CHECKS("F23")
@@ -259,7 +225,6 @@ def lowest_position(case: CaseView, *, bound: float) -> Answer:
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
     return Answer(
         found.kind == "at the lowest position" and above <= bound,
-        first=first_separation(case),
         kind=found.kind,
         mm=1e3 * (where - case["u_0"]),
         percent=100 * found.height,
@@ -293,9 +258,7 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
     damped = [case.separates for case in (weak, shown, strong)]
     return Answer(
         not without.separates and any(damped) and not small.separates,
-        cases=[{"c_p": case["c_p"], "onset": said_onset(case)} for case in (without, weak, shown, strong)],
-        small=small["c_p"],
-        small_first=first_separation(small),
+        large=rows((without, weak, shown, strong)),
         not_all=not all(damped),
         **_where_damping_helps(shown),
     )
@@ -308,7 +271,7 @@ def elasticity(*cases: CaseView) -> Answer:
     monotonous = rates[0] > rates[1] > rates[2]
     return Answer(
         monotonous and rates[2] < 0,
-        cases=[{"GPa": case["E"] / 1e9, "onset": said_onset(case)} for case in cases[:3]],
+        discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases[:3]],
         order="" if monotonous else "not monotonous: ",
         state="stable" if rates[0] < 0 else "unstable",
         soft=soft,
@@ -376,12 +339,9 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 @CHECKS("C3")
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     shares = [measures.phase_share(case, "stick") for case in cases[:5]]
-    rows = [
-        {"place": measures.place_of(case), "percent": 100 * stick}
-        for case, stick in zip(cases[:5], shares, strict=True)
-    ]
+    said = [f"N = {case.place}: {100 * stick:.1f} %" for case, stick in zip(cases[:5], shares, strict=True)]
     another = measures.another_motion(*zip((*cases[:2], cases[4]), cases[5:], strict=True))
-    return Answer(min(shares) <= share, cases=rows, another=another)
+    return Answer(min(shares) <= share, shares="; ".join(said), another=another)
 
 
 def _where_damping_helps(case: CaseView) -> dict[str, Any]:
@@ -407,10 +367,10 @@ def _where_damping_helps(case: CaseView) -> dict[str, Any]:
 
 def _between(case: CaseView, spring: str, *speeds: float) -> list[dict[str, Any]]:
     """Growth at stiffnesses of a spring between those of the paper, at some speeds; nothing if it only falls."""
-    rows, falls = [], True
+    found, falls = [], True
     for speed in speeds:
         stiffened = [case.parameters.replace(Omega=speed, **{spring: 1e3 * k}) for k in STIFFNESSES[spring]]
         rates = np.array([growth_or_nan(p) for p in stiffened])
         falls &= not np.any(np.diff(rates[np.isfinite(rates)]) > 0)
-        rows.append({"Omega": speed, "rates": [*map(said_rate, rates)], "stiffnesses": [*STIFFNESSES[spring]]})
-    return [] if falls else rows
+        found.append({"Omega": speed, "rates": [*map(said_rate, rates)], "stiffnesses": [*STIFFNESSES[spring]]})
+    return [] if falls else found

@@ -8,9 +8,10 @@ import numpy as np
 
 from disc_model.analysis import spectra
 from disc_model.claims import measures
-from disc_model.claims.measures import is_kind
-from disc_model.claims.model import CHECKS, Answer, CaseView, Missing
+from disc_model.claims.measures import CaseView, is_kind
+from disc_model.claims.model import CHECKS, Answer
 from disc_model.claims.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
@@ -69,11 +70,11 @@ def follow(*cases: CaseView) -> Answer:
         away += [_from_natural(case, line) for line in found]
         near += [_from_natural(case, line) <= 4 * case["Omega"] / (2 * np.pi) for line in found]
         lines = [line.frequency for line in found]
-        rows.append({"k_p": case["k_p"], "Omega": case["Omega"], "rate": rate, "lines": lines})
+        rows.append({"case": case, "rate": rate, "lines": lines})
     combined = [each <= COMBINED for each in off]
     return Answer(
         all(near) and not any(combined),
-        cases=rows,
+        tried=rows,
         combined=sum(combined),
         count=len(combined),
         within=COMBINED,
@@ -166,8 +167,8 @@ def slider_settles(case: CaseView, *, part: float) -> Answer:
     first = case["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_d", 100, 100 + first - 50))
     before, after = (_fuzziness(case, *span, name="psi") for span in spans)
-    motion, said = measures.late_motion(case)
-    return Answer(after < part * before and motion.period > 0, before=100 * before, after=100 * after, said=said)
+    periodic = measures.late_motion(case)[0].period > 0
+    return Answer(after < part * before and periodic, before=100 * before, after=100 * after)
 
 
 @CHECKS("F26b")
@@ -254,7 +255,7 @@ def erratic(case: CaseView, *, several: float, part: float) -> Answer:
     strongest = max(line.amplitude for line in found)
     every = _further(found, rate, case["Omega"] / (2 * np.pi))
     further = [line for line in every if line.amplitude >= part * strongest]
-    motion, said = measures.late_motion(case)
+    motion, _ = measures.late_motion(case)
     second = further[1].amplitude / further[0].amplitude if len(further) >= several else 1.0
     return Answer(
         *is_kind(Outcome.IRREGULAR, motion, len(further) >= several),
@@ -263,7 +264,6 @@ def erratic(case: CaseView, *, several: float, part: float) -> Answer:
         further=len(further),
         seen=[f"{line.frequency:.2f} Hz ({line.amplitude / strongest:.2g})" for line in further] or ["none"],
         weak=len(every) - len(further),
-        said=said,
         mainly=second < 0.5,
         second=second,
     )

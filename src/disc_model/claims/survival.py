@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, motion_of, stick_disappears
 from disc_model.claims import measures
-from disc_model.claims.measures import or_none, place_of, said_rate
-from disc_model.claims.model import STRETCH, STRETCHES, Answer, CaseView, Checks, Missing
+from disc_model.claims.measures import STRETCH, STRETCHES, CaseView, or_none, said_rate
+from disc_model.claims.model import Answer, Checks
 from disc_model.claims.pages import Comparison, page_texts
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 
 Array = NDArray[np.float64]
@@ -63,7 +64,7 @@ class Evidence:
 
     def pairs(self) -> list[tuple[CaseView, CaseView]]:
         """Cases that separate, each with the one in which separation is ignored."""
-        ignored = [case for case in self.cases if case.parameters.contact == "bonded"]
+        ignored = [case for case in self.cases if case.bonded]
         return measures.pairs([*self.separating(), *ignored])
 
     def separating(self) -> list[CaseView]:
@@ -71,7 +72,7 @@ class Evidence:
         for case in self.cases:
             if case.status != "ok":
                 raise Missing(f"{case.status} (case {case.name})")
-        return [case for case in self.cases if case.parameters.contact != "bonded" and case.separates]
+        return [case for case in self.cases if not case.bonded and case.separates]
 
 
 def evidence(model: Model, cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> Evidence:
@@ -213,7 +214,7 @@ def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
             smaller.append(False)
         else:
             smaller.append(True if settled and max(third, fourth) < min(other) else None)
-        rows.append({"place": place_of(free), "free": 1e3 * max(third, fourth), "bonded": 1e3 * min(other)})
+        rows.append({"case": free, "free": 1e3 * max(third, fourth), "bonded": 1e3 * min(other)})
     return Answer(*_all_cases(smaller), cases=rows)
 
 
@@ -223,8 +224,8 @@ def stick_vanishes(found: Evidence, *, share: float) -> Answer:
     for case in found.separating():
         late = measures.phase_share(case, "stick")
         if not stick_disappears(case["time_stick"] / case["time_reached"], late, share):
-            stays.append(place_of(case))
-        rows.append({"place": place_of(case), "percent": 100 * late})
+            stays.append(case.place)
+        rows.append({"case": case, "percent": 100 * late})
     return Answer(len(stays) < len(rows) if rows else None, "none", cases=rows, stays=stays)
 
 
@@ -271,7 +272,7 @@ def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]
 def not_periodic(found: Evidence) -> Answer:
     cases = found.separating()
     repeats = [_repeats(case) for case in cases]
-    rows = [{"place": place_of(case), "motion": told} for case, (_, told) in zip(cases, repeats, strict=True)]
+    rows = [{"case": case, "motion": told} for case, (_, told) in zip(cases, repeats, strict=True)]
     holds = [
         None if kind is Outcome.UNDECIDED else kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
         for kind, _ in repeats
@@ -279,7 +280,7 @@ def not_periodic(found: Evidence) -> Answer:
     return Answer(*_all_cases(holds), cases=rows)
 
 
-def _repeats(case: CaseView) -> tuple[Outcome, str]:
+def _repeats(case: CaseView) -> tuple[str]:
     """What a motion is by the intervals between its releases, or separations; and that in words."""
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
         intervals = np.diff(measures.times_of(case, kind))
