@@ -164,7 +164,7 @@ def test_a_number_that_a_text_lacks_is_named(tmp_path: Path) -> None:
     checks = Checks()
     checks("A")(lambda: Answer(True, mm=1))
     (claim,) = claims_from(tmp_path, checks, A=TEXT)
-    with pytest.raises(ClaimError, match=r"^claim A: no value 'rows' among those of its check: mm$"):
+    with pytest.raises(ClaimError, match=r"^claim A: no value 'rows' among those of its check: cases, mm$"):
         claim.judge()
 
 

@@ -280,7 +280,7 @@ def not_periodic(found: Evidence) -> Answer:
     return Answer(*_all_cases(holds), cases=rows)
 
 
-def _repeats(case: CaseView) -> tuple[str]:
+def _repeats(case: CaseView) -> tuple[Outcome, str]:
     """What a motion is by the intervals between its releases, or separations; and that in words."""
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
         intervals = np.diff(measures.times_of(case, kind))
