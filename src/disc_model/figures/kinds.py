@@ -207,9 +207,15 @@ class RegionMap(StabilityMap):
 
     drawn_by = "grids.region_map.draw"
     quantities = ("regions",)
-    roles: ClassVar[Roles] = {}
+    roles: ClassVar[Roles] = {"curves": CURVES}
 
     kind: Literal["region_map"] = "region_map"  # type: ignore[assignment]
+
+    def faults(self, values: Values) -> Iterator[Fault]:
+        """As of any map; and curves over speed and preload lie in that plane only."""
+        yield from super().faults(values)
+        if "curves" in self.others and (self.x, self.y) != ("Omega", "N"):
+            yield Fault(("others", "curves"), self.others["curves"], "needs x: Omega and y: N")
 
 
 class CriticalSpeed(Plot):
@@ -221,6 +227,7 @@ class CriticalSpeed(Plot):
     roles: ClassVar[Roles] = {
         "hysteresis": Role("hysteresis", ("N",)),
         "cycle": CYCLE,
+        "curves": CURVES,
         "basins": Role("basins", ("Omega",)),
     }
 
@@ -231,7 +238,6 @@ class CriticalSpeed(Plot):
 class Thresholds(CriticalSpeed):
     """Where the cycle becomes unstable and where separation follows, on one chart."""
 
-    drawn_by = "grids.thresholds.draw"
     roles: ClassVar[Roles] = {"curves": CURVES._replace(required=True), "cycle": CYCLE}
 
     kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]

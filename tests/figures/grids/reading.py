@@ -1,17 +1,31 @@
-"""What stands in a figure, to be compared."""
+"""Figures from made-up studies, and what stands in them."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import pytest
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+
+from disc_model.figures import parts
+from disc_model.figures.kinds import PLOTS
 
 ON_EACH_SCALE = pytest.mark.parametrize(
     ("x", "values", "scale"),
     [("Omega", [5.0, 10, 20], "linear"), ("D_star", [0, 1e-6, 1e-4], "symlog"), ("m", [0.01, 0.1, 1], "log")],
 )
 """A parameter that maps show on each, with three values."""
+
+
+def draw(kind: str, study: xr.Dataset, others: Mapping[str, xr.Dataset] | None = None, **said: Any) -> Figure:
+    """A figure of a kind, as a file asks for it, with further studies by their roles."""
+    shown = {"study": study, **(others or {})}
+    plot = PLOTS[kind].model_validate({"kind": kind, **said})
+    return parts.draw(plot, {name: xr.DataTree(one) for name, one in shown.items()})
 
 
 def crosses(ax: Axes) -> list[list[float]]:

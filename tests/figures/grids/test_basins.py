@@ -7,13 +7,10 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import Outcome
-from disc_model.figures.grids import basins as drawn
-from disc_model.figures.grids import critical_speed
-from disc_model.figures.kinds import BasinShares, CriticalSpeed
 from disc_model.figures.parts import save
 from disc_model.stability.attractor.many import Arrival, Attractor
 from disc_model.studies.grids.quantities import basins
-from tests.figures.grids.reading import labels, lines
+from tests.figures.grids.reading import draw, labels, lines
 from tests.stability.test_attractor import stretch
 from tests.studies.grids.conftest import computed, growth_over, with_failed
 
@@ -44,7 +41,7 @@ def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 
 
 def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset, tmp_path) -> None:
-    figure = drawn.draw(shares, {}, BasinShares(x="Omega"))
+    figure = draw("basins", shares, x="Omega")
     assert labels(figure) == ["quiet", "separating"]
     np.testing.assert_allclose(
         lines(figure.axes[2])["by bisection"].get_ydata(), [np.nan, 0.5, 0.05, np.nan], rtol=0.06
@@ -53,7 +50,7 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset, tmp_path) -> 
     # what separates without a kick has no place on a logarithmic scale, and is not left out
     assert [(text.get_position()[0], text.get_text()) for text in figure.axes[2].texts] == [(15, "0")]
     # a point that failed is marked
-    save(drawn.draw(with_failed(shares, Omega=13.0), {}, BasinShares(x="Omega")), tmp_path / "failed.png")
+    save(draw("basins", with_failed(shares, Omega=13.0), x="Omega"), tmp_path / "failed.png")
 
 
 def test_the_band_of_fig_15_is_where_both_shares_are_above_zero(
@@ -61,12 +58,12 @@ def test_the_band_of_fig_15_is_where_both_shares_are_above_zero(
 ) -> None:
     others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7))}
 
-    before = critical_speed.draw(speeds, others, CriticalSpeed())
-    assert "quiet or separating,\nnot measured" in labels(before.axes[1])
-    figure = critical_speed.draw(speeds, others | {"basins": shares}, CriticalSpeed())
-    assert "quiet or separating,\nmeasured at 385 N" in labels(figure.axes[1])
-    assert "quiet or separating,\nnot measured" not in labels(figure.axes[1])
+    before = draw("critical_speed", speeds, others)
+    assert "quiet or separating,\nnot measured" in labels(before)
+    figure = draw("critical_speed", speeds, others | {"basins": shares})
+    assert "quiet or separating,\nmeasured at 385 N" in labels(figure)
+    assert "quiet or separating,\nnot measured" not in labels(figure)
     # not beyond what was measured: the bar used to go on to halfway to the next speed, past the cycle's end
-    bars = [(bar.get_y(), bar.get_y() + bar.get_height()) for bar in figure.axes[1].patches if bar.get_height() > 0]
+    bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in figure.axes[1].patches if bar.get_width() > 0]
     assert bars == [(13.0, 14.0)]
     save(figure, tmp_path / "both.png")

@@ -1,30 +1,93 @@
-"""The speed of onset over the load."""
+"""Charts over speed and preload: thresholds, sweeps, and what lies behind them."""
 
 from __future__ import annotations
 
-import numpy as np
-import xarray as xr
+import json
 
-from disc_model.figures.grids import critical_speed as curves
-from disc_model.figures.kinds import CriticalSpeed
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
+
+from disc_model.figures.grids import critical_speed
+from disc_model.figures.grids.critical_speed import branches
+from disc_model.figures.grids.growth_map import Curve
 from disc_model.figures.parts import save
-from tests.figures.grids.reading import labels, lines
+from tests.figures.grids.reading import draw, labels, lines
 from tests.studies.grids.conftest import growth_over
 
+SPEEDS, LOADS = np.linspace(5, 50, 10), np.array([100.0, 200, 300])
+NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
+FOLD = Curve(SPEEDS, SPEEDS * 6, "fold", "2 f_s = 135.42 Hz")
+CLAIM = {"paper": (200, 12.6)}
 
-def test_the_critical_speed_is_drawn_with_and_without_hysteresis(
-    speeds: xr.Dataset, sweep: xr.Dataset, tmp_path
+
+def scanned() -> xr.Dataset:
+    """At 100 N nothing separates, at 200 N from 30 rad/s on, at 300 N from 10 to 20 and from 40 on."""
+    crossing = np.full((3, 1, 4), np.nan)
+    crossing[1, 0, 0], crossing[2, 0, :3] = 30.0, [10.0, 20.0, 40.0]
+    kind = np.where(np.isfinite(crossing), 1, 0)
+    kind[2, 0, 1] = 2
+    data = {
+        "critical_speed": (("N", "horizon"), np.array([[np.nan], [30.0], [10.0]])),
+        "crossing": (("N", "horizon", "crossing_number"), crossing),
+        "crossing_kind": (("N", "horizon", "crossing_number"), kind, {"flag_meanings": "none begins ends"}),
+        "status": ("N", np.zeros(3, np.int8), {"flag_meanings": "ok failed"}),
+    }
+    axes = {"N": LOADS, "horizon": [1000.0], "scan_Omega": SPEEDS, "normalization": ["as_published"]}
+    return xr.Dataset(data, axes)
+
+
+def chart(monkeypatch: pytest.MonkeyPatch, **others: xr.Dataset) -> Figure:
+    """Of known curves."""
+    monkeypatch.setattr(critical_speed, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
+    return draw("thresholds", scanned(), {"curves": xr.Dataset({"n_unfollowed": 2}), **others}, claim=CLAIM)
+
+
+def test_curves_crossings_and_what_the_paper_says_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    figure = chart(monkeypatch)
+    named = {"cycle loses stability", "stable cycle ends (fold)", "separation begins, within 1000 s"}
+    named |= {"open: separation ends again", "what the paper says", "2 $f_s$ = 135.42 Hz"}
+    assert set(labels(figure)) == named | {"curves stop, not followed: 2"}
+    (ax,) = figure.axes
+    assert {text.get_text() for text in ax.texts} == {"1"}
+
+
+def test_areas_are_the_outcomes_of_a_map_where_there_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    codes, words = np.repeat([[0], [1], [2]], 10, axis=1), {"flag_meanings": "quiet growing separation"}
+    data = {"growth_rate": (("N", "Omega"), codes - 0.1), "outcome": (("N", "Omega"), codes, words)}
+    cycle = xr.Dataset(data, {"N": LOADS, "Omega": SPEEDS}, {"options": json.dumps({"horizon": 1000.0})})
+    figure = chart(monkeypatch, cycle=cycle)
+    assert {"stays quiet", "grows, no separation", "separation", "areas: within 1000 s"} <= set(labels(figure))
+    (mesh,) = (one for one in figure.axes[0].collections if isinstance(one, QuadMesh))
+    assert not np.ma.getmaskarray(mesh.get_array()).any()
+    alone = chart(monkeypatch, cycle=cycle.drop_vars("outcome"))
+    assert "stick-slip cycle stable; white: none is" in labels(alone)
+
+
+def test_a_line_does_not_jump_to_another_branch() -> None:
+    """The lowest speeds were joined, across speeds at which all stays quiet."""
+    speeds = [np.array(at) for at in ([17.6], [11.5, 19.5], [12.7, 14.9, 21.3], [13.8, 15.9, 23.1], [])]
+    links = [(0, 17.6, 19.5), (1, 11.5, 12.7), (1, 19.5, 21.3)]
+    # 13.8 is as near to 12.7 as to 14.9, which is nearer to 15.9
+    assert branches(speeds) == [*links, (2, 12.7, 13.8), (2, 14.9, 15.9), (2, 21.3, 23.1)]
+
+
+def test_the_speed_goes_across_and_panels_say_how_they_were_computed(
+    speeds: xr.Dataset, sweep: xr.Dataset, plane: xr.Dataset, tmp_path
 ) -> None:
-    plot = CriticalSpeed(claim={"x": (200, 12.6)})
-    growth = growth_over([200.0, 400.0], np.linspace(12, 15, 7))
-    both = curves.draw(speeds, {"hysteresis": sweep, "cycle": growth}, plot)
-    assert [ax.get_title(loc="left") for ax in both.axes] == ["(a) modes as published", "(b) modes as published"]
+    """Both were titled alike, and speeds went up here and across elsewhere."""
+    others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7)), "curves": plane}
+    both = draw("critical_speed", speeds, others, claim=CLAIM)
+    titles = [ax.get_title(loc="left") for ax in both.axes]
+    assert titles == ["(a) from the published start", "(b) sweeps: 60 s, then 0.5 rad/s further"]
+    assert both.axes[0].get_xlabel() == "Speed Ω (rad/s)"
+    shown = lines(both.axes[0])
+    assert shown["separation begins, within 1000 s"].get_xdata()[:2].tolist() == [12.4, 12.4]
+    # a shorter horizon has marks only where its speed is another
+    assert set(shown["at another speed within 900 s"].get_ydata()) == {200}
     save(both, tmp_path / "both.png")
-    alone = curves.draw(speeds, {}, CriticalSpeed())
-    (ax,) = alone.axes
-    assert lines(ax)["begins within 1000 s"].get_ydata()[:2].tolist() == [12.4, 12.4]
-    # more than one crossing is explained
-    twice = speeds.assign(n_crossings=speeds["n_crossings"] + 1)
+    twice = speeds.copy(deep=True)
     twice["crossing"][..., 1], twice["crossing_kind"][..., 1] = 14.2, 2
-    assert "open: separation ends again" in labels(curves.draw(twice, {}, CriticalSpeed()).axes[0])
-    save(alone, tmp_path / "alone.png")
+    assert "open: separation ends again" in labels(draw("critical_speed", twice))

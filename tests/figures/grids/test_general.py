@@ -12,10 +12,9 @@ from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm, to_rgba
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
-from disc_model.figures.grids import curve, heat_map
-from disc_model.figures.kinds import MOST_PANELS, CurvePlot, HeatMap
+from disc_model.figures.kinds import MOST_PANELS, HeatMap
 from disc_model.figures.parts import save
-from tests.figures.grids.reading import labels, lines
+from tests.figures.grids.reading import draw, labels, lines
 
 
 @pytest.fixture
@@ -39,7 +38,7 @@ def study() -> xr.Dataset:
 
 
 def mapped(study: xr.Dataset, variable: str, **said: Any) -> Figure:
-    return heat_map.draw(study, {}, HeatMap(variable=variable, x="c_p", y="mu_k", **said))
+    return draw("heat_map", study, variable=variable, x="c_p", y="mu_k", **said)
 
 
 def mesh(figure: Figure) -> Any:
@@ -80,8 +79,7 @@ def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
 
 
 def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) -> None:
-    plot = CurvePlot(variable="growth_rate", x="mu_k", by="c_p", at={"normalization": "as_published"})
-    figure = curve.draw(study, {}, plot)
+    figure = draw("curve", study, variable="growth_rate", x="mu_k", by="c_p", at={"normalization": "as_published"})
     ax = figure.axes[0]
     bar = figure.axes[-1]
     assert bar.get_ylabel() == "In-plane damper $c_p$ (N s/m)", "said once: it stood before each of its values"
@@ -103,7 +101,7 @@ def test_a_point_without_a_value_is_called_the_same_in_curve_and_map(study: xr.D
     """In a curve all were "failed", and in a heat map "no value"."""
     study["status"].attrs["flag_meanings"] = f"fine {status}"
     at = {"normalization": "as_published"}
-    curved = curve.draw(study, {}, CurvePlot(variable="drift", x="mu_k", by="c_p", at=at))
+    curved = draw("curve", study, variable="drift", x="mu_k", by="c_p", at=at)
     assert labels(curved) == labels(mapped(study, "drift", at=at)) == [name]
 
 
@@ -119,8 +117,8 @@ def test_a_zip_has_a_panel_or_a_line_for_each_of_its_points(study: xr.Dataset) -
     assert [" ".join(ax.get_title(loc="left").split())[4:] for ax in figure.axes[:2]] == said
     expected = study["growth_rate"].sel(normalization="orthonormal").transpose("mu_k", "c_p").values
     np.testing.assert_array_equal(np.ma.filled(figure.axes[1].collections[0].get_array(), np.nan), expected)
-    plot = CurvePlot(variable="growth_rate", x="c_p", by="both", at={"mu_k": 0.3})
-    assert list(lines(curve.draw(zipped(study), {}, plot).axes[0]))[:2] == said
+    figure = draw("curve", zipped(study), variable="growth_rate", x="c_p", by="both", at={"mu_k": 0.3})
+    assert list(lines(figure.axes[0]))[:2] == said
 
 
 def test_panels_come_as_the_page_has_its_columns(study: xr.Dataset) -> None:
@@ -133,8 +131,7 @@ def test_panels_come_as_the_page_has_its_columns(study: xr.Dataset) -> None:
 
 
 def test_a_curve_of_words_names_them(study: xr.Dataset) -> None:
-    plot = CurvePlot(variable="status", x="c_p", at={"normalization": "as_published", "mu_k": 0.3})
-    ax = curve.draw(study, {}, plot).axes[0]
+    ax = draw("curve", study, variable="status", x="c_p", at={"normalization": "as_published", "mu_k": 0.3}).axes[0]
     assert [text.get_text() for text in ax.get_yticklabels()] == ["ok", "no cycle found"]
     assert ax.get_xscale() == "log"
 

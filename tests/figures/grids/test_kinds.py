@@ -70,6 +70,11 @@ def marked(x: float, y: float) -> dict[str, Any]:
             {"N": [1], "k": [2]},
             ["others.growht = 'g': unknown role, did you mean growth? (known: growth)"],
         ),
+        (
+            {"kind": "region_map", "x": "N", "y": "k", "others": {"curves": "c"}},
+            {"N": [1], "k": [2]},
+            ["others.curves = 'c': needs x: Omega and y: N"],
+        ),
         (CRITICAL, {"N": [1]}, []),
         (CRITICAL, {"c": [1]}, ["kind = 'critical_speed': needs the dimension N"]),
         (CRITICAL, {"N": [1], "normalization": NORMS}, ["kind = 'critical_speed': can show one normalization only"]),

@@ -8,11 +8,10 @@ import xarray as xr
 
 from disc_model.figures.grids import ramps as drawn
 from disc_model.figures.grids.growth_map import Curve, crossings
-from disc_model.figures.kinds import RampedSpeeds
 from disc_model.figures.parts import save
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import ramps
-from tests.figures.grids.reading import lines
+from tests.figures.grids.reading import draw, lines
 from tests.studies.grids.conftest import computed
 
 OPTIONS = {"low": 8, "high": 20, "rates": {"start": 0.01, "stop": 1, "count": 3, "scale": "log"}}
@@ -43,14 +42,14 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
         Curve(np.array([11.0, np.nan, 30.0, 31.0]), np.array([380.0, np.nan, 380.0, 390.0]), "fold"),
     ]
     monkeypatch.setattr(drawn, "curves_of", lambda _: folds)
-    figure = drawn.draw(study, {"curves": xr.Dataset()}, RampedSpeeds(title="t"))
+    figure = draw("ramps", study, {"curves": xr.Dataset()}, title="t")
     shown = lines(figure.axes[0])
     np.testing.assert_allclose(shown["onset of separation, speed rising"].get_ydata(), [15.3, np.nan, np.nan])
     np.testing.assert_allclose(shown["end of separation, speed falling"].get_ydata(), [9.7, 9.3, np.nan])
     assert list(shown[drawn.BEYOND].get_xdata()) == [0.1]
     assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
     save(figure, tmp_path / "ramps.png")
-    save(drawn.draw(study, {}, RampedSpeeds()), tmp_path / "alone.png")
+    save(draw("ramps", study), tmp_path / "alone.png")
 
 
 def test_a_curve_may_pass_a_load_several_times() -> None:

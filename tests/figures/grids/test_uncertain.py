@@ -10,20 +10,20 @@ import xarray as xr
 from matplotlib.collections import PathCollection
 from matplotlib.colors import to_hex
 
-from disc_model.figures.grids import campbell, sensitivity
+from disc_model.figures.grids import sensitivity
 from disc_model.figures.grids.campbell import gaps, noted, spread
-from disc_model.figures.kinds import Campbell, Sensitivity
 from disc_model.figures.parts import GREY, SKY
 from disc_model.studies.files import StudyError
 from disc_model.studies.grids.schema import parse_grid
 from disc_model.studies.grids.summaries.campbell import EFFECTS
+from tests.figures.grids.reading import draw
 from tests.studies.grids.conftest import SMALL, computed
 from tests.studies.grids.quantities import test_sensitivity as uncertain
 
 
 def test_bars_and_probabilities_are_those_of_the_study() -> None:
     study = uncertain.made_up()
-    figure = sensitivity.draw(study, {}, Sensitivity())
+    figure = draw("sensitivity", study)
     assert len(figure.axes) == 1 + 2 * study.sizes["N"]
     first = figure.axes[1]
     widths = [bar.get_width() for bar in first.patches]
@@ -42,7 +42,7 @@ def test_what_lies_beyond_a_panel_of_indices_is_marked_and_what_is_not_known_gre
         study[name][:] = value
     for name in ("first_index", "first_index_low", "first_index_high"):
         study[name][:] = 0.2
-    panel = sensitivity.draw(study, {}, Sensitivity()).axes[1]
+    panel = draw("sensitivity", study).axes[1]
     assert [text.get_text() for text in panel.texts] == ["1.9", "1.9"]
     arrows = [len(one.get_offsets()) for one in panel.collections if isinstance(one, PathCollection)]
     assert arrows == [0, 0, 0, 2]
@@ -77,7 +77,7 @@ def test_a_campbell_diagram_numbers_what_matters() -> None:
         base={"N": 200, "normalization": "as_published", **SMALL},
         axes={"Omega": {"start": 9, "stop": 13, "step": 0.25}},
     )
-    figure = campbell.draw(study, {}, Campbell())
+    figure = draw("campbell", study)
     numbers = [text.get_text() for text in figure.axes[0].texts if text.get_text().isdigit()]
     assert numbers == [str(i) for i in range(1, len(noted(study)) + 1)]
 
@@ -128,7 +128,7 @@ def test_a_campbell_diagram_numbers_gaps_of_several_speeds_and_draws_all() -> No
         (8.95, 9.05, 1),
         (12.95, 14.05, 11),
     ]
-    above, below, _ = campbell.draw(study, {}, Campbell()).axes
+    above, below, _ = draw("campbell", study).axes
     for ax in (above, below):
         assert [round(bar.get_width(), 9) for bar in ax.patches] == [0.1, 1.1]
     # nothing is cut off
@@ -140,7 +140,7 @@ def test_a_campbell_diagram_numbers_gaps_of_several_speeds_and_draws_all() -> No
 
 def test_all_crossings_lie_on_lines_that_are_drawn() -> None:
     study = made_up_crossings()
-    ax = campbell.draw(study, {}, Campbell()).axes[0]
+    ax = draw("campbell", study).axes[0]
     drawn = [
         np.asarray(line.get_ydata(), dtype=float) / study["stick_slip_frequency"].values
         for line in ax.lines

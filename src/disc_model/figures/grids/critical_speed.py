@@ -1,77 +1,208 @@
-"""Critical speed against preload, and beside it how far separation persists when the speed is lowered again."""
+"""Charts over speed and preload: where separation begins and ends, where the cycle loses its stability, and sweeps."""
 
 from __future__ import annotations
 
-import itertools
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from numpy.typing import NDArray
 
+from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.separating import draw_behind, draw_ends, draw_onsets, ends_handle, map_horizon
-from disc_model.figures.kinds import CriticalSpeed
-from disc_model.figures.parts import (
-    BLACK,
-    BLUE,
-    COLUMN,
-    END,
-    GREEN,
-    ONSET,
-    ORANGE,
-    PAGE,
-    PURPLE,
-    SKY,
-    new_figure,
-)
+from disc_model.figures.grids.cells import OUTCOMES, Look, edges_of, fill, paler, patch, words_of
+from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
+from disc_model.figures.kinds import CriticalSpeed, Thresholds
+from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PURPLE, SKY, new_figure
 
-COLORS = (SKY, BLUE, BLACK, GREEN, PURPLE)
-MARKERS = "o^sDv"
-LARGEST, SMALLEST = 5.5, 2.5
-"""Of the marks of the shortest and of the longest horizon, points."""
+Array = NDArray[np.float64]
+
+PALER = {"other_cycle": 0.35, "growing": 0.35, "separation": 0.75}
+BEHIND = OUTCOMES | {name: paler(OUTCOMES[name], share) for name, share in PALER.items()}
+"""What becomes of the published start, behind curves and marks."""
+STABLE = OUTCOMES["quiet"]._replace(label="stick-slip cycle stable; white: none is")
+LOOKS = ((ONSET, "o"), (BLUE, "^"), (SKY, "s"), (GREEN, "D"), (PURPLE, "v"))
+"""Colour and marker of each horizon, the longest first."""
 WIDTH = 20.0
 """Of what is measured at one load, N: well within the step of the sweeps."""
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
-    """(a) speeds at which separation begins within each horizon, (b) the same beside a sweep of the speed."""
+    """(a) where separation begins and ends from the published start, and what lies behind; (b) a sweep of the speed."""
     norm, study, others = parts.of_one(study, others)
-    study = parts.without_failed(study, "critical_speed", "crossing")
+    lost = parts.failed(study).values
     sweep, cycle = others.get("hysteresis"), others.get("cycle")
-    figure = new_figure(PAGE if sweep is not None else COLUMN, 3.4)
-    axes = figure.subplots(1, 2 if sweep is not None else 1, sharey=True, squeeze=False)[0]
-    scan = study["scan_Omega"].values
-    behind: list[Patch] = []
+    scan = span(study["scan_Omega"].values)
     if cycle is not None:
-        behind = draw_behind(axes[0], cycle.sel(Omega=slice(scan[0], scan[-1])), "N", "Omega")
-        if "outcome" in cycle:
-            behind.append(Patch(alpha=0, label=f"areas: within {map_horizon(cycle):g} s"))
-    _horizons(axes[0], study)
+        # beyond the scan nothing is known of separation
+        cycle = cycle.sel(Omega=slice(*scan))
+        cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
+    figure = new_figure(PAGE if sweep is not None else COLUMN, 3.8)
+    axes = list(figure.subplots(1, 2 if sweep is not None else 1, sharex=True, sharey=True, squeeze=False)[0])
+    loads = study["N"].values
+    axes[0].set(
+        xlim=scan if cycle is None else span(cycle["Omega"].values), ylim=(0.95 * loads.min(), 1.02 * loads.max())
+    )
+    parts.mark_failed(axes[0], loads[lost], on="y")
+    study = study.isel(N=~lost).sortby("N")
+    handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
+    if "curves" in others:
+        curves = curves_of(others["curves"])
+        shown = curves if cycle is None else parted(curves, cycle)[0]
+        handles += draw_curves([axes[0]], [shown], [others["curves"]])
+    horizons = [_horizon_of(study, cycle)] if isinstance(plot, Thresholds) else sorted(study["horizon"].values)[::-1]
+    _starts(axes[0], study, horizons)
     if plot.claim:
-        points = np.array(list(plot.claim.values()))
-        axes[0].plot(*points.T, linestyle="", label="what the paper says", zorder=5, clip_on=False, **parts.PAPER_SAYS)
+        load, speed = np.transpose([*plot.claim.values()])
+        axes[0].plot(
+            speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, clip_on=False, label="what the paper says"
+        )
+    said = ["from the published start"]
     if sweep is not None:
-        sweep = parts.without_failed(sweep, "onset", "persists_to")
+        said.append(_sweep(axes[1], sweep, study, horizons[0]))
         if "basins" in others:
             _measured(axes[1], others["basins"])
         elif cycle is not None:
             _both(axes[1], cycle, sweep)
-        _sweep(axes[1], sweep, study)
-    parts.letters(axes, [parts.MODES[norm]] * len(axes))
+    parts.letters(axes, said, pad=12)
     for ax in axes:
-        ax.set(xlabel="Preload N (N)", xlim=(0, 1.03 * float(study["N"].max())), ylim=(scan[0] - 0.5, 1.02 * scan[-1]))
-        below: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (0, -0.22), "borderaxespad": 0}
-        handles, columns = (behind, 2) if ax is axes[0] else ([], 1)
-        ax.legend(handles=ax.get_legend_handles_labels()[0] + handles, ncols=columns, columnspacing=1.0, **below)
-    axes[0].set_ylabel("Speed Ω (rad/s)")
-    parts.head(figure, study, plot.title, modes_said=True)
+        ax.set_xlabel(SPEED)
+        handles += ax.get_legend_handles_labels()[0]
+    axes[0].set_ylabel(LOAD)
+    figure.legend(handles=handles, loc="outside lower center", ncols=2 * len(axes) - (len(axes) > 1), columnspacing=1.0)
+    fixed = ", ".join(filter(None, [parts.fixed(study, modes_said=True), parts.MODES[norm]]))
+    parts.entitle(figure, plot.title or study.attrs.get("title", ""), fixed)
     return figure
+
+
+# ----------------------------------------------------------------------------------------------------
+# Crossings of a scan
+
+
+def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
+    """Speeds at which separation within a horizon "begins" or "ends" as the speed rises, for each load, rad/s.
+
+    Those at which it begins include the lowest of the scan where it separates there already.
+    """
+    one = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
+    there = (flag_names(one["crossing_kind"]) == kind) & np.isfinite(one["crossing"].values)
+    found = [speeds[here] for speeds, here in zip(one["crossing"].values, there, strict=True)]
+    if kind == "ends":
+        return found
+    lowest = one["critical_speed"].values
+    return [
+        np.unique([*speeds, *([low] if np.isfinite(low) else [])]) for speeds, low in zip(found, lowest, strict=True)
+    ]
+
+
+def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
+    """Which crossings at neighbouring loads belong together: index of the lower load, speed there, speed at the next.
+
+    Each is the nearest to the other; what has no such partner is the end of a branch.
+    """
+    links = []
+    for i, (here, ahead) in enumerate(pairwise(speeds)):
+        if here.size and ahead.size:
+            apart = np.abs(here[:, None] - ahead[None, :])
+            # speeds are rounded, so that two may be as near
+            nearest = np.isclose(apart, apart.min(0), rtol=1e-9) & np.isclose(apart, apart.min(1)[:, None], rtol=1e-9)
+            links += [(i, float(here[j]), float(ahead[k])) for j, k in np.argwhere(nearest)]
+    return links
+
+
+def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
+    """Speeds at which separation begins, joined along their branches."""
+    loads, speeds = study["N"].values, speeds_of(study, horizon, "begins")
+    # a gap after each pair
+    pairs = [[(one, loads[i]), (two, loads[i + 1]), (np.nan, np.nan)] for i, one, two in branches(speeds)]
+    alone = [[(speed, load), (np.nan, np.nan)] for load, found in zip(loads, speeds, strict=True) for speed in found]
+    ax.plot(*np.reshape([point for points in (*pairs, *alone) for point in points], (-1, 2)).T, **look)
+
+
+def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
+    """The longest horizon as a line; shorter ones where theirs is another speed. Open marks: it ends again."""
+    longest = speeds_of(study, horizons[0], "begins")
+    for i, (horizon, (color, marker)) in enumerate(zip(horizons, LOOKS, strict=False)):
+        look: dict[str, Any] = {
+            "color": color,
+            "marker": marker,
+            "markersize": 3,
+            "zorder": 1.9 - 0.1 * i,
+        }  # below the curves
+        if i == 0:
+            _onsets(ax, study, horizon, label=f"separation begins, within {horizon:g} s", **look)
+        elif later := [
+            (speed, load)
+            for load, found, known in zip(study["N"].values, speeds_of(study, horizon, "begins"), longest, strict=True)
+            for speed in found
+            if not np.isclose(known, speed).any()
+        ]:
+            ax.plot(*np.transpose(later), linestyle="", label=f"at another speed within {horizon:g} s", **look)
+    ends = speeds_of(study, horizons[0], "ends")
+    if sum(map(len, ends)):
+        loads = np.repeat(study["N"].values, [found.size for found in ends])
+        look = {"color": ONSET, "marker": "o", "markersize": 3, "markerfacecolor": "white", "markeredgewidth": 0.7}
+        ax.plot(np.concatenate(ends), loads, linestyle="", label="open: separation ends again", **look)
+
+
+def _horizon_of(study: xr.Dataset, cycle: xr.Dataset | None) -> float:
+    """The horizon that a chart of one shows: that of the map behind it if there is one, else the longest, s."""
+    horizons = study["horizon"].values
+    if cycle is not None and "outcome" in cycle and (own := _map_horizon(cycle)) in horizons:
+        return own
+    return float(horizons.max())
+
+
+def _map_horizon(regions: xr.Dataset) -> float:
+    """Of a study of the quantity `regions`, s."""
+    return float(json.loads(regions.attrs["options"])["horizon"])
+
+
+# ----------------------------------------------------------------------------------------------------
+# What lies behind, and beside
+
+
+def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
+    """Fill what becomes of the published start, or at least where the cycle is stable; handles of the legend.
+
+    cycle : over N and Omega, of the quantity `regions` or `floquet`
+    """
+    looks: Mapping[str, Look] = BEHIND
+    if "outcome" in cycle:
+        words = words_of(cycle, "outcome", "Omega", "N")
+        horizon = [Patch(alpha=0, label=f"areas: within {_map_horizon(cycle):g} s")]
+    else:
+        words = np.where(cycle["growth_rate"].transpose("N", "Omega").values < 0, "quiet", "")
+        looks, horizon = {"quiet": STABLE}, []
+    fill(ax, edges_of(cycle, "Omega", "N"), words, looks)
+    return [*(patch(look) for name, look in looks.items() if name in words), *horizon]
+
+
+def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:
+    """Where separation begins as the speed rises in steps, and ends as it falls; how the speed is swept."""
+    N, lost = sweep["N"].values, parts.failed(sweep).values
+    for name, color, marker, said in (
+        ("onset", ONSET, "^", "sweep up: separation begins"),
+        ("persists_to", END, "v", "sweep down: separation ends"),
+    ):
+        speeds = np.where(lost, np.nan, sweep[name].values)
+        ax.plot(speeds, N, color=color, marker=marker, markersize=3.5, label=said, clip_on=False)
+    dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 3, "linestyle": (0, (2, 1.5))}
+    _onsets(ax, study, horizon, label=f"published start, within {horizon:g} s", **dashed)
+    parts.mark_failed(ax, N[lost], on="y")
+    options = json.loads(sweep.attrs.get("options", "{}"))
+    if not options:
+        return "sweeps of the speed"
+    step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
+    return f"sweeps: {options['dwell']:g} s, then {step:g} rad/s further"
 
 
 def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
@@ -80,16 +211,13 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     That a sweep up is late, since its stay at a speed is short, does not make a cycle stable. A load between two of the
     sweep is left out if the sweep has found no separation at one of them.
     """
-    rate = cycle["growth_rate"].transpose("Omega", "N")
+    rate = cycle["growth_rate"].transpose("N", "Omega")
     speeds, loads = rate["Omega"].values, rate["N"].values
     lowest = np.interp(loads, sweep["N"].values, sweep["persists_to"].values, left=np.nan, right=np.nan)
-    highest = float(sweep["sweep_Omega"].max())
-    there = (rate.values < 0) & (speeds[:, None] >= lowest[None, :]) & (speeds[:, None] <= highest)
-    if min(there.shape) > 1:
-        cells = np.ma.masked_where(~there, np.ones(there.shape))
-        flat = ListedColormap([ORANGE])
-        ax.pcolormesh(loads, speeds, cells, cmap=flat, alpha=0.25, shading="nearest", rasterized=True)
-        ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating,\nnot measured")
+    there = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
+    look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
+    ax.pcolormesh(speeds, loads, np.ma.masked_where(~there, there), cmap=ListedColormap([ORANGE]), **look)
+    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating,\nnot measured")
 
 
 def _measured(ax: Axes, basins: xr.Dataset) -> None:
@@ -98,41 +226,9 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
     Both shares are above zero with their intervals. A bar goes from the first to the last of neighbouring speeds; one
     alone is a line.
     """
-    load = json.loads(basins.attrs["base"])["N"]
-    speeds = basins["Omega"].values
+    load, speeds = json.loads(basins.attrs["base"])["N"], basins["Omega"].values
     both = ((basins["share_low"].sel(fate="quiet") > 0) & (basins["separating_share_low"] > 0)).values
     for i, (first, after) in enumerate(parts.stretches(both)):
+        label = "_nolegend_" if i else f"quiet or separating,\nmeasured at {load:g} N"
         low, high = speeds[first], speeds[after - 1]
-        ax.bar(
-            load, high - low, WIDTH, low, color=ORANGE, alpha=0.6, linewidth=0.8, edgecolor=ORANGE,
-            label="_nolegend_" if i else f"quiet or separating,\nmeasured at {load:g} N",
-        )  # fmt: skip
-
-
-def _horizons(ax: Axes, study: xr.Dataset) -> None:
-    """Speeds at which separation begins, as full marks along lines, and at which it ends, as open ones.
-
-    Marks of longer horizons are smaller, and lie on those of shorter ones.
-    """
-    horizons, ended = study["horizon"].values, False
-    for i, (horizon, color, marker) in enumerate(zip(horizons, itertools.cycle(COLORS), itertools.cycle(MARKERS))):
-        size = LARGEST - (LARGEST - SMALLEST) * i / max(1, len(horizons) - 1)
-        style: dict[str, Any] = {"color": color, "marker": marker, "markersize": size, "zorder": 3 + 0.1 * i}
-        draw_onsets(ax, study, horizon, load_along="x", label=f"begins within {horizon:g} s", **style)
-        ended |= draw_ends(ax, study, horizon, load_along="x", **style)
-    if ended:
-        ax.add_line(ends_handle(marker))
-    parts.mark_failed(ax, study["N"].values[parts.failed(study).values])
-
-
-def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset) -> None:
-    N = sweep["N"].values
-    onset, last = sweep["onset"].values, sweep["persists_to"].values
-    ax.plot(N, onset, color=ONSET, marker="^", markersize=3.5, label="sweep up: separation begins", clip_on=False)
-    ax.plot(N, last, color=END, marker="v", markersize=3.5, label="sweep down: separation ends", clip_on=False)
-    longest = float(study["horizon"].max())
-    draw_onsets(
-        ax, study, longest, load_along="x", label=f"published start, within {longest:g} s", color=BLACK, marker="s",
-        markersize=3, linestyle=(0, (2, 1.5)),
-    )  # fmt: skip
-    parts.mark_failed(ax, N[parts.failed(sweep).values])
+        ax.barh(load, high - low, WIDTH, low, color=ORANGE, alpha=0.6, linewidth=0.8, edgecolor=ORANGE, label=label)

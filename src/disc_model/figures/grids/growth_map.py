@@ -14,11 +14,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import axis_of, flag_names, typeset
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells
 from disc_model.figures.kinds import GrowthMap
-from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, axis_of, new_figure
+from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, new_figure
 from disc_model.stability.resonances import Tongue
 
 Array = NDArray[np.float64]
@@ -44,6 +44,11 @@ class Curve:
     N: Array
     kind: str
     label: str = ""
+
+    @property
+    def unnumbered(self) -> Curve:
+        """The same without a label."""
+        return replace(self, label="")
 
 
 def curves_of(data: xr.Dataset) -> list[Curve]:
@@ -107,16 +112,6 @@ def _and_next(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return there | np.concatenate([[False], there[:-1]])
 
 
-def unfollowed_handle(curves: Sequence[xr.Dataset]) -> list[Line2D]:
-    """For legends: at how many places curves stop that could not be followed, by panel; nothing if at none."""
-    lost = [int(data["n_unfollowed"].sum()) for data in curves]
-    if not any(lost):
-        return []
-    each = zip("abcdef", lost, strict=False)
-    said = [f"{count} in ({letter})" if len(lost) > 1 else str(count) for letter, count in each]
-    return [Line2D([], [], linestyle="", label=f"curves stop, not followed: {', '.join(said)}")]
-
-
 def crossings(curve: Curve, load: float) -> Array:
     """Speeds at which a curve passes a load, rad/s."""
     side = curve.N - load
@@ -126,10 +121,12 @@ def crossings(curve: Curve, load: float) -> Array:
     return np.unique(curve.Omega[at] + share * (curve.Omega[at + 1] - curve.Omega[at]))
 
 
-def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]]) -> list[Line2D]:
-    """Curves of each panel; those with a label are numbered, and what the numbers stand for is returned for legends.
+def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: Sequence[xr.Dataset]) -> list[Line2D]:
+    """Curves of each panel, numbered where they have a label; for legends, what lines and numbers stand for.
 
     Numbers go by speed, and labels that are equal have one; it stands beyond the upper end, where it covers no line.
+
+    data : the curves' datasets, which say at how many places a curve could not be followed
     """
     labelled = [curve for own in curves for curve in own if curve.label]
     labelled.sort(key=lambda curve: float(np.nanmax(curve.Omega)))
@@ -141,9 +138,15 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]]) -> list
                 i = int(np.nanargmax(curve.N))
                 end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
                 parts.say(ax, str(numbers[curve.label]), end, (0, 2), fontsize=6, annotation_clip=False)
+    kinds = {curve.kind for own in curves for curve in own}
+    handles = [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
     look: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
-    said = {label.replace("f_s", "$f_s$"): number for label, number in numbers.items()}
-    return [Line2D([], [], marker=f"${number}$", label=label, **look) for label, number in said.items()]
+    handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **look) for label, i in numbers.items()]
+    lost = [int(one["n_unfollowed"].sum()) for one in data]
+    if any(lost):
+        said = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
+        handles.append(Line2D([], [], linestyle="", label=f"curves stop, not followed: {', '.join(said)}"))
+    return handles
 
 
 def span(values: Array) -> tuple[float, float]:
@@ -155,26 +158,24 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -
     norms = parts.normalizations(study)
     figure = new_figure(PAGE if len(norms) > 1 else COLUMN, 2.9)
     axes = list(figure.subplots(1, len(norms), sharey=True, squeeze=False)[0])
-    shown, other, gaps = {}, {}, set[str]()
-    for norm in norms:
-        curves = curves_of(parts.of(others["curves"], norm)) if "curves" in others else []
-        shown[norm], other[norm] = parted(curves, parts.of(study, norm))
-    parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=9)
-    for ax, norm in zip(axes, norms, strict=True):
+    data = [parts.of(others["curves"], norm) for norm in norms] if "curves" in others else []
+    shown: list[list[Curve]] = []
+    other: list[Curve] = []
+    gaps: set[str] = set()
+    for i, (ax, norm) in enumerate(zip(axes, norms, strict=True)):
         grid = parts.of(study, norm)
         mesh = growth_cells(ax, grid, "Omega", "N")
         gaps |= set(cycles_of(grid, "Omega", "N").flat)
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
-        for curve in other[norm]:
+        own, others_here = parted(curves_of(data[i]) if data else [], grid)
+        shown.append(own)
+        other += others_here
+        for curve in others_here:
             ax.plot(curve.Omega, curve.N, **OTHER)
-    numbered = draw_curves(axes, [*shown.values()])
+    parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=9)
     axes[0].set_ylabel(LOAD)
-    kinds = {curve.kind for curves in shown.values() for curve in curves}
-    handles: list[Artist] = [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
-    handles += [Line2D([], [], **OTHER)] if any(other.values()) else []
-    handles += [*cycle_patches(gaps), *numbered]
-    if "curves" in others:
-        handles += unfollowed_handle([parts.of(others["curves"], norm) for norm in norms])
+    handles: list[Artist] = [*draw_curves(axes, shown, data), *([Line2D([], [], **OTHER)] if other else [])]
+    handles += cycle_patches(gaps)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
     growth_bar(figure, mesh, axes)

@@ -1,0 +1,249 @@
+"""Maps of outcomes, regions and growth rates: cells, lines, marks, and what is said of them."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.collections import LineCollection
+from matplotlib.colors import AsinhNorm
+from matplotlib.figure import Figure
+
+from disc_model.figures.grids.cells import GREATEST, alone, cycles_of, growth_cells, scale_of
+from disc_model.figures.grids.growth_map import Curve, parted
+from disc_model.figures.parts import save
+from disc_model.studies.grids.quantities import regions
+from tests.figures.grids.reading import ON_EACH_SCALE, draw, labels
+from tests.studies.grids.conftest import growth_over
+
+NORMS = ["as_published", "orthonormal"]
+STATUS = {"flag_meanings": "ok no_cycle separates no_stick_slip at_rest failed"}
+LOADS, SPEEDS = np.linspace(200, 400, 5), np.linspace(5, 18, 9)
+
+# ---- cells
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "scale"),
+    [
+        ("D_star", np.linspace(0, 4e-5, 33), "linear"),  # was logarithmic, with the labels 0 and 1 only
+        ("c_p", np.linspace(0.0, 1, 33), "linear"),
+        ("E", np.linspace(8e10, 2.2e11, 33), "linear"),
+        ("m", np.geomspace(0.01, 1, 33), "log"),
+        ("c", np.append([0, 0.0025], np.geomspace(0.005, 0.5, 31)), "symlog"),
+        ("N", np.geomspace(1, 1000, 5), "linear"),
+    ],
+)
+def test_evenly_spaced_values_have_a_linear_axis(name: str, values: np.ndarray, scale: str) -> None:
+    assert scale_of(name, values) == scale
+
+
+def test_what_there_is_without_a_cycle_is_told_apart() -> None:
+    codes = np.array([[0, 1, 2, 3, 3, 4, 5]])
+    plane = ("N", "Omega")
+    values = {
+        "growth_rate": (plane, np.where(codes == 0, 0.1, np.nan)),
+        "status": (plane, codes, STATUS),
+        "sliding_growth_rate": (plane, np.array([[0.1, 0.1, 0.1, -0.1, 0.1, 0.1, 0.1]])),
+    }
+    data = xr.Dataset(values, {"N": [100.0], "Omega": np.arange(7.0)})
+    expected = ["", "none_found", "separates", "slides", "none_found", "sticks", "failed"]
+    assert cycles_of(data, "Omega", "N")[0].tolist() == expected
+
+
+def test_a_growth_rate_unlike_all_around_is_marked() -> None:
+    rate = np.full((4, 4), 0.01)
+    rate[1, 1] = -0.1
+    rate[2, 3] = rate[3, 2] = -0.02  # corners that touch go on into each other, as thin tongues do
+    rate[0, 3] = np.nan
+    there = np.zeros((4, 4), bool)
+    there[1, 1] = True
+    np.testing.assert_array_equal(alone(rate), there)
+    assert not alone(np.array([[0.1]])).any(), "without neighbours nothing can be said"
+    axes = Figure().subplots()
+    data = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, {"N": np.arange(4.0), "Omega": np.arange(4.0)})
+    assert growth_cells(axes, data, "Omega", "N").get_array()[1, 1] == -0.1, "its value was hidden"
+    assert _hatched(axes) == [there.tolist()]
+
+
+def _hatched(ax: Any) -> list[Any]:
+    return [(~np.ma.getmaskarray(cells.get_array())).tolist() for cells in ax.collections if cells.get_hatch()]
+
+
+# ---- outcomes and regions
+
+
+def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
+    """A plane in which the cycle loses stability at the third value of x, and ends above the second load."""
+    dims = ("N", x, "normalization")
+    shape = (4, len(values), len(norms))
+    growth = np.where(np.arange(len(values)) < 2, -0.1, 0.1)[None, :, None] * np.ones(shape)
+    growth[2:] = np.nan
+    followed = np.where(np.isfinite(growth), 1, 0)
+    outcome = np.where(np.isnan(growth), "undecided", np.where(growth < 0, "quiet", "separation"))
+    outcome[3, 0] = "growing"
+    codes = {"outcome": np.vectorize(regions.COURSES.index)(outcome)}
+    codes |= dict.fromkeys(("cycle", "joined_first", "joined_second"), followed)
+    data = {
+        name: (dims, values, {"flag_meanings": " ".join(regions.COLUMNS[name].variable.flags)})
+        for name, values in codes.items()
+    }
+    data["growth_rate"] = (dims, growth)
+    axes = {"N": [100.0, 200, 300, 400], x: values, "normalization": norms}
+    return xr.Dataset(data, axes, {"options": json.dumps({"horizon": 900.0})})
+
+
+def mark(x: float, y: float, paper: str) -> dict[str, Any]:
+    return {"x": x, "y": y, "paper": paper}
+
+
+def lengths(ax: Any) -> list[int]:
+    return [len(lines.get_segments()) for lines in ax.collections if isinstance(lines, LineCollection)]
+
+
+@ON_EACH_SCALE
+def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[float], scale: str, tmp_path) -> None:
+    marks = {"F2": mark(values[0], 100, "quiet"), "b": mark(values[-1], 400, "separation")}
+    figure = draw("region_map", made_up(x, values, NORMS), x=x, y="N", marks=marks)
+    shown, _, growth, _ = figure.axes[:4]
+    assert shown.get_xscale() == scale
+    # the cycle's stability changes at two loads between the second and third value; stable ones end at two values
+    assert lengths(shown) == lengths(growth) == [2, 2]
+    assert {text.get_text() for text in shown.texts} == {"F2", "b"}
+    # one in a corner, and its neighbour, which nothing beside is like
+    assert np.sum(_hatched(shown)[0]) == 1
+    named = {"stays quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"}
+    named |= {"the paper: stays quiet", "the paper: separation", "no cycle found", "finer than the cells"}
+    assert named <= set(labels(figure))
+    contradicted = "b: the paper says “separation”, the published start: undecided."
+    assert f"Within 900 s of the published start.\n{contradicted}" in labels(figure)
+    save(figure, tmp_path / "map.png")
+
+
+def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
+    """Any cell without a cycle that was followed was said to be beyond a fold, and the picture showed the tiles."""
+    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
+    for name, code in (
+        ("cycle", regions.CYCLES.index("only_near")),  # another is near
+        ("outcome", regions.COURSES.index("quiet")),  # it is inferred to stay quiet
+    ):
+        other = study.copy(deep=True)
+        other[name][2:] = code
+        figure = draw("region_map", other, x="Omega", y="N")
+        assert lengths(figure.axes[0]) == [2, 0]
+        assert "ends" not in " ".join(labels(figure))
+
+
+def test_continued_curves_take_the_place_of_borders(plane: xr.Dataset) -> None:
+    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
+    figure = draw("region_map", study, {"curves": plane}, x="Omega", y="N")
+    assert lengths(figure.axes[0]) == []
+
+
+def test_what_did_not_vary_is_said() -> None:
+    study = made_up("Omega", [5.0, 10, 20], NORMS[:1]).rename(N="m")
+    study.attrs["base"] = json.dumps({"N": 200.0, "c": 0.0, "contact": "separable", "D_star": 2e-5})
+    figure = draw("region_map", study, x="Omega", y="m", title="Made up")
+    said = figure.legends[0].get_title().get_text()  # a title of the figure would lie over this legend
+    assert said == "Made up\nN = 200 N, D* = 2e-05 N m s"
+
+
+def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> None:
+    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
+    study["growth_rate"].loc[{"Omega": 20}] = -0.2
+    marks = {
+        "F1": mark(5, 100, "quiet"),  # quiet, as the paper says, and the cycle is stable
+        "F2": mark(5, 200, "separation"),  # quiet, and the paper separates
+        "F3": mark(20, 100, "separation"),
+    }
+    *_, said = labels(draw("region_map", study, x="Omega", y="N", marks=marks))
+    assert said.split("\n")[1:] == [
+        "F2: the paper says “separation”, the published start: stays quiet.",
+        "F3: separation, beside a cycle that is stable (-0.2/s): another motion is reached.",
+    ]
+
+
+def test_a_plane_that_lies_the_other_way_round() -> None:
+    study = made_up("Omega", [5.0, 10, 20], NORMS[1:]).isel(normalization=0, drop=True)
+    study.attrs["base"] = json.dumps({"normalization": "orthonormal"})
+    figure = draw("region_map", study, x="N", y="Omega")
+    assert lengths(figure.axes[0]) == [2, 2]
+    assert figure.axes[0].get_ylabel() == "Speed Ω (rad/s)"
+
+
+def outcomes(dims: tuple[str, ...], axes: dict[str, Any], codes: np.ndarray, **attrs: str) -> xr.Dataset:
+    words = {"flag_meanings": "failed quiet growing separation"}
+    return xr.Dataset({"outcome": (dims, codes, words)}, axes, attrs)
+
+
+@ON_EACH_SCALE
+def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str) -> None:
+    axes, dims = {"N": [100.0, 200.0], x: values, "normalization": NORMS}, ("N", x, "normalization")
+    study = outcomes(dims, axes, np.arange(12).reshape(2, 3, 2) % 4)
+    rate = np.linspace(-0.1, 0.1, 12).reshape(2, 3, 2)
+    rate[0, 0, 0] = np.nan
+    growth = xr.Dataset({"growth_rate": (dims, rate)}, axes)
+    marks = {"a": mark(values[1], 100, "quiet"), "b": mark(values[2], 200, "separation")}
+    figure = draw("stability_map", study, {"growth": growth}, x=x, y="N", marks=marks)
+    assert figure.axes[0].get_xscale() == scale
+    assert {text.get_text() for text in figure.axes[0].texts} == {"a", "b"}
+    said = {"stays quiet", "separation", "no cycle found", "the paper: stays quiet", "the paper: separation"}
+    assert said <= set(labels(figure))
+
+
+@pytest.mark.parametrize(("x", "values"), [("n_diameters", [2, 4, 8]), ("n_circles", [0, 1]), ("c", [0.0])])
+def test_maps_of_one_normalization_over_any_number(x: str, values: list[float]) -> None:
+    axes, shape = {"N": [100.0, 200.0], x: values}, (2, len(values))
+    study = outcomes(("N", x), axes, np.ones(shape, int), base=json.dumps({"normalization": "orthonormal"}))
+    rate = xr.DataArray(np.linspace(-1, 1, 2 * len(values)).reshape(shape), dims=("N", x))
+    growth = xr.Dataset({"growth_rate": rate.expand_dims({"normalization": NORMS})}, axes | {"normalization": NORMS})
+    marks = {"a": mark(values[0], 100, "quiet")}
+    figure = draw("stability_map", study, {"growth": growth}, x=x, y="N", marks=marks)
+    panel, _ = figure.axes
+    assert panel.get_title(loc="left") == "orthonormal modes"
+    assert panel.get_xlabel() == {"c": "Damper c (N s/m)"}.get(x, f"Nodal {x[2:]}")
+    # the paper's cases are of the other modes
+    assert not any("the paper" in label for label in labels(figure))
+
+
+# ---- growth
+
+
+def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset) -> None:
+    growth = growth_over(LOADS, SPEEDS)
+    growth.attrs = {"title": "Growth", "base": '{"c_p": 0.5}'}
+    mapped = draw("growth_map", growth, {"curves": plane})
+    assert mapped.get_suptitle() == "Growth\n$c_p$ = 0.5 N s/m"
+    assert mapped.axes[0].get_xlim() == (5, 18)
+    assert {"cycle loses stability", "no cycle found"} <= set(labels(mapped))
+    assert [text.get_text() for text in mapped.axes[-1].get_yticklabels()] == ["−0.1", "−0.01", "0", "0.01", "0.1"]
+    both = xr.concat([growth, growth.assign_coords(normalization=NORMS[1:])], "normalization")
+    assert len(draw("growth_map", both).axes) == 3  # two panels and the colour bar
+    assert not draw("growth_map", growth.assign(growth_rate=xr.full_like(growth["growth_rate"], 0.1))).legends
+    none = growth.assign(growth_rate=growth["growth_rate"] * np.nan)
+    assert labels(draw("growth_map", none)) == ["no cycle found"]
+
+
+@pytest.mark.usefixtures("toy")
+def test_growth_has_one_scale_of_colours_in_all_maps() -> None:
+    growth = growth_over(LOADS, SPEEDS)
+    study = outcomes(growth["growth_rate"].dims, dict(growth.coords), np.zeros(growth["growth_rate"].shape, np.int8))
+    maps = draw("growth_map", growth), draw("stability_map", study, {"growth": growth}, x="Omega", y="N")
+    norms = [next(c for c in figure.axes[0].collections if c.get_array() is not None).norm for figure in maps]
+    assert all(isinstance(norm, AsinhNorm) and (norm.vmin, norm.vmax) == (-GREATEST, GREATEST) for norm in norms)
+
+
+def test_a_curve_across_which_the_shown_cycle_does_not_change_is_of_another_cycle() -> None:
+    """Neutral curves of other cycles crossed areas in which the shown one is stable."""
+    speeds, loads = np.linspace(5, 50, 10), np.linspace(50, 500, 10)
+    rate = np.where(loads[:, None] > 280, 0.1, -0.1) * np.ones((1, 10))
+    cycle = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, {"N": loads, "Omega": speeds})
+    own = Curve(np.array([5.0, 20, np.nan, 40]), np.array([275.0, 275, np.nan, 275]), "neutral")
+    away = Curve(np.array([5.0, 10]), np.array([100.0, 100]), "fold", "2 f_s")
+    (shown,), (other,) = parted([own, away], cycle)
+    np.testing.assert_array_equal(shown.N, own.N)
+    np.testing.assert_array_equal(other.N, away.N)
+    assert other.label == "", "it is not numbered"
