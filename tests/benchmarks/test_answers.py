@@ -215,7 +215,6 @@ def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["modes"].values.tolist() == [3, 9]
     figure = figures.answer_maps([found, found])
     assert figure.axes[1].get_title(loc="left") == "(b) late"
-    assert len(failure_maps._thinned(METHODS["RK4"].map_values)) == failure_maps.VALUES
 
 
 def test_what_is_asked_is_taken() -> None:

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from disc_model.benchmarks import failure_maps
-from disc_model.benchmarks.methods import METHODS, Outcome
-from disc_model.benchmarks.methods.base import MethodResult
+from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
@@ -43,25 +42,6 @@ def test_maps_of_steps_and_of_tolerances(tmp_path) -> None:
     assert titles[0] == f"(a) {METHODS['RK4'].label}"
     assert len(titles) == 5
     save(figure, tmp_path / "maps.png")
-
-
-@pytest.mark.usefixtures("short")
-def test_the_observed_limit_is_where_the_bisection_puts_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    limit = 6.4e-4
-
-    class Breaking(failure_maps.FixedStep):
-        def solve(self, problem, value, budget=math.inf):
-            right = failure_maps.engine_answer("stick_slip", 2)
-            outcome = Outcome.NON_FINITE if value > limit else Outcome.FINISHED
-            return MethodResult(right.times.astype(float), right.kinds, right.final, 0.0, 1, outcome)
-
-    monkeypatch.setattr(failure_maps, "FixedStep", Breaking)
-    theory = float(failure_maps.failure_map("RK4", "separating", (2,), (1e-4,))["step_limit"][0])
-    limit = 1.1 * theory
-    assert failure_maps.observed_step_limit(2) == pytest.approx(limit, rel=3e-3)
-    contact = failure_maps.failure_map("RK4", "stick_slip", (2,), (1e-4, 2e-4))
-    assert float(contact["observed_limit"][0]) == pytest.approx(limit, rel=3e-3)
-    assert "contact" in figures.failure_maps([contact]).axes[0].get_title(loc="left")
 
 
 def test_heyoka_is_compiled_compactly_for_maps() -> None:

@@ -108,11 +108,6 @@ def test_the_rigid_cycle_goes_through_all_its_phases(monkeypatch):
     }
 
 
-def test_scenes_that_are_not_there():
-    with pytest.raises(KeyError):
-        scenes.problem("nowhere")
-
-
 def test_a_result_without_events_has_no_event_time_error():
     right, problem = scenes.answer("rigid"), scenes.problem("rigid")
     nothing = METHODS["series"].solve(Problem(LIVELY, lively("slip", 1), 1e-5), 1e-9)

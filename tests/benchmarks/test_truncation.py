@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from disc_model import Parameters, plate_modes, simulate
-from disc_model.benchmarks import truncation
+from disc_model import Parameters, plate_modes
 from disc_model.benchmarks.truncation import contact_study, truncation_study
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
@@ -49,28 +48,6 @@ def test_growth_rate_converges_but_impacts_do_not():
     impacts = study["separations"].values
     assert impacts[0, 2] > 1.5 * impacts[0, 0]
     assert np.isfinite(impacts).all()
-
-
-def test_the_study_of_truncation_is_made_of_its_parts(monkeypatch, tmp_path):
-    quick = {"N": 385.0, "Omega": 0.01}
-    apart = {"N": 700.0, "Omega": 50.0, "k": 0.0, "mu_s": 1.4, "mu_k": 0.2}
-    cases = {"growth": {"N": 200.0, "Omega": 20.0}, "range": quick, "separation": apart}
-    monkeypatch.setattr(truncation, "CASES", {"as_published": cases, "orthonormal": cases | {"separation": quick}})
-    monkeypatch.setattr(truncation, "WINDOW", (0.01, 0.03))
-    monkeypatch.setattr(truncation, "AFTER", 0.02)
-    monkeypatch.setattr(truncation, "RICH", (3, 1))
-    found = truncation_study((1,), (0,), horizon=1.0)
-    one = found.squeeze()
-    assert one["modes"].values.tolist() == [3, 3]
-    published = one.sel(normalization="as_published")
-    p = Parameters(**apart, n_diameters=1)
-    assert published["first_separation"] == simulate(p, 1.0, stop_at="first_separation").first_separation
-    assert published["impact_share"] == pytest.approx(1 / (1 + p.m * float(published["compliance"])))
-    assert published["separations"] >= 1 / 0.02
-    assert published["growth_rate"] == pytest.approx(0.018, abs=1e-3)
-    assert published["force_min"] == pytest.approx(385, abs=1e-6)  # at rest
-    assert np.isnan(one["first_separation"].sel(normalization="orthonormal"))
-    save(figures.truncation(found), tmp_path / "truncation.png")
 
 
 @pytest.mark.compiled

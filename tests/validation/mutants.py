@@ -66,14 +66,12 @@ FUNCTIONS = {
     "stability/return_map.py": ("parameter_change", "ReturnMap.state", "ReturnMap.contact_force"),
     "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),
     "benchmarks/methods/physics.py": (
-        *("Physics.__init__", "Physics.disc_point", "Physics.pull", "Physics.gap"),
-        *("Physics._contact", "Physics.rate"),
+        *("Physics.__init__", "Physics.disc_point", "Physics._pull", "Physics._contact", "Physics.rate"),
     ),
     "benchmarks/methods/kernels.py": (
         *("contact", "rate", "rk4_step", "switch_values", "violated", "switch"),
         *("smooth_friction", "smooth_force", "smooth_rate"),
     ),
-    "benchmarks/methods/phases.py": ("switches",),
     "benchmarks/methods/taylor_heyoka.py": ("_system",),
     "benchmarks/scenes.py": ("static_start",),
     "plate.py": ("_modes", "_columns", "_coupling", "coupled_frequencies", "modal_damping"),

@@ -1,4 +1,4 @@
-"""Compiled equations, conditions and switches, against those in numpy."""
+"""Compiled conditions and switches."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.phases import ENDS, Phase, switches
+from disc_model.benchmarks.methods.phases import ENDS
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES
 from tests.benchmarks.methods.problems import vector
@@ -25,16 +25,11 @@ def switched(start, cause, p=P):
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 @pytest.mark.parametrize("p", [P, BONDED], ids=["separable", "bonded"])
-def test_switch_functions_are_those_in_numpy(p, phase, direction):
-    physics, y, modes, c = vector(lively(phase, direction, p), p)
-    wanted = [value(y) for value in switches(physics, Phase(phase, direction))]
+def test_nothing_is_violated_within_a_phase(p, phase, direction):
+    _, y, modes, c = vector(lively(phase, direction, p), p)
     out = np.full(3, np.nan)
-    count = kernels.switch_values(modes, c, PHASES.index(phase), direction, y, out)
-    assert count == len(wanted) == ENDS[phase]
-    np.testing.assert_allclose(out[:count], wanted, rtol=1e-10)
-    assert np.isnan(out[count:]).all()
-    assert min(wanted) > 0
     assert kernels.violated(modes, c, PHASES.index(phase), direction, y, out) == -1
+    assert np.isfinite(out).sum() == ENDS[phase]
 
 
 def test_violations_are_told_apart():

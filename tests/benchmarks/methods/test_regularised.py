@@ -7,7 +7,6 @@ import pytest
 
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, kernels
-from disc_model.benchmarks.methods import regularised as regularised_module
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.regularised import Law, Regularised
@@ -39,20 +38,13 @@ def test_the_penalty_acts_on_disc_and_slider_alike(direction):
     assert added[physics.f] == pytest.approx(-direction * P.mu_k * force / (P.m * P.r_0), rel=1e-3)
 
 
-def test_crossings_are_read_as_switches():
+def test_the_phase_is_read_from_the_state():
     law = Law(Physics(P), 0.1)
-    physics = law.physics
     y = law.start(task().start)
-    sticking, flying = y.copy(), physics.pack(lively("separation"))
-    sticking[physics.f] = 0.0
     assert law.state(0.0, y).phase == "slip"
-    assert law.state(0.0, sticking).phase == "stick"
-    assert law.state(0.0, flying).phase == "separation"
-    found = regularised_module._read_off(law, [np.array([1.0, 2.0]), np.empty(0)], [np.array([y, flying]), []])
-    # in flight f may cross zero: no switch
-    assert found in ([(1.0, "stick_to_slip")], [(1.0, "slip_to_stick")])
-    passing = [(1.0, "slip_to_stick"), (1.0 + 5e-7, "stick_to_slip"), (2.0, "separation")]
-    assert regularised_module._without_reversals(passing) == [(1.0, "slip_reversal"), (2.0, "separation")]
+    assert law.state(0.0, law.physics.pack(lively("separation"))).phase == "separation"
+    y[law.physics.f] = 0.0
+    assert law.state(0.0, y).phase == "stick"
 
 
 def test_the_regularised_law_has_the_static_friction_as_its_maximum():

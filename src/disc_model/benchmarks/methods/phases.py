@@ -6,7 +6,6 @@ A method supplies ``advance``; `run_phases` does the rest: what follows a switch
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -53,21 +52,6 @@ class Advance(Protocol):
     """Integrates a phase from local time ``t`` (s, 0 at the start) to its end, or to ``t_end`` if not ``watched``."""
 
     def __call__(self, phase: Phase, t: float, y: Array, t_end: float, *, watched: bool) -> Ended: ...
-
-
-def switches(physics: Physics, phase: Phase) -> list[Callable[[Array], float]]:
-    """What falls through zero at the phase's end, in numpy."""
-    p, direction = physics.p, phase.direction
-    if phase.name == "separation":
-        return [physics.gap]
-    contact = (lambda y: 1.0) if p.contact == "bonded" else (lambda y: physics.force(y, direction))
-    if phase.name == "slip":
-        return [contact, lambda y: float(direction * y[physics.f])]
-    return [
-        contact,
-        lambda y: p.mu_s * physics.force(y, 0) - p.r_0 * physics.pull(y),
-        lambda y: p.mu_s * physics.force(y, 0) + p.r_0 * physics.pull(y),
-    ]
 
 
 def run_phases(

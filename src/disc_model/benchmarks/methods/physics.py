@@ -58,17 +58,13 @@ class Physics:
         slope = self.slope @ y[self.b]
         return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
 
-    def pull(self, y: Array) -> float:
-        """F = k_p psi + c_p (Omega - f)."""
-        return float(self.p.k_p * y[self.psi] + self.p.c_p * (self.p.Omega - y[self.f]))
-
     def force(self, y: Array, direction: int) -> float:
         """Contact force P; ``direction`` 0 is stick."""
         return self._contact(y, direction)[0]
 
-    def gap(self, y: Array) -> float:
-        """u - w in separation."""
-        return float(y[self.u] - self.shape @ y[self.a])
+    def _pull(self, y: Array) -> float:
+        """F = k_p psi + c_p (Omega - f)."""
+        return float(self.p.k_p * y[self.psi] + self.p.c_p * (self.p.Omega - y[self.f]))
 
     def _contact(self, y: Array, direction: int) -> tuple[float, float]:
         """P and F."""
@@ -78,7 +74,7 @@ class Physics:
         velocity = self.shape @ alpha + f * slope
         A = -self.shape @ (self.damping * alpha + self.stiffness * a)
         A += f * (2.0 * self.slope @ y[self.beta] - f * (self.bend @ a))
-        F = p.k_p * y[self.psi] + p.c_p * (p.Omega - f)
+        F = self._pull(y)
         top = p.N + p.k * (w - self.u_0) + p.c * velocity + p.m * A
         below = 1.0 + p.m * self.compliance
         if direction == 0:
@@ -97,7 +93,7 @@ class Physics:
         dy[self.beta] = -self.damping * beta - self.stiffness * b - turn * alpha
         dy[self.psi] = p.Omega - f
         if phase == "separation":
-            dy[self.f] = self.pull(y) / p.m
+            dy[self.f] = self._pull(y) / p.m
             dy[self.u] = y[self.v]
             dy[self.v] = -(p.N + p.k * (y[self.u] - self.u_0) + p.c * y[self.v]) / p.m
             return dy

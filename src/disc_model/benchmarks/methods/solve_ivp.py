@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import MAP_TOLERANCES, GaveUp, Meter, Method, MethodResult, Problem, decades
-from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases, switches
+from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.register import SCENES
 
@@ -96,11 +96,8 @@ class InNumpy(SolveIvp):
         self.label = f"scipy {algorithm}, numpy right-hand side"
 
     def _functions(self, physics: Physics) -> Callable[[Phase], tuple[Function, list[Function]]]:
-        def parts(phase: Phase) -> tuple[Function, list[Function]]:
-            ends = [crossing(lambda _t, y, end=end: end(y), -1, last=True) for end in switches(physics, phase)]
-            return lambda _t, y: physics.rate(phase.name, phase.direction, y), ends
-
-        return parts
+        compiled = super()._functions(physics)
+        return lambda phase: (lambda _t, y: physics.rate(phase.name, phase.direction, y), compiled(phase)[1])
 
 
 def crossing(function: Any, direction: int, *, last: bool) -> Function:
