@@ -20,7 +20,7 @@ from disc_model.cli.case import option_name
 from disc_model.cli.run import _plot_record
 from disc_model.errors import DiscModelError
 from disc_model.simulation import api
-from disc_model.studies.schema import load_study
+from disc_model.studies.study import load_study
 
 BASE = ("--N", "385", "--Omega", "15.1")
 SMALL = Parameters(N=200, Omega=50, n_diameters=1)

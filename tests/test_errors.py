@@ -15,8 +15,7 @@ from disc_model.parameters import Checked, CycleTolerance, Real, Strict, Toleran
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.lyapunov import LyapunovStatus
 from disc_model.stability.sliding import SlidingStatus
-from disc_model.studies.files import Faults, validated
-from disc_model.studies.schema import Case, Span
+from disc_model.studies.study import StudyError, parse_study
 
 WINDOW = {"start": 0, "stop": 1, "rate": 100}
 
@@ -42,16 +41,17 @@ def said(make: Any, **values: Any) -> list[str]:
 
 def said_of_case(**values: Any) -> list[str]:
     """The faults of a study's case."""
-    faults = Faults()
-    assert validated(Case, {"title": "", "t_end": 1, **values}, ("here",), faults) is None
-    return list(faults)
+    case = {"title": "", "t_end": 1, "parameters": {"N": 1, "Omega": 1}, **values}
+    with pytest.raises(StudyError) as caught:
+        parse_study({"study": "s", "cases": {"here": case}})
+    return list(caught.value.faults)
 
 
 @pytest.mark.parametrize("value", [-1, -1.0, "-1", "-1e0", np.float32(-1)])
 def test_a_number_is_shown_alike_however_it_was_written(value: Any) -> None:
     assert said(Window, **(WINDOW | {"rate": value})) == ["rate=-1: must be > 0"]
     assert said(Parameters, N=value, Omega=1) == ["N=-1: must be >= 0"]
-    assert said_of_case(t_end=value) == ["here.t_end = -1: must be > 0"]
+    assert said_of_case(t_end=value) == ["cases.here.t_end = -1: must be > 0"]
 
 
 @pytest.mark.parametrize(
@@ -96,13 +96,12 @@ def test_a_path_keeps_names_that_pydantic_gives_to_branches_of_a_union(name: str
 
 
 def test_a_window_may_be_called_like_the_class_of_a_span() -> None:
-    assert Span.__name__ == "Span"
     record = {"windows": {"Span": {"rate": -1}}, "events": {"start": -1}}
     faults = said_of_case(record=record)
-    assert "here.record.windows.Span.rate = -1: must be > 0" in faults
-    assert "here.record.events.start = -1: must be >= 0" in faults
+    assert "cases.here.record.windows.Span.rate = -1: must be > 0" in faults
+    assert "cases.here.record.events.start = -1: must be >= 0" in faults
     assert said_of_case(record={"windows": {"1st": {"rate": 1}}}) == [
-        "here.record.windows.1st = '1st': must match ^[A-Za-z][A-Za-z0-9_]*$"
+        "cases.here.record.windows.1st = '1st': must match ^[A-Za-z][A-Za-z0-9_]*$"
     ]
 
 

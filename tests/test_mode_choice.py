@@ -17,8 +17,8 @@ from disc_model.mode_choice import CANDIDATES, larger
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.modes import choose
-from disc_model.studies.schema import parse_study
-from disc_model.truncation import FREQUENCIES, QUANTITIES, real_modes
+from disc_model.studies.study import parse_study
+from disc_model.truncation import CHOSEN_BY, FREQUENCIES, real_modes
 
 P = Parameters(N=385.0, Omega=15.1)
 RESIDUAL = P.replace(contact_compliance="residual")
@@ -43,9 +43,9 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> Measured:
 
 
 def test_every_quantity_but_frequencies_is_measured() -> None:
-    assert {*mode_choice.MEASURES, FREQUENCIES} == QUANTITIES.keys()
+    assert {*mode_choice.MEASURES, FREQUENCIES} == CHOSEN_BY.keys()
     table = (Path(__file__).parents[1] / "docs" / "method.md").read_text(encoding="utf-8")
-    assert all(f"| `{name}`" in table for name in QUANTITIES)
+    assert all(f"| `{name}`" in table for name in CHOSEN_BY)
 
 
 def test_candidates_come_by_size_and_are_compared_with_larger_ones() -> None:

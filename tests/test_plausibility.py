@@ -10,9 +10,8 @@ import pytest
 
 from disc_model import ImplausibleValue, Parameters, plausibility, simulate
 from disc_model.plausibility import doubts
-from disc_model.studies.files import read_file
-from disc_model.studies.grids.schema import load_grid, parse_grid
-from disc_model.studies.schema import load_study, parse_study
+from disc_model.studies.study import load_study, parse_study
+from tests.studies.refused import parse_grid
 
 CONFIG = Path(__file__).parents[1] / "config"
 BASE = {"N": 200, "Omega": 20}
@@ -68,5 +67,5 @@ def test_a_study_tells_of_how_many_points() -> None:
 
 @pytest.mark.parametrize("path", sorted(CONFIG.rglob("*.yaml")), ids=lambda path: path.stem)
 def test_nothing_of_the_paper_is_doubted(path: Path) -> None:
-    load = load_grid if "quantity" in read_file(path)[0] else load_study
-    assert not list(load(path).doubts)
+    study = load_study(path)
+    assert not [*study.doubts, *(study.grid.doubts if study.grid else ())]

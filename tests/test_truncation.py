@@ -12,8 +12,7 @@ from disc_model.cli.case import parameters_of
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.files import StudyError
-from disc_model.studies.schema import parse_study
+from disc_model.studies.study import StudyError, parse_study
 from disc_model.truncation import RICH, frequency_error, read_asked
 
 P = Parameters(N=385.0, Omega=15.1)

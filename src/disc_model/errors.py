@@ -6,7 +6,8 @@ import difflib
 import enum
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from typing import Any, Self, get_args
+from itertools import chain
+from typing import Any, Literal, Self, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
@@ -50,9 +51,19 @@ class Fault(str):
     def __getnewargs__(self) -> tuple[tuple[str, ...], str, str]:  # type: ignore[override]
         return (self.path, self.value, self.rule)
 
+    @classmethod
+    def of(cls, path: tuple[str, ...], value: Any, rule: str) -> Fault:
+        """A fault with its value shown."""
+        return cls(path, shown(value), rule)
+
     def inside(self, place: tuple[str, ...]) -> Fault:
         """The same fault, of a part that lies at a place in the whole."""
         return Fault((*place, *self.path), self.value, self.rule)
+
+    @property
+    def in_file(self) -> str:
+        """As messages on files say it: ``path = value: rule``."""
+        return f"{'.'.join(self.path) or 'study'}{f' = {self.value}' if self.value else ''}: {self.rule}"
 
 
 class ParameterError(DiscModelError, ValueError):
@@ -111,14 +122,14 @@ class NonFinite(SimulationError):
 # How faults are said, those of pydantic's among them
 
 
-def faults_of(error: ValidationError, raw: Any, model: type[BaseModel], word: str = "key") -> Iterator[Fault]:
+def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Iterator[Fault]:
     """Pydantic's faults as this package says them.
 
     Parameters
     ----------
     raw : what was validated
-    model : as what; an unknown name is told with those that its fields have
-    word : what the names name
+    model : as what; an unknown name is told with those that its fields have, and the model's ``_word`` for a name, or
+        its ``_unknown`` for what is wrong with it
     """
     for item in error.errors(include_url=False):
         path, kind, value = _path(item, raw), item["type"], item["input"]
@@ -129,8 +140,17 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel], word: st
         elif kind == "missing":
             yield Fault(path, "", "is required")
         elif kind == "extra_forbidden":
-            known = _fields_at(model, item["loc"][:-1])
-            yield Fault(path, shown(value), f"unknown {word}{suggestion(path[-1], known, all_of_them=word == 'key')}")
+            models = _models_at(model, item["loc"][:-1])
+            known = list(dict.fromkeys(name for one in models for name in one.model_fields))
+            word, rule = (getattr(models[0], name, "") for name in ("_word", "_unknown"))
+            more = suggestion(path[-1], known, all_of_them=not (word or rule))
+            yield Fault(path, "" if rule else shown(value), (rule or f"unknown {word or 'key'}") + more)
+        elif kind in ("union_tag_invalid", "union_tag_not_found") and context["discriminator"] == "'kind'":
+            tags = [one.model_fields["kind"].default for one in _models_at(model, item["loc"])]
+            said = value.get("kind") if isinstance(value, Mapping) else None
+            yield Fault.of((*path, "kind"), said, f"unknown kind of figure{suggestion(said, tags)}")
+        elif item["loc"][-1:] == ("[key]",) and kind == "value_error":
+            yield Fault(path, "", str(reason))
         else:
             known_rule = _RULES.get(kind)
             rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
@@ -150,7 +170,7 @@ _RULES = _BOUNDS | {
     "string_pattern_mismatch": "must match {pattern}",
     "too_short": "must have {min_length} or more",
     **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
-    **dict.fromkeys(("dict_type", "mapping_type", "model_type"), "must be a mapping"),
+    **dict.fromkeys(("dict_type", "mapping_type", "model_type", "model_attributes_type"), "must be a mapping"),
     **dict.fromkeys(("list_type", "tuple_type"), "must be a list"),
     **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
     "string_type": "must be text",
@@ -186,15 +206,28 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
     return meant + (f" (known: {', '.join(known)})" if known and (all_of_them or not close) else "")
 
 
-def _fields_at(model: type[BaseModel], place: Sequence[Any]) -> list[str]:
-    """Names of the fields of the models that lie at a place inside a model; names of branches are passed over."""
+def _models_at(model: type[BaseModel], place: Sequence[Any]) -> list[type[BaseModel]]:
+    """The models that lie at a place inside a model.
+
+    Of a union's branches those whose tag is a part of the place, where it is one; other names of branches are passed
+    over.
+    """
     here = [model]
     for step in place:
         inside = [
             each for one in here if step in one.model_fields for each in _models(one.model_fields[step].annotation)
         ]
-        here = inside or here
-    return list(dict.fromkeys(name for one in here for name in one.model_fields))
+        tagged = [one for one in here if step in _tags(one)]
+        here = inside or tagged or here
+    return here
+
+
+def _tags(model: type[BaseModel]) -> set[Any]:
+    """What a model may be called as a branch of a union: its name, or the words that one of its fields is to be."""
+    words = (
+        get_args(field.annotation) for field in model.model_fields.values() if get_origin(field.annotation) is Literal
+    )
+    return {model.__name__, *chain(*words)}
 
 
 def _models(annotation: Any) -> list[type[BaseModel]]:

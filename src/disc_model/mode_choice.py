@@ -14,8 +14,8 @@ from disc_model.errors import DiscModelError, broken, refuse
 from disc_model.parameters import Parameters, is_number, is_whole
 from disc_model.truncation import (
     BAND,
+    CHOSEN_BY,
     FREQUENCIES,
-    QUANTITIES,
     RICH,
     Asked,
     ModeChoice,
@@ -76,7 +76,7 @@ def choose_modes(
         is no such quantity, as a growth rate where there is no cycle, or a first separation of a motion that is quiet.
     """
     quantity, faults = checked_quantity("quantity", quantity)
-    tolerance, more = checked_tolerance("tolerance", QUANTITIES.get(quantity, 1.0) if tolerance is None else tolerance)
+    tolerance, more = checked_tolerance("tolerance", CHOSEN_BY.get(quantity, 1.0) if tolerance is None else tolerance)
     counts = isinstance(rich, tuple | list) and len(rich) == 2 and all(is_whole(n) and n >= 0 for n in rich)
     others = broken(
         (is_number(band) and 0 < band < math.inf, "band", band, "must be finite and > 0"),

@@ -146,7 +146,7 @@ class _OwnNames(ModelMetaclass):
 class Checked(Strict, metaclass=_OwnNames):
     """What a caller says: as `Strict`, but its faults come as one `ParameterError`, whichever way it is made."""
 
-    _word: ClassVar[str] = "key"
+    _word: ClassVar[str] = ""
 
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
@@ -174,7 +174,7 @@ class Checked(Strict, metaclass=_OwnNames):
             if not faults:
                 super().__init__(**data)
         except ValidationError as error:
-            faults += faults_of(error, data, type(self), self._word)
+            faults += faults_of(error, data, type(self))
         faults += self._more_faults(data)
         if faults:
             raise ParameterError(*faults) from None
@@ -218,6 +218,30 @@ class Checked(Strict, metaclass=_OwnNames):
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
         return type(self)(**{**{name: getattr(self, name) for name in type(self).model_fields}, **changes})
+
+
+# ----------------------------------------------------------------------------------------------------
+# Names by content
+
+
+def content_key(text: str) -> str:
+    """First 12 hexadecimal digits of the sha256 of a text."""
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def canonical_json(value: Any) -> str:
+    """JSON with sorted keys; infinities as text, since JSON has none; -0.0 as 0.0."""
+
+    def plain(item: Any) -> Any:
+        if isinstance(item, Mapping):
+            return {str(key): plain(value) for key, value in item.items()}
+        if isinstance(item, list | tuple):
+            return [plain(value) for value in item]
+        if isinstance(item, float):
+            return item + 0.0 if math.isfinite(item) else str(item)
+        return item
+
+    return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -360,12 +384,12 @@ class Parameters(Checked):
     @property
     def canonical_json(self) -> str:
         """The values as JSON with sorted keys: equal for equal parameters, however they were written."""
-        return json.dumps(self.canonical, sort_keys=True, separators=(",", ":"))
+        return canonical_json(self.canonical)
 
     @property
     def key(self) -> str:
         """Stable content hash: the first 12 hexadecimal digits of the sha256 of `canonical_json`."""
-        return hashlib.sha256(self.canonical_json.encode()).hexdigest()[:12]
+        return content_key(self.canonical_json)
 
     @classmethod
     def unit(cls, name: str) -> str:

@@ -22,7 +22,7 @@ from disc_model.plate import coupled_frequencies, mode_arrays
 
 FREQUENCIES = "frequencies"
 """The quantity by which modes are chosen where none is given."""
-QUANTITIES = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
+CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
 """By what modes may be chosen, and the tolerance, relative, that is taken where none is given."""
 RICH = (20, 6)
 """Diameters and circles of the model that frequencies are compared with."""
@@ -106,7 +106,7 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
     """Parameters as files and command lines give them, and by what their modes are to be chosen.
 
     With ``n_diameters="auto"`` they are to be chosen by ``truncation_quantity`` (`FREQUENCIES` if not given) and
-    ``truncation_tolerance`` (that of `QUANTITIES` if not given); the parameters' own number of modes then says nothing.
+    ``truncation_tolerance`` (that of `CHOSEN_BY` if not given); the parameters' own number of modes then says nothing.
 
     Raises
     ------
@@ -136,7 +136,7 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None
         return rest, None, [Fault((name,), shown(values[name]), rule) for name in CHOOSING if name in values]
     del rest["n_diameters"]
     quantity, faults = checked_quantity("truncation_quantity", values.get("truncation_quantity", FREQUENCIES))
-    given = values.get("truncation_tolerance", QUANTITIES.get(quantity, 1.0))
+    given = values.get("truncation_tolerance", CHOSEN_BY.get(quantity, 1.0))
     tolerance, more = checked_tolerance("truncation_tolerance", given)
     faults += more
     return rest, None if faults else Asked(quantity, tolerance), faults
@@ -144,8 +144,8 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None
 
 def checked_quantity(name: str, value: Any) -> tuple[str, list[str]]:
     """A quantity to choose modes by, "" if there is no such, and what is wrong with it."""
-    known = isinstance(value, str) and value in QUANTITIES
-    return value if known else "", broken((known, name, value, f"must be one of {', '.join(QUANTITIES)}"))
+    known = isinstance(value, str) and value in CHOSEN_BY
+    return value if known else "", broken((known, name, value, f"must be one of {', '.join(CHOSEN_BY)}"))
 
 
 def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:

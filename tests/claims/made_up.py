@@ -23,7 +23,7 @@ from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
 from disc_model.plate import slider_at_rest_frequencies
 from disc_model.simulation.case import CaseSpec, Start
-from disc_model.studies.schema import load_study
+from disc_model.studies.study import load_study
 
 SPECS = load_study(Path(__file__).parents[2] / "config" / "paper.yaml").specs
 STICK, SLIP, SEPARATION = range(len(PHASES))

@@ -19,7 +19,7 @@ from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDE
 from disc_model.claims.survival import CONCLUSIONS, MODELS, Evidence, judge, page_of
 from disc_model.data.dataset import events_dataset
 from disc_model.data.variables import STATUSES
-from disc_model.studies.schema import load_study
+from disc_model.studies.study import load_study
 from tests.claims.made_up import logistic
 
 BY_TITLE = {one.id: one for one in CONCLUSIONS}

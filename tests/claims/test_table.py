@@ -33,7 +33,7 @@ from disc_model.claims.model import (
 from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import Missing, events_dataset
 from disc_model.simulation.api import run_case
-from disc_model.studies.schema import parse_study
+from disc_model.studies.study import parse_study
 
 
 def tree_of(**cases: dict[str, Any]) -> xr.DataTree:

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 import disc_model
-from disc_model.studies.files import read_yaml
-from disc_model.studies.schema import parse_study
+from disc_model.studies.study import parse_study, read_yaml
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted({*(ROOT / "docs").glob("*.md"), ROOT / "README.md"})

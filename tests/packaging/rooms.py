@@ -67,7 +67,7 @@ def run(script: str, *arguments: str) -> None:
 def case(folder: Path) -> None:
     """F02 of config/test.yaml: its text, its dataset and Fig. 2."""
     from disc_model.figures.paper.catalogue import CATALOGUE, caption
-    from disc_model.studies.schema import study_from_config
+    from disc_model.studies.study import study_from_config
 
     study = study_from_config(yaml.safe_load(CONFIG.read_text(encoding="utf-8")), [CONFIG])
     dataset = str(folder / "F02.nc")
@@ -83,7 +83,7 @@ def case(folder: Path) -> None:
 
 def point(folder: Path) -> None:
     """The first batch of the grid of outcomes that config/test.yaml asks for, with its first point alone."""
-    from disc_model.studies.schema import study_from_config
+    from disc_model.studies.study import study_from_config
 
     study = study_from_config(yaml.safe_load(CONFIG.read_text(encoding="utf-8")), [CONFIG])
     grids, _ = study.grids([ROOT])

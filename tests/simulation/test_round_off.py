@@ -10,7 +10,6 @@ import pytest
 
 from disc_model import ParameterError, Parameters, Record, State, Window, load, simulate
 from disc_model.data.dataset import DamagedFile, WriteError
-from disc_model.studies.schema import WindowSpec
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 
@@ -115,21 +114,6 @@ def test_a_height_that_contradicts_contact_is_refused() -> None:
     assert simulate(P, 0.06, initial_state=state.replace(u=state.u * (1 + 1e-12))).status.complete
     apart = state.replace(u=state.u + 1e-3, phase="separation", direction=0)
     assert simulate(P, 0.04, initial_state=apart).status.complete
-
-
-@pytest.mark.parametrize(
-    "said",
-    [
-        {"rate": 100},
-        {"last": 2, "rate": 100},
-        {"last": 20, "rate": 100},
-        {"start": 3, "rate": 100},
-        {"rate": 100, "envelope": 10},
-        {"start": 1, "stop": 2.5, "rate": 100},
-    ],
-)
-def test_windows_mean_what_they_mean_in_a_study_file(said: dict[str, float]) -> None:
-    assert Window(**said).resolved(0.0, 10.0) == WindowSpec(**said).window(10.0)
 
 
 def test_a_window_is_counted_from_the_end_of_the_run() -> None:

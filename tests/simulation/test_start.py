@@ -22,12 +22,10 @@ from disc_model.simulation import result as RESULT
 from disc_model.simulation.api import carried_over, kicked, prepared, published_start, run_case, simulate
 from disc_model.simulation.case import CaseSpec, Preparation, Start
 from disc_model.simulation.result import State, engine_case
-from disc_model.studies.files import StudyError
-from disc_model.studies.grids.quantities.schema import BifurcationOptions
-from disc_model.studies.grids.schema import parse_grid
-from disc_model.studies.schema import parse_study
+from disc_model.studies.study import StudyError, parse_study
 from tests.contact_laws import LAWS
 from tests.studies.grids.conftest import computed
+from tests.studies.refused import parse_grid
 
 AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}, "transient": 1}
 
@@ -67,8 +65,8 @@ def test_a_preparation_is_checked_before_anything_runs(
 
 def test_any_parameter_may_be_prepared_however_it_is_spelled() -> None:
     def read(**parameters: object) -> dict:
-        raw = {"prepare": {"parameters": parameters, "time": 1}, "transient": 1}
-        return BifurcationOptions.model_validate(raw).model_dump()["prepare"]["parameters"]
+        raw = {"prepare": {"parameters": parameters, "time": 1}}
+        return Start.model_validate(raw).model_dump()["prepare"]["parameters"]
 
     assert read() == {}
     found = read(normalization="orthonormal", N="3e2", n_diameters=4.0, mu_k=0.5, contact="bonded")
@@ -87,9 +85,8 @@ def test_a_preparation_that_fails_is_reported() -> None:
 
 def test_a_preparation_is_another_motions_end() -> None:
     p = Parameters(N=200, Omega=50, n_diameters=1)
-    asked = {"transient": 0.1, "samples": 1, "tol": 1e-8}
-    assert prepared(p, BifurcationOptions(**asked), 1e-8) is None
-    start = prepared(p, BifurcationOptions(**asked, prepare={"parameters": {"N": 100}, "time": 0.01}), 1e-8)
+    assert prepared(p, Start(), 1e-8) is None
+    start = prepared(p, Start(prepare={"parameters": {"N": 100}, "time": 0.01}), 1e-8)
     expected = simulate(p.replace(N=100), 0.01, tol=1e-8).final_state
     np.testing.assert_array_equal(start.a, expected.a)
     assert start.time == 0

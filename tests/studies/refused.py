@@ -1,4 +1,4 @@
-"""What is said of a study file that is refused."""
+"""What is said of a study file that is refused, and the grid of one that is right."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from disc_model.studies.files import StudyError
+from disc_model.studies.study import GridStudy, StudyError, parse_study
 
 
 def faults_of(parse: Callable[..., object], *arguments: Any) -> list[str]:
@@ -15,3 +15,10 @@ def faults_of(parse: Callable[..., object], *arguments: Any) -> list[str]:
     with pytest.raises(StudyError) as error:
         parse(*arguments)
     return list(error.value.faults)
+
+
+def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
+    """The grid that a file's content says."""
+    grid = parse_study({"resolution": resolution, **raw}).grid
+    assert grid is not None
+    return grid

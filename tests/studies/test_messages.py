@@ -15,8 +15,7 @@ from typing import Any
 import pytest
 
 from disc_model import cli
-from disc_model.studies.files import StudyError
-from disc_model.studies.schema import parse_study
+from disc_model.studies.study import StudyError, parse_study
 
 FILE = Path(__file__).with_name("messages.json")
 TEXTS: dict[str, list[dict[str, Any]]] = json.loads(FILE.read_text(encoding="utf-8"))

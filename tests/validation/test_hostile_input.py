@@ -21,9 +21,8 @@ from hypothesis import strategies as st
 import disc_model.simulation.api  # noqa: F401 - replaced by name below
 from disc_model import ParameterError, Parameters
 from disc_model.cli import main
-from disc_model.studies.files import StudyError, read_yaml
-from disc_model.studies.grids.schema import parse_grid
-from disc_model.studies.schema import parse_study
+from disc_model.studies.study import StudyError, parse_study, read_yaml
+from tests.studies.refused import parse_grid
 from tests.tally import tried
 
 ROOT = Path(__file__).parents[2]

@@ -82,7 +82,7 @@ def planned(project: Project, *options: str) -> Jobs:
 
 def batches(project: Project, name: str) -> Jobs:
     """The jobs of all batches that a study now has, its sources hashed as in the project."""
-    code = f"from disc_model.studies.grids.schema import load_grid; print(*load_grid('config/{name}.yaml').batches)"
+    code = f"from disc_model.studies.study import load_study; print(*load_study('config/{name}.yaml').grid.batches)"
     return {("compute_batch", batch) for batch in project.python(code).split()}
 
 

@@ -36,8 +36,7 @@ try:
         unrecorded,
         why_unknown,
     )
-    from disc_model.studies.files import StudyError, read_file
-    from disc_model.studies.schema import study_from_config
+    from disc_model.studies.study import StudyError, read_file, study_from_config
 except ModuleNotFoundError as error:
     raise WorkflowError(
         f"There is no module {error.name}: install the package disc_model with what it needs"

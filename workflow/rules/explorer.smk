@@ -2,7 +2,7 @@
 import json
 from itertools import chain
 
-from disc_model.studies.grids.quantities.schema import QUANTITIES
+from disc_model.studies.document import QUANTITIES
 
 # What is asked of a whole plane comes first.
 EXPLORED = sorted(

@@ -1,5 +1,5 @@
 # Grid studies: batches of points, one dataset for each study, and its figures. What a batch is, is said in
-# disc_model.studies.grids.schema.
+# disc_model.studies.study.
 # The name of a batch's file is the hash of all that decides its content, and the name of the merged file is the hash of
 # its batches, so that the files that are there tell what is left to do.
 import json

@@ -1,6 +1,6 @@
 """Compute one batch of a grid study and save it.
 
-The batch, a text of `disc_model.studies.grids.schema.batch_texts`, is read from standard input: it may be too
+The batch, a text of `disc_model.studies.study.Cut`, is read from standard input: it may be too
 long otherwise.
 """
 

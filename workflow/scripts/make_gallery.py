@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from disc_model.data.dataset import load_cases
 from disc_model.figures import parts
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
-from disc_model.studies.schema import load_study
+from disc_model.studies.study import load_study
 
 SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1"))
 OTHERS = {

@@ -18,7 +18,7 @@ from rich.table import Column, Table
 from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters
 from disc_model.plausibility import tell_doubts
-from disc_model.truncation import AUTO, CHOOSING, FREQUENCIES, QUANTITIES, TRUSTED, ModeChoice, read_asked
+from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
 
 ANY = "VALUE"
 """How help texts call what an option can be, where that is no list of words."""
@@ -43,8 +43,8 @@ def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
         told = f"{field.description}{more}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]"
         yield _case_option(name, given, words, told)
     quantity, tolerance = CHOOSING
-    yield _case_option(quantity, None, tuple(QUANTITIES), f"what {AUTO} is to get right [default: {FREQUENCIES}]")
-    usual = ", ".join(f"{default:g} for {name}" for name, default in QUANTITIES.items())
+    yield _case_option(quantity, None, tuple(CHOSEN_BY), f"what {AUTO} is to get right [default: {FREQUENCIES}]")
+    usual = ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items())
     told = f"and how right, relative, at least {TRUSTED:g} [default: {usual}]"
     yield _case_option(tolerance, None, (ANY,), told)
 

@@ -21,8 +21,7 @@ from disc_model.cli.case import table
 from disc_model.errors import DiscModelError, Fault, ParameterError
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.schema import GridStudy
-    from disc_model.studies.schema import Study
+    from disc_model.studies.study import GridStudy, Study
 
     Grids = dict[str, GridStudy]
 
@@ -216,8 +215,7 @@ def _run(command: list[str]) -> int:
 
 def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
     """The study that files say, checked with all that they name, and its grids."""
-    from disc_model.studies.files import inherit, mapping, read_file
-    from disc_model.studies.schema import study_from_config
+    from disc_model.studies.study import inherit, mapping, read_file, study_from_config
 
     raw: dict[str, object] = {}
     for file in files:

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
 from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import KICKS, SAMPLE
-from disc_model.errors import suggestion
+from disc_model.errors import Fault, suggestion
 from disc_model.parameters import Parameters, Positive, Real, Strict, Title
 from disc_model.simulation.case import Poincare, Window
 
@@ -18,14 +18,6 @@ Values = Mapping[str, Sequence[tuple[Any, ...]]]
 """Values of the parameters along each dimension of a grid."""
 NORM = "normalization"
 """The dimension that a study may have beside those that a figure needs."""
-
-
-class Fault(NamedTuple):
-    """What is wrong with a figure: where below its name, the value there, and the rule."""
-
-    place: tuple[str, ...]
-    value: Any
-    rule: str
 
 
 class Kind(Strict):
@@ -65,7 +57,7 @@ Roles = Mapping[str, Role]
 
 
 class Grid(Protocol):
-    """What there is to know of a study: a `disc_model.studies.grids.schema.GridStudy` is one."""
+    """What there is to know of a study: a `disc_model.studies.study.GridStudy` is one."""
 
     @property
     def quantity(self) -> str: ...
@@ -112,7 +104,7 @@ class Plot(Kind):
         yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
         for role, name in self.others.items():
             if role not in self.roles:
-                yield Fault(("others", role), name, f"unknown role{suggestion(role, self.roles)}")
+                yield Fault.of(("others", role), name, f"unknown role{suggestion(role, self.roles)}")
         for role, wanted in self.roles.items():
             if wanted.required and role not in self.others:
                 yield Fault(("others", role), "", f"is required: a study of the quantity {wanted.quantity}")
@@ -121,22 +113,22 @@ class Plot(Kind):
         """Of those that the file chooses."""
         for axis, name in self.axes.items():
             if name not in values:
-                yield Fault((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
+                yield Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
             elif name not in KICKS and (name not in Parameters.model_fields or not Parameters.unit(name)):
-                yield Fault((axis,), name, "must be one parameter, and a number")
+                yield Fault.of((axis,), name, "must be one parameter, and a number")
         if len({*self.axes.values()}) < len(self.axes):
-            yield Fault(("y",), self.axes["y"], "must differ from x")
+            yield Fault.of(("y",), self.axes["y"], "must differ from x")
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
         """Dimensions that it needs and the study has not, and the other way round."""
         allowed = (*self.dims, NORM)
         further = [name for name in values if values[name] and name not in allowed]
         if missing := [name for name in self.dims if name not in values]:
-            yield Fault(("kind",), self.kind, f"needs the dimension {' and '.join(missing)}")
+            yield Fault.of(("kind",), self.kind, f"needs the dimension {' and '.join(missing)}")
         elif further:
-            yield Fault(("kind",), self.kind, f"can show {', '.join(allowed)}, but not {', '.join(further)} as well")
+            yield Fault.of(("kind",), self.kind, f"can show {', '.join(allowed)}, but not {', '.join(further)} as well")
         elif not self.several and len(values.get(NORM, ())) > 1:
-            yield Fault(("kind",), self.kind, f"can show one {NORM} only")
+            yield Fault.of(("kind",), self.kind, f"can show one {NORM} only")
 
     def misfits_of(self, role: str, study: Grid, other: Grid) -> Iterator[str]:
         """Rules that a further study breaks, if it is to play a role in this figure of a study."""
@@ -199,7 +191,7 @@ class StabilityMap(Plot):
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
                 along = [float(one) for one, *more in values.get(dim, ()) if not more and not isinstance(one, str)]
                 if along and not any(math.isclose(value, one, rel_tol=1e-12) for one in along):
-                    yield Fault(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
+                    yield Fault.of(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
 
 
 class RegionMap(StabilityMap):
@@ -309,7 +301,8 @@ class Sensitivity(Plot):
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
         points = math.prod(len(along) for name, along in values.items() if name != SAMPLE)
         if points > MOST_PANELS:
-            yield Fault(("kind",), self.kind, f"has room for {MOST_PANELS} points beside their samples, not {points}")
+            rule = f"has room for {MOST_PANELS} points beside their samples, not {points}"
+            yield Fault.of(("kind",), self.kind, rule)
 
 
 class Campbell(Plot):
@@ -330,7 +323,7 @@ class Campbell(Plot):
         yield from super()._wrong_dims(values if self.normalization is None else {**values, NORM: ()})
         known = [str(one) for (one,) in values.get(NORM, ())]
         if self.normalization is not None and known and self.normalization not in known:
-            yield Fault((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
+            yield Fault.of((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
 
 
 class General(Plot):
@@ -361,7 +354,7 @@ class General(Plot):
         variables : dimensions of each variable
         """
         if self.variable not in variables:
-            yield Fault(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
+            yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
             return
         own = {name: dims[name] for name in variables[self.variable] if name in dims}
         places = self.axes | ({"by": self.by} if self.by is not None else {})
@@ -370,13 +363,14 @@ class General(Plot):
         used = [*places.values()]
         for name in sorted({name for name in used if used.count(name) > 1}):
             place = "y" if self.axes.get("y") == name else "by"
-            yield Fault((place,), name, "must differ from the other dimensions shown")
+            yield Fault.of((place,), name, "must differ from the other dimensions shown")
         left = {name: values for name, values in own.items() if name not in used}
         for name, value in self.at.items():
             if name not in left:
-                yield Fault(("at", name), value, f"is no dimension that remains (known: {', '.join(left) or 'none'})")
+                rule = f"is no dimension that remains (known: {', '.join(left) or 'none'})"
+                yield Fault.of(("at", name), value, rule)
             elif left[name] and not any(_same(value, one) for one in left[name]):
-                yield Fault(("at", name), value, f"must be one of {_listed(left[name])}")
+                yield Fault.of(("at", name), value, f"must be one of {_listed(left[name])}")
         for name, values in left.items():
             panels = self.by is None and name == NORM and len(values) <= self.room
             if name not in self.at and len(values) > 1 and not panels:
@@ -384,14 +378,14 @@ class General(Plot):
 
     def _wrong_place(self, place: str, name: str, own: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
         if name not in own:
-            yield Fault((place,), name, f"is no dimension of {self.variable}{suggestion(name, own)}")
+            yield Fault.of((place,), name, f"is no dimension of {self.variable}{suggestion(name, own)}")
         elif place == "by":
             if len(own[name]) > self.room:
-                yield Fault((place,), name, f"has {len(own[name])} values, and there is room for {self.room}")
+                yield Fault.of((place,), name, f"has {len(own[name])} values, and there is room for {self.room}")
         elif any(isinstance(value, str | tuple) for value in own[name]):
-            yield Fault((place,), name, "must be one parameter, and a number")
+            yield Fault.of((place,), name, "must be one parameter, and a number")
         elif len(own[name]) == 1:
-            yield Fault((place,), name, "must have two values or more")
+            yield Fault.of((place,), name, "must have two values or more")
 
 
 def _same(one: Any, other: Any) -> bool:
@@ -457,21 +451,22 @@ class CasePlot(Kind):
     def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
         """What keeps it from being drawn; a case that is None has faults of its own."""
         if self.case not in cases:
-            yield Fault(("case",), self.case, f"no such case (known: {', '.join(cases) or 'none'})")
+            yield Fault.of(("case",), self.case, f"no such case (known: {', '.join(cases) or 'none'})")
         elif (recorded := cases[self.case]) is not None:
             found = recorded.get(self.window)
             if found is None:
                 known = ", ".join(name for name, window in recorded.items() if window is not None)
-                yield Fault(("window",), self.window, f"is not recorded by case {self.case} (known: {known or 'none'})")
+                rule = f"is not recorded by case {self.case} (known: {known or 'none'})"
+                yield Fault.of(("window",), self.window, rule)
             else:
                 yield from self._misfits(found)
 
     def _misfits(self, window: Any) -> Iterator[Fault]:
         """Rules that a window breaks."""
         if isinstance(window, Poincare):
-            yield Fault(("window",), self.window, "must be a window, not the Poincare section")
+            yield Fault.of(("window",), self.window, "must be a window, not the Poincare section")
         elif window.envelope is not None:
-            yield Fault(("window",), self.window, "must have no envelope")
+            yield Fault.of(("window",), self.window, "must have no envelope")
 
 
 class History(CasePlot):
@@ -487,10 +482,10 @@ class History(CasePlot):
             yield from super()._misfits(window)
             return
         if window.count < 2 * (window.envelope or 1):
-            yield Fault(("window",), self.window, "must be two samples, or two envelopes, long or more")
+            yield Fault.of(("window",), self.window, "must be two samples, or two envelopes, long or more")
         for i, name in enumerate(self.variables):
             if window.envelope is not None and name not in RANGES:
-                yield Fault(("variables", str(i)), name, f"is not kept as ranges (known: {', '.join(RANGES)})")
+                yield Fault.of(("variables", str(i)), name, f"is not kept as ranges (known: {', '.join(RANGES)})")
 
 
 class Section(CasePlot):
@@ -521,7 +516,7 @@ class Spectrogram(CasePlot):
         yield from super()._misfits(window)
         if not isinstance(window, Poincare):
             for rule in spectrum_faults(window, self.highest):
-                yield Fault(("window",), self.window, rule)
+                yield Fault.of(("window",), self.window, rule)
 
 
 class Portrait(CasePlot):

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
@@ -18,7 +17,18 @@ from pydantic import (
 )
 
 from disc_model.errors import Fault, ParameterError, shown
-from disc_model.parameters import AUTO, Checked, Count, Finite, Parameters, Positive, Real, Strict
+from disc_model.parameters import (
+    AUTO,
+    Checked,
+    Count,
+    Finite,
+    Parameters,
+    Positive,
+    Real,
+    Strict,
+    canonical_json,
+    content_key,
+)
 from disc_model.simulation.ramps import Ramp
 
 # ----------------------------------------------------------------------------------------------------
@@ -27,29 +37,18 @@ from disc_model.simulation.ramps import Ramp
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False)]
 
 
-class Window(Checked):
-    """Uniform samples at ``rate`` in [start, stop], over the last seconds of the run, or over all of it.
-
-    What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
-    before.  So it is 6e-14 of the time later, because the time of a switch is rounded.  A sample at the start of a run
-    shows the state from which the run starts.  Of a window that reaches beyond the run there is what the run covers.
+class Span(Checked):
+    """A stretch of time: from start to stop, over the last seconds of the run, or over all of it.
 
     Parameters
     ----------
     start, stop : s, absolute times; from the start of the run to its end if not given
     last : s, counted back from the end of the run, instead of start and stop
-    rate : Hz
-    theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
-    envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
-        samples that do not fill a bin are left out
     """
 
     start: Time = 0.0
     stop: Annotated[Real, Field(ge=0)] = math.inf
     last: Positive | None = None
-    rate: Positive
-    theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
-    envelope: Annotated[Count, Field(ge=2, le=2**53)] | None = None
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
@@ -67,10 +66,8 @@ class Window(Checked):
             said.pop("last", None)
         return said
 
-    def resolved(self, start: float, t_end: float) -> Window:
-        """The window with absolute times, for a run from ``start`` to ``t_end``.
-
-        An envelope that goes on to the end leaves out that instant, which would be a bin of its own.
+    def resolved(self, start: float, t_end: float) -> Self:
+        """The same with absolute times, for a run from ``start`` to ``t_end``.
 
         Raises
         ------
@@ -82,10 +79,38 @@ class Window(Checked):
         first = self.start if self.last is None else max(t_end - self.last, start)
         if not first < t_end:
             raise ParameterError(Fault(("start",), shown(first), f"must be < t_end={shown(t_end)}"))
-        stop = t_end
-        if self.envelope is not None:
-            stop = max(stop - 0.5 / self.rate, first + 0.25 / self.rate)
-        return self.replace(start=first, stop=stop, last=None)
+        return self.replace(start=first, stop=self._end(first, t_end), last=None)
+
+    def _end(self, first: float, t_end: float) -> float:
+        return t_end
+
+
+class Window(Span):
+    """Uniform samples at ``rate`` in [start, stop], over the last seconds of the run, or over all of it.
+
+    What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
+    before.  So it is 6e-14 of the time later, because the time of a switch is rounded.  A sample at the start of a run
+    shows the state from which the run starts.  Of a window that reaches beyond the run there is what the run covers.
+
+    Parameters
+    ----------
+    start, stop : s, absolute times; from the start of the run to its end if not given
+    last : s, counted back from the end of the run, instead of start and stop
+    rate : Hz
+    theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
+    envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
+        samples that do not fill a bin are left out
+    """
+
+    rate: Positive
+    theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
+    envelope: Annotated[Count, Field(ge=2, le=2**53)] | None = None
+
+    def _end(self, first: float, t_end: float) -> float:
+        """An envelope that goes on to the end leaves out that instant, which would be a bin of its own."""
+        if self.envelope is None:
+            return t_end
+        return max(t_end - 0.5 / self.rate, first + 0.25 / self.rate)
 
     @property
     def count(self) -> int:
@@ -204,11 +229,6 @@ class Start(Strict):
     prepare: Preparation | None = None
     kick: dict[Coordinate, Finite] = Field({})
 
-    def kicked(self, more: dict[str, float]) -> Self:
-        """With further kicks added to its own."""
-        kick = {name: self.kick.get(name, 0.0) + more.get(name, 0.0) for name in {*self.kick, *more}}  # type: ignore[call-overload]
-        return self.model_copy(update={"kick": kick})
-
 
 # ----------------------------------------------------------------------------------------------------
 # One case ready to be run, and its content address
@@ -267,23 +287,3 @@ class CaseSpec(Strict):
     def from_canonical(cls, text: str) -> CaseSpec:
         """The case of a text that `canonical` has made."""
         return cls.model_validate(json.loads(text))
-
-
-def content_key(text: str) -> str:
-    """First 12 hexadecimal digits of the sha256 of a text."""
-    return hashlib.sha256(text.encode()).hexdigest()[:12]
-
-
-def canonical_json(value: Any) -> str:
-    """JSON with sorted keys; infinities as text, since JSON has none; -0.0 as 0.0."""
-
-    def plain(item: Any) -> Any:
-        if isinstance(item, Mapping):
-            return {str(key): plain(value) for key, value in item.items()}
-        if isinstance(item, list | tuple):
-            return [plain(value) for value in item]
-        if isinstance(item, float):
-            return item + 0.0 if math.isfinite(item) else str(item)
-        return item
-
-    return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)

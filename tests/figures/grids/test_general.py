@@ -140,7 +140,7 @@ def test_what_has_too_many_values_for_panels_is_refused() -> None:
     plot = HeatMap(variable="v", x="a", y="b", by="c")
     many = {"a": [1, 2], "b": [1, 2], "c": list(range(MOST_PANELS + 1))}
     (fault,) = plot.faults_among(many, {"v": tuple(many)})
-    assert (fault.place, fault.rule) == (("by",), "has 5 values, and there is room for 4")
+    assert (fault.path, fault.rule) == (("by",), "has 5 values, and there is room for 4")
     assert not list(plot.faults_among(many | {"c": [1]}, {"v": tuple(many)}))
     words = [*plot.faults_among(many | {"a": ["x", "y"], "b": [1], "c": [1]}, {"v": tuple(many)})]
     assert [fault.rule for fault in words] == ["must be one parameter, and a number", "must have two values or more"]

@@ -11,8 +11,8 @@ import pytest
 
 from disc_model.figures.kinds import PLOTS, General, Plot
 from disc_model.parameters import Parameters
-from disc_model.studies.grids.quantities.schema import QUANTITIES
-from disc_model.studies.grids.schema import load_grids
+from disc_model.studies.document import QUANTITIES
+from disc_model.studies.study import parse_study
 
 CONFIG = Path(__file__).parents[3] / "config" / "studies"
 NORMS = ["as_published", "orthonormal"]
@@ -94,11 +94,7 @@ def marked(x: float, y: float) -> dict[str, Any]:
     ],
 )
 def test_what_a_figure_can_show(given: dict[str, Any], dims: dict[str, list[Any]], faults: list[str]) -> None:
-    found = [
-        ".".join(place) + (f" = {value!r}" if value else "") + f": {rule}"
-        for place, value, rule in plot(**given).faults(values(**dims))
-    ]
-    assert found == faults
+    assert [fault.in_file for fault in plot(**given).faults(values(**dims))] == faults
 
 
 def curves(x: str, y: str, **dims: list[Any]) -> Any:
@@ -141,7 +137,8 @@ def test_what_it_can_show_beside(given: dict[str, Any], role: str, other: Any, f
 @pytest.mark.parametrize("folder", [CONFIG, CONFIG / "test"], ids=["paper", "test"])
 def test_the_figures_of_the_repository_can_be_drawn(folder: Path) -> None:
     """All are checked, alone and beside others, as their studies are read."""
-    assert any(grid.plots for grid in load_grids(sorted(folder.glob("*.yaml"))).values())
+    grids, _ = parse_study({"study": "all", "studies": [str(folder / "*.yaml")]}).grids()
+    assert any(grid.plots for grid in grids.values())
 
 
 def test_every_plot_knows_its_quantity_its_dimensions_and_who_draws_it() -> None:

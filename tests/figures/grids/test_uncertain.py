@@ -13,12 +13,12 @@ from matplotlib.colors import to_hex
 from disc_model.figures.grids import sensitivity
 from disc_model.figures.grids.campbell import gaps, noted, spread
 from disc_model.figures.parts import GREY, SKY
-from disc_model.studies.files import StudyError
-from disc_model.studies.grids.schema import parse_grid
 from disc_model.studies.grids.summaries.campbell import EFFECTS
+from disc_model.studies.study import StudyError
 from tests.figures.grids.reading import draw
 from tests.studies.grids.conftest import SMALL, computed
 from tests.studies.grids.quantities import test_sensitivity as uncertain
+from tests.studies.refused import parse_grid
 
 
 def test_bars_and_probabilities_are_those_of_the_study() -> None:

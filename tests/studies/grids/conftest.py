@@ -17,8 +17,8 @@ from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import critical_speed, hysteresis
 from disc_model.studies.grids.run import run_batch
-from disc_model.studies.grids.schema import parse_grid
 from tests.stability.toy_map import fold_at, outside, toy
+from tests.studies.refused import parse_grid
 
 __all__ = ["toy"]
 SMALL = {"n_diameters": 1}

@@ -9,8 +9,8 @@ import pytest
 
 from disc_model.data.variables import KICKS
 from disc_model.parameters import RELATED, Parameters
-from disc_model.studies.grids.schema import GridStudy, parse_grid
-from tests.studies.refused import faults_of
+from disc_model.studies.study import GridStudy
+from tests.studies.refused import faults_of, parse_grid
 
 AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
 
@@ -62,42 +62,6 @@ def test_a_rule_is_checked_whichever_side_varies(name: str, value: float) -> Non
 @pytest.mark.parametrize(("name", "value"), [("h", 1e-300), ("E", 1e-320), ("h", 1e200)])
 def test_a_rigidity_that_is_none_is_refused(name: str, value: float) -> None:
     assert "must give a finite, positive E h^3/12/(1-nu^2)" in faults(axes={name: [value]})[0]
-
-
-@pytest.mark.parametrize(
-    ("changes", "fault"),
-    [
-        ({"axes": {"N": [1]}}, "base.N = 200: varies as well: give it in base or as an axis, not both"),
-        ({"zip": {"Omega": [1, 2], "c": [0, 1]}}, "base.Omega = 20: varies as well"),
-        ({"axes": {"rho": [-1]}}, "axes.rho = -1: must be > 0"),
-        ({"axes": {"colour": [1]}}, "axes.colour: cannot be an axis (known: "),
-        ({"axes": {"mus": [1]}}, "axes.mus: cannot be an axis, did you mean mu_s?"),
-        ({"axes": {"kick_u": ["x"]}}, "axes.kick_u = 'x': must be a number"),
-        ({"axes": {"kick_u": [float("inf")]}}, "axes.kick_u = inf: must be finite"),
-        ({"axes": {"kick_w": [0]}}, "axes.kick_w: cannot be an axis"),
-        ({"axes": {"start": ["other"]}}, "axes.start = 'other': no such start (known: published)"),
-        ({"axes": {"start": [["a"]]}}, "axes.start = ['a']: no such start"),
-        ({"axes": {"start": [{"kick": {"u": 1}}]}}, "axes.start = {'kick': {'u': 1}}: no such start"),
-        ({"axes": {"c": [0]}, "starts": 3}, "starts = 3: must be a mapping"),
-        ({"axes": {"c": [0]}, "starts": {"a": 3}}, "starts.a = 3: must be a mapping"),
-        ({"axes": {"c": [0]}, "starts": {"published": {}}}, "starts.published: must be letters"),
-        ({"axes": {"c": [0]}, "starts": {"a": {"kick": {"w": 1}}}}, "starts.a.kick.w = 'w': must be 'u'"),
-        ({"axes": {"c": [0]}, "starts": {"a": {"prepare": {"parameters": {}, "time": 0}}}}, "time = 0: must be > 0"),
-        (
-            {"axes": {"kick_f": [0]}, "quantity": "floquet", "options": {}},
-            "axes.kick_f: the quantity floquet follows no motion from a start",
-        ),
-        (
-            {"axes": {"start": ["a"]}, "starts": {"a": {}}, "options": {"horizon": 2, "kick": {"u": 1}}},
-            "options.kick: must not be given where the start varies",
-        ),
-        ({"axes": {"kick_u": [0]}, "options": {"horizon": 2, "kick": {"u": 1}}}, "options.kick.u: is given, and"),
-        ({"axes": {"c": {"start": 0, "stop": 1, "count": 2, "extra": 3}}}, "axes.c.extra = 3: must be a list"),
-        ({"axes": {"c": {"start": 0, "stop": 1, "count": 2, "extra": [-1]}}}, "axes.c = -1: must be >= 0"),
-    ],
-)  # fmt: skip
-def test_what_is_refused(changes: dict[str, Any], fault: str) -> None:
-    assert fault in "\n".join(faults(**changes))
 
 
 def test_extra_values_leave_the_batches_that_there_are() -> None:

@@ -11,8 +11,8 @@ import xarray as xr
 
 from disc_model.studies.grids.merge import MergeError, failures, merge_batches
 from disc_model.studies.grids.run import run_batch
-from disc_model.studies.grids.schema import parse_grid
 from tests.studies.grids.conftest import computed, study
+from tests.studies.refused import parse_grid
 
 #: The slider stays where it is on the disc: nothing has to be computed.
 STILL = {

@@ -12,11 +12,12 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import published_start, simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.stability.cycle import floquet
-from disc_model.studies.grids.dimensions import Dimension, thinned
+from disc_model.studies.document import QUANTITIES, OutcomeOptions
 from disc_model.studies.grids.motions import CYCLES, LONGEST, SAMPLES, cycle_length, run_motions
+from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import outcome
-from disc_model.studies.grids.quantities.schema import QUANTITIES, OutcomeOptions, module_of
-from disc_model.studies.grids.schema import parse_grid
+from disc_model.studies.study import Dimension, module_of
+from tests.studies.refused import parse_grid
 
 AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 21}}
 
@@ -33,12 +34,12 @@ def histories(quantity: str, N: list[float], Omega: list[float], **options):
 
 def test_few_values_of_an_axis_are_taken_both_ends_among_them():
     dim = Dimension(("Omega",), (tuple((float(x),) for x in range(11)),))
-    assert thinned(dim, 4).values == ((0.0,), (3.0,), (7.0,), (10.0,))
-    assert thinned(dim, 11).values == thinned(dim, 99).values == dim.values
-    assert thinned(dim, 1).values == ((0.0,),)
+    assert dim.thinned(4).values == ((0.0,), (3.0,), (7.0,), (10.0,))
+    assert dim.thinned(11).values == dim.thinned(99).values == dim.values
+    assert dim.thinned(1).values == ((0.0,),)
     # words are all taken
     dim = Dimension(("start",), (tuple((word,) for word in "abcde"),))
-    assert thinned(dim, 2).values == dim.values
+    assert dim.thinned(2).values == dim.values
 
 
 def test_quantities_that_have_motions_say_what_they_show():
@@ -72,7 +73,7 @@ def test_a_history_of_the_cycle_repeats():
 
 def test_the_history_goes_on_from_the_late_stretch():
     """The contact force stays in the range that the dataset gives for the late stretch of a settled motion."""
-    row, _ = outcome.at(Parameters(N=200, Omega=5), OutcomeOptions(horizon=200))
+    row, _ = outcome.at(Point(Parameters(N=200, Omega=5)), OutcomeOptions(horizon=200))
     assert row["outcome"] == "quiet"
     found = histories("outcome", [200], [5], horizon=200)
     # another phase of sampling finds extremes to a thousandth of the range

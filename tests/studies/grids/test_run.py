@@ -12,13 +12,13 @@ import pytest
 from disc_model.data.variables import Column
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
-from disc_model.studies.grids.points import STATUS, STATUSES
+from disc_model.studies.document import QUANTITIES
+from disc_model.studies.grids.points import STATUS, STATUSES, Point
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
-from disc_model.studies.grids.quantities.schema import QUANTITIES
 from disc_model.studies.grids.run import compute
 from tests.studies.grids.conftest import SCAN
 
-P = Parameters(N=1, Omega=1)
+P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
 
 
 def quantity(at: Callable[..., object]) -> SimpleNamespace:
@@ -39,17 +39,18 @@ def quantity(at: Callable[..., object]) -> SimpleNamespace:
 def test_a_numerical_failure_is_the_status_of_its_point(fail, message) -> None:
     """One singular matrix used to end all points of a batch."""
 
-    def at(p: Parameters, options: None):
-        return {"status": "ok", "value": fail() if p.N == 0 else p.N}, ""
+    def at(point: Point, options: None):
+        N = point.parameters.N
+        return {"status": "ok", "value": fail() if N == 0 else N}, ""
 
-    table = compute(quantity(at), [P, P.replace(N=0), P], None)
+    table = compute(quantity(at), [P, Q, P], None)
     assert [STATUSES[i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
     np.testing.assert_array_equal(table.arrays["value"], [1.0, math.nan, 1.0])
     assert table.messages == ["", message, ""]
 
 
 def test_a_mistake_in_the_program_is_no_status() -> None:
-    def at(p: Parameters, options: None):
+    def at(point: Point, options: None):
         raise KeyError("horizon")
 
     with pytest.raises(KeyError):

@@ -37,7 +37,7 @@ def merge_batches(
     Parameters
     ----------
     batches : as `disc_model.studies.grids.run.run_batch` makes them
-    grid : dimensions, as `disc_model.studies.grids.schema.GridStudy.grid`
+    grid : dimensions, as `disc_model.studies.study.GridStudy.grid`
     attrs : further attributes, such as the title
     """
     try:

@@ -18,7 +18,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import State
-from disc_model.studies.grids.points import STATUS
+from disc_model.studies.grids.points import STATUS, Point
 from disc_model.studies.grids.run import quantity_of, run_as
 
 SAMPLES = 256
@@ -50,9 +50,10 @@ class Motions:
     def coordinates(self, options: Any) -> dict[str, Any]:
         return {"sample": (np.arange(SAMPLES), Variable("1", "number of the sample"))}
 
-    def at(self, p: Parameters, options: Any) -> tuple[dict[str, Any], str]:
+    def at(self, point: Point, options: Any) -> tuple[dict[str, Any], str]:
         """One history."""
-        start = self.quantity.state_at(p, options).replace(time=0.0, time_low=0.0)
+        start = self.quantity.state_at(point, options).replace(time=0.0, time_low=0.0)
+        p = point.parameters
         length = CYCLES * cycle_length(p, start)
         record = Record(windows=(Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length),), events=False)
         result = simulate(p, length, tol=TOLERANCE, initial_state=start, record=record).raise_for_status()
@@ -62,7 +63,7 @@ class Motions:
 
 
 def run_motions(text: str) -> xr.Dataset:
-    """Histories, along `point` and `sample`, of a text of `disc_model.studies.grids.schema.motion_texts`."""
+    """Histories, along `point` and `sample`, of a text of `disc_model.studies.study.Cut.motions`."""
     found = run_as(text, Motions(quantity_of(text)))
     return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,14 +11,29 @@ import numpy as np
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError, Status
 from disc_model.parameters import Parameters
+from disc_model.simulation.case import Start
 
 STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
 """What became of a point. `failed`: it raised an error, or was not reached."""
 STATUS = Variable("1", "what became of the computation", STATUSES)
 
 Row = Mapping[str, Any]
-Point = Parameters | DiscModelError
+Made = Parameters | DiscModelError
 """Parameters, or why there are none."""
+
+
+PUBLISHED = Start()
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of a grid: its parameters, where its motion starts, and its number among samples, if it is one."""
+
+    parameters: Parameters
+    start: Start = PUBLISHED
+    sample: int = 0
+
+
 NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
 """What a point may fail of: this package's errors, division by zero and overflow, matrices that cannot be solved."""
 

@@ -6,7 +6,7 @@ import importlib
 import json
 import logging
 import time
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, cast
 
 import numpy as np
@@ -19,7 +19,7 @@ from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Column, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import AUTO, Parameters, leaves_modes
 from disc_model.simulation.case import START, Start
-from disc_model.studies.grids.points import NUMERICAL, Point, Row
+from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row
 from disc_model.studies.modes import chosen
 from disc_model.truncation import read_asked
 
@@ -28,12 +28,12 @@ from disc_model.truncation import read_asked
 
 log = logging.getLogger(__name__)
 POINT = "point"
-SCHEMA = "disc_model.studies.grids.quantities.schema"
+DOCUMENT = "disc_model.studies.document"
 """By name, since it is no source of a batch: the text of a batch holds the values of all options."""
 
 
 def run_batch(text: str) -> xr.Dataset:
-    """Compute a batch, given as a text of `disc_model.studies.grids.schema.batch_texts`.
+    """Compute a batch, given as a text of `disc_model.studies.study.Cut`.
 
     The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
     """
@@ -42,22 +42,24 @@ def run_batch(text: str) -> xr.Dataset:
 
 def quantity_of(text: str) -> Any:
     """The module that computes a batch's quantity."""
-    return importlib.import_module(importlib.import_module(SCHEMA).module_of(json.loads(text)["quantity"]))
+    return importlib.import_module(f"disc_model.studies.grids.quantities.{json.loads(text)['quantity']}")
 
 
 def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     """As `run_batch`, with another quantity computed at the points, from the options of the batch's own."""
     data = json.loads(text)
     names, points = data["names"], data["points"]
-    options = importlib.import_module(SCHEMA).QUANTITIES[data["quantity"]].options.model_validate(data["options"])
+    entry = importlib.import_module(DOCUMENT).QUANTITIES[data["quantity"]]
+    options, start = entry.parted(entry.said.model_validate(data["options"]))
     varied = [dict(zip(names, point, strict=True)) for point in points]
     parameters = [_made(data["base"], values) for values in varied]
     began = time.process_time()
     if "tile" in data:
         found = list(_over_tile(cast("Tiled", quantity), data, options))
     else:
-        each = [_started(options, values, data.get("starts", {})) for values in varied]
-        found = [_at(quantity, *point) for point in zip(parameters, each, strict=True)]
+        starts = {name: Start.model_validate(said) for name, said in data.get("starts", {}).items()}
+        each = zip(parameters, varied, strict=True)
+        found = [_at(quantity, _point(p, values, start, starts), options) for p, values in each]
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
     table = table_of(quantity, found, options)
     for values, message in zip(varied, table.messages, strict=True):
@@ -98,18 +100,20 @@ def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Iterat
         yield tiles[key][i][j]
 
 
-def _started(options: Any, values: Mapping[str, Any], starts: Mapping[str, Any]) -> Any:
-    """The options of a point, with its start and its kicks, or as those of its sample."""
-    if SAMPLE in values:
-        return options.numbered(values[SAMPLE])
-    if START in values:
-        start = Start.model_validate(starts[values[START]])
-        options = options.model_copy(update={"prepare": start.prepare, "kick": start.kick})
-    kicks = {name.removeprefix("kick_"): value for name, value in values.items() if name in KICKS}
-    return options.kicked(kicks) if kicks else options
+def _point(p: Made, varied: Mapping[str, Any], start: Start, starts: Mapping[str, Start]) -> Point | DiscModelError:
+    """A point with what varies besides its parameters."""
+    if isinstance(p, DiscModelError):
+        return p
+    start = starts[varied[START]] if START in varied else start
+    kicks = {name.removeprefix("kick_"): value for name, value in varied.items() if name in KICKS}
+    if kicks:
+        own = {str(name): value for name, value in start.kick.items()}
+        whole = {name: own.get(name, 0.0) + kicks.get(name, 0.0) for name in {**own, **kicks}}
+        start = start.model_copy(update={"kick": whole})
+    return Point(p, start, varied.get(SAMPLE, 0))
 
 
-def _made(base: Mapping[str, Any], varied: Mapping[str, Any]) -> Point:
+def _made(base: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
     values = {**base, **{name: value for name, value in varied.items() if name in Parameters.model_fields}}
     try:
@@ -153,7 +157,7 @@ class Tiled(Described, Protocol):
     """A quantity that needs a whole tile of a plane at once."""
 
     def over(
-        self, points: Sequence[Sequence[Point]], options: Any, sampled: Collection[tuple[int, int]]
+        self, points: Sequence[Sequence[Made]], options: Any, sampled: Collection[tuple[int, int]]
     ) -> Sequence[Sequence[tuple[Row, str]]]:
         """Rows and messages of a tile, whose points are given by rows; those at the places `sampled` in any case."""
 
@@ -161,7 +165,7 @@ class Tiled(Described, Protocol):
 class Quantity(Described, Protocol):
     """A quantity of single points."""
 
-    def at(self, p: Parameters, options: Any) -> tuple[Row, str]:
+    def at(self, point: Point, options: Any) -> tuple[Row, str]:
         """Values at one point by column (flags as words), and a message.
 
         Columns left out are missing, and so is what a list or array is shorter than its dimension; what it is longer
@@ -176,12 +180,12 @@ class Table(NamedTuple):
     messages: list[str]
 
 
-def compute(quantity: Quantity, points: Sequence[Point], options: Any) -> Table:
+def compute(quantity: Quantity, points: Iterable[Point | DiscModelError], options: Any) -> Table:
     """A quantity at each point; one that fails (see `NUMERICAL`), or could not be made, is `failed`, with a message."""
     return table_of(quantity, [_at(quantity, point, options) for point in points], options)
 
 
-def _at(quantity: Quantity, point: Point, options: Any) -> tuple[Row, str]:
+def _at(quantity: Quantity, point: Point | DiscModelError, options: Any) -> tuple[Row, str]:
     try:
         if isinstance(point, DiscModelError):
             raise point

@@ -10,9 +10,9 @@ import pytest
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.many import Arrival, Attractor
-from disc_model.studies.grids.points import STATUSES
+from disc_model.studies.document import BasinsOptions
+from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import basins
-from disc_model.studies.grids.quantities.schema import BasinsOptions
 from disc_model.studies.grids.run import compute
 from tests.stability.test_attractor import stretch
 from tests.studies.grids.conftest import computed
@@ -51,7 +51,7 @@ def made(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def found(**options):
-    return compute(basins, [Parameters(N=385, Omega=14)], BasinsOptions.model_validate(options))
+    return compute(basins, [Point(Parameters(N=385, Omega=14))], BasinsOptions.model_validate(options))
 
 
 def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:

@@ -9,8 +9,10 @@ import pytest
 
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
+from disc_model.simulation.case import Start
+from disc_model.studies.document import BifurcationOptions
+from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import bifurcation
-from disc_model.studies.grids.quantities.schema import BifurcationOptions
 
 APART = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
 
@@ -61,8 +63,8 @@ def test_what_repeats_to_rounding_needs_no_cycle(period: int) -> None:
 
 def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]:
     """What the separating motion at 385 N settles to; one that is steady says nothing besides."""
-    options = BifurcationOptions(prepare=APART, section="switch", samples=samples, **how)
-    values, message = bifurcation.at(Parameters(N=385, Omega=Omega), options)
+    options = BifurcationOptions(section="switch", samples=samples, **how)
+    values, message = bifurcation.at(Point(Parameters(N=385, Omega=Omega), Start(prepare=APART)), options)
     assert (message == "") == (values["steady"] == "yes")
     return values
 
@@ -71,7 +73,7 @@ def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]
 def test_a_motion_on_a_torus_has_no_period() -> None:
     """At rest there since 220 s, see `tests.stability.test_attractor`: the cycle within the torus is unstable."""
     options = BifurcationOptions(transient=300, section="switch", longest=300, samples=50)
-    values, _ = bifurcation.at(Parameters(N=516.666666667, Omega=12.734375), options)
+    values, _ = bifurcation.at(Point(Parameters(N=516.666666667, Omega=12.734375)), options)
     assert (values["separations"], values["period"], values["steady"]) == (0, 0, "yes")
     assert values["kind"] is Outcome.QUASI_PERIODIC
 

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.campbell import frequencies
-from disc_model.studies.grids.quantities.schema import CampbellOptions
+from disc_model.studies.document import CampbellOptions
 from disc_model.studies.grids.summaries import campbell
 from disc_model.studies.grids.summaries.campbell import bridged
 from tests.studies.grids.conftest import SMALL, computed

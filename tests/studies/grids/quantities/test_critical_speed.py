@@ -10,9 +10,9 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
-from disc_model.studies.grids.points import STATUSES
+from disc_model.studies.document import CriticalSpeedOptions
+from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import critical_speed
-from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions
 from disc_model.studies.grids.run import compute
 
 
@@ -21,7 +21,7 @@ def speeds_at(
 ) -> dict[str, np.ndarray]:
     scan = {"start": start, "stop": stop, "step": step}
     options = CriticalSpeedOptions(horizons=horizons, scan=scan, precision=precision)
-    return compute(critical_speed, [Parameters(N=N, Omega=0)], options).arrays
+    return compute(critical_speed, [Point(Parameters(N=N, Omega=0))], options).arrays
 
 
 def test_every_crossing_is_found(speeds: xr.Dataset) -> None:

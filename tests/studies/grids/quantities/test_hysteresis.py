@@ -12,15 +12,16 @@ import xarray as xr
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.course import Stretch
+from disc_model.studies.document import HysteresisOptions
+from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import hysteresis
-from disc_model.studies.grids.quantities.schema import HysteresisOptions
 from disc_model.studies.grids.run import Table, compute
 from tests.studies.grids.conftest import SCAN
 
 
 def swept(N: float, scan: dict[str, float]) -> Table:
     options = HysteresisOptions.model_validate({"scan": scan, "dwell": 60, "late": 2})
-    return compute(hysteresis, [Parameters(N=N, Omega=0)], options)
+    return compute(hysteresis, [Point(Parameters(N=N, Omega=0))], options)
 
 
 def test_hysteresis_is_the_gap_between_the_ways(sweep: xr.Dataset) -> None:

@@ -10,15 +10,15 @@ import pytest
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.studies.grids.points import STATUSES
+from disc_model.studies.document import FloquetOptions, OutcomeOptions
+from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import floquet, outcome
-from disc_model.studies.grids.quantities.schema import FloquetOptions, OutcomeOptions
 from disc_model.studies.grids.run import compute
 from tests.studies.grids.conftest import SMALL, computed
 
 
 def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.ndarray], list[str]]:
-    table = compute(outcome, cases, OutcomeOptions(**{"horizon": 1000, **options}))
+    table = compute(outcome, map(Point, cases), OutcomeOptions(**{"horizon": 1000, **options}))
     words = outcome.COLUMNS["outcome"].flags
     return table.arrays, [words[i] for i in table.arrays["outcome"]]
 
@@ -68,7 +68,7 @@ def test_a_motion_left_early_would_have_stayed_quiet(case: dict[str, float]) -> 
 def test_the_observed_rate_of_decay_is_that_of_the_multipliers() -> None:
     p = Parameters(N=50, Omega=15)
     found, words = outcomes([p], horizon=300, settled=0, near=0)
-    rate = compute(floquet, [p], FloquetOptions()).arrays["growth_rate"][0]
+    rate = compute(floquet, [Point(p)], FloquetOptions()).arrays["growth_rate"][0]
     assert words == ["quiet"]
     assert found["difference_rate"][0] == pytest.approx(rate, rel=0.2)
     assert found["distance"][0] < 1e-2

@@ -12,9 +12,9 @@ from disc_model.engine.machine import EVENT_ROW, LOSS_OF_CONTACT
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.ramps import values_at
-from disc_model.studies.grids.points import STATUSES
+from disc_model.studies.document import RampsOptions
+from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import ramps
-from disc_model.studies.grids.quantities.schema import RampsOptions
 from disc_model.studies.grids.run import compute
 
 SPAN = {"low": 10, "high": 20, "stay": 7}
@@ -24,7 +24,7 @@ EVERY = 0.125
 
 def swept(rates: tuple[float, float], **more) -> dict[str, np.ndarray]:
     options = RampsOptions.model_validate({**SPAN, "rates": {"start": rates[0], "stop": rates[1], "count": 2}} | more)
-    return compute(ramps, [Parameters(N=385, Omega=1)], options).arrays
+    return compute(ramps, [Point(Parameters(N=385, Omega=1))], options).arrays
 
 
 @pytest.fixture
@@ -83,7 +83,7 @@ def test_separation_that_goes_on_at_the_lowest_speed_has_no_end(made_up: SimpleN
 def test_a_run_that_cannot_go_on_says_at_which_rate(made_up: SimpleNamespace) -> None:
     made_up.breaks_at = 150.0  # on the way up at 0.01 rad/s per s, on the way down at 0.1
     options = RampsOptions.model_validate({**SPAN, "rates": {"start": 0.01, "stop": 0.1, "count": 2}})
-    table = compute(ramps, [Parameters(N=385, Omega=1)], options)
+    table = compute(ramps, [Point(Parameters(N=385, Omega=1))], options)
     assert [STATUSES[i] for i in table.arrays["rate_status"][0]] == ["stalled", "stalled"]
     assert STATUSES[table.arrays["status"][0]] == "stalled"
     assert list(table.messages) == ["rate=0.1: why"]

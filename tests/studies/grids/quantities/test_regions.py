@@ -20,10 +20,10 @@ from disc_model.simulation.case import Record
 from disc_model.stability.attractor.course import Reached
 from disc_model.stability.attractor.near import Near
 from disc_model.stability.cycle import CycleStatus
+from disc_model.studies.document import RegionsOptions
 from disc_model.studies.grids.quantities import regions
-from disc_model.studies.grids.quantities.schema import RegionsOptions
-from disc_model.studies.grids.schema import parse_grid
 from tests.studies.grids.conftest import computed
+from tests.studies.refused import parse_grid
 
 ROUND = {"Omega": (28.0, 14.0), "N": (300.0, 160.0)}
 """Middle and half axis of the ellipse within which the made-up motion separates."""

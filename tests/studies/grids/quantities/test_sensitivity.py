@@ -13,14 +13,13 @@ from scipy import stats
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import floquet
+from disc_model.studies.document import SensitivityOptions
 from disc_model.studies.grids.draws import CYCLES
 from disc_model.studies.grids.merge import failures
 from disc_model.studies.grids.quantities import sensitivity
-from disc_model.studies.grids.quantities.schema import SensitivityOptions
 from disc_model.studies.grids.quantities.sensitivity import Evaluated, quantile, unit_draws, variants
-from disc_model.studies.grids.schema import parse_grid
 from tests.studies.grids.conftest import SMALL, computed
-from tests.studies.refused import faults_of
+from tests.studies.refused import faults_of, parse_grid
 
 UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
 NORMAL = {"distribution": "normal", "mean": 1}
@@ -155,36 +154,6 @@ def test_quantiles_are_those_of_the_distributions(share: float) -> None:
         assert quantile(made, 7.0, share) == pytest.approx(one.ppf(share), rel=1e-5)
         relative = made.model_copy(update={"relative": True})
         assert quantile(relative, 7.0, share) == pytest.approx(7 * one.ppf(share), rel=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("distributions", "changes", "said"),
-    [
-        ({"mu": UNIFORM}, {}, "options.distributions.mu: must be of a parameter that is a number"),
-        ({"normalization": UNIFORM}, {}, "options.distributions.normalization: must be of a parameter"),
-        ({"n_diameters": UNIFORM}, {}, "options.distributions.n_diameters: must be of a parameter that is a number"),
-        ({"N": TURN}, {}, "options.distributions.N: must be relative, since it varies along an axis as well"),
-        ({"c": UNIFORM}, {}, "options.distributions.c: must not be relative to 0"),
-        ({"k": UNIFORM | {"low": 2}}, {}, "options.distributions.k: low=2 must be < high=1.1"),
-        ({"k": NORMAL | {"deviation": -1}}, {}, "options.distributions.k.deviation"),
-        ({"k": UNIFORM | {"distribution": "lognormal"}}, {}, "'uniform', 'normal', 'truncated_normal'"),
-        ({"k": UNIFORM | {"low": -0.1}}, {}, "options.distributions.k = -5000: must be >= 0; distributions reach"),
-        ({"h": NORMAL | {"deviation": 0.2, "relative": True}}, {}, "options.distributions.h = -0.000588"),
-        ({"mu_s": UNIFORM | {"low": 0.5}}, {}, "base.mu_k = 0.24: must be <= mu_s=0.2; distributions reach that far"),
-        ({"r_0": UNIFORM | {"high": 1.3}}, {}, "options.distributions.r_0 = 0.13: must be <= b=0.12"),
-        ({}, {}, "options.distributions"),
-        ({"k": UNIFORM}, {"options": {"samples": 12}}, "samples=12 must be a power of two"),
-        ({"k": UNIFORM}, {"axes": {"sample": [1, 2]}}, "axes.sample: cannot be an axis"),
-        # a rule between parameters, at one of two points
-        (
-            {"mu_k": UNIFORM},
-            {"axes": {"N": [200], "mu_s": [0.25, 0.4]}},
-            "options.distributions.mu_k = 0.264: must be <= mu_s=0.25",
-        ),
-    ],
-)  # fmt: skip
-def test_faults_are_said_before_anything_runs(distributions, changes, said) -> None:
-    assert said in "\n".join(faults_of(parse_grid, study(distributions, **changes)))
 
 
 @pytest.mark.compiled

@@ -15,14 +15,13 @@ import numpy as np
 
 from disc_model.analysis.sobol import share
 from disc_model.data.variables import LASTING, Column, Variable
-from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared, published_start
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.many import Arrival, Attractor, Basins, random_kick
-from disc_model.studies.grids.points import STATUS, listed
+from disc_model.studies.grids.points import STATUS, Point, listed
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import BasinsOptions
+    from disc_model.studies.document import BasinsOptions
 
 FATES = (*LASTING[1:], LASTING[0])
 """What a start can come to."""
@@ -73,9 +72,9 @@ def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
     }
 
 
-def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     """Starts that fail have a status of their own share; the point fails if all do."""
-    sample = _Sample(p, options)
+    sample = _Sample(point, options)
     found = sample.found
     rows = [reached for row in found for reached in row]
     starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
@@ -101,9 +100,10 @@ def at(p: Parameters, options: BasinsOptions) -> tuple[dict[str, Any], str]:
 class _Sample:
     """The starts of a point; what they come to is found by the number of their energy, and then their own."""
 
-    def __init__(self, p: Parameters, options: BasinsOptions) -> None:
+    def __init__(self, point: Point, options: BasinsOptions) -> None:
+        p = point.parameters
         self.p, self.options = p, options
-        self.start: State = prepared(p, options, options.tol) or published_start(p)
+        self.start: State = prepared(p, point.start, options.tol) or published_start(p)
         self.basins = Basins(p, options.horizon, near=options.near, tol=options.tol)
         energies = list(enumerate(options.energies))
         all_of = [[self.kicked(energy, j, i) for j, energy in energies] for i in range(options.starts)]

@@ -19,10 +19,10 @@ from disc_model.stability.attractor.course import FIRST_LEG, at_rest
 from disc_model.stability.attractor.many import SAME, SMALLEST, cycle_reached, regularity
 from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.return_map import case_faults
-from disc_model.studies.grids.points import STATUS
+from disc_model.studies.grids.points import STATUS, Point
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import BifurcationOptions
+    from disc_model.studies.document import BifurcationOptions
 
 REPEATS = 1e-11
 """Intervals that repeat this exactly, s, are periodic: roundings leave 1e-13 s of a cycle."""
@@ -48,17 +48,18 @@ def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
     return {"sample": (np.arange(options.samples), Variable("1", "number of the turn after the transient"))}
 
 
-def at(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
     """From the published start or the prepared one."""
     if options.section == "switch":
-        return _at_switches(p, options)
+        return _at_switches(point, options)
+    p = point.parameters
     data = bifurcation_samples(
         p,
         "Omega",
         [p.Omega],
         transient=options.transient,
         samples=options.samples,
-        initial_state=prepared(p, options, options.tol),
+        initial_state=prepared(p, point.start, options.tol),
         theta=options.theta,
         tol=options.tol,
     ).isel(Omega=0)
@@ -70,9 +71,10 @@ def at(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]
     return values, "" if status == "ok" else f"the simulation ended early: {status}"
 
 
-def _at_switches(p: Parameters, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
+def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
     """Separations if there are any, else releases; the transient is doubled until the motion is known to repeat."""
-    state, begin, transient = prepared(p, options, options.tol), 0.0, options.transient
+    p = point.parameters
+    state, begin, transient = prepared(p, point.start, options.tol), 0.0, options.transient
     first, separations, stick = math.nan, 0, 0.0
     while True:
         stretches: list[Result] = []
@@ -173,6 +175,6 @@ def alike(one: np.ndarray, two: np.ndarray) -> bool:
     return bool(counts and wasserstein_distance(one, two) <= SAME * spread)
 
 
-def state_at(p: Parameters, options: BifurcationOptions) -> State:
+def state_at(point: Point, options: BifurcationOptions) -> State:
     """Where the transient ends; raises `SimulationError` if the motion did not get there."""
-    return after(p, options, options.transient, options.tol)
+    return after(point.parameters, point.start, options.transient, options.tol)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
-from disc_model.parameters import Parameters
 from disc_model.stability.campbell import frequencies
 from disc_model.stability.cycle import CycleStatus
+from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities.floquet import STATUSES
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import CampbellOptions
+    from disc_model.studies.document import CampbellOptions
 
 KINDS = ("none", "disc", "slider")
 _EACH = ("mode",)
@@ -38,15 +38,15 @@ def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
     return {"mode": (np.arange(1, options.modes + 1), Variable("1", "number of the mode, lowest frequency first"))}
 
 
-def at(p: Parameters, options: CampbellOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: CampbellOptions) -> tuple[dict[str, Any], str]:
     """Of this point; modes are numbered by their frequency here, whatever they are at its neighbours."""
-    found = frequencies(p, tol=options.tol)
+    found = frequencies(point.parameters, tol=options.tol)
     cycle = found.cycle
     values: dict[str, Any] = {
         "status": cycle.status.value,
         "growth_rate": cycle.growth_rate,
         "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
-        "rotation_frequency": p.Omega / (2 * math.pi),
+        "rotation_frequency": point.parameters.Omega / (2 * math.pi),
         "mode_kind": np.where(found.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
         "diameters": np.maximum(found.diameters, 0),
         "forward": found.forward,

@@ -17,11 +17,10 @@ import numpy as np
 from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.course import Reached, come_to
-from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.points import STATUS, listed
+from disc_model.studies.grids.points import STATUS, Point, listed
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import CriticalSpeedOptions
+    from disc_model.studies.document import CriticalSpeedOptions
 
 FURTHEST = 0.02
 """Distance from a cycle, over the static deflection, up to which multipliers tell of a departure."""
@@ -59,15 +58,15 @@ def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]
             Variable("1", "number of the crossing, as the speed rises"),
         ),
         "scan_Omega": (
-            np.array(values_of(options.scan)),
+            np.array(options.scan.values),
             Variable("rad s-1", "speed of the drive point, in the scan"),
         ),
     }
 
 
-def at(p: Parameters, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
     """Scan and bisect; the point's own Omega is not used."""
-    scan = options.scan
+    p, scan = point.parameters, options.scan
     step = round((scan.stop - scan.start) / scan.intervals / options.precision)
     motions: dict[int, Motion] = {}
     known: dict[int, float] = {}

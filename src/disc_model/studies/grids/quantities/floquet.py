@@ -6,12 +6,12 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import Column
-from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, floquet
+from disc_model.studies.grids.points import Point
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import FloquetOptions
+    from disc_model.studies.document import FloquetOptions
 
 STATUSES = (*(status.value for status in CycleStatus), "failed")
 COLUMNS = {
@@ -25,9 +25,9 @@ COLUMNS = {
 }
 
 
-def at(p: Parameters, options: FloquetOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: FloquetOptions) -> tuple[dict[str, Any], str]:
     """The cycle of this point, not started from a neighbour's."""
-    cycle = floquet(p, tol=options.tol)
+    cycle = floquet(point.parameters, tol=options.tol)
     leading = complex(cycle.multipliers[0]) if cycle.status is CycleStatus.OK else complex(math.nan, math.nan)
     values = {
         "status": cycle.status.value,
@@ -41,8 +41,8 @@ def at(p: Parameters, options: FloquetOptions) -> tuple[dict[str, Any], str]:
     return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
 
-def state_at(p: Parameters, options: FloquetOptions) -> State:
+def state_at(point: Point, options: FloquetOptions) -> State:
     """A state on the cycle, stable or not; raises `CycleError` if there is none."""
-    state = floquet(p, tol=options.tol).raise_for_status().state
+    state = floquet(point.parameters, tol=options.tol).raise_for_status().state
     assert state is not None
     return state

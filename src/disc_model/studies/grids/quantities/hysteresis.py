@@ -8,14 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
-from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.course import late_stretch
-from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.points import STATUS, STATUSES
+from disc_model.studies.grids.points import STATUS, STATUSES, Point
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import HysteresisOptions
+    from disc_model.studies.document import HysteresisOptions
 
 DIRECTIONS = ("up", "down")
 _DIMS = ("direction", "sweep_Omega")
@@ -37,22 +35,22 @@ def coordinates(options: HysteresisOptions) -> dict[str, tuple[Any, Variable]]:
     return {
         "direction": (np.array(DIRECTIONS), Variable("", "direction of the sweep")),
         "sweep_Omega": (
-            np.array(values_of(options.scan)),
+            np.array(options.scan.values),
             Variable("rad s-1", "speed of the drive point, in the sweep"),
         ),
     }
 
 
-def at(p: Parameters, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
     """Sweep up and down; the point's own Omega is not used."""
-    speeds = values_of(options.scan)
+    speeds = options.scan.values
     columns = {name: column for name, column in COLUMNS.items() if column.dims}
     values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns.items()}
     state: State | None = None
     status, message = "ok", ""
     ways = [(0, i) for i in range(len(speeds))] + [(1, i) for i in reversed(range(len(speeds)))]
     for place in ways:
-        case = p.replace(Omega=speeds[place[1]])
+        case = point.parameters.replace(Omega=speeds[place[1]])
         result, late = late_stretch(case, state, options.dwell, options.late, options.tol)
         if late is None:
             status, message = result.status.value, f"Omega={case.Omega:g}: {result.message}"

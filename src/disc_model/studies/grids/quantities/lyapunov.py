@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
-from disc_model.parameters import Parameters
 from disc_model.simulation.api import after, prepared
 from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
-from disc_model.studies.grids.points import STATUS
+from disc_model.studies.grids.points import STATUS, Point
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import LyapunovOptions
+    from disc_model.studies.document import LyapunovOptions
 
 CONVERGED = ("unknown", "no", "yes")
 _EACH = ("exponent_number",)
@@ -37,15 +36,15 @@ def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:
     return {"exponent_number": (np.arange(options.exponents), Variable("1", "number of the exponent, largest first"))}
 
 
-def at(p: Parameters, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
     """From the published start or the prepared one."""
     found = lyapunov_exponents(
-        p,
+        point.parameters,
         options.duration,
         transient=options.transient,
         count=options.exponents,
         interval=options.interval,
-        initial_state=prepared(p, options, options.tol),
+        initial_state=prepared(point.parameters, point.start, options.tol),
         tol=options.tol,
         leave_out_trivial=True,
     )
@@ -62,6 +61,6 @@ def at(p: Parameters, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
     return values, "" if found.status is LyapunovStatus.OK else found.status.advice
 
 
-def state_at(p: Parameters, options: LyapunovOptions) -> State:
+def state_at(point: Point, options: LyapunovOptions) -> State:
     """Where the transient ends; raises `SimulationError` if the motion did not get there."""
-    return after(p, options, options.transient, options.tol)
+    return after(point.parameters, point.start, options.transient, options.tol)

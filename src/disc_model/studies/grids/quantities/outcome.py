@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import COURSES, SCALARS, Column, Outcome
-from disc_model.parameters import Parameters
 from disc_model.simulation.api import prepared
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.course import Reached, Stretch, come_to, late_stretch
-from disc_model.studies.grids.points import STATUS
+from disc_model.studies.grids.points import STATUS, Point
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import OutcomeOptions
+    from disc_model.studies.document import OutcomeOptions
 
 FEWEST = 4
 """Looks at a motion from which a rate is told."""
@@ -40,9 +39,9 @@ COLUMNS = {
 }
 
 
-def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     """The late stretch of a point that separates lies ``after_separation`` later."""
-    reached, result, late = _late(p, options)
+    reached, result, late = _late(point, options)
     last = reached if result is None else result
     values: dict[str, Any] = {
         "status": "ok" if last.status.complete else last.status.value,
@@ -63,23 +62,24 @@ def at(p: Parameters, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     return values, "" if last.status.complete else last.message
 
 
-def state_at(p: Parameters, options: OutcomeOptions) -> State:
+def state_at(point: Point, options: OutcomeOptions) -> State:
     """Where the late stretch ends; raises `SimulationError` if the motion did not get there."""
-    reached, result, _ = _late(p, options)
+    reached, result, _ = _late(point, options)
     last = reached.failed or result
     state = reached.state if last is None else last.raise_for_status().final_state
     assert state is not None
     return state
 
 
-def _late(p: Parameters, options: OutcomeOptions) -> tuple[Reached, Result | None, Stretch | None]:
+def _late(point: Point, options: OutcomeOptions) -> tuple[Reached, Result | None, Stretch | None]:
     """What the motion has come to, the run that shows it if there is one beyond that, and the late stretch."""
+    p = point.parameters
     reached = come_to(
         p,
         options.horizon,
         tol=options.tol,
         furthest=0.0,
-        start=prepared(p, options, options.tol),
+        start=prepared(p, point.start, options.tol),
         early=bool(options.settled or options.near),
         late=options.late,
     )

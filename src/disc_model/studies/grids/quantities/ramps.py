@@ -14,11 +14,10 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import Result, State
-from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.points import STATUS, listed
+from disc_model.studies.grids.points import STATUS, Point, listed
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import RampsOptions
+    from disc_model.studies.document import RampsOptions
 
 _DIMS = ("rate",)
 COLUMNS = {
@@ -36,15 +35,15 @@ _TIME, _KIND = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
 
 
 def coordinates(options: RampsOptions) -> dict[str, tuple[Any, Variable]]:
-    return {"rate": (np.array(values_of(options.rates)), Variable("rad s-2", "rate of the speed's ramps"))}
+    return {"rate": (np.array(options.rates.values), Variable("rad s-2", "rate of the speed's ramps"))}
 
 
-def at(p: Parameters, options: RampsOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: RampsOptions) -> tuple[dict[str, Any], str]:
     """A run for each rate; the point's own Omega is not used."""
     rows: list[dict[str, Any]] = []
     status, message = "ok", ""
-    for rate in values_of(options.rates):
-        found, failed = _Run(p, rate, options).found()
+    for rate in options.rates.values:
+        found, failed = _Run(point.parameters, rate, options).found()
         rows.append({"rate_status": failed.status.value if failed else "ok", **found})
         if failed:
             status, message = failed.status.value, f"rate={rate:g}: {failed.message}"

@@ -30,10 +30,10 @@ from disc_model.stability.attractor.near import CYCLE_TOL, SAME_POINT, Near, dep
 from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import ReturnMap, newton
-from disc_model.studies.grids.points import NUMERICAL, STATUS, Point, Row
+from disc_model.studies.grids.points import NUMERICAL, STATUS, Made, Point, Row
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import RegionsOptions
+    from disc_model.studies.document import RegionsOptions
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
@@ -78,14 +78,15 @@ CALM = (Outcome.QUIET, Outcome.SLIDING, Outcome.RESTING)
 
 
 def over(
-    points: Sequence[Sequence[Point]], options: RegionsOptions, sampled: Collection[Place]
+    points: Sequence[Sequence[Made]], options: RegionsOptions, sampled: Collection[Place]
 ) -> list[list[tuple[Row, str]]]:
     """Of a tile; the outcome is worked out at the places `sampled` in any case."""
     return _Tile(points, options, sampled).rows()
 
 
-def state_at(p: Parameters, options: RegionsOptions) -> State:
+def state_at(point: Point, options: RegionsOptions) -> State:
     """What the motion has come to; raises `SimulationError` if it did not get there."""
+    p = point.parameters
     found = come_to(p, options.horizon, tol=options.tol)
     if found.cycle is not None and found.cycle.stable:
         state = found.cycle.state
@@ -106,7 +107,7 @@ class _Followed(NamedTuple):
 
 
 class _Tile:
-    def __init__(self, points: Sequence[Sequence[Point]], options: RegionsOptions, sampled: Collection[Place]) -> None:
+    def __init__(self, points: Sequence[Sequence[Made]], options: RegionsOptions, sampled: Collection[Place]) -> None:
         self.points, self.options = points, options
         self.shape = len(points), len(points[0])
         places = product(range(self.shape[0]), range(self.shape[1]))

@@ -22,11 +22,10 @@ from disc_model.parameters import Parameters
 from disc_model.stability.attractor.course import come_to
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.studies.grids.draws import CYCLES, DRAWS, OUTCOMES
-from disc_model.studies.grids.points import NUMERICAL, STATUS
+from disc_model.studies.grids.points import NUMERICAL, STATUS, Point
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.distributions import Distribution
-    from disc_model.studies.grids.quantities.schema import SensitivityOptions
+    from disc_model.studies.document import Distribution, SensitivityOptions
 
 Array = NDArray[np.float64]
 
@@ -45,20 +44,21 @@ COLUMNS = {
 def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
     return {
         "draw": (np.array(DRAWS), Variable("", "one of the two draws of a sample")),
-        "parameter": (np.array(options.names), Variable("", "distributed parameter")),
+        "parameter": (np.array(sorted(options.distributions)), Variable("", "distributed parameter")),
         "variant": (
-            np.array([*DRAWS, *options.names]),
+            np.array([*DRAWS, *sorted(options.distributions)]),
             Variable("", "draw A, draw B, or A with this parameter taken from B"),
         ),
     }
 
 
-def at(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
     """The sample of this number about the point's own parameters."""
-    shares = unit_draws(options.seed, len(options.names), options.number)
-    given = [(options.distributions[name], float(getattr(p, name))) for name in options.names]
+    p, names = point.parameters, sorted(options.distributions)
+    shares = unit_draws(options.seed, len(names), point.sample)
+    given = [(options.distributions[name], float(getattr(p, name))) for name in names]
     drawn = np.array([[quantile(*one, part) for one, part in zip(given, row, strict=True)] for row in shares])
-    rows = [dict(zip(options.names, row, strict=True)) for row in variants(drawn).tolist()]
+    rows = [dict(zip(names, row, strict=True)) for row in variants(drawn).tolist()]
     found = [_evaluated(p, row, options.tol) for row in rows]
     values: dict[str, Any] = {
         "status": "ok",
@@ -68,7 +68,7 @@ def at(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]
         "outcome": "not_followed",
     }
     messages = [one.message for one in found if one.message]
-    if options.number < options.outcomes:
+    if point.sample < options.outcomes:
         more, message = _followed(p.replace(**rows[0]), options)
         values |= more
         messages += [message] if message else []

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
-from disc_model.parameters import Parameters
 from disc_model.stability.curves import StabilityCurve, stability_curves
-from disc_model.studies.grids.dimensions import values_of
-from disc_model.studies.grids.points import STATUS, listed
+from disc_model.studies.grids.points import STATUS, Point, listed
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import StabilityCurvesOptions
+    from disc_model.studies.document import StabilityCurvesOptions
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
@@ -45,15 +43,15 @@ def coordinates(options: StabilityCurvesOptions) -> dict[str, tuple[Any, Variabl
     }
 
 
-def at(p: Parameters, options: StabilityCurvesOptions) -> tuple[dict[str, Any], str]:
+def at(point: Point, options: StabilityCurvesOptions) -> tuple[dict[str, Any], str]:
     """The curves of this plane; the point's own values of the two parameters are not used."""
     lines = options.y_lines
     margin = options.margin * (lines.stop - lines.start)
     curves, notes = stability_curves(
-        p,
+        point.parameters,
         (options.x, options.y),
         {options.x: options.x_range, options.y: (lines.start - margin, lines.stop + margin)},
-        values_of(lines),
+        lines.values,
         points=options.points,
         max_points=options.max_points,
         longest=options.longest,

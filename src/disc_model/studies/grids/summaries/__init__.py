@@ -7,18 +7,23 @@ computes no batch anew.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import SimpleNamespace
 from typing import Any, Protocol
 
 import numpy as np
 import xarray as xr
 
 from disc_model.studies.grids.points import Row
-from disc_model.studies.grids.quantities.schema import QUANTITIES
 from disc_model.studies.grids.run import Described, own_coordinates, table_of
 
 
 class Summary(Described, Protocol):
-    """A module of a summary."""
+    """A module of a summary.
+
+    OVER : the dimension that it is over
+    """
+
+    OVER: str
 
     def of(self, cell: xr.Dataset, options: Any) -> Row:
         """Values by column, of a merged dataset of which only the dimension is left that the summary is over."""
@@ -43,9 +48,8 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
     summary = summary_of(quantity)
     if summary is None:
         return study
-    entry = QUANTITIES[quantity]
-    checked = entry.options.model_validate(options)
-    others = [dim for dim in map(str, study["status"].dims) if dim != entry.over]
+    checked = SimpleNamespace(**options)
+    others = [dim for dim in map(str, study["status"].dims) if dim != summary.OVER]
     sizes = [study.sizes[dim] for dim in others]
     cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*sizes)]
     arrays = table_of(summary, [(summary.of(cell, checked), "") for cell in cells], checked).arrays

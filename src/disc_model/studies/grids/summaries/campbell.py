@@ -21,10 +21,11 @@ from disc_model.data.variables import Column, Variable
 from disc_model.studies.grids.points import listed
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import CampbellOptions
+    from disc_model.studies.document import CampbellOptions
 
 Array = NDArray[np.float64]
 
+OVER = "Omega"
 LINES = ("none", "stick_slip", "rotation")
 EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable

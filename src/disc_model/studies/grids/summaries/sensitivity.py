@@ -16,14 +16,15 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import share, sobol_intervals
-from disc_model.data.variables import Column, Variable, flag_names
+from disc_model.data.variables import SAMPLE, Column, Variable, flag_names
 from disc_model.studies.grids.draws import CYCLES, DRAWS, OUTCOMES, UNSTABLE
 
 if TYPE_CHECKING:
-    from disc_model.studies.grids.quantities.schema import SensitivityOptions
+    from disc_model.studies.document import SensitivityOptions
 
 Array = NDArray[np.float64]
 
+OVER = SAMPLE
 FAILED = "failed"
 FOLLOWED = tuple(word for word in OUTCOMES if word not in ("not_followed", FAILED))
 KNOWN = tuple(word for word in CYCLES if word != FAILED)
@@ -55,7 +56,7 @@ def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
         "cycle_class": (np.array(KNOWN), Variable("", "what there is near the published start")),
         "outcome_class": (np.array(FOLLOWED), Variable("", "what becomes of the published start")),
         "output": (np.array(OUTPUTS), Variable("", "of what the indices are")),
-        "parameter": (np.array(options.names), Variable("", "distributed parameter")),
+        "parameter": (np.array(sorted(options.distributions)), Variable("", "distributed parameter")),
     }
 
 

@@ -1,4 +1,7 @@
-"""The schema for editors: the shipped one is that of the models, takes every shipped file, and refuses what they do."""
+"""What a study file may say: the schema for editors, YAML that is refused, values along an axis.
+
+Words of faults are in test_messages.py.
+"""
 
 from __future__ import annotations
 
@@ -11,20 +14,22 @@ import jsonschema
 import pytest
 import yaml
 
-from disc_model.studies.files import StudyError
-from disc_model.studies.json_schema import study_schema, text
-from disc_model.studies.schema import parse_study
+from disc_model.studies.document import json_schema, schema_text
+from disc_model.studies.study import StudyError, parse_study, read_yaml
+from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = ROOT / "workflow" / "schemas" / "study.schema.json"
 FILES = sorted((ROOT / "config").rglob("*.yaml"))
-CHECK = jsonschema.Draft202012Validator(json.loads(SHIPPED.read_text(encoding="utf-8")))
+SCHEMA = json.loads(SHIPPED.read_text(encoding="utf-8"))
+PLANE = {"N": [1, 2], "Omega": [2, 3]}
+CHECK = jsonschema.Draft202012Validator(SCHEMA)
 
 
 def test_what_is_shipped_is_made_from_the_models() -> None:
     """After a change of the models: make schema."""
-    assert SHIPPED.read_text(encoding="utf-8") == text()
-    jsonschema.Draft202012Validator.check_schema(study_schema())
+    assert SHIPPED.read_text(encoding="utf-8") == schema_text()
+    jsonschema.Draft202012Validator.check_schema(json_schema())
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
@@ -34,6 +39,13 @@ def test_every_shipped_file_fits_and_names_the_schema(path: Path) -> None:
     named = re.match(r"# yaml-language-server: \$schema=(\S+)\n", said)
     assert named
     assert (path.parent / named[1]).resolve() == SHIPPED
+
+
+def test_editors_show_meanings_and_units() -> None:
+    for place in ("GivenParameters", "Columns"):
+        E = SCHEMA["$defs"][place]["properties"]["E"]
+        assert (E["description"], E["unit"]) == ("Young's modulus of the disc", "Pa")
+    assert SCHEMA["$defs"]["SomeWindow"]["description"].startswith("Uniform samples")
 
 
 def grid(**changes: Any) -> dict[str, Any]:
@@ -54,13 +66,19 @@ def cases(**changes: Any) -> dict[str, Any]:
         {"study": "s", "quantity": "floquet", "zip": {"N": [1, 2], "Omega": [1, 2]}},
         grid(base={"n_diameters": "auto", "truncation_tolerance": 1e-3}),
         grid(starts={"k": {"kick": {"u": 1e-4}}}, axes={"N": [1], "Omega": [1], "start": ["published", "k"]}),
-        grid(figures={"f": {"kind": "heat_map", "x": "N", "y": "Omega", "variable": "outcome"}}),
+        grid(options={"horizon": 10, "kick": {"u": 1e-4}}),
+        grid(
+            figures={"f": {"kind": "heat_map", "x": "N", "y": "Omega", "variable": "outcome", "by": None}},
+            axes={"N": [1, 2], "Omega": [2, 3]},
+        ),
         cases(record={"windows": {"w": {"rate": 10}}, "poincare": None, "events": {"last": 2}}),
+        {"record": {"windows": {"w": {"theta": 2}}}} | cases(record={"windows": {"w": {"rate": 3}}}),
         cases(start={"prepare": {"parameters": {"N": 3}, "time": 1}}),
     ],
 )
 def test_what_a_study_may_say_fits(right: dict[str, Any]) -> None:
     assert [error.message for error in CHECK.iter_errors(right)] == []
+    parse_study(right)
 
 
 @pytest.mark.parametrize(
@@ -88,3 +106,36 @@ def test_what_is_refused_does_not_fit(wrong: dict[str, Any]) -> None:
     assert not CHECK.is_valid(wrong)
     with pytest.raises(StudyError):
         parse_study(wrong)
+
+
+@pytest.mark.parametrize(
+    ("given", "values"),
+    [
+        ([0.3, "1e-1", 0.2, 0.20], [0.1, 0.2, 0.3]),
+        ({"start": 0, "stop": 0.3, "step": 0.1}, [0.0, 0.1, 0.2, 0.3]),
+        ({"start": 0.1, "stop": 10, "count": 3, "scale": "log"}, [0.1, 1.0, 10.0]),
+        ({"blocks": [[1, 2], {"start": 1, "stop": 3, "count": 5}]}, [1.0, 1.5, 2.0, 2.5, 3.0]),
+        ({"blocks": [[1, 2], [2, 1], [3]]}, [1.0, 2.0, 3.0]),
+    ],
+)
+def test_values_of_an_axis(given: Any, values: list[float]) -> None:
+    study = parse_study(grid(axes={"N": [100], "Omega": [10], "c": given}))
+    assert study.grid.values["c"] == tuple((value,) for value in values)
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("&a [*a]", "a value contains itself"),
+        ("a: &a [" + "1, " * 500 + "]\nb: &b [" + "*a, " * 500 + "]", "more than 100000 values"),
+        ("a: !!timestamp x", "a value does not fit its tag"),
+        ("a: [", "line 1, column 5: while parsing a flow node"),
+        ("a: 1\nb: 2\n c: 3", "line 3, column 3: mapping values are not allowed here"),
+    ],
+)
+def test_yaml_that_is_refused(text: str, fault: str) -> None:
+    assert fault in "\n".join(faults_of(read_yaml, text))
+
+
+def test_no_document_is_nothing() -> None:
+    assert read_yaml("") == (None, [])

@@ -1,0 +1,988 @@
+"""All that a study file may say, as one model: `Document`.
+
+Rules that a part breaks by itself are checked here, those between parts in `disc_model.studies.study`. Imports nothing
+heavy. A job is told all values of the options, so that nothing here is among the sources of its result.
+
+``python -m disc_model.studies.document`` prints the JSON Schema by which editors complete and check study files as one
+types; what is shipped is ``workflow/schemas/study.schema.json``.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from functools import reduce
+from operator import or_
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    Discriminator,
+    Field,
+    PlainValidator,
+    StringConstraints,
+    Tag,
+    WithJsonSchema,
+    WrapValidator,
+    create_model,
+    model_validator,
+)
+from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
+
+from disc_model.data.variables import BESIDE_WINDOWS, KICKS, SAMPLE, SCALARS
+from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.figures.kinds import CASE_PLOTS, PLOTS, CasePlot, Plot
+from disc_model.figures.paper.catalogue import CATALOGUE
+from disc_model.parameters import (
+    AUTO,
+    Count,
+    CycleTolerance,
+    Finite,
+    Parameters,
+    Positive,
+    Real,
+    Strict,
+    Title,
+    Tolerance,
+)
+from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
+from disc_model.simulation.ramps import RAMPED, Ramp
+from disc_model.simulation.ramps import faults as ramp_faults
+from disc_model.studies.modes import to_text
+from disc_model.truncation import (
+    CHOSEN_BY,
+    FREQUENCIES,
+    Asked,
+    by_frequencies,
+    checked_quantity,
+    checked_tolerance,
+    read_asked,
+)
+
+# ----------------------------------------------------------------------------------------------------
+# Names
+
+PUBLISHED = "published"
+"""The start that needs not be said."""
+TAKEN_CASES = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
+"""Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
+
+
+def _named(text: str, what: str = "a case's name ", but: str = "") -> str:
+    if not (text.isascii() and text.replace("_", "a").isalnum() and text[:1].isalpha()) or text == but:
+        raise ValueError(
+            f"{what}must be letters, digits and _, starting with a letter{f', and not {but}' if but else ''}"
+        )
+    return text
+
+
+def _case_name(text: str) -> str:
+    if _named(text) in TAKEN_CASES:
+        raise ValueError("a case must not be called so, the name is taken by a variable")
+    return text
+
+
+def _window_name(text: str) -> str:
+    if text in TAKEN_CASES | BESIDE_WINDOWS:
+        raise ValueError("a window must not be called so, the name is taken by a variable or group")
+    return text
+
+
+Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
+CaseName = Annotated[str, AfterValidator(_case_name)]
+WindowName = Annotated[Name, AfterValidator(_window_name)]
+StartName = Annotated[str, AfterValidator(lambda text: _named(text, "", PUBLISHED))]
+
+# ----------------------------------------------------------------------------------------------------
+# Values along an axis: lists, linear and logarithmic ranges, and blocks of them
+
+Value = float | int | str
+Said = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
+"""A value as the file says it: what it means is known where its parameter is."""
+Blocks = tuple[tuple[Value, ...], ...]
+MOST = 100_000
+"""Values along one axis, at most; a slip of the pen can ask for more than fit into memory."""
+
+
+class Range(Strict):
+    """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each `step`.
+
+    On a logarithmic scale the ratio of neighbours is constant.
+    """
+
+    start: Finite
+    stop: Finite
+    count: Annotated[Count, Field(ge=2)] | None = None
+    step: Positive | None = None
+    scale: Literal["linear", "log"] = "linear"
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if not self.start < self.stop:
+            raise ValueError(f"start={self.start:g} must be < stop={self.stop:g}")
+        if not math.isfinite(self.stop - self.start):
+            raise ValueError("stop - start must be finite")
+        if (self.count is None) == (self.step is None):
+            raise ValueError("must give either count or step")
+        if self.scale == "log" and (self.step is not None or self.start <= 0):
+            raise ValueError("a logarithmic range must give count, and start > 0")
+        if self._steps >= MOST:
+            raise ValueError(f"must be at most {MOST} values")
+        if abs(self._steps - self.intervals) > 1e-9 * self._steps:
+            raise ValueError(f"stop - start must be a multiple of step={self.step:g}")
+        return self
+
+    @property
+    def _steps(self) -> float:
+        return (self.stop - self.start) / self.step if self.step else float((self.count or 2) - 1)
+
+    @property
+    def intervals(self) -> int:
+        """One less than the number of values."""
+        return round(self._steps)
+
+    @property
+    def values(self) -> list[float]:
+        """Ascending."""
+        return [float(value) for value in self.blocks()[0]]
+
+    def blocks(self, resolution: int = 1) -> Blocks:
+        """The range's own values, then those that divide each interval further.
+
+        A finer grid adds blocks and keeps what there is: resolution 4 has the blocks of 2, and one more.
+        """
+        n = self.intervals * resolution
+        if n >= MOST:
+            raise ValueError(f"must be at most {MOST} values, and not {n + 1}")
+        found: dict[int, list[Value]] = {}
+        for i in range(n + 1):
+            # the lowest resolution at which this value is there
+            level = resolution // math.gcd(i, resolution)
+            found.setdefault(level, []).append(self._at(i / n))
+        return tuple(tuple(found[level]) for level in sorted(found))
+
+    def _at(self, share: float) -> float:
+        """The value at a share of the way, to 12 digits, so that ranges and lists agree on 0.3."""
+        if share in (0.0, 1.0):
+            return self.stop if share else self.start
+        if self.scale == "log":
+            return float(f"{self.start * (self.stop / self.start) ** share:.12g}")
+        return float(f"{self.start + share * (self.stop - self.start):.12g}")
+
+
+class AxisRange(Range):
+    """A range along an axis; `extra` values are a block of their own, so that what there is without them stays."""
+
+    extra: list[Said] = Field([])
+
+    def blocks(self, resolution: int = 1) -> Blocks:
+        return (*super().blocks(resolution), *([tuple(self.extra)] if self.extra else []))
+
+
+def _axis_kind(raw: Any) -> str | None:
+    if isinstance(raw, Mapping):
+        return "BlocksOf" if "blocks" in raw else "AxisRange"
+    return "a list" if isinstance(raw, list) and raw else None
+
+
+_NO_AXIS = {
+    "custom_error_type": "axis",
+    "custom_error_message": "must be a list of values, or a range {start, stop, count or step}",
+}
+Listed = Annotated[list[Said], Field(min_length=1), Tag("a list")]
+Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], Discriminator(_axis_kind, **_NO_AXIS)]
+
+
+class BlocksOf(Strict):
+    """Values in blocks; one that stands in several belongs to the first."""
+
+    blocks: Annotated[list[Block], Field(min_length=1)]
+
+
+Axis = Annotated[
+    Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")],
+    Discriminator(_axis_kind, **_NO_AXIS),
+]
+
+
+def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Blocks:
+    """Blocks of values; raises ValueError if they are too many."""
+    if isinstance(axis, BlocksOf):
+        return tuple(block for part in axis.blocks for block in blocks_of(part, resolution))
+    return axis.blocks(resolution) if isinstance(axis, AxisRange) else (tuple(axis),)
+
+
+VARIED = (*Parameters.model_fields, START, *KICKS)
+"""What a grid may vary, in the order of its dimensions: every parameter, and the start."""
+
+
+class _Columns(Strict):
+    """Values by what varies."""
+
+    _unknown: ClassVar[str] = "cannot be an axis"
+
+    @property
+    def said(self) -> dict[str, Any]:
+        """What is given, in the order of `VARIED`."""
+        return {name: getattr(self, name) for name in type(self).model_fields if name in self.model_fields_set}
+
+
+def _described(name: str) -> dict[str, Any]:
+    if name == START:
+        return {"description": "where the motion starts: names of starts"}
+    if name in KICKS:
+        return {"description": KICKS[name].long_name, "json_schema_extra": {"unit": KICKS[name].units}}
+    field = Parameters.model_fields[name]
+    return {"description": field.description, "json_schema_extra": field.json_schema_extra}
+
+
+_columns: dict[str, Any] = {name: (Axis, Field(None, **_described(name))) for name in VARIED}
+Columns = create_model("Columns", __base__=_Columns, **_columns)
+"""An axis for each of several names of `VARIED`."""
+
+
+def _zip_kind(raw: Any) -> str:
+    return "several" if isinstance(raw, list) else "one zip"
+
+
+Zip = Annotated[Annotated[Columns, Tag("one zip")] | Annotated[list[Columns], Tag("several")], Discriminator(_zip_kind)]
+
+# ----------------------------------------------------------------------------------------------------
+# Distributions of uncertain parameters
+
+FARTHEST = 6.47
+"""Standard deviations that a normal distribution reaches: 1e-10 of it lies beyond, and is left out."""
+
+
+class _Distribution(Strict):
+    """Of one parameter.
+
+    relative : whether the numbers are multiples of the point's own value of the parameter
+    """
+
+    relative: bool = False
+
+
+class _Bounded(_Distribution):
+    low: Finite
+    high: Finite
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.low < self.high:
+            raise ValueError(f"low={self.low:g} must be < high={self.high:g}")
+        return self
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        return self.low, self.high
+
+
+class Uniform(_Bounded):
+    """All values from low to high are equally likely."""
+
+    distribution: Literal["uniform"]
+
+
+class Normal(_Distribution):
+    """By mean and standard deviation, to 6.47 deviations."""
+
+    distribution: Literal["normal"]
+    mean: Finite
+    deviation: Positive
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        return self.mean - FARTHEST * self.deviation, self.mean + FARTHEST * self.deviation
+
+
+class TruncatedNormal(_Bounded):
+    """What lies between low and high of a normal distribution that has this mean and this deviation as a whole."""
+
+    distribution: Literal["truncated_normal"]
+    mean: Finite
+    deviation: Positive
+
+    @model_validator(mode="after")
+    def _near_the_mean(self) -> Self:
+        if max(self.low - self.mean, self.mean - self.high) > FARTHEST * self.deviation:
+            raise ValueError(f"low and high must be within {FARTHEST:g} deviations of mean={self.mean:g}")
+        return self
+
+
+Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
+
+# ----------------------------------------------------------------------------------------------------
+# Options of each quantity
+
+Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
+
+
+class SettlingOptions(Strict):
+    """When a motion without separation may be left before the horizon; see `disc_model.stability.attractor`.
+
+    settled : successive cycles that agree this well, relative, end the simulation; 0 never does
+    near : a motion this near to a stable stick-slip cycle, relative, and ever nearer, ends it too; 0 never does
+    """
+
+    tol: Tolerance = 1e-10
+    settled: Deviation = 1e-9
+    near: Deviation = 1e-4
+
+
+class OutcomeOptions(SettlingOptions):
+    """One simulation.
+
+    horizon : s
+    late : s, length of the last stretch, over which ranges and shares of the phases are taken
+    after_separation : s that are simulated beyond the first separation, so that the late stretch shows its regime
+    """
+
+    horizon: Positive
+    late: Positive = 1.0
+    after_separation: Positive = 5.0
+
+    @model_validator(mode="after")
+    def _room(self) -> Self:
+        if self.late > min(self.after_separation, self.horizon):
+            raise ValueError("late must be <= after_separation and <= horizon")
+        return self
+
+
+class RegionsOptions(Strict):
+    """Outcomes over a plane, refined where they change.
+
+    horizon : s
+    coarse : intervals of the grid along the side of a cell, before it is divided
+    """
+
+    tol: Tolerance = 1e-8
+    horizon: Positive
+    coarse: Annotated[Count, Field(ge=1, le=1000)] = 8
+
+
+class CriticalSpeedOptions(SettlingOptions):
+    """Scan of the speed, then bisection of each interval in which separation begins or ends.
+
+    horizons : s, each has its own critical speed; all come from the same simulations
+    scan : rad/s
+    precision : rad/s, width of the last interval; the scan's step must be a multiple
+    max_crossings : room for that many crossings at each horizon
+    """
+
+    horizons: Annotated[tuple[Positive, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
+    scan: Range
+    precision: Positive = 0.1
+    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
+
+    @model_validator(mode="after")
+    def _lattice(self) -> Self:
+        if self.scan.scale != "linear":
+            raise ValueError("scan must be linear")
+        step = (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
+        if not math.isfinite(step) or abs(step - round(step)) > 1e-6 or round(step) < 1:
+            raise ValueError("the scan's step must be a multiple of precision")
+        return self
+
+
+class FloquetOptions(Strict):
+    """The stick-slip cycle of each point."""
+
+    tol: CycleTolerance = 1e-12
+
+
+class HysteresisOptions(Strict):
+    """Sweep of the speed up from the published start and down again, each speed going on where the last one ended.
+
+    scan : rad/s
+    dwell : s at each speed
+    late : s, the last stretch of it, over which separations, ranges and shares of the phases are taken
+    """
+
+    tol: Tolerance = 1e-10
+    scan: Range
+    dwell: Positive
+    late: Positive = 5.0
+
+    @model_validator(mode="after")
+    def _room(self) -> Self:
+        if self.late > self.dwell:
+            raise ValueError("late must be <= dwell")
+        return self
+
+
+class RampsOptions(Strict):
+    """The speed goes steadily up from the published start, stays, goes down and stays, once for each rate.
+
+    low, high : rad/s, between which it goes
+    rates : rad/s^2
+    stay : s, at the highest speed, and at the lowest one after the way down
+    """
+
+    tol: Tolerance = 1e-10
+    low: Positive
+    high: Positive
+    rates: Range
+    stay: Positive = 60.0
+
+    @model_validator(mode="after")
+    def _rising(self) -> Self:
+        if not self.low < self.high:
+            raise ValueError("low must be < high")
+        if not self.rates.start > 0:
+            raise ValueError("rates must be > 0")
+        return self
+
+
+class BifurcationOptions(Strict):
+    """Samples of what the motion has settled to.
+
+    section : once a turn of the drive; or at switches, each separation if there are any, else each release of stick: a
+        periodic motion then shows as many points as its period has switches
+    transient : s, left out; at switches it is doubled until the motion is known to repeat
+    longest : s, of the transient then, at most
+    samples : number of turns, or of switches, sampled after it
+    theta : rad, the disc's point whose displacement is sampled once a turn
+    """
+
+    tol: Tolerance = 1e-10
+    section: Literal["turn", "switch"] = "turn"
+    transient: Positive
+    longest: Positive = 240.0
+    samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
+    theta: Finite = 1.0
+
+
+class LyapunovOptions(Strict):
+    """The largest Lyapunov exponents of the motion but for the one along it, which is zero.
+
+    transient : s, left out
+    duration : s, over which the rates are averaged
+    exponents : how many, 1 to 7
+    interval : s, between orthonormalisations
+    """
+
+    tol: Tolerance = 1e-10
+    transient: Positive
+    duration: Positive
+    exponents: Annotated[Count, Field(ge=1, le=7)] = 2
+    interval: Positive = 0.01
+
+
+class BasinsOptions(Strict):
+    """What many starts come to; see `disc_model.stability.attractor`.
+
+    energies : J, of the kicks that are added to the start in random directions; 0 adds nothing
+    starts : of each energy
+    seed : whole number; directions follow from it and from the place of the energy and the number of the start
+    horizon : s
+    near : a motion whose range is within this of a known attractor's, relative, and comes ever closer, is left; 0: all
+        are followed to the horizon
+    confidence : of the intervals of shares
+    bisected : number of directions along which the least kick is looked for, those that separate at the least energies
+    precision : relative, of the least kick
+    """
+
+    tol: Tolerance = 1e-10
+    energies: Annotated[tuple[Annotated[Real, Field(ge=0, allow_inf_nan=False)], ...], Field(min_length=1)] = (0.0,)
+    starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
+    seed: Annotated[Count, Field(ge=0)] = 1
+    horizon: Positive = 200.0
+    near: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
+    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
+    bisected: Annotated[Count, Field(ge=0, le=1000)] = 1
+    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
+
+    @model_validator(mode="after")
+    def _different(self) -> Self:
+        if list(self.energies) != sorted(set(self.energies)):
+            raise ValueError("energies must ascend")
+        if self.starts > 1 and 0.0 in self.energies:
+            raise ValueError("starts must be 1 where an energy is 0, since no direction tells them apart")
+        return self
+
+
+Free = Literal["Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m"]
+
+
+class StabilityCurvesOptions(Strict):
+    """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
+
+    x, y : the parameters
+    x_range : from, to; the cycle is looked for at `points` places of it
+    y_lines : values of y along which that is done; curves are followed from the first to the last, widened by `margin`
+    margin : of the range of y, beyond the lines at both ends
+    longest : arclength of the longest step along a curve
+    max_points : of a curve, each way from where it was met
+    max_curves : room for that many
+    """
+
+    x: Free = "Omega"
+    y: Free = "N"
+    x_range: tuple[Finite, Finite]
+    y_lines: Range
+    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
+    longest: Positive = 0.1
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
+    max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
+    tol: CycleTolerance = 1e-12
+
+    @model_validator(mode="after")
+    def _plane(self) -> Self:
+        if self.x == self.y:
+            raise ValueError("x and y must differ")
+        if not self.x_range[0] < self.x_range[1]:
+            raise ValueError("x_range must ascend")
+        return self
+
+
+class SensitivityOptions(Strict):
+    """The stick-slip cycle at samples of distributed parameters, and what becomes of the published start.
+
+    distributions : by parameter
+    samples : number of them, a power of two; more of them leave those that there are
+    seed : whole number; a sample hangs on it and on the sample's own number alone
+    outcomes : of so many samples, the first ones, the motion is followed as well
+    horizon : s, to which it is followed
+    cap : 1/s, growth rates above which count as this in their indices: a few violent ones would be all the variance
+    tol : of the cycles; motion_tol : of the motions
+    """
+
+    distributions: Annotated[dict[str, Distribution], Field(min_length=1)]
+    # the grid says it already: what is computed of a sample does not hang on how many there are
+    samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
+    seed: Annotated[Count, Field(ge=0)] = 0
+    outcomes: Annotated[Count, Field(ge=0)] = 0
+    horizon: Positive = 500.0
+    cap: Positive = 0.5
+    tol: CycleTolerance = 1e-12
+    motion_tol: Tolerance = 1e-10
+
+    @model_validator(mode="after")
+    def _balanced(self) -> Self:
+        if self.samples & (self.samples - 1):
+            raise ValueError(f"samples={self.samples} must be a power of two")
+        return self
+
+
+class CampbellOptions(Strict):
+    """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
+
+    modes : room for that many, the lowest in frequency
+    window : Hz, on either side of a crossing, within which growth rates are looked at
+    rise : 1/s, of a growth rate within the window over that at its ends, from which it counts as one
+    max_crossings : room for that many
+    """
+
+    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
+    window: Positive = 1.0
+    rise: Positive = 0.01
+    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
+    tol: CycleTolerance = 1e-12
+
+
+class Quantity(NamedTuple):
+    """An entry: the options, what a point costs, and what its grids and motions are like.
+
+    options : their model
+    seconds : about the processor time of a point with given options, s, measured at points of the paper's study
+    starts : whether its motions may start elsewhere than from the published start, which the file says as options
+    scans : parameters that the quantity varies by itself, or the options that name them
+    motions : how many values of each axis get a motion to be looked at: the fewer, the more one costs. 0: none
+    motion : what they show: where the quantity's ``state_at`` lets the motion go on
+    tiled : whether it needs a whole tile of a plane at once
+    over : the dimension, which a study has to have, over which a merged study is summarised
+    tasks : those of `disc_model.kernels` that it needs kernels for
+    """
+
+    options: type[Strict]
+    seconds: Callable[[Any], float]
+    starts: bool = False
+    scans: tuple[str, ...] = ()
+    motions: int = 0
+    motion: str = ""
+    tiled: bool = False
+    over: str = ""
+    tasks: tuple[str, ...] = ("simulate", "floquet")
+
+    @property
+    def said(self) -> type[Strict]:
+        """The model of what a file says under ``options``."""
+        if not self.starts:
+            return self.options
+        return create_model(self.options.__name__, __base__=(Start, self.options), __doc__=self.options.__doc__)
+
+    def scanned(self, options: Strict | None) -> tuple[str, ...]:
+        """Parameters that the quantity varies by itself; as usual if the options are not known."""
+        usual = {name: field.default for name, field in self.options.model_fields.items()}
+        return tuple(getattr(options, name, usual.get(name, name)) for name in self.scans)
+
+    def batch_size(self, options: Strict) -> int:
+        """How many points make a batch, if a study does not say."""
+        return max(1, round(WORK / self.seconds(options)))
+
+    def parted(self, said: Strict) -> tuple[Strict, Start]:
+        """What a file says under ``options`` as the options themselves, and where motions start."""
+        own = {name: getattr(said, name) for name in self.options.model_fields}
+        start = Start(prepare=said.prepare, kick=said.kick) if isinstance(said, Start) else Start()
+        return self.options.model_construct(**own), start
+
+
+WORK = 20.0
+"""Of a batch, s of processor time: its job costs about 1 s in itself. Three times as much does no harm."""
+# As measured, s. A new value cuts all studies of a quantity anew that do not say `batch.size`.
+SIMULATED = 7e-4
+"""A simulated second: 3e-4 in contact, twice or three times that where contact is lost again and again."""
+CYCLE = 2.5e-3
+"""To find a cycle and its multipliers."""
+COME_TO = (
+    "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
+)
+QUANTITIES = {
+    "outcome": Quantity(OutcomeOptions, lambda o: SIMULATED * o.horizon / 2, starts=True, motions=4, motion=COME_TO),
+    "regions": Quantity(RegionsOptions, lambda o: WORK, motions=4, motion=COME_TO, tiled=True),
+    "critical_speed": Quantity(
+        CriticalSpeedOptions, lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9, scans=("Omega",)
+    ),
+    "floquet": Quantity(
+        FloquetOptions, lambda o: CYCLE, motions=7, motion="The stick-slip cycle itself, stable or not."
+    ),
+    "hysteresis": Quantity(HysteresisOptions, lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell, scans=("Omega",)),
+    "ramps": Quantity(
+        RampsOptions,
+        lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.stay) for rate in o.rates.values),
+        scans=("Omega",),
+        tasks=("simulate", "ramp"),
+    ),
+    "basins": Quantity(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.starts * o.horizon / 2, starts=True),
+    "bifurcation": Quantity(
+        BifurcationOptions,
+        lambda o: SIMULATED * (o.transient + o.longest / 2),
+        starts=True,
+        motions=8,
+        motion="After the transient.",
+    ),
+    "lyapunov": Quantity(
+        LyapunovOptions,
+        lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration),
+        starts=True,
+        motions=8,
+        motion="After the transient.",
+    ),
+    "stability_curves": Quantity(StabilityCurvesOptions, lambda o: WORK, scans=("x", "y")),
+    "sensitivity": Quantity(
+        SensitivityOptions,
+        # the same for more samples, whose batches are to stay
+        lambda o: CYCLE * (2 + len(o.distributions)) + SIMULATED * o.horizon / 4 * (o.outcomes > 0),
+        over=SAMPLE,
+    ),
+    "campbell": Quantity(CampbellOptions, lambda o: 1.5 * CYCLE, over="Omega"),
+}
+
+
+class BatchSpec(Strict):
+    """How points are gathered into jobs.
+
+    over : dimensions that are cut; of the others every value has batches of its own. If not given, the first dimensions
+        are cut as far as it takes to come down to `size`
+    size : points in a batch, at most; if not given, about 20 s of work by what a point of the quantity costs
+    tile : intervals along the side of a tile, about, for a quantity that needs a plane at once; `over` names its two
+        dimensions first, and then those of which all values share a batch. If not given, the plane's are the only two
+        that are numbers, and all other values share a batch
+    """
+
+    over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
+    size: Annotated[Count, Field(ge=1)] | None = None
+    tile: Annotated[Count, Field(ge=1)] = 32
+
+
+# ----------------------------------------------------------------------------------------------------
+# Named cases
+
+
+def _in_part(model: type[BaseModel]) -> type[Strict]:
+    """What may be said of a model in part, since the rest is inherited; as null, to drop what is inherited."""
+    fields: dict[str, Any] = {
+        name: (Annotated[field.annotation, *field.metadata, "in part"] | None, None)
+        for name, field in model.model_fields.items()
+    }
+    return create_model(f"Some{model.__name__}", __base__=Strict, __doc__=model.__doc__, **fields)
+
+
+class RecordSpec(Strict):
+    """What a case keeps. Windows bear names, under which figures and claims find them."""
+
+    windows: dict[WindowName, Window] = Field({})
+    poincare: Poincare | None = None
+    events: bool | Span = True
+    energy: bool = False
+
+
+SomeWindow = _in_part(Window)
+SomeRecord = create_model(
+    "SomeRecord",
+    __base__=_in_part(RecordSpec),
+    __doc__=RecordSpec.__doc__,
+    windows=(dict[WindowName, SomeWindow | None] | None, None),  # type: ignore[valid-type, arg-type]
+)
+
+
+def _rule(checked: Callable[[str, Any], tuple[Any, list[Any]]]) -> Callable[[Any], Any]:
+    """A check of an argument as a validator."""
+
+    def validate(value: Any) -> Any:
+        found, faults = checked("", value)
+        if faults:
+            raise ValueError(faults[0].rule)
+        return found
+
+    return validate
+
+
+_diameters = Parameters.model_fields["n_diameters"]
+_given: dict[str, Any] = {
+    "n_diameters": (
+        Annotated[
+            _diameters.annotation,
+            *_diameters.metadata,
+            WrapValidator(lambda value, check: value if value == AUTO else check(value)),
+            WithJsonSchema({"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}),
+        ],
+        Field(None, description=_diameters.description, json_schema_extra=_diameters.json_schema_extra),
+    ),
+    "truncation_quantity": (
+        Annotated[Any, PlainValidator(_rule(checked_quantity), json_schema_input_type=Literal[*CHOSEN_BY])],
+        Field(None, description="what n_diameters: auto is to get right"),
+    ),
+    "truncation_tolerance": (
+        Annotated[Any, PlainValidator(_rule(checked_tolerance), json_schema_input_type=Positive)],
+        Field(None, description="and how right, relative"),
+    ),
+}
+GivenParameters = create_model("GivenParameters", __base__=SomeParameters, **_given)
+"""Parameters, any of which may be left out; the number of modes may be left to each case."""
+
+
+class Chosen(NamedTuple):
+    """Parameters of a case, and by what its modes are to be chosen if they are."""
+
+    parameters: Parameters
+    asked: Asked | None
+
+
+def _of_case(values: Any) -> Chosen:
+    if not isinstance(values, Mapping):
+        raise ValueError("must be a mapping")
+    return Chosen(*read_asked(values))
+
+
+class NamedCase(Strict):
+    """One named simulation of a study."""
+
+    title: str
+    reference: str = ""
+    parameters: Annotated[Chosen, PlainValidator(_of_case, json_schema_input_type=GivenParameters)] = Field(
+        {}, validate_default=True
+    )
+    t_end: Positive
+    tol: Tolerance = 1e-10
+    stop_at: Literal["first_separation"] | None = None
+    start: Start = Start()
+    ramps: tuple[Ramp, ...] = ()
+    record: Annotated[RecordSpec, BeforeValidator(lambda said: said, json_schema_input_type=SomeRecord)] = RecordSpec()
+
+    def spec(self) -> CaseSpec:
+        """What is simulated; raises `ParameterError` with places inside the case."""
+        faults: list[Fault] = []
+        p, truncation, modes = self._modes(faults)
+        kept = self.record
+        windows = [
+            (name, self._within(window, ("record", "windows", name), faults)) for name, window in kept.windows.items()
+        ]
+        said = Span() if kept.events is True else kept.events or None
+        events = None if said is None else self._within(said, ("record", "events"), faults)
+        for fault in ramp_faults(p, self.ramps, poincare=kept.poincare is not None) if self.ramps else ():
+            faults.append(fault.inside(("parameters",)) if fault.path[0] in RAMPED else fault)
+        if faults:
+            raise ParameterError(*faults)
+        how = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
+        return CaseSpec(
+            parameters=p,
+            truncation=truncation,
+            modes=modes,
+            windows=tuple(windows),
+            poincare=kept.poincare,
+            events=None if events is None else (events.start, events.stop),
+            energy=kept.energy,
+            **how,
+        )
+
+    def _modes(self, faults: list[Fault]) -> tuple[Parameters, str, str]:
+        """Parameters, and how their modes were chosen, or by what they are to be chosen when the case is run."""
+        p, asked = self.parameters
+        if asked is None or asked.quantity != FREQUENCIES:
+            return p, "", "" if asked is None else to_text(asked)
+        try:
+            choice = by_frequencies(p, asked.tolerance)
+        except DiscModelError as error:  # no number of modes meets the tolerance
+            faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
+            return p, "", ""
+        return choice.parameters, choice.to_json(), ""
+
+    def _within(self, span: SomeSpan, place: tuple[str, ...], faults: list[Fault]) -> SomeSpan:
+        """A stretch of the run with absolute times."""
+        start = span.start if span.last is None else max(self.t_end - span.last, 0.0)
+        stop = min(span.stop, self.t_end) if math.isinf(span.stop) else span.stop
+        if 0 <= start < stop <= self.t_end:
+            return span.resolved(0.0, self.t_end)
+        rule = f"must be within the run: 0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
+        faults.append(Fault(place, "", rule))
+        return span
+
+
+SomeSpan = TypeVar("SomeSpan", bound=Span)
+
+# ----------------------------------------------------------------------------------------------------
+# Figures
+
+
+def _figures_kind(raw: Any) -> str | None:
+    return "by name" if isinstance(raw, Mapping) else "a list" if isinstance(raw, list | tuple) else None
+
+
+if TYPE_CHECKING:
+    Figures = dict[str, CasePlot | Plot] | tuple[Any, ...]
+else:
+    Plots = Annotated[reduce(or_, (*CASE_PLOTS.values(), *PLOTS.values())), Field(discriminator="kind")]
+    PaperFigure = Annotated[Any, WithJsonSchema({"enum": list(CATALOGUE)})]
+    Figures = Annotated[
+        Annotated[dict[str, Plots], Tag("by name")] | Annotated[tuple[PaperFigure, ...], Tag("a list")],
+        Discriminator(
+            _figures_kind,
+            custom_error_type="figures",
+            custom_error_message="must be a mapping of names to {kind: ...}, or a list of the paper's figures",
+        ),
+        BeforeValidator(lambda raw: () if raw is None else raw),
+    ]
+
+# ----------------------------------------------------------------------------------------------------
+# The whole
+
+
+def _resolution(value: Any) -> int:
+    try:
+        number = int(str(value))
+    except ValueError:
+        number = 0
+    if number < 1:
+        raise ValueError("must be a whole number >= 1")
+    return number
+
+
+class Document(Strict):
+    """A grid, named cases, or both, and figures of either: docs/studies.md.
+
+    study : name of the study, and of its folder of results
+    title : what it is about
+    base : parameters of all cases and of all points; the rest is Table 1 of the paper
+    figures : by name, what each shows; or a list of the paper's
+    cases : named simulations, with what they inherit; `tol` and `record` are what they share
+    claims : whether the paper's statements and tables are to be checked against the cases
+    quantity, options : of a grid, what is computed at each point
+    axes, zip, starts : what varies, and how motions may start
+    batch : how points are gathered into jobs
+    studies : further files of grid studies, * stands for any part of a name
+    overrides : by name, what is laid over one of those files
+    resolution : whole number by which the intervals of all ranges are divided
+    """
+
+    study: Name
+    title: Title = ""
+    base: GivenParameters = GivenParameters()
+    figures: Figures = ()
+    tol: Tolerance | None = 1e-10
+    record: SomeRecord = SomeRecord()
+    cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
+    claims: bool = False
+    quantity: Annotated[str | None, WithJsonSchema({"enum": list(QUANTITIES)})] = None
+    options: Annotated[Any, WithJsonSchema({"type": "object"})] = None
+    axes: Columns = Columns()
+    zip: Zip = Columns()
+    batch: BatchSpec = BatchSpec()
+    starts: dict[StartName, Start] = Field({})
+    studies: tuple[str, ...] = ()
+    overrides: dict[str, dict[str, Any]] = Field({})
+    resolution: Annotated[int, PlainValidator(_resolution, json_schema_input_type=Annotated[int, Field(ge=1)])] = 1
+
+    @property
+    def zips(self) -> list[Any]:
+        """All groups of parameters that vary together."""
+        return self.zip if isinstance(self.zip, list) else [self.zip]
+
+
+def _of_quantity(name: str, quantity: Quantity) -> type[Document]:
+    """The document of a grid of one quantity."""
+    options = quantity.said
+    default = ... if any(field.is_required() for field in options.model_fields.values()) else options()
+    fields: dict[str, Any] = {"quantity": (Literal[name], ...), "options": (options, default)}
+    return create_model(f"Study_of_{name}", __base__=Document, __doc__=f"A grid of {name}.", **fields)
+
+
+DOCUMENTS = {name: _of_quantity(name, quantity) for name, quantity in QUANTITIES.items()}
+"""What a file may say that gives a quantity."""
+
+
+# ----------------------------------------------------------------------------------------------------
+# For editors
+
+
+class _Plain(GenerateJsonSchema):
+    """Without what says nothing: titles that repeat a name, and docstrings of more than their first paragraph."""
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        return False
+
+    def get_default_value(self, schema: Any) -> Any:
+        found = super().get_default_value(schema)
+        return found if isinstance(found, str | int | float) else NoDefault
+
+    def model_schema(self, schema: Any) -> Any:
+        found = super().model_schema(schema)
+        found.pop("title", None)
+        if "description" in found:
+            found["description"] = found["description"].split("\n\n")[0].replace("\n", " ")
+        return found
+
+
+def json_schema() -> dict[str, Any]:
+    """The JSON Schema of study files. It knows what each key may hold, and not the rules between several."""
+    said = {name: quantity.said for name, quantity in QUANTITIES.items()}
+    models: tuple[type[BaseModel], ...] = (Document, *said.values())
+    refs, found = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "A study of disc_model",
+        **found["$defs"].pop(Document.__name__),
+        "anyOf": [{"required": [key]} for key in ("cases", "quantity", "studies")],
+        "allOf": [
+            {
+                "if": {"properties": {"quantity": {"const": name}}, "required": ["quantity"]},
+                "then": {"properties": {"options": refs[model, "validation"]}},
+            }
+            for name, model in said.items()
+        ],
+        **found,
+    }
+
+
+def schema_text() -> str:
+    """The schema as the file that is shipped holds it."""
+    return json.dumps(json_schema(), indent=1, ensure_ascii=False) + "\n"
+
+
+if __name__ == "__main__":
+    print(schema_text(), end="")

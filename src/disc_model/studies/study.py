@@ -1,0 +1,1015 @@
+"""Study files: read, checked all at once, and what they amount to: named cases, and grids cut into batches of points.
+
+`load_study` reads a file, `study_from_config` takes what Snakemake read from one or several, `parse_study` the mapping
+itself. All raise one `StudyError` that lists every fault with its path. What a file may say is
+`disc_model.studies.document`; each case inherits the study's base values and what is recorded by default.
+
+A batch is one text; a workflow job is given one. Blocks of values are cut into batches of about the same work, by
+position and only inside a block: a finer axis adds batches and keeps the others. A quantity that needs a plane at once
+is cut into tiles of it. The text holds all that its result depends on. The batch is named by the text's hash, so that a
+batch whose content is the same is not computed again, wherever and however the file now says it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import math
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from glob import glob
+from itertools import chain, pairwise, product
+from pathlib import Path
+from typing import Any
+
+import yaml
+from pydantic import ValidationError, create_model
+
+from disc_model.data.provenance import source_hash
+from disc_model.data.variables import KICKS, SAMPLE
+from disc_model.errors import DiscModelError, Fault, ParameterError, faults_of, shown, suggestion
+from disc_model.figures.kinds import CasePlot, General, Plot, RegionMap, Values
+from disc_model.figures.paper.catalogue import CATALOGUE, lacking
+from disc_model.kernels import DECIDING, kinds_of
+from disc_model.parameters import (
+    AUTO,
+    CHOOSING,
+    RELATED,
+    RESIDUAL,
+    Finite,
+    Parameters,
+    Strict,
+    canonical_json,
+    content_key,
+    cross_faults,
+    faults_of_names,
+    is_number,
+    leaves_modes,
+)
+from disc_model.plausibility import RULES
+from disc_model.simulation.case import START, CaseSpec, SomeParameters, Start
+from disc_model.studies.document import (
+    DOCUMENTS,
+    PUBLISHED,
+    QUANTITIES,
+    VARIED,
+    BatchSpec,
+    Blocks,
+    Document,
+    NamedCase,
+    Quantity,
+    SensitivityOptions,
+    Value,
+    blocks_of,
+)
+from disc_model.studies.grids.summaries import summary_of
+from disc_model.studies.modes import chooser
+from disc_model.truncation import FREQUENCIES, asked_modes
+
+TAKEN = ("compiled", "bench")
+"""Folders of results that no study may have."""
+GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "batch", "starts"})
+"""What a study file says of a grid alone."""
+REQUIRED = ("N", "Omega")
+"""Parameters without a base value."""
+
+# ----------------------------------------------------------------------------------------------------
+# Reading: what YAML itself would pass over or end in an error of its own is a fault
+
+
+class StudyError(DiscModelError, ValueError):
+    """A study file that breaks rules; lists every fault once, as ``path = value: rule``."""
+
+    def __init__(self, *faults: str, source: str = "study") -> None:
+        said = (fault.in_file if isinstance(fault, Fault) and fault.path else str(fault) for fault in faults)
+        self.faults = tuple(dict.fromkeys(said))
+        self.source = source
+        count = f"{len(self.faults)} fault{'s' if len(self.faults) > 1 else ''}"
+        super().__init__("\n  ".join([f"{source}: {count}", *self.faults]))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (partial(type(self), source=self.source), self.faults)
+
+
+def read_file(path: Path) -> tuple[Any, list[str]]:
+    """A YAML file's content and the keys that it gives twice; raises `StudyError` if it cannot be read."""
+    try:
+        return read_yaml(path.read_text(encoding="utf-8"), str(path))
+    except OSError as error:
+        raise StudyError(f"cannot be read: {error.strerror}", source=str(path)) from None
+    except UnicodeDecodeError as error:
+        raise StudyError(f"cannot be read: byte {error.start} is no UTF-8", source=str(path)) from None
+
+
+class _UniqueKeyLoader(yaml.SafeLoader):
+    """Remembers keys given twice instead of silently taking the last."""
+
+    def __init__(self, stream: Any) -> None:
+        super().__init__(stream)
+        self.faults: list[str] = []
+
+    def construct_mapping(self, node: Any, deep: bool = False) -> Any:
+        first: dict[Any, int] = {}
+        for key_node, _ in node.value:
+            key = key_node.value
+            line = key_node.start_mark.line + 1
+            if key in first and key != "<<":
+                self.faults.append(f"{key}: given twice, in lines {first[key]} and {line}")
+            first.setdefault(key, line)
+        return super().construct_mapping(node, deep)
+
+
+LARGEST = 100_000
+"""Values in a file, repeated ones counted each time."""
+
+
+def _count(node: yaml.Node, known: dict[int, int]) -> int:
+    """Number of values below a node; a few lines of aliases of aliases can stand for more than fit into memory."""
+    if id(node) in known:
+        if not known[id(node)]:
+            raise ValueError("a value contains itself")
+        return known[id(node)]
+    known[id(node)] = 0
+    children: list[yaml.Node] = []
+    if isinstance(node, yaml.MappingNode):
+        children = [part for pair in node.value for part in pair]
+    elif isinstance(node, yaml.SequenceNode):
+        children = node.value
+    known[id(node)] = 1 + sum(_count(child, known) for child in children)
+    if known[id(node)] > LARGEST:
+        raise ValueError(f"more than {LARGEST} values, repeated ones counted each time")
+    return known[id(node)]
+
+
+def read_yaml(text: str, source: str = "study") -> tuple[Any, list[str]]:
+    """A YAML document and the keys that it gives twice; raises `StudyError` if the text is none."""
+    try:
+        loader = _UniqueKeyLoader(text)
+        try:
+            node = loader.get_single_node()
+            if node is None:
+                return None, loader.faults
+            _count(node, {})
+            return loader.construct_document(node), loader.faults
+        finally:
+            loader.dispose()
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
+        said = place + ", ".join(part for part in (error.context, error.problem) if part)
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        # ValueError: numbers and dates that look like one but are none
+        said = " ".join(str(error).split())
+    except (AttributeError, KeyError, TypeError) as error:
+        # so ends a tag such as !!timestamp or !!bool before a value that is none
+        said = f"a value does not fit its tag ({' '.join(str(error).split())})"
+    raise StudyError(said, source=source)
+
+
+def mapping(value: Any) -> Mapping[Any, Any]:
+    """The value if it is a mapping, else an empty one."""
+    return value if isinstance(value, Mapping) else {}
+
+
+def inherit(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
+    """`own` over `base`, mappings merged key by key; None drops what is inherited."""
+    merged = dict(base)
+    for key, value in own.items():
+        if value is None and key in base:
+            del merged[key]
+            continue
+        old = merged.get(key)
+        both = isinstance(old, Mapping) and isinstance(value, Mapping)
+        merged[key] = inherit(old, value) if both else value  # type: ignore[arg-type]
+    return merged
+
+
+# ----------------------------------------------------------------------------------------------------
+# Studies
+
+
+@dataclass(frozen=True)
+class Study:
+    """A checked study. `cases` and `specs` have the same keys, in the order of the file.
+
+    Attributes
+    ----------
+    figures : those of the paper that are asked for
+    plots : figures of cases, by name
+    claims : whether the paper's statements are checked against the cases
+    grid : the file's own grid, if it says one
+    studies : files of further grid studies; * stands for any part of a name
+    """
+
+    name: str
+    title: str
+    cases: Mapping[str, NamedCase]
+    specs: Mapping[str, CaseSpec]
+    figures: tuple[str, ...]
+    plots: Mapping[str, CasePlot]
+    claims: bool
+    grid: GridStudy | None
+    studies: tuple[str, ...]
+    overrides: Mapping[str, Mapping[str, Any]]
+    resolution: int
+
+    @property
+    def labels(self) -> dict[str, dict[str, str]]:
+        """What is written about the cases and does not change their results."""
+        return {name: {"title": case.title, "reference": case.reference} for name, case in self.cases.items()}
+
+    @property
+    def drawable(self) -> tuple[str, ...]:
+        """Figures that these cases have all that is needed for: of the paper, and of cases."""
+        return (*(name for name in CATALOGUE if not list(lacking(name, self.specs))), *self.plots)
+
+    @property
+    def doubts(self) -> Iterator[str]:
+        """What is implausible about its cases, each with their number."""
+        for rule in RULES.values():
+            if found := [text for spec in self.specs.values() if (text := rule.doubt(spec.parameters))]:
+                yield f"{found[0]} ({len(found)} of {len(self.specs)} cases)"
+
+    def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
+        """Its own grid and those of its files, and the names of those that are asked for.
+
+        Besides them there are those that a figure of its own grid shows as well, read from files beside it.
+
+        Parameters
+        ----------
+        folders : where files are looked for, the first that has one counts
+        """
+        grids = {} if self.grid is None else {self.name: self.grid}
+        paths = [Path(path) for pattern in self.studies for path in _found(pattern, folders)]
+        asked = (*grids, *(path.stem for path in paths))
+        plots = () if self.grid is None else self.grid.plots.values()
+        shown_too = {name for plot in plots for name in plot.others.values()}.difference(asked)
+        helpers = [Path(path) for name in sorted(shown_too) for path in _found(f"{name}.yaml", folders)]
+        known = {*grids, *(path.stem for path in paths)}
+        faults: list[str] = []
+        for path in [*paths, *(path for path in helpers if path.is_file())]:
+            known.add(path.stem)
+            self._add_grid(path, grids, faults)
+        for name in self.overrides.keys() - known:
+            faults.append(f"overrides.{name}: no such study{suggestion(name, sorted(known))}")
+        for name in grids.keys() & set(asked):
+            faults += _misfits(grids[name], grids, known)
+        if faults:
+            raise StudyError(*faults, source="grid studies")
+        return grids, asked
+
+    def _add_grid(self, path: Path, grids: dict[str, GridStudy], faults: list[str]) -> None:
+        """The grid of another file, with what is laid over it."""
+        try:
+            raw, more = read_file(path)
+            raw = {"resolution": self.resolution, **inherit(mapping(raw), self.overrides.get(path.stem, {}))}
+            study = _with_more_faults(raw, more, _shown_path(path))
+        except StudyError as error:
+            faults += [f"{error.source}: {fault}" for fault in error.faults]
+            return
+        wrong = {
+            "must be the name of the file": study.name != path.stem,
+            "is another file's study": path.stem in grids,
+            "is the name of another folder of results": study.name == self.name and self.grid is None,
+            "must be a grid alone": study.grid is None or study.cases or study.studies,
+        }
+        faults += [f"{path}: study = {study.name!r}: {rule}" for rule, broken in wrong.items() if broken]
+        if study.grid is not None:
+            grids[path.stem] = study.grid
+
+
+def load_study(path: str | Path) -> Study:
+    """Read and check a study file, but for the files that it names."""
+    raw, faults = read_file(Path(path))
+    return _with_more_faults(raw, faults, str(path))
+
+
+def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
+    """The study that Snakemake read from files, later ones over earlier ones, and its command line.
+
+    Keys given twice are looked for in the files, since the mapping no longer shows them.
+    """
+    paths = [Path(file) for file in files]
+    faults = [fault for path in paths for fault in read_file(path)[1]]
+    return _with_more_faults(config, faults, ", ".join(map(_shown_path, paths)) or "study")
+
+
+def parse_study(raw: Any) -> Study:
+    """Check the mapping that a study file holds."""
+    document, faults = _checked(raw)
+    if document is None:
+        raise StudyError(*faults)
+    if document.study in TAKEN:
+        faults.append(Fault.of(("study",), document.study, "is the name of another folder of results"))
+    if not raw.keys() & {"cases", "studies", *GRID_KEYS}:
+        faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))
+    specs = _specs(document, raw, faults)
+    listed, plots, of_grid = _figures(document, raw, specs, faults)
+    grid = _Grid(document, raw, of_grid, faults).made() if raw.keys() & GRID_KEYS else None
+    if faults:
+        raise StudyError(*faults)
+    return Study(
+        document.study, document.title, document.cases, specs, listed, plots, document.claims, grid, document.studies,
+        document.overrides, document.resolution,
+    )  # fmt: skip
+
+
+def _with_more_faults(raw: Any, more: Sequence[str], source: str) -> Study:
+    """The study of a file's content; faults found before come with its own, in one error with the source."""
+    try:
+        study = parse_study(raw)
+    except StudyError as error:
+        raise StudyError(*more, *error.faults, source=source) from None
+    if more:
+        raise StudyError(*more, source=source)
+    return study
+
+
+def _shown_path(path: Path) -> str:
+    """A path as short as the current folder allows."""
+    try:
+        return str(path.resolve().relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)
+
+
+def _found(pattern: str, folders: Sequence[Path]) -> list[str]:
+    """Files that a pattern stands for, in the first folder that has any; the pattern itself if none has."""
+    for folder in folders:
+        if matches := sorted(glob(str(folder / pattern))):
+            return matches
+    return [pattern]
+
+
+def _misfits(study: GridStudy, grids: Mapping[str, GridStudy], known: Collection[str]) -> Iterator[str]:
+    """What is wrong with the further studies that figures show."""
+    for name, plot in study.plots.items():
+        for role, other in plot.others.items():
+            where = f"{study.name}: figures.{name}.others.{role} = {other!r}"
+            if other not in known:
+                yield f"{where}: no such study{suggestion(other, sorted(known))}"
+            elif other in grids:
+                yield from (f"{where}: {rule}" for rule in plot.misfits_of(role, study, grids[other]))
+
+
+# ----------------------------------------------------------------------------------------------------
+# The document, or as much of it as is right
+
+
+def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
+    """The document without those parts that have faults, and the faults where the file says them."""
+    if not isinstance(raw, Mapping):
+        return None, [Fault.of(("study",), raw, "must be a mapping")]
+    whole = {**raw, "cases": _with_inherited(raw)} if isinstance(raw.get("cases"), Mapping) else dict(raw)
+    asked = raw.get("quantity")
+    if asked is not None:
+        whole.setdefault("options", {})
+    model = DOCUMENTS.get(asked, Document) if isinstance(asked, str) else Document
+    unknown = isinstance(asked, str) and model is Document
+    faults = [Fault.of(("quantity",), asked, f"unknown quantity{suggestion(asked, QUANTITIES)}")] if unknown else []
+    found = list(faults_of_names(whole))
+    try:
+        if not found:
+            return model.model_validate(whole), faults
+    except ValidationError as error:
+        found = list(faults_of(error, whole, model))
+    said = {fault.path for fault in found}
+    faults += [there for fault in found if (there := _where_said(fault, raw)) is fault or there.path not in said]
+    for fault in found:
+        _drop(whole, fault.path)
+    if "options" not in whole:
+        model = Document
+    try:
+        return model.model_validate({"study": "nameless"} | whole), faults
+    except ValidationError:
+        return None, faults
+
+
+def _with_inherited(raw: Mapping[str, Any]) -> dict[Any, Any]:
+    """Cases with what they inherit."""
+    return {
+        name: {"parameters": {}} | inherit(_inherited(raw), own) if isinstance(own, Mapping) else own
+        for name, own in raw["cases"].items()
+    }
+
+
+def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
+    """What the file says for all of its cases."""
+    said = {"parameters": raw.get("base"), "record": raw.get("record"), "tol": raw.get("tol")}
+    return {key: value for key, value in said.items() if value is not None}
+
+
+def _where_said(fault: Fault, raw: Mapping[str, Any]) -> Fault:
+    """A fault in an expanded case at the place where the file says the value: in the case, or in what it inherits."""
+    if fault.path[0] != "cases" or len(fault.path) < 3 or not isinstance(raw.get("cases"), Mapping):
+        return fault
+    place = fault.path[2:]
+    own = next(value for name, value in raw["cases"].items() if str(name) == fault.path[1])
+    if _depth(own, place) >= _depth(_inherited(raw), place):
+        return fault
+    return Fault(("base" if place[0] == "parameters" else place[0], *place[1:]), fault.value, fault.rule)
+
+
+def _depth(said: Any, place: tuple[str, ...]) -> int:
+    """How many steps of the way to a place lead through mappings that say something."""
+    if not place or not isinstance(said, Mapping) or place[0] not in said:
+        return 0
+    return 1 + _depth(said[place[0]], place[1:])
+
+
+def _drop(whole: dict[str, Any], path: tuple[str, ...]) -> None:
+    """Leave out the part of a document in which a fault lies: a case, a figure, an axis, a start, or a key."""
+    key = next((key for key in whole if str(key) == path[0]), "")
+    part = whole.pop(key, None)
+    if path[0] in ("cases", "figures", "axes", "starts") and isinstance(part, Mapping) and len(path) > 1:
+        left = {name: value for name, value in part.items() if str(name) != path[1]}
+        if left:
+            whole[key] = left
+
+
+def _specs(document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> dict[str, CaseSpec]:
+    """What is simulated, of the cases that are right."""
+    specs = {}
+    for name, case in document.cases.items():
+        try:
+            specs[name] = case.spec()
+        except ParameterError as error:
+            faults += [_where_said(fault.inside(("cases", name)), raw) for fault in error.faults]
+    return specs
+
+
+def _figures(
+    document: Document, raw: Mapping[str, Any], specs: Mapping[str, CaseSpec], faults: list[Fault]
+) -> tuple[tuple[str, ...], dict[str, CasePlot], dict[str, Plot]]:
+    """The paper's figures that are listed, those of cases, and those of the grid."""
+    known = [str(name) for name in mapping(raw.get("cases"))]
+    if not isinstance(document.figures, dict):
+        for i, name in enumerate(document.figures):
+            place = ("figures", str(i))
+            if not isinstance(name, str) or name not in CATALOGUE:
+                faults.append(Fault.of(place, name, f"unknown figure{suggestion(name, CATALOGUE)}"))
+                continue
+            # else the case has faults of its own
+            found = [rule for case, rule in lacking(name, specs) if case in specs or case not in known]
+            faults += [Fault.of(place, name, rule) for rule in found]
+        return document.figures, {}, {}
+    plots: dict[str, CasePlot] = {}
+    of_grid: dict[str, Plot] = {}
+    cases = {name: specs[name].sections if name in specs else None for name in known}
+    for name, plot in document.figures.items():
+        place = ("figures", name)
+        if not name.isidentifier() or (name in CATALOGUE and isinstance(plot, CasePlot)):
+            rule = "a figure's name must be letters, digits and _, and not that of one of the paper's"
+            faults.append(Fault(place, "", rule))
+        if isinstance(plot, CasePlot):
+            plots[name] = plot
+            faults += [fault.inside(place) for fault in plot.faults(cases)]
+        elif raw.keys() & GRID_KEYS:
+            of_grid[name] = plot
+        else:
+            faults.append(Fault.of((*place, "kind"), plot.kind, "shows a grid, and this study has none"))
+    return (), plots, of_grid
+
+
+# ----------------------------------------------------------------------------------------------------
+# Dimensions of a grid: axes, one parameter each, and zips, several parameters that vary together
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """One dimension of a grid: the parameters that vary along it, and their values in blocks of sorted tuples."""
+
+    names: tuple[str, ...]
+    blocks: tuple[tuple[tuple[Value, ...], ...], ...]
+
+    @classmethod
+    def of(cls, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> Dimension:
+        """From blocks in any order; a value belongs to the first block that has it."""
+        seen: set[Any] = set()
+        kept = []
+        for block in blocks:
+            new = sorted(set(block) - seen)
+            seen.update(new)
+            if new:
+                kept.append(tuple(new))
+        return cls(tuple(names), tuple(kept))
+
+    @property
+    def name(self) -> str:
+        """The parameter, or the parameters of a zip, joined by _."""
+        return "_".join(self.names)
+
+    @property
+    def values(self) -> tuple[tuple[Value, ...], ...]:
+        """All values, sorted."""
+        return tuple(sorted(value for block in self.blocks for value in block))
+
+    def thinned(self, most: int) -> Dimension:
+        """At most so many of the values, evenly spread by place and both ends among them; all, of words."""
+        values = self.values
+        if len(values) > most and not any(isinstance(part, str) for value in values for part in value):
+            last = len(values) - 1
+            values = tuple(values[round(i * last / max(most - 1, 1))] for i in range(most))
+        return Dimension(self.names, (values,))
+
+
+def points(dims: Sequence[Dimension]) -> Iterator[dict[str, Value]]:
+    """What varies, by name, at every point of a grid."""
+    names = [name for dim in dims for name in dim.names]
+    for point in product(*(dim.values for dim in dims)):
+        yield dict(zip(names, chain.from_iterable(point), strict=True))
+
+
+def n_points(dims: Sequence[Dimension]) -> int:
+    """Number of points of a grid."""
+    return math.prod(len(dim.values) for dim in dims)
+
+
+def first_of_each(found: Iterable[str]) -> list[Fault]:
+    """Of each parameter the first fault."""
+    first: dict[str, Fault] = {}
+    for fault in found:
+        if isinstance(fault, Fault):
+            first.setdefault(fault.path[0], fault)
+    return list(first.values())
+
+
+# ----------------------------------------------------------------------------------------------------
+# Grids
+
+LOOKED_AT = 300
+"""Points, about, at which each rule is asked whether they can be meant."""
+FIRST_SAMPLES = 64
+"""In the first block of samples."""
+MOST_POINTS = 1_000_000
+"""Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
+NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
+"""Parameters that can be distributed."""
+_KICKS: dict[str, Any] = dict.fromkeys(KICKS, (Finite, 0.0))
+_Varied = create_model("_Varied", __base__=SomeParameters, **_KICKS)
+
+
+@dataclass(frozen=True)
+class GridStudy:
+    """A checked grid study.
+
+    Attributes
+    ----------
+    dims : in the order of `VARIED`
+    batches : JSON text of each batch by its name, 12 hexadecimal digits
+    motions : the same of the points whose motion can be looked at
+    """
+
+    name: str
+    title: str
+    quantity: str
+    options: Strict
+    base: Mapping[str, Any]
+    dims: tuple[Dimension, ...]
+    batches: Mapping[str, str]
+    plots: Mapping[str, Plot]
+    motions: Mapping[str, str]
+
+    @property
+    def key(self) -> str:
+        """Name of the merged dataset: a hash of the names of its batches and of its grid."""
+        return content_key(canonical_json([sorted(self.batches), self.grid]))
+
+    @property
+    def grid(self) -> list[dict[str, Any]]:
+        """Dimensions with their values, for `disc_model.studies.grids.merge`."""
+        return [{"names": dim.names, "values": dim.values} for dim in self.dims]
+
+    @property
+    def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
+        """Values along each dimension, by its name."""
+        return {dim.name: dim.values for dim in self.dims}
+
+    @property
+    def kernels(self) -> list[str]:
+        """Kinds of kernels that its points need, as `disc_model.kernels` names them."""
+        deciding = [dim for dim in self.dims if not DECIDING.isdisjoint(dim.names)]
+        cases = [{**self.base, **point} for point in points(deciding)]
+        return kinds_of(cases, QUANTITIES[self.quantity].tasks)
+
+    @property
+    def n_points(self) -> int:
+        """Number of points of the grid."""
+        return n_points(self.dims)
+
+    @property
+    def doubts(self) -> Iterator[str]:
+        """What is implausible about its points, each with their number."""
+        base = {name: value for name, value in self.base.items() if name not in CHOOSING and value != AUTO}
+        for rule in RULES.values():
+            dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]
+            looked_at = [dim.thinned(round(LOOKED_AT ** (1 / len(dims)))) for dim in dims]
+            cases = [base | next(points(self.dims)) | point for point in points(looked_at)]
+            found = [
+                text
+                for case in cases
+                if (text := rule.doubt(Parameters(**{x: case[x] for x in case if x in Parameters.model_fields})))
+            ]
+            if found:
+                about = "about " * (n_points(looked_at) < n_points(dims))
+                yield f"{found[0]} ({about}{len(found) * self.n_points // len(cases)} of {self.n_points} points)"
+
+
+class _Grid:
+    """A grid that is being checked; faults are added to a list as they are found."""
+
+    def __init__(
+        self, document: Document, raw: Mapping[str, Any], plots: Mapping[str, Plot], faults: list[Fault]
+    ) -> None:
+        self.document, self.raw, self.plots, self.faults = document, raw, plots, faults
+        self.before = len(faults)
+        self.quantity: Quantity | None = QUANTITIES.get(str(document.quantity))
+        self.options: Strict | None = None
+        if self.quantity is not None and document.options is not None:
+            self.options, self.start = self.quantity.parted(document.options)
+        self.base, self.automatic = self._base()
+        self.starts = {PUBLISHED: Start(), **document.starts}
+        zips = raw.get("zip")
+        groups = (raw.get("axes"), *([zips] if isinstance(zips, Mapping) else zips if isinstance(zips, list) else ()))
+        self.wanted = {str(name) for group in groups for name in mapping(group)}
+        """What is to vary, whether or not the file says rightly how."""
+        self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *self._samples())
+
+    @property
+    def right(self) -> bool:
+        """Whether no fault of the grid is known."""
+        return not self.faults
+
+    def add(self, path: tuple[str, ...], rule: str, *value: Any) -> None:
+        self.faults.append(Fault(path, shown(value[0]) if value else "", rule))
+
+    def made(self) -> GridStudy | None:
+        """The grid, if it is right."""
+        if self.raw.get("quantity") is None:
+            self.add(("quantity",), "is required")
+        self._check_names()
+        self._check_starts()
+        self._check_truncation()
+        if self.right:
+            self._check_points()
+        if self.right and isinstance(self.options, SensitivityOptions):
+            self._check_distributions(self.options)
+        if (size := n_points(self.dims)) > MOST_POINTS:
+            self.add(("axes",), f"must make at most {MOST_POINTS} points, and not {size}")
+        self._check_plots()
+        if self.faults or self.quantity is None or self.options is None:
+            return None
+        document, quantity = self.document, str(self.document.quantity)
+        first = {name: value for name, value in next(points(self.dims)).items() if name in Parameters.model_fields}
+        unused = {name: 0.0 for name in self.quantity.scanned(self.options) if name in REQUIRED}
+        base = Parameters(**{**unused, **self.base, **first}).canonical | self.automatic
+        base = {name: value for name, value in base.items() if name not in first}
+        if self.automatic:
+            del base["n_circles"]
+        sampled = [
+            {plot.x: mark.x, plot.y: mark.y}
+            for plot in self.plots.values()
+            if isinstance(plot, RegionMap)
+            for mark in plot.marks.values()
+        ]
+        cut = Cut(quantity, document.options, base, self.starts)
+        batches, motions = cut.batches(self.dims, document.batch, sampled), cut.motions(self.dims)
+        return GridStudy(
+            document.study, document.title, quantity, self.options, base, self.dims, batches, self.plots, motions
+        )
+
+    # ---- what the file says
+
+    def _base(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The base values, N and Omega need not be among them; and what leaves the modes to each point."""
+        said = self.document.base
+        given = {name: getattr(said, name) for name in type(said).model_fields if name in said.model_fields_set}
+        if not leaves_modes(given):
+            return given, {}
+        fixed, asked, more = asked_modes(given)
+        self.faults += [fault.inside(("base",)) for fault in more if isinstance(fault, Fault)]
+        if asked is None:
+            return fixed, {}
+        automatic = {"n_diameters": AUTO, "truncation_tolerance": asked.tolerance}
+        if asked.quantity != FREQUENCIES:
+            automatic["truncation_quantity"] = asked.quantity
+        return fixed, automatic
+
+    def _dimensions(self) -> Iterator[Dimension]:
+        """Those that the file gives rightly."""
+        resolution = self.document.resolution
+        for name, blocks in self._columns(self.document.axes.said, ("axes",), resolution).items():
+            yield Dimension.of((name,), [[(value,) for value in block] for block in blocks])
+        for i, group in enumerate(self.document.zips):
+            place = ("zip", str(i)) if isinstance(self.document.zip, list) else ("zip",)
+            columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group.said, place).items()}
+            if len({len(column) for column in columns.values()}) > 1:
+                lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
+                self.add(place, f"must have columns of equal length, not {lengths}")
+            elif columns and len(columns) == len(group.said):
+                yield Dimension.of([*columns], [list(zip(*columns.values(), strict=True))])
+
+    def _columns(self, given: Mapping[str, Any], path: tuple[str, ...], resolution: int = 1) -> dict[str, Blocks]:
+        """Blocks of values by name, as they are understood: floats, whole numbers, words; of what is right."""
+        found = {}
+        for name, axis in given.items():
+            place, before = (*path, name), len(self.faults)
+            try:
+                blocks = blocks_of(axis, resolution)
+            except ValueError as error:
+                self.add(place, str(error))
+                continue
+            checked = tuple(tuple(self._value(name, value, place) for value in block) for block in blocks)
+            if len(self.faults) == before:
+                found[name] = checked
+        return found
+
+    def _value(self, name: str, value: Value, place: tuple[str, ...]) -> Value:
+        """Each for itself; see `_check_points`."""
+        if name == START and not (isinstance(value, str) and value in self.starts):
+            self.add(place, f"no such start{suggestion(value, self.starts)}", value)
+        elif name == "n_diameters" and value == AUTO:
+            self.add(place, "cannot be varied: give it in base, for all points", value)
+        elif name == "contact_compliance" and value == RESIDUAL:
+            self.add(place, "must be a number along an axis: give it in base, for all points", value)
+        elif name != START:
+            try:
+                return getattr(_Varied(**{name: value}), name)  # type: ignore[no-any-return]
+            except ParameterError as error:
+                self.faults += [Fault(place, fault.value, fault.rule) for fault in error.faults]
+        return value
+
+    def _samples(self) -> tuple[Dimension, ...]:
+        """The dimension of samples, the last, in blocks that double their number: twice as many only add one."""
+        if not isinstance(self.options, SensitivityOptions):
+            return ()
+        ends = [0, min(FIRST_SAMPLES, self.options.samples)]
+        while ends[-1] < self.options.samples:
+            ends.append(2 * ends[-1])
+        return (Dimension((SAMPLE,), tuple(tuple((number,) for number in range(a, b)) for a, b in pairwise(ends))),)
+
+    # ---- rules between its parts
+
+    def _check_names(self) -> None:
+        varied = [name for dim in self.dims for name in dim.names]
+        for name in sorted({name for name in varied if varied.count(name) > 1}):
+            self.add(("axes", name), "varies along two dimensions")
+        if not self.dims and self.right:
+            self.add(("axes",), "is required: at least one axis or zip")
+        base, wanted = mapping(self.raw.get("base")), self.wanted
+        quantity, asked = self.quantity, self.document.quantity
+        scanned = () if quantity is None else quantity.scanned(self.options)
+        for name in scanned:
+            if name in wanted or name in base:
+                self.add(("axes" if name in wanted else "base", name), f"is varied by the quantity {asked}")
+        for name in sorted(wanted & base.keys()):
+            self.add(("base", name), "varies as well: give it in base or as an axis, not both", base[name])
+        if quantity is None:
+            return
+        for name in REQUIRED:
+            if name not in {*wanted, *base, *scanned}:
+                self.add(("axes", name), "is required, here, in a zip or in base")
+        names = [dim.name for dim in self.dims]
+        if quantity.over not in ("", SAMPLE, *names, *wanted):
+            self.add(("axes", quantity.over), f"is required: {asked} looks along it")
+        over = self.document.batch.over
+        for name in over if over and self.right else ():
+            if name not in names:
+                self.add(("batch", "over"), f"must name dimensions (known: {', '.join(names)})", name)
+        if quantity.tiled and self.right and len(_plane(self.dims, over)) != 2:
+            rule = f"must name the two dimensions, single numbers, of {asked}'s plane first"
+            self.add(("batch", "over"), rule, over and list(over))
+
+    def _check_starts(self) -> None:
+        """What starts elsewhere must be followed by the quantity, and its start be said in one place."""
+        wanted = [name for name in (START, *KICKS) if name in self.wanted]
+        options = mapping(self.raw.get("options"))
+        if self.quantity is not None and not self.quantity.starts:
+            for name in wanted:
+                self.add(("axes", name), f"the quantity {self.document.quantity} follows no motion from a start")
+        for name in ("prepare", "kick"):
+            if START in wanted and name in options:
+                self.add(("options", name), "must not be given where the start varies: say it under starts")
+        for name in wanted:
+            if name in KICKS and name.removeprefix("kick_") in mapping(options.get("kick")):
+                self.add(("options", "kick", name.removeprefix("kick_")), f"is given, and varies as axes.{name}")
+
+    def _check_truncation(self) -> None:
+        """What is chosen for each point cannot be given, and the choice is made for all points or none."""
+        if not self.automatic:
+            return
+        given = [("axes", name) for name in ("n_diameters", "n_circles") if name in self.wanted]
+        if "n_circles" in self.base:
+            given.append(("base", "n_circles"))
+        for path in given:
+            self.add(path, f"is chosen for each point, since base.n_diameters is {AUTO!r}")
+
+    def _check_points(self) -> None:
+        """Rules between parameters of which some vary, each where it is broken first."""
+        related = [dim for dim in self.dims if not set(RELATED).isdisjoint(dim.names)]
+        varied = [name for dim in related for name in dim.names]
+        found = (fault for point in points(related) for fault in cross_faults(Parameters, {**self.base, **point}))
+        self.faults += [
+            fault.inside(("axes" if fault.path[0] in varied else "base",)) for fault in first_of_each(found)
+        ]
+
+    def _check_distributions(self, options: SensitivityOptions) -> None:
+        """Distributions of no number, of what varies besides, or reaching what a parameter may not be.
+
+        Each rule is shown where it is broken first.
+        """
+        place, dims = ("options", "distributions"), self.dims[:-1]
+        varied = {name for dim in dims for name in dim.names}
+        for name, given in options.distributions.items():
+            own = _own(name, self.base)
+            if name not in NUMBERS:
+                known = ", ".join(NUMBERS)
+                self.add((*place, name), f"must be of a parameter that is a number (known: {known})")
+            elif not given.relative and name in varied:
+                self.add((*place, name), "must be relative, since it varies along an axis as well")
+            elif given.relative and name not in varied and (not is_number(own) or own == 0):
+                self.add((*place, name), f"must not be relative to {shown(own)}")
+        if not self.right:
+            return
+        for fault in first_of_each(self._out_of_reach(options, dims)):
+            at = place if fault.path[0] in options.distributions else ("base",)
+            self.faults.append(Fault((*at, *fault.path), fault.value, f"{fault.rule}; distributions reach that far"))
+
+    def _out_of_reach(self, options: SensitivityOptions, dims: Sequence[Dimension]) -> Iterator[str]:
+        """Rules that ends of the distributions break at any point; those between parameters hold if all corners do."""
+        related = [name for name in sorted(options.distributions) if name in RELATED]
+        wanted = [dim for dim in dims if not {*options.distributions, *RELATED}.isdisjoint(dim.names)]
+        for point in points(wanted):
+            here = {**self.base, **point}
+            ends: dict[str, list[float]] = {}
+            for name, given in options.distributions.items():
+                scale = _own(name, here) if given.relative else 1.0
+                ends[name] = [scale * end for end in given.ends]
+                for end in ends[name]:
+                    try:
+                        SomeParameters(**{name: end})
+                    except ParameterError as error:
+                        yield from error.faults
+            for corner in product(*(ends[name] for name in related)):
+                yield from cross_faults(Parameters, {**here, **dict(zip(related, corner, strict=True))})
+
+    def _check_plots(self) -> None:
+        # what is only meant to be a dimension, and has faults, counts as one without values
+        meant = sorted(self.wanted.difference(*(dim.names for dim in self.dims)))
+        values: Values = dict.fromkeys(meant, ()) | {dim.name: dim.values for dim in self.dims}
+        asked = self.document.quantity
+        for name, plot in self.plots.items():
+            found: Iterable[Fault] = ()
+            if isinstance(plot, General):
+                if self.options is not None:
+                    found = _general(plot, str(asked), self.options, values)
+            elif asked in plot.quantities:
+                found = plot.faults(values)
+            else:
+                found = [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
+            self.faults += [fault.inside(("figures", name)) for fault in found]
+
+
+def _own(name: str, values: Mapping[str, Any]) -> Any:
+    """A point's value of a parameter, as far as it has one."""
+    return values[name] if name in values else getattr(Parameters.model_fields.get(name), "default", None)
+
+
+def _general(plot: General, quantity: str, options: Strict, values: Values) -> Iterator[Fault]:
+    """What keeps a general figure from being drawn: the quantity's module knows its variables and dimensions."""
+    grid = {name: [one[0] if len(one) == 1 else one for one in along] for name, along in values.items()}
+    own: dict[str, list[Any]] = {}
+    variables: dict[str, Any] = {}
+    others = [name for name in grid if name != QUANTITIES[quantity].over]
+    for module, dims in ((importlib.import_module(module_of(quantity)), [*grid]), (summary_of(quantity), others)):
+        variables |= {name: (*dims, *column.dims) for name, column in getattr(module, "COLUMNS", {}).items()}
+        coordinates: Any = getattr(module, "coordinates", lambda options: {})
+        own |= {name: along.tolist() for name, (along, _) in coordinates(options).items()}
+    return plot.faults_among(grid | own, variables)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Batches
+
+RUNNER = "disc_model.studies.grids.run"
+MOTIONS = "disc_model.studies.grids.motions"
+
+
+def module_of(name: str) -> str:
+    """Module that computes a quantity, of the same name."""
+    return f"disc_model.studies.grids.quantities.{name}"
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A grid that is cut into batches: the text of each by its name, 12 hexadecimal digits.
+
+    options : as the file says them, with where motions start
+    """
+
+    quantity: str
+    options: Strict
+    base: Mapping[str, Any]
+    starts: Mapping[str, Start]
+
+    def batches(
+        self, dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
+    ) -> dict[str, str]:
+        """All points; `sampled` are those of a plane at which a tiled quantity is worked out in any case."""
+        entry = QUANTITIES[self.quantity]
+        if entry.tiled:
+            return self._texts(RUNNER, dims, _tiles(dims, batch, sampled))
+        size = batch.size or entry.batch_size(self.options)
+        return self._texts(RUNNER, dims, ({"points": cut} for cut in _chunks(dims, batch.over, size)))
+
+    def motions(self, dims: Sequence[Dimension]) -> dict[str, str]:
+        """For `disc_model.studies.grids.motions`: one batch of a few points; none for some quantities."""
+        most = QUANTITIES[self.quantity].motions
+        if not most:
+            return {}
+        few = [dim.thinned(most) for dim in dims]
+        cut = _chunks(few, [dim.name for dim in few], n_points(few))
+        return self._texts(MOTIONS, few, ({"points": every} for every in cut))
+
+    def _texts(self, runner: str, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
+        choosing = chooser(asked_modes(self.base)[1]) if leaves_modes(self.base) else ()
+        shared: dict[str, Any] = {
+            "quantity": self.quantity,
+            "options": self.options.model_dump(),
+            "base": self.base,
+            "names": [name for dim in dims for name in dim.names],
+            "sources": source_hash(module_of(self.quantity), runner, *choosing),
+        }
+        texts = [canonical_json({**shared, **self._used(shared["names"], part["points"]), **part}) for part in parts]
+        return {content_key(text): text for text in texts}
+
+    def _used(self, names: Sequence[str], points: Sequence[Sequence[Value]]) -> dict[str, Any]:
+        """The starts that points name, if they do."""
+        if START not in names:
+            return {}
+        used = {str(point[names.index(START)]) for point in points}
+        return {"starts": {name: self.starts[name].model_dump() for name in sorted(used)}}
+
+
+def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[list[Value]]]:
+    """Points of each batch, a list of values in the order of the dimensions."""
+    # a dimension that is not to be cut is taken as blocks of one value each
+    blocks = [dim.blocks if over is None or dim.name in over else [(value,) for value in dim.values] for dim in dims]
+    for chosen in product(*blocks):
+        for part in _parts(chosen, size):
+            yield [[*chain.from_iterable(point)] for point in part]
+
+
+def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:
+    """The product of blocks in parts of at most `size`, each of whole values of a block and all of those after it.
+
+    So a further value of a dimension that is cut down to single values adds parts and leaves the others.
+    """
+    first, *others = blocks
+    within = math.prod(map(len, others))
+    if within > size:
+        yield from ([(value, *rest) for rest in part] for value in first for part in _parts(others, size))
+    else:
+        count = size // within
+        yield from ([*product(first[i : i + count], *others)] for i in range(0, len(first), count))
+
+
+def _tiles(
+    dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
+) -> Iterator[dict[str, Any]]:
+    """Points of each tile; and the values along its sides, with those of the next tiles that bound its last cells."""
+    plane = _plane(dims, batch.over)
+    others = [dim for dim in dims if dim not in plane]
+    names = [dim.name for dim in plane]
+    sides = [_cuts([value for (value,) in dim.values], batch.tile) for dim in plane]
+    gathered = batch.over or [dim.name for dim in others]
+    shares = [[dim.values] if dim.name in gathered else [(value,) for value in dim.values] for dim in others]
+    for chosen, tile in product(product(*shares), product(*sides)):
+        own: dict[str, Sequence[tuple[Value, ...]]] = {
+            dim.name: share for dim, share in zip(others, chosen, strict=True)
+        }
+        own |= {name: [(value,) for value in kept] for name, (_, kept) in zip(names, tile, strict=True)}
+        points = [[*chain.from_iterable(point)] for point in product(*(own[dim.name] for dim in dims))]
+        along = [values for values, _ in tile]
+        within = [[_at(mark[name], values) for name, values in zip(names, along, strict=True)] for mark in sampled]
+        kept = sorted(places for places in within if None not in places)
+        yield {"points": points, "tile": {"names": names, "along": along, "sampled": kept}}
+
+
+def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimension]:
+    """The dimensions of a plane of tiles: those that are named first, or else all that are numbers."""
+    numbers = [dim for dim in dims if len(dim.names) == 1 and is_number(dim.values[0][0])]
+    return [dim for dim in numbers if over is None or dim.name in over[:2]]
+
+
+def _at(value: float, along: Sequence[Value]) -> int | None:
+    """Place of a value along the side of a tile."""
+    return next((i for i, one in enumerate(along) if math.isclose(value, float(one), rel_tol=1e-12)), None)
+
+
+def _cuts(values: Sequence[Value], size: int) -> list[tuple[list[Value], list[Value]]]:
+    """Stretches of about `size` intervals, and what of each no later one has."""
+    n = len(values) - 1
+    count = max(1, round(n / size))
+    edges = [round(i * n / count) for i in range(count + 1)]
+    return [(list(values[a : b + 1]), list(values[a : b + (b == n)])) for a, b in pairwise(edges)]

@@ -1,0 +1,257 @@
+"""What study files amount to: cases, grids, figures of either, and the files that they name."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from disc_model import Parameters
+from disc_model.claims import SCANS
+from disc_model.simulation.case import CaseSpec, Window
+from disc_model.studies.study import Study, StudyError, load_study, parse_study, study_from_config
+from tests.studies.refused import faults_of
+
+ROOT = Path(__file__).parents[2]
+CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}
+GRID: dict[str, Any] = {
+    "study": "mine",
+    "quantity": "floquet",
+    "base": {"N": 200, "Omega": 20},
+    "axes": {"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2, 0.3]},
+    "figures": {"growth": {"kind": "heat_map", "variable": "growth_rate", "x": "mu_s", "y": "mu_k"}},
+}
+HYSTERESIS = {"scan": {"start": 1, "stop": 2, "count": 2}, "dwell": 9}
+CASES: dict[str, Any] = {
+    "study": "small",
+    "base": {"N": 385, "c": 0.1},
+    "record": {"windows": {"history": {"rate": 100}}, "events": {"last": 2}},
+    "cases": {
+        "A": {"title": "a", "parameters": {"Omega": 15}, "t_end": 10},
+        "B": {"title": "b", "parameters": {"Omega": 15.1, "N": 50}, "t_end": 1, "tol": "1e-8"},
+    },
+}
+
+
+def with_case(name: str = "A", **changes: Any) -> Study:
+    """The cases with one changed."""
+    return parse_study(CASES | {"cases": CASES["cases"] | {name: CASES["cases"].get(name, CASE) | changes}})
+
+
+# ---- kinds of studies
+
+
+def test_a_grid_alone_is_a_study() -> None:
+    study = parse_study(GRID)
+    assert (study.specs, study.claims, study.figures) == ({}, False, ())
+    grids, asked = study.grids()
+    assert (grids["mine"].n_points, asked) == (6, ("mine",))
+
+
+def test_cases_alone_are_a_study_without_claims() -> None:
+    study = parse_study(CASES)
+    assert (list(study.specs), study.grid, study.claims) == (["A", "B"], None, False)
+    assert study.grids() == ({}, ())
+
+
+def test_a_file_can_say_both_and_figures_of_both() -> None:
+    both = GRID["figures"] | {"seen": {"kind": "history", "case": "A", "window": "history"}}
+    study = parse_study(CASES | GRID | {"base": {"N": 200, "Omega": 20}, "figures": both})
+    assert study.grid is not None
+    assert list(study.grid.plots) == ["growth"]
+    assert list(study.plots) == ["seen"]
+    assert "seen" in study.drawable
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "config").glob("*.yaml")), ids=lambda path: path.stem)
+def test_shipped_files_are_valid_and_named_after_their_study(path: Path) -> None:
+    assert load_study(path).name == path.stem
+
+
+def test_the_papers_study_asks_for_claims_and_for_its_figures() -> None:
+    study = load_study(ROOT / "config" / "paper.yaml")
+    assert study.claims
+    assert len(study.figures) == 31
+    assert set(study.figures) <= set(study.drawable)
+
+
+def test_what_is_drawable_has_its_cases_and_windows() -> None:
+    """A figure of the paper that a study does not list can still be asked for, if there is all that it needs."""
+    assert with_case("F04", record={"poincare": {}}).drawable == ("fig04",)
+    assert with_case().drawable == ()
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "config" / "studies").rglob("*.yaml")), ids=lambda path: path.stem)
+def test_a_file_of_a_grid_is_given_as_it_is(path: Path) -> None:
+    """What its figures show besides is found beside it."""
+    study = load_study(path)
+    grids, names = study.grids([Path(), path.parent])
+    assert names == (study.name,)
+    assert {other for plot in grids[study.name].plots.values() for other in plot.others.values()} <= grids.keys()
+
+
+# ---- cases
+
+
+def test_cases_inherit_and_override() -> None:
+    a, b = parse_study(CASES).specs.values()
+    assert a.parameters == Parameters(N=385, Omega=15, c=0.1)
+    assert b.parameters == Parameters(N=50, Omega=15.1, c=0.1)
+    assert (a.tol, b.tol) == (1e-10, 1e-8)
+    assert a.events == (8.0, 10.0)
+    assert b.events == (0.0, 1.0), "the last 2 s of a run of 1 s are all of it"
+    assert a.windows == (("history", Window(start=0, stop=10, rate=100)),)
+
+
+def test_null_drops_what_is_inherited() -> None:
+    spec = with_case(record={"windows": {"history": None}, "events": False}).specs["A"]
+    assert spec.windows == ()
+    assert spec.events is None
+    assert not spec.record.events
+
+
+def test_a_window_may_be_said_in_part() -> None:
+    record = {"windows": {"history": {"envelope": 100}}}
+    [(_, window)] = with_case(record=record).specs["A"].windows
+    assert (window.rate, window.envelope) == (100, 100)
+    assert window.count == 1000, "the last instant has no bin of its own"
+
+
+def test_specification_survives_its_text() -> None:
+    study = with_case(record={"poincare": {"theta": 0.5}}, ramps=[{"parameter": "N", "to": "5", "start": 2, "end": 8}])
+    assert [ramp.to for ramp in study.specs["A"].ramps] == [5.0]
+    for spec in study.specs.values():
+        assert CaseSpec.from_canonical(spec.canonical) == spec
+
+
+def test_key_depends_on_content_alone() -> None:
+    def key(**change: Any) -> str:
+        return with_case(**change).specs["A"].key
+
+    same = key()
+    assert key(title="other", reference="elsewhere") == same
+    assert key(t_end="1e1") == same
+    assert key(parameters={"c": "0.10", "Omega": 15.0}) == same
+    assert key(t_end=11) != same
+    assert key(tol=1e-9) != same
+    assert key(parameters={"Omega": 15, "m": 0.2}) != same
+    assert key(record={"windows": {"history": {"rate": 200}}}) != same
+
+
+# ---- files
+
+
+def test_keys_given_twice(tmp_path: Path) -> None:
+    text = "study: x\ncases:\n  A: {title: a, t_end: 1, parameters: {N: 1, Omega: 2, N: -3}}\nstudy: y\n"
+    path = tmp_path / "twice.yaml"
+    path.write_text(text)
+    valid = {"study": "x", "cases": {"A": CASE}}
+    for load in (
+        load_study,
+        lambda file: study_from_config({"study": "x", "cases": {}}, [file]),
+        lambda file: study_from_config(valid, [file]),
+    ):
+        with pytest.raises(StudyError, match=r"twice\.yaml") as caught:
+            load(path)
+        assert "study: given twice, in lines 1 and 4" in caught.value.faults
+        assert "N: given twice, in lines 3 and 3" in caught.value.faults
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"a: [1", r"broken\.yaml"),
+        (b"a: b: c", r"broken\.yaml"),
+        (b"study: \xff", r"broken\.yaml: .*\n.*cannot be read: byte 7 is no UTF-8"),
+        (None, "cannot be read"),
+    ],
+)
+def test_a_file_that_cannot_be_read(tmp_path: Path, content: bytes | None, said: str) -> None:
+    path = tmp_path / "broken.yaml"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(StudyError, match=said):
+        load_study(path)
+
+
+def test_error_survives_pickling() -> None:
+    error = StudyError("a: b", "c: d", source="x.yaml")
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.faults) == (str(error), error.faults)
+
+
+def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
+    figure = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growth": "other"}}
+    plane = {"N": [1], "Omega": [1]}
+    shown = {"study": "map", "quantity": "outcome", "options": {"horizon": 5}, "axes": plane, "figures": {"f": figure}}
+    other = {"study": "other", "quantity": "floquet", "axes": plane}
+    for changes, fault in (
+        ({}, ""),
+        (
+            {"quantity": "outcome", "options": {"horizon": 2}},
+            "must be a study of the quantity floquet, and not outcome",
+        ),
+        ({"axes": plane | {"k": [2]}}, "must vary N, Omega beside normalization, and not N, Omega, k"),
+        ({"base": {"normalization": "orthonormal"}}, "must be computed for the same normalization: as_published"),
+    ):
+        (tmp_path / "other.yaml").write_text(json.dumps(other | changes))
+        if not fault:
+            assert parse_study(shown).grids([tmp_path])[1] == ("map",)
+            continue
+        assert faults_of(parse_study(shown).grids, [tmp_path]) == [f"map: figures.f.others.growth = 'other': {fault}"]
+    (tmp_path / "other.yaml").unlink()
+    [fault] = faults_of(parse_study(shown).grids, [tmp_path])
+    assert fault.endswith("'other': no such study (known: map)")
+
+
+def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
+    plot = {"kind": "growth_map", "others": {"curves": "elsewhere"}}
+    plane = {"quantity": "floquet", "axes": {"N": [1], "Omega": [1]}}
+    texts = {
+        "one": "study: one\nquantity: outcome\n",
+        "two": "study: other\nquantity: floquet\naxes: {N: [1], Omega: [1], N: [2]}\n",
+        "three": json.dumps(plane | {"study": "three", "figures": {"f": plot}}),
+        "four": json.dumps(plane | {"study": "small"}),
+        "five": json.dumps({"study": "five", "cases": {"A": CASE}}),
+    }
+    for name, text in texts.items():
+        (tmp_path / f"{name}.yaml").write_text(text)
+    study = parse_study({"study": "three", "studies": ["*.yaml"], "cases": {"A": CASE}, "overrides": {"six": {}}})
+    found = "\n".join(faults_of(study.grids, [tmp_path]))
+    for fault in (
+        "one.yaml: axes.Omega: is required",
+        "two.yaml: N: given twice, in lines 3 and 3",
+        "study = 'three': is the name of another folder of results",
+        "three: figures.f.others.curves = 'elsewhere': no such study",
+        "study = 'small': must be the name of the file",
+        "study = 'five': must be a grid alone",
+        "overrides.six: no such study (known: five, four, one, three, two)",
+    ):
+        assert fault in found
+
+
+def test_overrides_and_resolution_are_laid_over_the_file(tmp_path: Path) -> None:
+    axes = {"N": [100, 200], "Omega": {"start": 10, "stop": 20, "count": 3}}
+    small = {"study": "small", "quantity": "outcome", "options": {"horizon": 2}, "axes": axes}
+    (tmp_path / "small.yaml").write_text(json.dumps(small))
+    over = {"small": {"axes": {"N": [50]}, "options": {"horizon": 7}}}
+    study = parse_study({"study": "all", "studies": ["small.yaml"], "overrides": over, "resolution": 2})
+    grids, asked = study.grids([tmp_path])
+    assert asked == ("small",)
+    assert grids["small"].n_points == 5
+    assert grids["small"].options.horizon == 7  # type: ignore[attr-defined]
+
+
+def test_the_studies_of_the_repository_are_right() -> None:
+    every, _ = parse_study({"study": "all", "studies": [str(ROOT / "config" / "studies" / "*.yaml")]}).grids()
+    others = ("bifurcation", "lyapunov", "sensitivity", "campbell", "ramps")
+    grids = {name: grid for name, grid in every.items() if grid.quantity not in others}
+    laws = {"normalization", "contact_force"}
+    pairs = {frozenset(dim.name for dim in grid.dims) - laws for grid in grids.values() if grid.plots}
+    planes = {frozenset(("Omega", name)) for name in ("N", "D_star", "c", "k", "k_p", "E", "m")}
+    assert planes | {frozenset(("N", "c_p")), frozenset(("N",)), frozenset(("Omega",))} == pairs
+    for name, grid in grids.items():
+        assert any("normalization" in dim.names for dim in grid.dims) or name in SCANS  # a claim is about one
