@@ -28,7 +28,7 @@ def test_a_simulation_depends_on_the_whole_engine_and_on_no_figure_or_claim() ->
     assert "engine/machine.py" in found
     unused = imported - found
     assert not {name for name in unused if "switch" in name or "series" in name}
-    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name == "studies/schema.py"}
+    assert not {name for name in found if name.startswith(("figures/", "claims/")) or name == "studies/study.py"}
 
 
 @pytest.mark.parametrize("figure", CATALOGUE)

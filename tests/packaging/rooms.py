@@ -1,8 +1,8 @@
-"""Follow a case or a grid point from its file to what is written, and list the rooms entered.
+"""Follow a study file, a case or a grid point from its file to what is written, and list the rooms entered.
 
 A room is a file of the package; it is entered when a function of it runs.
 
-python -m tests.packaging.rooms case|point FOLDER    prints them as JSON; what is written goes to FOLDER
+python -m tests.packaging.rooms file|case|point FOLDER    prints them as JSON; what is written goes to FOLDER
 """
 
 from __future__ import annotations
@@ -64,6 +64,15 @@ def run(script: str, *arguments: str) -> None:
     importlib.import_module(script).main()
 
 
+def file(folder: Path) -> None:
+    """A study file from YAML to the texts of its batches."""
+    from disc_model.studies.study import load_study
+
+    path = ROOT / "config" / "studies" / "test" / "test_grid.yaml"
+    grids, _ = load_study(path).grids([path.parent])
+    (folder / "batches.json").write_text(json.dumps(dict(grids["test_grid"].batches)))
+
+
 def case(folder: Path) -> None:
     """F02 of config/test.yaml: its text, its dataset and Fig. 2."""
     from disc_model.figures.paper.catalogue import CATALOGUE, caption
@@ -93,6 +102,6 @@ def point(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    ways = {"case": case, "point": point}
+    ways = {"file": file, "case": case, "point": point}
     which, there = ways[sys.argv[1]], Path(sys.argv[2])
     print(json.dumps(entered(lambda: which(there))))

@@ -16,13 +16,14 @@ ROOT = Path(__file__).resolve().parents[2]
 @pytest.mark.parametrize(
     ("way", "most", "some", "written"),
     [
+        ("file", 5, {"studies/document.py", "studies/study.py"}, "batches.json"),
         (
             "case",
             16,
-            {"studies/schema.py", "simulation/api.py", "plate.py", "data/dataset.py"},
+            {"studies/document.py", "simulation/api.py", "plate.py", "data/dataset.py"},
             "fig02.png",
         ),
-        ("point", 25, {"studies/grids/schema.py", "studies/grids/run.py", "plate.py", "data/dataset.py"}, "batch.nc"),
+        ("point", 22, {"studies/document.py", "studies/grids/run.py", "plate.py", "data/dataset.py"}, "batch.nc"),
     ],
 )
 def test_a_way_enters_few_rooms(way: str, most: int, some: set[str], written: str, tmp_path: Path) -> None:

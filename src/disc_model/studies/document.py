@@ -47,6 +47,7 @@ from disc_model.parameters import (
     Strict,
     Title,
     Tolerance,
+    leaves_modes,
 )
 from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
@@ -777,6 +778,8 @@ class Chosen(NamedTuple):
 def _of_case(values: Any) -> Chosen:
     if not isinstance(values, Mapping):
         raise ValueError("must be a mapping")
+    if not leaves_modes(values):
+        return Chosen(Parameters.model_validate(values), None)
     return Chosen(*read_asked(values))
 
 
