@@ -22,7 +22,6 @@ import disc_model.simulation.api  # noqa: F401 - replaced by name below
 from disc_model import ParameterError, Parameters
 from disc_model.cli import main
 from disc_model.studies.study import StudyError, parse_study, read_yaml
-from tests.studies.refused import parse_grid
 from tests.tally import tried
 
 ROOT = Path(__file__).parents[2]
@@ -109,13 +108,12 @@ def test_study_with_one_hostile_node(path: tuple[Any, ...], what: Any) -> None:
 def test_grid_with_one_hostile_node(data: st.DataObject) -> None:
     grid = data.draw(st.sampled_from(GRIDS))
     path = data.draw(st.sampled_from(leaves(grid)))
-    try_study(parse_grid, planted(grid, path, data.draw(trees)))
+    try_study(parse_study, planted(grid, path, data.draw(trees)))
 
 
 @given(trees)
 def test_anything_for_a_study(tree: Any) -> None:
     try_study(parse_study, tree)
-    try_study(parse_grid, tree)
 
 
 # ---- YAML as text
@@ -179,10 +177,9 @@ def edited_texts(draw: st.DrawFn) -> str:
 
 def try_text(text: str) -> None:
     count("YAML files")
-    for parse in (parse_study, parse_grid):
-        with contextlib.suppress(StudyError):
-            tree, _ = read_yaml(text)
-            parse(tree)
+    with contextlib.suppress(StudyError):
+        tree, _ = read_yaml(text)
+        parse_study(tree)
 
 
 @given(st.text(max_size=200))

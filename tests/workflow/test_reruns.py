@@ -110,7 +110,7 @@ def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
         ("src/disc_model/studies/cases.py", TABLES),
         ("workflow/scripts/simulate_case.py", SIMULATIONS | FIGURES | TABLES),
         ("src/disc_model/cli/run.py", set()),
-        ("src/disc_model/studies/schema.py", set()),
+        ("src/disc_model/studies/study.py", set()),
     ],
 )
 def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: set[str]) -> None:
