@@ -180,9 +180,8 @@ ALL: Callable[[Project], Jobs] = lambda project: batches(project, "inc_map") | b
         ("src/disc_model/figures/disc_model.mplstyle", lambda _: {("draw_plot", "inc_map")}),
         ("workflow/scripts/draw_figure.py", lambda _: {("draw_plot", "inc_map")}),
         (f"{GRIDS}/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
-        (f"{GRIDS}/schema.py", lambda _: set()),
-        # the options by which a summary is made are checked at each merge
-        (f"{GRIDS}/quantities/schema.py", lambda _: MAP_TAIL | GROWTH_TAIL),
+        ("src/disc_model/studies/study.py", lambda _: set()),
+        ("src/disc_model/studies/document.py", lambda _: set()),
         (f"{GRIDS}/quantities/hysteresis.py", lambda _: set()),
         (f"{GRIDS}/quantities/floquet.py", lambda project: batches(project, "inc_growth") | GROWTH_TAIL),
         ("src/disc_model/stability/attractor/course.py", lambda project: batches(project, "inc_map") | MAP_TAIL),
