@@ -17,6 +17,8 @@ __version__ = "0.2.0"
 
 _HOMES = {
     "Parameters": "parameters",
+    "Disc": "parameters",
+    "read_disc": "disc",
     "plate_modes": "plate",
     "slider_at_rest_frequencies": "plate",
     "choose_modes": "mode_choice",
@@ -49,6 +51,7 @@ __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
     from disc_model.data.dataset import load
+    from disc_model.disc import read_disc
     from disc_model.errors import (
         DiscModelError,
         ModeError,
@@ -62,7 +65,7 @@ if TYPE_CHECKING:
     )
     from disc_model.flexibility import residual_flexibility
     from disc_model.mode_choice import choose_modes
-    from disc_model.parameters import Parameters
+    from disc_model.parameters import Disc, Parameters
     from disc_model.plate import plate_modes, slider_at_rest_frequencies
     from disc_model.plausibility import ImplausibleValue
     from disc_model.simulation.api import simulate

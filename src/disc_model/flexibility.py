@@ -68,6 +68,11 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     """
     refuse(foreign_case(p))
     kept = _modal_sum(p)
+    if p.disc is not None:
+        if p.disc.static_compliance is None:
+            rule = "must be given for the compliance of the modes left out"
+            raise ParameterError(Fault(("disc", "static_compliance"), "None", rule))
+        return Flexibility(p.disc.static_compliance, kept, 0.0)
     if p.normalization == "orthonormal":
         value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)
         return Flexibility(value * p.b**2 / p.D, kept, bound * p.b**2 / p.D)
@@ -89,6 +94,9 @@ def contact_give(p: Parameters) -> float:
         return float(p.contact_compliance)
     value = residual_flexibility(p).residual
     if not value > 0:
+        if p.disc is not None:
+            rule = f"must be greater than what its modes give at the slider, {residual_flexibility(p).kept:.6g} m/N"
+            raise ParameterError(Fault(("disc", "static_compliance"), shown(p.disc.static_compliance), rule))
         rule = f"must be a number with n_diameters={p.n_diameters}, n_circles={p.n_circles}, which leave no mode out"
         raise ParameterError(Fault(("contact_compliance",), shown(RESIDUAL), rule))
     return value

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import product
 from typing import Any
 
-from disc_model.parameters import AUTO, RESIDUAL, Parameters
+from disc_model.parameters import AUTO, RESIDUAL, Disc, Parameters
 from disc_model.simulation.case import CaseSpec
 
 TASKS = ("simulate", "floquet", "ramp")
@@ -30,7 +30,7 @@ PAIRS_OF_A_BLOCK = 4
 KINDS = tuple(f"{task}-{law}{width}" for width, law, task in product(WIDTHS, LAWS, TASKS))
 USUAL = tuple(kind for kind in KINDS if ("wide" in kind) + ("ramp" in kind) + ("rigid_vertical" not in kind) < 2)
 """Those that differ from the paper's in one way at most: they are measured, and shipped with a wheel."""
-DECIDING = frozenset({"contact_compliance", "contact_force", "n_diameters", "n_circles"})
+DECIDING = frozenset({"contact_compliance", "contact_force", "n_diameters", "n_circles", "disc"})
 """Parameters that decide the kind of a case."""
 _DEFAULTS = {name: Parameters.model_fields[name].default for name in DECIDING}
 
@@ -58,9 +58,14 @@ def _models(values: Mapping[str, Any]) -> Iterator[str]:
     """Law and width of a case; both widths where its modes are yet to be chosen."""
     known = {name: values.get(name, default) for name, default in _DEFAULTS.items()}
     law = f"{'compliant' if known['contact_compliance'] else 'rigid'}_{known['contact_force']}"
+    disc, highest = known["disc"], known["n_diameters"]
+    if disc is not None:
+        diameters = disc.diameters if isinstance(disc, Disc) else disc["diameters"]
+        pairs = sum(each > 0 for each in diameters)
+    else:
+        pairs = 0 if highest == AUTO else highest * (known["n_circles"] + 1)
     for width in WIDTHS:
-        wide = known["n_diameters"] != AUTO and known["n_diameters"] * (known["n_circles"] + 1) > PAIRS_OF_A_BLOCK
-        if known["n_diameters"] == AUTO or wide == bool(width):
+        if highest == AUTO or (pairs > PAIRS_OF_A_BLOCK) == bool(width):
             yield law + width
 
 

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_type_hints
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from disc_model.errors import Fault, ParameterError, faults_of, shown
 
@@ -257,7 +257,14 @@ RESIDUAL = "residual"
 RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu")
 """Parameters that rules relate to each other."""
 
-_LATER = ("contact_compliance", "contact_force")
+PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
+"""Parameters of the plate, which mean nothing for a disc that is given by its modes."""
+MOST_MODES = 1000
+"""Modes in the table of a disc."""
+SPLIT = 0.05
+"""Modes of as many nodal diameters whose frequencies are closer than this share are the halves of one pair."""
+
+_LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc")
 """Parameters that came later: left out of the canonical form at their defaults, so that old hashes hold."""
 
 
@@ -281,6 +288,29 @@ def _give(value: Any) -> Any:
     return found
 
 
+def _disc(value: Any) -> Any:
+    """Refuse the name of a file, which only study files and the command line read."""
+    if isinstance(value, str):
+        raise ValueError("must be a Disc: disc_model.read_disc reads one from a table of modes")
+    return value
+
+
+def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
+    """What says something of the plate beside a disc, and two dampings of one plate."""
+
+    def default(name: str) -> Any:
+        return model.model_fields[name].default
+
+    said = {name for name in (*PLATE, "damping_ratio") if data.get(name, default(name)) != default(name)}
+    if data.get("disc") is not None:
+        rule = "must be left out where a disc is given: it is a parameter of the plate"
+    elif "damping_ratio" in said:
+        said, rule = said & {"D_star"}, "must be left out where damping_ratio is given"
+    else:
+        return []
+    return [Fault((name,), shown(data[name]), rule) for name in sorted(said)]
+
+
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
     """A field with a unit, "" for a choice; pydantic's rule keywords (`ge`, `gt`, `lt`, `le`) pass through."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **rules)
@@ -288,6 +318,101 @@ def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
 
 def _number(default: Any, unit: str, description: str, **rules: Any) -> Any:
     return _field(default, unit, description, allow_inf_nan=False, **rules)
+
+
+class Disc(Checked):
+    """An axisymmetric disc given by its modes, from finite elements or a modal test: a plain value.
+
+    Modes with nodal diameters are pairs (cosine and sine), each given once. `disc_model.read_disc` reads a table.
+
+    Parameters
+    ----------
+    diameters : number of nodal diameters of each mode (whole numbers, 0 to 60)
+    omega : natural frequencies (rad/s, > 0)
+    amplitude : mass-normalised displacement under the slider, at an antinode of the pair (kg^-1/2)
+    damping_ratio : of each mode (0 to 1; 0 if left out)
+    circles : number of nodal circles of each mode; if left out, modes of as many diameters are counted by frequency
+    static_compliance : of the whole disc at the slider (m/N, > 0), from which the compliance of the modes that are left
+        out follows; None if it is not known
+
+    Raises
+    ------
+    ParameterError
+        Naming everything that breaks a rule, its value and the rule, in one message.
+    """
+
+    diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
+    omega: tuple[Positive, ...]
+    amplitude: tuple[Finite, ...]
+    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = ()
+    circles: tuple[Annotated[Count, Field(ge=0)], ...] = ()
+    static_compliance: Positive | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _complete(cls, data: Any) -> Any:
+        """Fill in columns that may be left out."""
+        columns = {name: data.get(name) for name in ("diameters", "omega")}
+        if not all(isinstance(column, tuple | list) for column in columns.values()):
+            return data
+        diameters, omega = columns["diameters"], columns["omega"]
+        ratio, circles = data.get("damping_ratio") or (), data.get("circles") or ()
+        if not ratio:
+            ratio = (0.0,) * len(diameters)
+        if not circles and len(omega) == len(diameters) and all(map(is_number, omega)):
+            order = sorted(range(len(omega)), key=omega.__getitem__)
+            circles = [sum(diameters[j] == diameters[i] for j in order[: order.index(i)]) for i in range(len(omega))]
+        return {**data, "damping_ratio": ratio, "circles": circles}
+
+    @classmethod
+    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
+        columns = {name: data.get(name) for name in ("diameters", "omega", "amplitude", "damping_ratio", "circles")}
+        given = {name: column for name, column in columns.items() if isinstance(column, tuple | list)}
+        faults: list[str] = []
+        count = len(given.get("diameters", ()))
+        if "diameters" in given and not 1 <= count <= MOST_MODES:
+            faults.append(Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes"))
+        for name, column in given.items():
+            if len(column) != count and (column or name in ("omega", "amplitude")):
+                faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
+        if faults or not {"diameters", "omega", "amplitude"} <= given.keys():
+            return faults
+        try:
+            diameters = [whole(x) for x in given["diameters"]]
+            omega, amplitude = ([float(number(x)) for x in given[name]] for name in ("omega", "amplitude"))
+            circles = [whole(x) for x in given.get("circles", ())]
+        except ValueError:
+            return []
+        if not any(amplitude):
+            faults.append(Fault(("amplitude",), "", "must not be 0 for all modes: the slider would not feel the disc"))
+        return faults + _repeated(diameters, omega, circles)
+
+    def first(self, count: int) -> Disc:
+        """The disc with the first modes of its table alone."""
+        columns = ("diameters", "omega", "amplitude", "damping_ratio", "circles")
+        return self.replace(**{name: getattr(self, name)[:count] for name in columns})
+
+
+def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> list[str]:
+    """Modes that are given twice: as often as not the halves of a pair, which an axisymmetric disc has once."""
+    faults: list[str] = []
+    for j in range(len(diameters)):
+        for i in range(j):
+            if diameters[i] != diameters[j] or (circles and circles[i] != circles[j]):
+                continue
+            apart = abs(omega[j] - omega[i]) / max(abs(omega[i]), abs(omega[j]), 1e-300)
+            if not (circles or apart < SPLIT):
+                continue
+            name = f"modes {i + 1} and {j + 1} have {diameters[j]} nodal diameters"
+            if apart < 1e-9:
+                rule = f"{name} and one frequency: each mode, and each pair of modes, must be given once"
+            else:
+                rule = (
+                    f"{name} and frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a "
+                    f"pair once, by its mean frequency, and what splits it is neglected"
+                )
+            faults.append(Fault(("omega",), shown(omega[j]), rule))
+    return faults[:3]
 
 
 class Parameters(Checked):
@@ -324,6 +449,8 @@ class Parameters(Checked):
         default 0)
     contact_force : direction of the contact force: vertical as in the paper, or normal to the bent disc (vertical or
         normal, default vertical)
+    damping_ratio : damping ratio of every mode of the plate, instead of D_star (>= 0, < 1, default None)
+    disc : a disc given by its modes, instead of the plate (default None)
 
     Raises
     ------
@@ -364,10 +491,16 @@ class Parameters(Checked):
     contact_force: Literal["vertical", "normal"] = _field(
         "vertical", "", "direction of the contact force: vertical as in the paper, or normal to the bent disc"
     )
+    damping_ratio: Real | None = _number(
+        None, "1", "damping ratio of every mode of the plate, instead of D_star", ge=0, lt=1
+    )
+    disc: Annotated[Disc, BeforeValidator(_disc)] | None = _field(
+        None, "", "a disc given by its modes, instead of the plate"
+    )
 
     @classmethod
     def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
-        return cross_faults(cls, data)
+        return cross_faults(cls, data) + _disc_faults(cls, data)
 
     @property
     def D(self) -> float:

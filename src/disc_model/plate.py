@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg, special
 
-from disc_model.errors import ModeError, refuse, shown
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.errors import Fault, ModeError, ParameterError, refuse, shown
+from disc_model.parameters import Disc, Parameters, foreign_case
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -88,12 +88,17 @@ def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
 
     normalization : if not that of the case
     """
+    if p.disc is not None:
+        return _given_modes(p.disc)
     orthonormal = (normalization or p.normalization) == "orthonormal"
     return _modes(p.a, p.b, p.r_0, p.h, p.E, p.nu, p.rho, p.n_diameters, p.n_circles, orthonormal)
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
     """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`."""
+    if p.disc is not None:
+        rule = "must be left out: the shapes of its modes are not known, only amplitudes under the slider"
+        raise ParameterError(Fault(("disc",), "", rule))
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
@@ -185,9 +190,17 @@ def _compliant_coupling(omega: Array, psi: Array, m: float, k: float, give: floa
 
 
 def modal_damping(p: Parameters) -> Array:
-    """Kelvin-Voigt damping 2 xi omega = (D*/D) omega^2 of every mode, 1/s, in the order of `plate_modes`."""
-    damping: Array = p.D_star / p.D * mode_arrays(p).omega ** 2
+    """Damping 2 xi omega of every mode, 1/s, in the order of `plate_modes`; (D*/D) omega^2 if no ratio xi is given."""
+    omega = mode_arrays(p).omega
+    ratio = p.damping_ratio if p.disc is None else np.array(p.disc.damping_ratio)
+    damping: Array = p.D_star / p.D * omega**2 if ratio is None else 2 * ratio * omega
     return damping
+
+
+@lru_cache(maxsize=64)
+def _given_modes(disc: Disc) -> Modes:
+    circles, diameters = (np.array(column, np.int64) for column in (disc.circles, disc.diameters))
+    return Modes(circles, diameters, np.array(disc.omega), np.array(disc.amplitude))
 
 
 @lru_cache(maxsize=1024)

@@ -78,6 +78,8 @@ def _sound(p: Parameters) -> str:
 
 
 def _deflected(p: Parameters) -> str:
+    if p.disc is not None:  # whose thickness nobody said
+        return ""
     try:
         modes = mode_arrays(p, "orthonormal")  # those of the plate itself
     except (DiscModelError, ArithmeticError):  # said where the modes are asked for

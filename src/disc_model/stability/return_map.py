@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import layout, outcomes, switches, variational
 from disc_model.engine import tangent as columns
-from disc_model.errors import broken, refuse
+from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 
@@ -77,6 +77,8 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     """What a unit of a parameter, one of `PARAMETERS`, changes in the equations: a column of `Tangent.parameters`."""
+    if name in ("E", "D_star") and (p.disc is not None or (name == "D_star" and p.damping_ratio is not None)):
+        raise ParameterError(Fault(("parameter",), shown(name), "must be a parameter that the case has"))
     width, n0 = len(model.force), len(model.force0)
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
     scalars, *modal = np.split(change, columns.N_SCALARS + np.cumsum([0, width, width, n0]))
@@ -91,8 +93,10 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     elif name in ("c", "m", "k_p", "c_p"):
         scalars[{"c": columns.D_C, "m": columns.D_M, "k_p": columns.D_K_P, "c_p": columns.D_C_P}[name]] = 1.0
     elif name == "E":
-        # omega^2 is proportional to E, the damping (D_star / D) omega^2 does not depend on it
+        # omega^2 is proportional to E; the damping (D_star / D) omega^2 does not depend on it, but 2 xi omega does
         stiffness[:], stiffness0[:] = model.stiffness / p.E, model.stiffness0 / p.E
+        if p.damping_ratio is not None:
+            damping[:], damping0[:] = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
         # u_0 and the residual flexibility are proportional to 1 / E
         residual = p.contact_compliance == RESIDUAL
         given = 0.0 if residual or not model.give else model.give[0]

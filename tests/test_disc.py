@@ -1,0 +1,172 @@
+"""Discs given by a table of their modes."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import disc_model as dm
+from disc_model.disc import disc_table
+from disc_model.plate import modal_damping, mode_arrays
+from disc_model.stability.return_map import ReturnMap
+
+P = dm.Parameters(N=385, Omega=15.1)
+THREE = {"diameters": [0, 1, 2], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]}
+
+
+def written(path: Path, p: dm.Parameters) -> dm.Parameters:
+    """The case with a disc that was read from the table of its own modes."""
+    path.write_text(disc_table(p))
+    left = {name: p.canonical[name] for name in ("N", "Omega", "r_0", "contact_force") if name in p.canonical}
+    return dm.Parameters(**left, contact_compliance=p.contact_compliance, disc=dm.read_disc(path))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {},
+        {"normalization": "orthonormal"},
+        {"normalization": "orthonormal", "contact_compliance": "residual"},
+        {"contact_force": "normal"},
+    ],
+    ids=["published", "orthonormal", "residual", "normal force"],
+)
+def test_a_plate_given_by_its_modes_moves_as_the_plate(change: dict[str, object], tmp_path: Path) -> None:
+    """Seventeen digits bring every number back; rounding is left to the damping, which comes as a ratio."""
+    plate = P.replace(**change)
+    table = written(tmp_path / "disc.csv", plate)
+    times = [dm.simulate(p, 1.0).events["time"].to_numpy() for p in (plate, table)]
+    np.testing.assert_allclose(*times, rtol=0, atol=1e-13)
+    growth = [dm.floquet(p.replace(Omega=15.0)).growth_rate for p in (plate, table)]
+    assert growth[1] == pytest.approx(growth[0], abs=1e-9)
+
+
+TABLES = {
+    "one pair": {"diameters": [3], "omega": [2770.0], "amplitude": [2.1]},
+    "no axisymmetric mode": {"diameters": [1, 2], "omega": [1515.0, 1820.0], "amplitude": [2.2, 2.1]},
+    "one axisymmetric mode": {"diameters": [0], "omega": [1490.0], "amplitude": [1.5]},
+    "two circles": {**THREE, "diameters": [0, 0, 2], "circles": [0, 1, 0], "damping_ratio": [1e-3, 2e-3, 0.0]},
+    "60 modes": {
+        "diameters": [i % 20 for i in range(60)],
+        "omega": [1500.0 + 400.0 * i for i in range(60)],
+        "amplitude": [2.0] * 60,
+    },
+}
+
+
+@pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)
+def test_tables_of_many_kinds_are_computed(table: dict[str, list[float]]) -> None:
+    p = P.replace(disc=dm.Disc(**table))
+    run = dm.simulate(p, 0.02, record=dm.Record(energy=True)).raise_for_status()
+    assert run.statistics["energy_residual"] < 1e-10  # as for the plate
+    assert dm.plate_modes(p)["omega"].tolist() == table["omega"]
+    assert dm.Parameters.model_validate_json(p.canonical_json) == p
+
+
+def test_content_decides_the_key(tmp_path: Path) -> None:
+    """Neither the file's name nor how the numbers are written."""
+    (tmp_path / "a.csv").write_text("diameters,omega_rad_per_s,amplitude_per_sqrt_kg\n1,1000,2\n")
+    (tmp_path / "b.csv").write_text(
+        "# damped\namplitude_per_sqrt_kg, damping_ratio, omega_rad_per_s, diameters\n2.0,0,1e3,1\n"
+    )
+    one, other = (P.replace(disc=dm.read_disc(tmp_path / f"{name}.csv")) for name in "ab")
+    assert one.key == other.key != P.key
+    (tmp_path / "b.csv").write_text(f"diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,{500 / np.pi:.17g},2\n")
+    assert dm.read_disc(tmp_path / "b.csv").omega[0] == pytest.approx(1000, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"omega": [1490.0, 0.0, 1820.0]}, "omega.1=0: must be > 0"),
+        ({"omega": [1490.0, 1515.0]}, "omega=2 values: must be as many as diameters, 3"),
+        ({"diameters": [0, 1, 1.5]}, "diameters.2=1.5: must be a whole number"),
+        ({"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1515.0]}, "one frequency: each mode"),
+        ({"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1530.0]}, "0.98 % apart: the disc must be axisymmetric"),
+        ({"diameters": [0, 1, 1], "circles": [0, 0, 0]}, "17 % apart: the disc must be axisymmetric"),
+        ({"amplitude": [0.0, 0.0, 0.0]}, "must not be 0 for all modes"),
+        ({"damping_ratio": [0.0, 1.0, 0.0]}, "damping_ratio.1=1: must be < 1"),
+        ({"static_compliance": -1}, "static_compliance=-1: must be > 0"),
+        ({"amplitude": [1.0, 2.0, float("nan")]}, "amplitude.2=nan: must be finite"),
+    ],
+)
+def test_what_is_no_disc_is_refused(change: dict[str, object], said: str) -> None:
+    with pytest.raises(dm.ParameterError) as error:
+        dm.Disc(**(THREE | change))
+    assert said in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "said"),
+    [
+        ({"disc": dm.Disc(**THREE), "E": 2e11}, "must be left out where a disc is given"),
+        ({"disc": dm.Disc(**THREE), "n_diameters": 8}, "n_diameters=8: must be left out where a disc is given"),
+        ({"disc": "disc.csv"}, "disc_model.read_disc reads one"),
+        ({"damping_ratio": 1e-3, "D_star": 2e-5}, "D_star=2e-05: must be left out where damping_ratio is given"),
+    ],
+)
+def test_a_disc_and_a_plate_are_not_mixed(parameters: dict[str, object], said: str) -> None:
+    with pytest.raises(dm.ParameterError) as error:
+        dm.Parameters(N=385, Omega=15, **parameters)
+    assert said in str(error.value)
+
+
+def test_the_residual_compliance_needs_a_static_one() -> None:
+    given = P.replace(disc=dm.Disc(**THREE), contact_compliance="residual")
+    with pytest.raises(dm.ParameterError, match="static_compliance"):
+        dm.simulate(given, 0.01)
+    with pytest.raises(dm.ParameterError, match="must be greater than what its modes give at the slider"):
+        dm.simulate(given.replace(disc=dm.Disc(**THREE, static_compliance=1e-7)), 0.01)
+    assert dm.simulate(given.replace(disc=dm.Disc(**THREE, static_compliance=1e-5)), 0.01).status == "ok"
+
+
+def test_a_damping_ratio_is_that_of_every_mode() -> None:
+    p = P.replace(damping_ratio=1e-3)
+    np.testing.assert_array_equal(modal_damping(p), 2e-3 * mode_arrays(p).omega)
+
+
+FIRST_LINES = ("diameters,omega_rad_per_s,amplitude_per_sqrt_kg", "diameters,frequency_Hz,omega_rad_per_s", "E,h", "")
+CELLS = ("1", "-1", "0", "1e400", "nan", "inf", "", " 2 ", "x", "1,2", '"', "\0", "1e-300", "é", "#", "0.5", "99999999")
+
+
+def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
+    """A thousand of them."""
+    path, draw = tmp_path / "disc.csv", np.random.default_rng(0)
+    for i, first in itertools.product(range(250), FIRST_LINES):
+        rows = [",".join(draw.choice(CELLS, draw.integers(1, 5))) for _ in range(draw.integers(0, 4))]
+        comment = [f"# static_compliance_m_per_N: {draw.choice(CELLS)}"] if i % 3 == 0 else []
+        path.write_bytes("\n".join([*comment, first, *rows]).encode("utf-8" if i % 5 else "utf-16"))
+        with contextlib.suppress(dm.ParameterError):
+            assert isinstance(dm.read_disc(path), dm.Disc)
+
+
+@pytest.mark.parametrize("path", ["nowhere.csv", ".", "a\0b", 5, None])
+def test_a_file_that_cannot_be_read_is_named(path: object) -> None:
+    with pytest.raises(dm.ParameterError, match="must be a text file that can be read"):
+        dm.read_disc(path)  # type: ignore[arg-type]
+
+
+def test_the_derivative_by_E_of_a_plate_with_a_damping_ratio() -> None:
+    """Its damping rises with the root of E, and that of a plate with D_star not at all."""
+    p = P.replace(damping_ratio=0.05)
+    map_ = ReturnMap(p, parameters=("E",))
+    _, _, _, by = map_.evaluate(map_.static)
+    step, ends = 1e-5 * p.E, []
+    for change in (-step, step):
+        other = ReturnMap(p.replace(E=p.E + change))
+        reached = other.evaluate(map_.static / map_.scale * other.scale, tangent=False)[1]
+        ends.append(reached / other.scale * map_.scale)
+    expected = (ends[1] - ends[0]) / (2 * step)  # right to 1e-9 of itself, by the third derivative
+    assert np.linalg.norm(by[:, 0] - expected) < 1e-6 * np.linalg.norm(expected)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "name"), [({"disc": dm.Disc(**THREE)}, "E"), ({"damping_ratio": 0.01}, "D_star")]
+)
+def test_there_is_no_derivative_by_what_a_case_has_not(parameters: dict[str, object], name: str) -> None:
+    with pytest.raises(dm.ParameterError, match="must be a parameter that the case has"):
+        ReturnMap(P.replace(**parameters), parameters=(name,))
