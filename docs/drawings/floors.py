@@ -25,6 +25,7 @@ WHAT = {
     "analysis": "spectra, Poincaré sections, words for motions",
     "simulation": "a case to a result: the engine behind one function",
     "data": "variables, datasets, whole files, provenance",
+    "disc": "discs given by a table of modes",
     "truncation": "how many modes frequencies need",
     "flexibility": "how far the disc gives way under the slider",
     "plate": "modes of the disc",
