@@ -26,40 +26,23 @@ def contents():
     return made_up.contents()[0]
 
 
-@pytest.fixture
-def told(contents):
-    """What is told of each variable."""
-    return {variable["name"]: variable for variable in contents["variables"]}
-
-
-def test_every_number_comes_through(contents, told):
+def test_numbers_flags_and_messages_come_through(contents):
+    """Each as its words, whatever numbers stand for them; as JSON, and with units."""
+    assert json.loads(json.dumps(contents, allow_nan=False)) == contents
     study = made_up.plane()
+    told = {variable["name"]: variable for variable in contents["variables"]}
     assert set(told) == set(study.data_vars) - {"message"}
     shape = {dim["name"]: len(dim["values"]) for dim in contents["dims"]}
     for name in ("growth_rate", "releases"):
         found = numbers(told[name], "<f4").reshape([shape[dim] for dim in told[name]["dims"]])
         np.testing.assert_allclose(found, study[name].transpose(*told[name]["dims"]), rtol=2.0 ** -(BITS + 1))
-    assert told["growth_rate"]["unit"] == "s-1"
-    assert told["growth_rate"]["title"] == "growth rate"
-
-
-def test_flags_are_said_by_their_words_whatever_numbers_stand_for_them(told):
+    assert (told["growth_rate"]["unit"], told["growth_rate"]["title"]) == ("s-1", "growth rate")
     words = np.array(told["outcome"]["flags"])[numbers(told["outcome"], "u1")]
-    expected = np.where(made_up.plane()["outcome"].values == 0, "separation", "stable")
-    assert words.tolist() == expected.ravel().tolist()
-
-
-def test_messages_of_points(contents):
-    messages = contents["messages"]
-    said = np.array(messages["words"])[numbers(messages, "<u2")].reshape(3, 4, 2)
-    assert said[tuple(made_up.FAILED.values())] == made_up.MESSAGE
-    assert (said != "").sum() == 1
-
-
-def test_what_does_not_vary_is_told_with_its_unit(contents):
-    assert contents["fixed"] == [
-        {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
-    ]
+    assert words.tolist() == np.where(study["outcome"].values == 0, "separation", "quiet").ravel().tolist()
+    said = np.array(contents["messages"]["words"])[numbers(contents["messages"], "<u2")].reshape(3, 4, 2)
+    assert (said[tuple(made_up.FAILED.values())], (said != "").sum()) == (made_up.MESSAGE, 1)
+    spring = {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
+    assert contents["fixed"] == [spring]
 
 
 def test_chosen_modes_are_told_with_their_tolerance():
@@ -77,55 +60,32 @@ def test_a_zip_is_one_dimension_of_words():
     assert dim["parts"] == {"N": made_up.N, "Omega": [20.0, 15.1, 12.0]}
 
 
-def test_motions_that_failed_are_left_out(contents):
+def test_motions_are_right_to_half_a_step_and_failed_ones_are_left_out(contents):
     motions = contents["motions"]
     assert [motion["at"] for motion in motions["points"]] == [[100, 5, "as_published"], [385, 20, "as_published"]]
     assert {trace["name"]: trace["unit"] for trace in motions["traces"]} == {"P": "N", "u": "m", "psi": "rad"}
     assert motions["points"][0]["phase"] == [[0, 1], [SAMPLES // 4, 2], [SAMPLES // 2, 3], [3 * SAMPLES // 4, 1]]
-
-
-def test_a_history_is_right_to_half_a_step(contents):
-    told = contents["motions"]["traces"][0]
+    told = motions["traces"][0]
     found = numbers(told, "<u2").reshape(2, SAMPLES)
-    for i, motion in enumerate(contents["motions"]["points"]):
+    for i, motion in enumerate(motions["points"]):
         expected = made_up.force(motion["at"][0]).astype(float)
         error = np.abs(told["least"][i] + told["step"][i] * found[i] - expected).max()
         # half a step, and rounding of what is about 600
         assert error <= np.ptp(expected) / LEVELS / 2 + 1e-12
-
-
-def test_a_constant_history():
-    told = traces(np.full((2, 7), -0.0088))
-    assert (told["least"], told["step"]) == ([-0.0088] * 2, [0.0] * 2)
-    assert not numbers(told, "<u2").any()
-
-
-def test_a_study_without_any_motion_that_went_well():
     lost = made_up.motions()
     lost["status"][:] = 1
     assert motion_contents(lost)["points"] == []
 
 
-def test_numbers_that_are_none_stay_what_they_are():
+def test_histories_and_numbers_at_their_limits():
+    told = traces(np.full((2, 7), -0.0088))
+    assert (told["least"], told["step"], numbers(told, "<u2").any()) == ([-0.0088] * 2, [0.0] * 2, False)
     found = shortened(np.array([np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0]))
     np.testing.assert_array_equal(found, np.array([np.nan, np.inf, -np.inf, 0, -0.0, 1], np.float32))
-
-
-def test_runs():
     assert runs(np.array([2, 2, 2, 1, 1, 2])) == [[0, 2], [3, 1], [5, 2]]
-    assert runs(np.array([0])) == [[0, 0]]
-
-
-def test_contents_are_json(contents):
-    assert json.loads(json.dumps(contents, allow_nan=False)) == contents
-    assert motion_contents(made_up.motions(), "After the transient.") == contents["motions"]
 
 
 def test_what_is_said_over_all_samples_is_told_beside_them():
     """It lies along fewer dimensions than the points."""
-    contents = study_contents("doubts", uncertain.made_up())
-    told = {variable["name"]: variable["dims"] for variable in contents["variables"]}
-    assert told["growth_rate"] == ["N", "sample", "variant"]
-    assert told["probability_unstable"] == ["N"]
-    assert sorted(told["total_index"]) == ["N", "output", "parameter"]
-    assert {name for dims in told.values() for name in dims} <= {dim["name"] for dim in contents["dims"]}
+    told = {one["name"]: one["dims"] for one in study_contents("doubts", uncertain.made_up())["variables"]}
+    assert (told["growth_rate"], told["probability_unstable"]) == (["N", "sample", "variant"], ["N"])

@@ -78,11 +78,8 @@ def test_figures_have_pictures_and_captions(text):
     assert text.index("<h3>Sec. 1</h3>") < text.index("<h3>Sec. 2</h3>")
 
 
-def test_every_part_of_the_script_is_used():
+def test_every_part_is_used_and_equal_contents_give_equal_bytes(figure):
     there = {path.stem for path in (Path(page_module.__file__).parent / "static").glob("*.js")}
     assert there == set(SCRIPTS)
-
-
-def test_equal_contents_give_equal_bytes(figure):
     pictures = [Picture("a", "b", "c", figure)]
     assert page("t", [], pictures) == page("t", [], pictures)
