@@ -1,0 +1,328 @@
+"""Figures of named cases and of the paper: from data alone, in one style, with units, and where a case holds less."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+from PIL import Image
+
+from disc_model import Parameters, Poincare, Record, Window, simulate
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import KICKS, SHOWN
+from disc_model.figures import parts
+from disc_model.figures.kinds import CASE_PLOTS, OwnFigure
+from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, number_of, said_parameters
+from disc_model.figures.paper.disc import film, motion_of
+from disc_model.figures.parts import COLUMN, PAGE, save
+from tests.claims.made_up import DAMAGES, damaged
+from tests.figures.grids.reading import labels
+
+
+def made_up_case(*, separates: bool = True) -> xr.DataTree:
+    """A case with the windows that figures look for; contact is lost at P = 0 once a cycle."""
+    t = np.arange(0.25, 60, 0.5)
+    grow = np.minimum(np.exp((t - 40) / 10), 1)
+    history = {
+        f"{name}_{end}": offset + sign * scale * grow
+        for name, offset, scale in (("P", 200.0, 200.0), ("w_point", -5e-4, 0.01), ("psi", 0.02, 0.05))
+        for end, sign in (("min", -1), ("max", 1))
+    }
+    s = np.linspace(0, 0.035, 3501)
+    cycle = np.sin(2 * np.pi * 135 * s)
+    force = np.maximum(200 + (220 if separates else 100) * cycle, 0)
+    zoom = {"P": force, "phase": np.where(force == 0, 2, 1).astype(np.int8)}
+    zoom |= {"u": 0.009 * cycle, "w": 0.009 * cycle - 3e-5 * (force == 0)}
+    p = Parameters(N=200, Omega=20)
+    root = xr.Dataset(
+        {"first_separation": 40.0 if separates else np.nan, "u_0": -0.001, "time_reached": 60.0},
+        attrs={"parameters": p.canonical_json},
+    )
+    stretches = {
+        f"spectrum_{name}": made_up_samples(start, 4000, 3.0) for name, start in zip("abcd", STARTS, strict=True)
+    }
+    stretches["orbit"] = made_up_samples(59, 5000, 1.0)
+    stretches["poincare"] = made_up_samples(0, 3, 60.0)
+    stretches |= {f"around{j}": made_up_circle(0.7 * j) for j in range(9)}
+    if not separates:
+        stretches = {name: window.assign(phase=window["phase"] % 2) for name, window in stretches.items()}
+    stretches |= {"history": made_up_window(t, history), "zoom": made_up_window(50 + s, zoom)}
+    return xr.DataTree.from_dict({"/": root} | {f"/{name}": window for name, window in stretches.items()})
+
+
+def made_up_window(t: np.ndarray, values: dict[str, np.ndarray], theta: float = 0.5) -> xr.Dataset:
+    return xr.Dataset({name: ("time", value) for name, value in values.items()}, {"time": t}, {"theta": theta})
+
+
+def made_up_circle(theta: float) -> xr.Dataset:
+    """The disc at an angle, which it is bent over; the slider leaves it for a tenth of each cycle of 140 Hz."""
+    t = 50 + np.arange(350) / 1e4
+    cycle = (140 * t) % 1.0
+    values = {
+        "psi": 0.05 * np.ones_like(t),
+        "u": 1e-3 * np.cos(2 * np.pi * cycle),
+        "w_point": 1e-3 * np.cos(2 * np.pi * cycle) * np.cos(theta),
+        "phase": np.where(cycle < 0.1, 2, 1).astype(np.int8),
+    }
+    return made_up_window(t, values, theta)
+
+
+STARTS = (0.0, 20.0, 38.5, 50.0)
+"""Of the stretches whose spectra are shown, s."""
+
+
+def made_up_samples(start: float, rate: float, length: float) -> xr.Dataset:
+    """A slider that sticks, slips and separates at 70 Hz, and a disc at 140 Hz."""
+    t = start + np.arange(round(length * rate)) / rate
+    cycle, turn = np.sin(2 * np.pi * 70 * t), np.cos(2 * np.pi * 3.2 * t)
+    values = {
+        "psi": 0.05 * cycle,
+        "psi_velocity": np.minimum(20.0, 22 * np.cos(2 * np.pi * 70 * t)),
+        "w_point": 1e-3 * turn + 1e-4 * np.sin(2 * np.pi * 140 * t),
+        "w_point_velocity": 0.1 * np.cos(2 * np.pi * 140 * t),
+        "phase": np.where(cycle > 0.9, 2, np.where(cycle > 0, 0, 1)).astype(np.int8),
+    }
+    return made_up_window(t, values)
+
+
+OPTIONS = {
+    "fig26": {"zooms": [["spectrum_c", 39.0], ["spectrum_d", 51.0]]},
+    "fig28": {"zooms": [["spectrum_d", 50.5], ["spectrum_d", 51.0]]},
+}
+"""Closer looks at times that the made-up case has."""
+
+
+def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
+    plot = CATALOGUE[name].plot
+    return parts.draw(OwnFigure(by=plot.by, options=plot.options | OPTIONS.get(name, {})), cases)
+
+
+def draw(name: str, *, separates: bool = True) -> Figure:
+    return drawn(name, {case: made_up_case(separates=separates) for case in CATALOGUE[name].cases})
+
+
+def said_in(figure: Figure) -> list[str]:
+    return [text.get_text().replace("\n", " ") for text in figure.findobj(mpl.text.Text)]
+
+
+@pytest.mark.parametrize("separates", [True, False])
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_figures_name_their_quantities_and_units_legibly_at_print_size(name: str, separates: bool) -> None:
+    figure = draw(name, separates=separates)
+    assert figure.get_figwidth() in (COLUMN, PAGE)
+    for ax in figure.axes:
+        if ax.get_label() == "shares the axis to its left" or not ax.axison:  # an empty panel says why
+            continue
+        assert ax.get_ylabel().endswith(")"), "a unit in brackets"
+        assert ax.has_data() or not separates
+    assert figure.get_suptitle() == ""
+    assert min(text.get_fontsize() for text in figure.findobj(mpl.text.Text) if text.get_text()) >= 7
+    names = {text for ax in figure.axes for text in (ax.get_xlabel(), ax.get_ylabel()) if text.startswith("Disc at")}
+    assert names <= {r"Disc at $r_0$, $\theta$ = 0.5 (mm)"}, "at the angle that was recorded"
+    assert names or "{theta}" not in CATALOGUE[name].caption or name == "fig25" or not separates
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("name", {entry.drawn_by: name for name, entry in CATALOGUE.items()}.values())
+def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
+    """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""
+    figure = drawn(name, {case: damaged(made_up_case(), DAMAGES[damage]) for case in CATALOGUE[name].cases})
+    figure.draw_without_rendering()
+    reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
+    if damage in ("failed", "nothing recorded"):
+        assert len(reasons) == len([ax for ax in figure.axes if not ax.has_data()])
+        windows = ("history", "zoom", "orbit", "poincare", "around0", *(f"spectrum_{letter}" for letter in "abcd"))
+        known = {"failed"} if damage == "failed" else {f"did not record {window}" for window in windows}
+        assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
+
+
+@pytest.mark.parametrize("suffix", ["pdf", "png"])
+def test_equal_figures_give_equal_bytes_whatever_the_users_settings(suffix: str, tmp_path: Path) -> None:
+    save(draw("fig13"), tmp_path / f"a.{suffix}")
+    before = dict(mpl.rcParams)
+    with mpl.rc_context({"axes.labelsize": 30, "lines.linewidth": 9}):
+        save(draw("fig13"), tmp_path / f"b.{suffix}")
+    assert dict(mpl.rcParams) == before
+    content = (tmp_path / f"a.{suffix}").read_bytes()
+    assert content == (tmp_path / f"b.{suffix}").read_bytes()
+    assert b"CreationDate" not in content
+    assert b"/Type3" not in content, "fonts are embedded as TrueType"
+
+
+def test_a_closer_look_began_inside_a_separation() -> None:
+    """What the window cuts off looked like a jump of the force at its start."""
+    case = made_up_case()
+    zoom = case["zoom"].to_dataset()
+    apart = np.flatnonzero(zoom["phase"].values == 2)
+    case["zoom"] = xr.DataTree(zoom.isel(time=slice(int(apart[5]), None)))
+    line = drawn("fig02", {"F02": case}).axes[1].lines[0]
+    assert line.get_xdata()[0] == 0
+    assert line.get_ydata()[0] > 0
+
+
+def test_two_angles_are_both_named() -> None:
+    cases = {name: made_up_case() for name in ("F02", "F04")}
+    cases["F04"]["history"].attrs["theta"] = 2.0
+    assert drawn("fig10", cases).axes[0].get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 and 2 (mm)"
+
+
+# ---- kinds that a file may ask for
+
+
+def asked(kind: str, case: xr.DataTree | None = None, **said: Any) -> Figure:
+    plot = CASE_PLOTS[kind].model_validate({"kind": kind, "case": "A", **said})
+    return parts.draw(plot, {"A": made_up_case() if case is None else case})
+
+
+def test_a_history_has_a_panel_for_each_variable() -> None:
+    figure = asked("history", window="spectrum_c", variables=["w_point", "psi"], title="Seen")
+    assert figure.get_suptitle() == "Seen\nN = 200 N, Ω = 20 rad/s"
+    top, bottom = figure.axes
+    np.testing.assert_allclose(top.lines[0].get_ydata(), 1e3 * made_up_case()["spectrum_c/w_point"].values)  # mm
+    assert bottom.get_ylabel() == "Angle ψ (rad)"
+    assert "first separation 40.00 s" in said_in(figure)
+    ranges = asked("history", window="history", variables=["P", "psi"])
+    assert all(len(ax.collections) == 1 for ax in ranges.axes), "as bands"
+
+
+def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
+    (mesh,) = asked("spectrogram", window="spectrum_a", variable="psi", highest=400).axes[0].collections
+    corners = mesh.get_coordinates()[:, 0, 1]
+    centre = (corners[:-1] + corners[1:]) / 2
+    assert centre[int(np.argmax(mesh.get_array().sum(axis=1)))] == pytest.approx(
+        70, abs=2
+    )  # two steps of the transform
+
+
+def test_portraits_and_sections_show_all_samples() -> None:
+    (ax,) = asked("portrait", window="orbit").axes
+    assert labels(ax) == ["stick", "slip", "separation"]
+    slider, disc = asked("poincare").axes
+    shown = sum(len(collection.get_offsets()) for collection in slider.collections)
+    assert shown == made_up_case()["poincare"].sizes["time"]
+    assert disc.get_xlabel().startswith("Disc at")
+
+
+@pytest.mark.parametrize("kind", CASE_PLOTS)
+def test_what_a_case_lacks_is_said(kind: str) -> None:
+    """A case that stops at its first separation ended the job of a history in an IndexError."""
+    said = {} if kind == "poincare" else {"window": "orbit"}
+    empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))
+    assert any("did not record" in text for text in said_in(asked(kind, empty, **said)))
+    if kind != "poincare":
+        early = damaged(made_up_case(), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))})
+        assert any("has 0 samples in orbit" in text for text in said_in(asked(kind, early, **said)))
+
+
+# ---- the catalogue
+
+
+def test_every_figure_has_its_place() -> None:
+    assert all(entry.section in SECTIONS and entry.title for entry in CATALOGUE.values())
+    # no number is said of what may be configured
+    assert not any(character.isdigit() for entry in CATALOGUE.values() for character in entry.title)
+    assert [number_of(name) for name in ("fig02", "fig29", "figA1")] == ["Fig. 2", "Fig. 29", "Fig. A1"]
+    assert sorted(["fig10", "fig02", "fig29"], key=label) == ["fig02", "fig10", "fig29"]
+    shown = {*range(1, 30)} - {15}  # 15 belongs to a study of its own
+    assert set(CATALOGUE) == {f"fig{n:02d}" for n in shown} | {"figA1", "figA2", "figB1"}
+
+
+@pytest.mark.parametrize("name", CATALOGUE)
+def test_captions_name_the_parameters_and_the_modes(name: str) -> None:
+    p = Parameters(N=385, Omega=15.1, c_p=0.5)
+    for normalization, words in (("as_published", "as in the published results"), ("orthonormal", "Eq. (17)")):
+        text = caption(name, dict.fromkeys(CATALOGUE[name].cases, p.replace(normalization=normalization)))
+        assert "N = 385 N, Ω = 15.1 rad/s, c_p = 0.5 N s/m" in text
+        assert words in text
+        assert "{" not in text
+
+
+def test_parameters_that_are_words_are_said_as_words() -> None:
+    """A case with another law of contact ended the whole study: words have no format of numbers."""
+    p = Parameters(N=200, Omega=20, contact_compliance="residual", contact_force="normal")
+    assert said_parameters(p) == "N = 200 N, Ω = 20 rad/s, contact_compliance = residual, contact_force = normal"
+    assert said_parameters(p.replace(contact_compliance=1e-7, contact_force="vertical")).endswith("= 1e-07 m/N")
+
+
+def test_every_number_that_varies_has_a_symbol() -> None:
+    """A map over the compliance of the contact passed the check of its file and ended in a KeyError."""
+    numbers = [name for name in Parameters.model_fields if Parameters.unit(name)]
+    assert {*numbers, *KICKS} <= SHOWN.keys()
+
+
+def test_captions_say_times_and_angles_of_the_windows() -> None:
+    p = Parameters(N=200, Omega=20)
+    windows = {
+        "history": Window(start=0, stop=9, rate=10, theta=0.5, envelope=2),
+        "zoom": Window(start=3, stop=3.05, rate=1e3),
+        "orbit": Window(start=7.5, stop=9, rate=1e3),
+        "poincare": Poincare(theta=-0.25),
+    }
+
+    def said(name: str) -> str:
+        return caption(name, {"F02": p, "F04": p}, {"F02": windows, "F04": windows | {"history": windows["zoom"]}})
+
+    assert "(b) 50 ms of it" in said("fig02")
+    assert "r_0 and θ = -0.25." in said("fig05")
+    assert "r_0 and θ = 0.5 and 1, with" in said("fig10")
+    assert "drive point, 7.5 to 9 s, by phase" in said("figA2")
+    # without a section, as if nothing had been said of it
+    assert "r_0 and a fixed θ." in caption("fig05", {"F02": p}, {"F02": {"poincare": None}})
+
+
+# ---- the whole disc
+
+
+@pytest.fixture(scope="module")
+def case() -> xr.DataTree:
+    """A light disc that turns and separates soon; three modes, five angles."""
+    p = Parameters(N=300, Omega=50, n_diameters=2, normalization="orthonormal")
+    windows = [Window(start=0.5, stop=0.52, rate=2e4, theta=1.2 * j) for j in range(5)]
+    windows.append(Window(start=0.5, stop=0.52, rate=2e4, theta=2.1))
+    names = [*(f"around{j}" for j in range(5)), "elsewhere"]
+    return simulate(p, 0.52, record=Record(windows=tuple(windows))).to_tree(names)
+
+
+@pytest.mark.compiled
+def test_the_disc_between_the_angles_is_the_disc(case: xr.DataTree) -> None:
+    """Under the slider, and at an angle that the shape is not made from; to rounding of the displacement itself."""
+    motion = motion_of(case)
+    r_0 = np.array([motion.parameters.r_0])
+    elsewhere = case["elsewhere"].to_dataset()
+    size = float(np.abs(elsewhere["w"]).max())
+    for i in range(0, motion.time.size, 20):
+        under, there = motion.deflection(i, r_0, np.array([motion.slider[i], 2.1]))[0]
+        assert under == pytest.approx(float(elsewhere["w"][i]), abs=1e-12 * size)
+        assert there == pytest.approx(float(elsewhere["w_point"][i]), abs=1e-12 * size)
+
+    p = motion.parameters
+    w = np.abs(motion.deflection(10, np.array([p.a, p.a + 1e-3 * (p.b - p.a), p.b]), np.linspace(0, 6, 7))).max(axis=1)
+    assert w[0] < 1e-9 * w[2], "it is clamped inside"
+    assert 0 < w[1] < 1e-5 * w[2]  # it leaves its plane with the square of the distance
+
+
+@pytest.mark.compiled
+def test_what_does_not_determine_the_disc_is_said(case: xr.DataTree) -> None:
+    with pytest.raises(Missing, match="recorded the disc at 4 angles, 5 are needed"):
+        motion_of(case.drop_nodes("around4"))
+    late = case["around1"].to_dataset().assign_coords(time=case["around1"]["time"] + 1.0)
+    with pytest.raises(Missing, match="at other times at other angles"):
+        motion_of(case.assign(around1=xr.DataTree(late)))
+    circles, p = case.copy(), Parameters.model_validate_json(case.attrs["parameters"])
+    circles.attrs["parameters"] = p.replace(n_circles=1).canonical_json
+    with pytest.raises(Missing, match="nodal circles"):
+        motion_of(circles)
+
+
+def test_a_film_moves(tmp_path: Path) -> None:
+    path = tmp_path / "film.webp"
+    film(made_up_case(), path, frames=3)
+    with Image.open(path) as picture:
+        assert picture.n_frames >= 3
+    assert path.stat().st_size < 100_000
