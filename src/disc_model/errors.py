@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import difflib
 import enum
+import logging
 import math
+import sys
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any, Literal, Self, get_args, get_origin
@@ -19,12 +21,18 @@ class DiscModelError(Exception):
     """Base class of everything this package raises on purpose."""
 
 
-def exit_on_error(main: Callable[[], None]) -> None:
-    """Run a script's main function; an error of this package ends the script with its message alone, no traceback."""
-    try:
-        main()
-    except DiscModelError as error:
-        raise SystemExit(str(error)) from None
+def script(main: Callable[..., None]) -> Callable[..., None]:
+    """Call the function of a script with the words of its command, unless the script is only imported.
+
+    An error of this package ends the script with its message alone, no traceback.
+    """
+    if main.__module__ == "__main__":
+        logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
+        try:
+            main(*sys.argv[1:])
+        except DiscModelError as error:
+            raise SystemExit(str(error)) from None
+    return main
 
 
 class Fault(str):

@@ -60,8 +60,7 @@ def _importing(frame: FrameType | None) -> bool:
 
 def run(script: str, *arguments: str) -> None:
     """A script of the workflow, as its job calls it."""
-    sys.argv = [script, *arguments]
-    importlib.import_module(script).main()
+    importlib.import_module(script).main(*arguments)
 
 
 def file(folder: Path) -> None:
@@ -87,7 +86,7 @@ def case(folder: Path) -> None:
         {name: spec.parameters for name, spec in study.specs.items()},
         {name: spec.sections for name, spec in study.specs.items()},
     )
-    run("draw_figure", plot, f"F02={dataset}", "--title", title, "--out", out)
+    run("draw_figure", plot, title, out.replace("png", "pdf"), out, f"F02={dataset}")
 
 
 def point(folder: Path) -> None:
@@ -102,6 +101,8 @@ def point(folder: Path) -> None:
 
 
 if __name__ == "__main__":
+    for script in ("simulate_case", "draw_figure", "compute_batch"):  # as each job does before its work
+        importlib.import_module(script)
     ways = {"file": file, "case": case, "point": point}
     which, there = ways[sys.argv[1]], Path(sys.argv[2])
     print(json.dumps(entered(lambda: which(there))))

@@ -246,12 +246,6 @@ class TestNotTrusted:
         assert f"(other {name})" in caplog.text
         assert begun[0] < run["initial_state"].time + 0.2
 
-    def test_the_sources_of_the_engine_are_part_of_the_key(self) -> None:
-        from disc_model.data.provenance import source_files
-
-        found = {path.name for path in source_files("disc_model.simulation.api")}
-        assert {"machine.py", "series.py", "plate.py", "case.py", "kept.py"} <= found
-
     @pytest.mark.parametrize("share", [0.0, 0.5, 0.9999])
     def test_a_file_that_was_cut_off(
         self, run: Options, file: Path, caplog: pytest.LogCaptureFixture, share: float

@@ -9,22 +9,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from disc_model.benchmarks.register import RIVALS
-from disc_model.data.provenance import PACKAGE, source_files
 from tests.workflow.conftest import ROOT, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
-SCRIPTS = ROOT / "workflow" / "scripts"
-METHODS = "disc_model.benchmarks.methods"
-ALONE = {
-    "measure_work_precision",
-    "measure_answers",
-    "merge_answers",
-    "map_failures",
-    "map_answers",
-    "study_truncation",
-}
-"""Have the machine to themselves, so that no other job compiles meanwhile."""
 
 
 def rules() -> dict[str, str]:
@@ -45,30 +32,9 @@ def test_what_takes_the_whole_machine_takes_one_thread_of_a_node_of_its_own() ->
 
 
 def test_a_script_has_the_name_of_its_rule() -> None:
-    said = {name: re.findall(r"workflow/scripts/(\w+)\.py", text) for name, text in rules().items()}
+    said = {name: re.findall(r"\bjob (\w+)", text) for name, text in rules().items()}
     assert all(scripts in ([], [name]) for name, scripts in said.items())
     assert sum(map(len, said.values())) >= 15
-
-
-def test_scripts_import_modules_and_not_the_packages_names() -> None:
-    """Those are looked up on first use, so that a hash of the sources would not follow them."""
-    for name in rules():
-        script = SCRIPTS / f"{name}.py"
-        if script.exists():
-            assert not re.search(r"^(import disc_model$|from disc_model import)", script.read_text(), re.MULTILINE), (
-                name
-            )
-
-
-def test_what_runs_a_rival_is_run_again_when_the_rival_changes() -> None:
-    """The register gives their modules as text, which following the imports of a script does not see."""
-    methods = PACKAGE / "benchmarks" / "methods"
-    named = [f"{METHODS}.{rival.place.partition(':')[0]}" for rival in RIVALS]
-    unseen = set(methods.glob("*.py")) - set(source_files(METHODS, *named))
-    assert not unseen
-    runs = {name for name in ALONE if methods / "__init__.py" in source_files(SCRIPTS / f"{name}.py")}
-    assert runs - {"merge_answers"} == {name for name, text in rules().items() if "*METHODS" in text}
-    assert len(runs) == len(ALONE)
 
 
 COUNTS = """
@@ -107,22 +73,3 @@ def test_no_job_compiles_kernels_for_itself(tmp_path: Path, config: str) -> None
     who = counted.read_text().splitlines()
     assert who
     assert [job for job in who if "warm" not in job] == []
-
-
-def test_jobs_that_use_kernels_wait_for_them(tmp_path: Path) -> None:
-    """The table of claims was once made while other jobs compiled, and compiled as well."""
-    project = copy_repository(tmp_path)
-    other = tmp_path / "results" / "paper_orthonormal"  # of a study that is not this one
-    other.mkdir(parents=True)
-    (other / "cases.nc").touch()
-    waits = {}
-    for target, config in (("all", "config/test.yaml"), ("results/paper/normalisation.html", None)):
-        said = replace(project, config=config).complete("-n", "-F", target)
-        found = re.findall(r"^(?:local)?rule (\w+):\n +input: (.*)", said, re.MULTILINE)
-        waits |= {rule: "results/compiled/" in files for rule, files in found}
-    assert waits["check_claims"]
-    assert waits["compute_batch"]
-    for rule in waits.keys() - ALONE:
-        script = SCRIPTS / f"{rule}.py"
-        uses = script.exists() and any(path.name == "machine.py" for path in source_files(script))
-        assert waits[rule] or not uses, rule

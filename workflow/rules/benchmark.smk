@@ -32,19 +32,6 @@ BENCH_INPUTS = {
     "contact_truncation": f"{BENCH}/contact_truncation.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
 }
-# Methods are loaded by the names that the register gives, which following imports does not see.
-METHODS = sorted(
-    {
-        f"disc_model.benchmarks.methods.{rival.place.partition(':')[0]}"
-        for rival in RIVALS
-    }
-)
-BENCH_DATA = [
-    PACKAGE / "benchmarks" / "data" / name
-    for name in ("benchmark_reference.json", "separating_start.json", "answers.json")
-]
-
-BENCH_TEXTS = [PACKAGE / "benchmarks" / "texts.yaml"]
 
 
 rule bench:
@@ -72,27 +59,25 @@ rule measure_work_precision:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("measure_work_precision", *METHODS, files=BENCH_DATA),
+        made_of=made_of("measure_work_precision"),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_work_precision.py {output.nc}"
-        " --csv {output.csv} --md {output.md} > {log} 2>&1"
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 job measure_work_precision {output} > {log} 2>&1"
 
 
-rule measure_answers:
+rule measure:
     output:
-        f"{BENCH}/answers/{{part}}.nc",
+        f"{BENCH}/{{part}}.nc",
     log:
-        f"{BENCH}/logs/measure_answers/{{part}}.log",
+        f"{BENCH}/logs/measure/{{part}}.log",
     wildcard_constraints:
-        part="[A-Za-z0-9-]+",
+        part="(contact_)?truncation|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
     conda:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        sources=sources_of("measure_answers", *METHODS, files=BENCH_DATA),
+        made_of=made_of("measure"),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/measure_answers.py {wildcards.part} {output}"
-        " > {log} 2>&1"
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 job measure {wildcards.part} {output} > {log} 2>&1"
 
 
 rule merge_answers:
@@ -106,61 +91,9 @@ rule merge_answers:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("merge_answers", files=BENCH_DATA + BENCH_TEXTS),
+        made_of=made_of("merge_answers"),
     shell:
-        "python workflow/scripts/merge_answers.py {input} --out {output.nc} --md {output.md} > {log} 2>&1"
-
-
-rule map_failures:
-    output:
-        f"{BENCH}/failure_maps/{{method}}_{{scene}}.nc",
-    log:
-        f"{BENCH}/logs/map_failures/{{method}}_{{scene}}.log",
-    wildcard_constraints:
-        method="[A-Za-z0-9-]+",
-        scene="stick_slip|separating",
-    conda:
-        "../envs/disc_model.yaml"
-    threads: 1024
-    params:
-        sources=sources_of("map_failures", *METHODS, files=BENCH_DATA),
-    shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_failures.py {wildcards.method}"
-        " {wildcards.scene} {output} > {log} 2>&1"
-
-
-rule map_answers:
-    output:
-        f"{BENCH}/answer_maps/{{method}}.nc",
-    log:
-        f"{BENCH}/logs/map_answers/{{method}}.log",
-    wildcard_constraints:
-        method="[A-Za-z0-9-]+",
-    conda:
-        "../envs/disc_model.yaml"
-    threads: 1024
-    params:
-        sources=sources_of("map_answers", *METHODS, files=BENCH_DATA),
-    shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/map_answers.py {wildcards.method} {output}"
-        " > {log} 2>&1"
-
-
-rule study_truncation:
-    output:
-        f"{BENCH}/{{truncation}}.nc",
-    log:
-        f"{BENCH}/logs/study_{{truncation}}.log",
-    wildcard_constraints:
-        truncation="truncation|contact_truncation",
-    conda:
-        "../envs/disc_model.yaml"
-    threads: 1024
-    params:
-        sources=sources_of("study_truncation", *METHODS),
-    shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python workflow/scripts/study_truncation.py"
-        " {wildcards.truncation} {output} > {log} 2>&1"
+        "job merge_answers {output} {input} > {log} 2>&1"
 
 
 rule tell_truncation:
@@ -173,9 +106,9 @@ rule tell_truncation:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("tell_truncation", files=BENCH_TEXTS),
+        made_of=made_of("tell_truncation"),
     shell:
-        "python workflow/scripts/tell_truncation.py {input} {output} > {log} 2>&1"
+        "job tell_truncation {input} {output} > {log} 2>&1"
 
 
 rule draw_benchmark:
@@ -196,8 +129,7 @@ rule draw_benchmark:
         plot=lambda wildcards: OwnFigure(
             by="benchmark.draw", options={"figure": wildcards.figure}
         ).model_dump_json(),
-        sources=sources_of("draw_figure", "disc_model.figures.benchmark", files=[STYLE]),
+        made_of=made_of("draw_figure", "figures.benchmark"),
         files=lambda wildcards, input: [f"{Path(file).stem}={file}" for file in input],
     shell:
-        "python workflow/scripts/draw_figure.py {params.plot:q} {params.files:q} --out {output.pdf} --out {output.png}"
-        " > {log} 2>&1"
+        "job draw_figure {params.plot:q} '' {output} {params.files:q} > {log} 2>&1"

@@ -14,9 +14,9 @@ rule simulate_case:
         "../envs/disc_model.yaml"
     params:
         case=lambda wildcards: STUDY.specs[wildcards.case].canonical,
-        sources=CASE_SOURCES,
+        made_of=lambda wildcards: case_made_of(wildcards.case),
     shell:
-        "python workflow/scripts/simulate_case.py {params.case:q} {output} > {log} 2>&1"
+        "job simulate_case {params.case:q} {output} > {log} 2>&1"
 
 
 rule merge_cases:
@@ -31,7 +31,6 @@ rule merge_cases:
     params:
         # a function: braces in a title are no wildcards
         labels=lambda wildcards: LABELS,
-        made_of=cases_made_of(sorted(STUDY.specs)),
-        sources=sources_of("merge_cases"),
+        made_of=cases_made_of(),
     shell:
-        "python workflow/scripts/merge_cases.py --labels {params.labels:q} {output} {input} > {log} 2>&1"
+        "job merge_cases {params.labels:q} {output} {input} > {log} 2>&1"

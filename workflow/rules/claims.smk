@@ -3,13 +3,7 @@
 
 from disc_model.claims import SCANS
 
-# What claims and their pages say is data beside the checks; what each case has to be is the paper's study.
-CLAIM_TEXTS = [
-    *sorted((PACKAGE / "claims").glob("*.yaml")),
-    PACKAGE / "claims" / "page.html",
-    PACKAGE / "config" / "paper.yaml",
-]
-SCANNED = {name: merged_file(name) for name in SCANS if name in GRIDS}
+SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
 
 
 rule check_claims:
@@ -32,12 +26,11 @@ rule check_claims:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=digest(merged_cases_made_of(), [grid_made_of(name) for name in SCANNED]),
-        scans=[f"--scan {name}={file}" for name, file in SCANNED.items()],
-        sources=sources_of("check_claims", files=CLAIM_TEXTS),
+        made_of=made_of(
+            "check_claims", of=[cases_made_of(), *map(grid_made_of, SCANNED)]
+        ),
     shell:
-        "python workflow/scripts/check_claims.py {input.cases} {params.scans}"
-        " --csv {output.csv} --md {output.md} --html {output.html} > {log} 2>&1"
+        "job check_claims {output} {input.cases} {input.scans} > {log} 2>&1"
 
 
 # The case and the window that Tables 1 and 2 are made of may be missing from a study.
@@ -72,8 +65,6 @@ rule make_table:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=lambda wildcards: cases_made_of(["F13"]),
-        sources=sources_of("make_table", files=CLAIM_TEXTS),
+        made_of=lambda wildcards: made_of("make_table", of=case_made_of("F13")),
     shell:
-        "python workflow/scripts/make_table.py {wildcards.table} {input}"
-        " --csv {output.csv} --md {output.md} --html {output.html} > {log} 2>&1"
+        "job make_table {wildcards.table} {output} {input} > {log} 2>&1"

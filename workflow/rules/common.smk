@@ -3,11 +3,13 @@ import hashlib
 import json
 import shlex
 import sys
+from functools import cache
 from importlib.util import find_spec
 from itertools import pairwise
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.io import IOFile
 from snakemake.logging import logger
 from snakemake.settings.types import DeploymentMethod
 from snakemake.shell import shell
@@ -20,7 +22,6 @@ SOURCES = (WORKFLOW.parent / "src").resolve()
 if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
 try:
-    from disc_model.figures import STYLE
     from disc_model.figures.kinds import OwnFigure
     from disc_model.figures.paper.catalogue import (
         CATALOGUE,
@@ -30,12 +31,7 @@ try:
         said_parameters,
     )
     from disc_model.kernels import KINDS, kinds_of_case
-    from disc_model.data.provenance import (
-        PACKAGE,
-        source_hash,
-        unrecorded,
-        why_unknown,
-    )
+    from disc_model.data.provenance import source_hash
     from disc_model.studies.study import StudyError, read_file, study_from_config
 except ModuleNotFoundError as error:
     raise WorkflowError(
@@ -85,7 +81,7 @@ if getattr(workflow, "is_main_process", True):
             logger.warning(f"{checked.name}: warning: {doubt}")
 
 RESULTS = f"results/{STUDY.name}"
-SCRIPTS = WORKFLOW / "scripts"
+SCRIPTS = str(WORKFLOW / "scripts")
 
 # Jobs run with the interpreter that runs Snakemake, whether or not its environment is active; or with that of conda.
 OWN = f'export PATH="{Path(sys.executable).parent}:$PATH"; '
@@ -94,16 +90,13 @@ if CONDA and not SOURCES.is_dir():
     raise WorkflowError(
         "With conda the workflow is run from a clone of its repository, where the package's sources are."
     )
-# Commands name scripts from the repository's root, wherever that is: Snakemake runs again what has another command.
-SCRIPTED = (
-    f"SCRIPTS={shlex.quote(str(SCRIPTS))}/; "
-    r'python() { command python "${@/#workflow\/scripts\//"$SCRIPTS"}"; }; '
-)
+# Commands do not say where the scripts are: Snakemake runs again what has another command.
+JOB = f'job() {{ python {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
 PREFIX = (
     "set -euo pipefail; "
     + ("" if CONDA else OWN)
     + (FOUND if CONDA or str(SOURCES) in sys.path else "")
-    + SCRIPTED
+    + JOB
 )
 shell.prefix(PREFIX.replace("{", "{{").replace("}", "}}"))
 
@@ -116,12 +109,14 @@ wildcard_constraints:
     case="|".join(STUDY.specs) or "none",
 
 
-def sources_of(script, *modules, files=()):
-    """Hash of all that a script imports, and of what it is told to use besides: modules and further files.
+def made_of(rule, *sources, of=()):
+    """Hash of all that decides a result: the sources of its rule and others, what jobs are told, what inputs are made of.
 
-    Snakemake itself watches none of it in a shell command.
+    It is a parameter of each rule, by which Snakemake runs again what has changed. By itself Snakemake would overlook
+    sources, and inputs that were made anew after the clock had been set back.
     """
-    return source_hash(SCRIPTS / f"{script}.py", *modules, files=files)
+    hashed = source_hash(rule, *sources, files=(Path(SCRIPTS, f"{rule}.py"),))
+    return hashlib.sha256(json.dumps([hashed, of]).encode()).hexdigest()[:12]
 
 
 def refuse_unknown_targets():
@@ -157,24 +152,27 @@ def refuse_unknown_targets():
             )
 
 
-def refuse_unrecorded(files):
-    """Stop if there are results of which Snakemake has no record: it would take them for up to date, whatever they are."""
-    mending = {"check", "--unlock", "--touch"} & set(sys.argv)
-    if not getattr(workflow, "is_main_process", True) or mending:
-        return
-    if reason := why_unknown(workflow):
-        logger.warning(
-            "Snakemake's records of how files were made are not where they are looked for"
-            f" ({reason}): that results without a record are taken for up to date goes unnoticed."
-        )
-        return
-    if unknown := unrecorded(files):
+@cache
+def unrecorded():
+    """Results of which Snakemake has no record: it would take them for up to date, whatever they are."""
+    store = workflow.persistence
+    if any(Path(store.path, "incomplete").rglob("*")):
+        return []  # an interrupted run comes first: Snakemake knows of it
+    files = [*map(case_file, STUDY.specs), *PRODUCTS]
+    return [x for x in files if Path(x).exists() and not store.metadata(IOFile(x))]
+
+
+def refuse_unrecorded(wildcards):
+    """Stop if there are `unrecorded` results; as the input of what is asked for, since records are read by then."""
+    main = getattr(workflow, "is_main_process", True) and "--touch" not in sys.argv
+    if main and (unknown := unrecorded()):
         raise WorkflowError(
             f"{unknown[0]} and {len(unknown) - 1} more are there, but not Snakemake's record of how they were made"
             " (was .snakemake removed?), so nothing tells whether they are up to date."
             " If results/ was copied from another folder, copy that folder's .snakemake beside it as well."
             " Else `snakemake -j1 check` removes them (or `disc-model study --target check`); then run again."
         )
+    return []
 
 
 def closing_lines():
@@ -201,8 +199,8 @@ def batch_file(study, batch):
     return f"results/{study}/batches/{batch}.nc"
 
 
-def merged_file(study):
-    return f"results/{study}/merged/{GRIDS[study].key}.nc"
+def grid_file(study):
+    return f"results/{study}/{study}.nc"
 
 
 def compiled(kinds):
@@ -210,54 +208,52 @@ def compiled(kinds):
     return [f"results/compiled/{COMPILED}/{kind}.txt" for kind in kinds]
 
 
+COMPILED = source_hash("engine")
+
+
 def merge_plan(study):
     """What a merge needs to know beyond its files, as JSON."""
     plan = {
-        "batches": sorted(study.batches),
-        "grid": study.grid,
-        "attrs": {"study": study.name, "title": study.title},
+        "batches": sorted(GRIDS[study].batches),
+        "grid": GRIDS[study].grid,
+        "attrs": {"study": study, "title": GRIDS[study].title},
     }
     return json.dumps(plan, sort_keys=True, ensure_ascii=False)
 
 
-# What files are made of, as hashes. Jobs that read the files are told, so that a file that was made anew is not
-# overlooked if the clock has been set back since they last ran: by its time it would be the older one.
-CASE_SOURCES = sources_of("simulate_case")
-BATCH_SOURCES = sources_of("compute_batch")
 LABELS = json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False)
-COMPILED = source_hash("disc_model.engine.variational", "disc_model.engine.machine")
 
 
-def digest(*parts):
-    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:12]
+def case_made_of(case):
+    spec = STUDY.specs[case]
+    chosen = ["modes_by_motion"] if spec.modes else []
+    return made_of("simulate_case", *chosen, of=spec.canonical)
 
 
-def cases_made_of(cases):
-    return digest(CASE_SOURCES, [STUDY.specs[case].canonical for case in cases])
+def cases_made_of():
+    return made_of("merge_cases", of=[LABELS, *map(case_made_of, sorted(STUDY.specs))])
 
 
-def merged_cases_made_of():
-    sources = sources_of("merge_cases")
-    return digest(cases_made_of(sorted(STUDY.specs)), LABELS, sources)
+def batch_made_of(study):
+    return made_of("compute_batch", *GRIDS[study].sources)
 
 
 def grid_made_of(study):
-    sources = sources_of("merge_batches")
-    return digest(BATCH_SOURCES, merge_plan(GRIDS[study]), sources)
+    return made_of("merge_batches", of=[merge_plan(study), batch_made_of(study)])
 
 
 def plot_made_of(study, name):
     plot = GRIDS[study].plots[name]
-    shown = [grid_made_of(other) for _, other in sorted(plot.others.items())]
-    sources = sources_of("draw_figure", plot.module, files=[STYLE])
-    return digest(plot.model_dump_json(), grid_made_of(study), shown, sources)
+    shown = [study, *(other for _, other in sorted(plot.others.items()))]
+    of = [plot.model_dump_json(), *map(grid_made_of, shown)]
+    return made_of("draw_figure", plot.module, of=of)
 
 
 def shown_by(wildcards):
     """Merged files of the further studies that a figure shows, by role; none for a figure of a case beside the grid."""
     plot = GRIDS[wildcards.study].plots.get(wildcards.plot)
     others = {} if plot is None else plot.others
-    return {role: merged_file(name) for role, name in sorted(others.items())}
+    return {role: grid_file(name) for role, name in sorted(others.items())}
 
 
 def cases_of(figure):

@@ -9,12 +9,12 @@ EXPLORED = sorted(
     GRIDS, key=lambda study: list(QUANTITIES).index(GRIDS[study].quantity)
 )
 PICTURES = list(explorer_pictures())
-EXPLORER_PARTS = [*(PACKAGE / "explorer" / "static").iterdir()]
 
 
 rule explorer:
     input:
         f"{RESULTS}/explorer.html",
+        refuse_unrecorded,
 
 
 rule compute_motions:
@@ -30,14 +30,16 @@ rule compute_motions:
         "../envs/disc_model.yaml"
     params:
         batch=lambda wildcards: GRIDS[wildcards.study].motions[wildcards.key],
-        sources=sources_of("compute_motions"),
+        made_of=lambda wildcards: made_of(
+            "compute_motions", *GRIDS[wildcards.study].sources
+        ),
     shell:
-        "python workflow/scripts/compute_motions.py {output} <<< {params.batch:q} > {log} 2>&1"
+        "job compute_motions {output} <<< {params.batch:q} > {log} 2>&1"
 
 
 rule build_explorer:
     input:
-        studies=[merged_file(study) for study in EXPLORED],
+        studies=[grid_file(study) for study in EXPLORED],
         motions=chain.from_iterable(map(motions_of, EXPLORED)),
         pictures=[picture["file"] for picture in PICTURES],
     output:
@@ -54,7 +56,7 @@ rule build_explorer:
                 "studies": [
                     {
                         "name": study,
-                        "data": merged_file(study),
+                        "data": grid_file(study),
                         "motions": next(iter(motions_of(study)), ""),
                         "said": QUANTITIES[GRIDS[study].quantity].motion,
                     }
@@ -63,7 +65,8 @@ rule build_explorer:
                 "pictures": PICTURES,
             }
         ),
-        made_of=digest(*map(grid_made_of, EXPLORED), merged_cases_made_of()),
-        sources=sources_of("build_explorer", files=EXPLORER_PARTS),
+        made_of=made_of(
+            "build_explorer", of=[*map(grid_made_of, EXPLORED), cases_made_of()]
+        ),
     shell:
-        "python workflow/scripts/build_explorer.py {output} <<< {params.plan:q} > {log} 2>&1"
+        "job build_explorer {output} <<< {params.plan:q} > {log} 2>&1"

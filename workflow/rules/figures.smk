@@ -41,13 +41,13 @@ rule draw_figure:
             f"{case}={case_file(case)}" for case in cases_of(wildcards.figure)
         ],
         caption=lambda wildcards: caption_of(wildcards.figure),
-        made_of=lambda wildcards: cases_made_of(cases_of(wildcards.figure)),
-        sources=lambda wildcards: sources_of(
-            "draw_figure", figure_of(wildcards.figure).module, files=[STYLE]
+        made_of=lambda wildcards: made_of(
+            "draw_figure",
+            figure_of(wildcards.figure).module,
+            of=[case_made_of(case) for case in cases_of(wildcards.figure)],
         ),
     shell:
-        "python workflow/scripts/draw_figure.py {params.plot:q} {params.cases:q} --title {params.caption:q}"
-        " --out {output.pdf} --out {output.png} > {log} 2>&1"
+        "job draw_figure {params.plot:q} {params.caption:q} {output} {params.cases:q} > {log} 2>&1"
 
 
 # A study of cases and a grid of the same name share a folder of figures.

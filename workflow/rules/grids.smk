@@ -1,7 +1,6 @@
 # Grid studies: batches of points, one dataset for each study, and its figures. What a batch is, is said in
 # disc_model.studies.study.
-# The name of a batch's file is the hash of all that decides its content, and the name of the merged file is the hash of
-# its batches, so that the files that are there tell what is left to do.
+# The name of a batch's file is the hash of what it is told, so that a value that is taken out and put in again is there.
 import json
 
 
@@ -18,9 +17,9 @@ rule compute_batch:
         runtime=30,
     params:
         batch=lambda wildcards: GRIDS[wildcards.study].batches[wildcards.batch],
-        sources=BATCH_SOURCES,
+        made_of=lambda wildcards: batch_made_of(wildcards.study),
     shell:
-        "python workflow/scripts/compute_batch.py {output} <<< {params.batch:q} > {log} 2>&1"
+        "job compute_batch {output} <<< {params.batch:q} > {log} 2>&1"
 
 
 rule merge_batches:
@@ -30,50 +29,25 @@ rule merge_batches:
             for batch in GRIDS[wildcards.study].batches
         ],
     output:
-        nc="results/{study}/merged/{key}.nc",
-        failed="results/{study}/merged/{key}.failed.txt",
-    log:
-        "results/{study}/logs/merge_batches/{key}.log",
-    conda:
-        "../envs/disc_model.yaml"
-    params:
-        plan=lambda wildcards: merge_plan(GRIDS[wildcards.study]),
-        made_of=BATCH_SOURCES,
-        folder=lambda wildcards, input: Path(input[0]).parent,
-        sources=sources_of("merge_batches"),
-    shell:
-        "python workflow/scripts/merge_batches.py {output.nc} {output.failed} {params.folder}"
-        " <<< {params.plan:q} > {log} 2>&1"
-
-
-localrules:
-    publish_study,
-
-
-rule publish_study:
-    # Under a name that stays. Nothing in the workflow reads it.
-    input:
-        nc=lambda wildcards: merged_file(wildcards.study),
-        failed=lambda wildcards: merged_file(wildcards.study).replace(
-            ".nc", ".failed.txt"
-        ),
-    output:
         nc="results/{study}/{study}.nc",
         failed="results/{study}/{study}.failed.txt",
     log:
-        "results/{study}/logs/publish_study.log",
+        "results/{study}/logs/merge_batches.log",
     conda:
         "../envs/disc_model.yaml"
     params:
+        plan=lambda wildcards: merge_plan(wildcards.study),
         made_of=lambda wildcards: grid_made_of(wildcards.study),
+        folder=lambda wildcards, input: Path(input[0]).parent,
     shell:
-        "python workflow/scripts/publish_study.py {input.nc} {input.failed} {output.nc} {output.failed} > {log} 2>&1"
+        "job merge_batches {output.nc} {output.failed} {params.folder}"
+        " <<< {params.plan:q} > {log} 2>&1"
 
 
 rule draw_plot:
     # One job per figure, from the merged datasets of the studies it shows.
     input:
-        study=lambda wildcards: merged_file(wildcards.study),
+        study=lambda wildcards: grid_file(wildcards.study),
         others=lambda wildcards: list(shown_by(wildcards).values()),
     output:
         pdf="results/{study}/figures/{plot}.pdf",
@@ -98,9 +72,9 @@ rule draw_plot:
         .plots[wildcards.plot]
         .model_dump_json(),
         made_of=lambda wildcards: plot_made_of(wildcards.study, wildcards.plot),
-        others=lambda wildcards: [
-            f"{role}={file}" for role, file in shown_by(wildcards).items()
+        files=lambda wildcards, input: [
+            f"{role}={file}"
+            for role, file in [("study", input.study), *shown_by(wildcards).items()]
         ],
     shell:
-        "python workflow/scripts/draw_figure.py {params.plot:q} study={input.study} {params.others:q}"
-        " --out {output.pdf} --out {output.png} > {log} 2>&1"
+        "job draw_figure {params.plot:q} '' {output} {params.files:q} > {log} 2>&1"

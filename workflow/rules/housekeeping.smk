@@ -12,12 +12,12 @@ rule gc:
     params:
         kept=json.dumps(
             {
-                name: [*study.batches, *study.motions, study.key]
+                name: [*study.batches, *study.motions]
                 for name, study in sorted(GRIDS.items())
             }
         ),
     shell:
-        "python workflow/scripts/gc.py <<< {params.kept:q} 2>&1 | tee {log}"
+        "job gc <<< {params.kept:q} 2>&1 | tee {log}"
 
 
 rule check:
@@ -28,8 +28,6 @@ rule check:
     conda:
         "../envs/disc_model.yaml"
     params:
-        unrecorded=lambda wildcards: json.dumps(
-            unrecorded([*map(case_file, STUDY.specs), *PRODUCTS])
-        ),
+        unrecorded=lambda wildcards: json.dumps(unrecorded()),
     shell:
-        "python workflow/scripts/check.py <<< {params.unrecorded:q} 2>&1 | tee {log}"
+        "job check <<< {params.unrecorded:q} 2>&1 | tee {log}"

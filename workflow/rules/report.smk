@@ -25,10 +25,9 @@ rule describe_study:
     params:
         # a function: braces in a title are no wildcards
         title=lambda wildcards: STUDY.title or STUDY.name,
-        made_of=merged_cases_made_of(),
-        sources=sources_of("describe_study", files=CLAIM_TEXTS),
+        made_of=made_of("describe_study", of=cases_made_of()),
     shell:
-        "python workflow/scripts/describe_study.py {input} {output} --title {params.title:q} > {log} 2>&1"
+        "job describe_study {params.title:q} {input} {output} > {log} 2>&1"
 
 
 rule compare_normalisations:
@@ -50,9 +49,9 @@ rule compare_normalisations:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("compare_normalisations", files=CLAIM_TEXTS),
+        made_of=made_of("compare_normalisations"),
     shell:
-        "python workflow/scripts/compare_normalisations.py {input.published} {input.orthonormal} --md {output.md} --html {output.html} > {log} 2>&1"
+        "job compare_normalisations {output} {input.published} {input.orthonormal} > {log} 2>&1"
 
 
 rule judge_survival:
@@ -80,7 +79,7 @@ rule judge_survival:
     conda:
         "../envs/disc_model.yaml"
     params:
-        sources=sources_of("judge_survival", files=CLAIM_TEXTS),
+        made_of=made_of("judge_survival"),
     shell:
-        "(python workflow/scripts/judge_survival.py {input.cases} {input.grids} --md {output.md} --html {output.html}"
+        "(job judge_survival {output.md} {output.html} {input.cases} {input.grids}"
         " && cp {input.png} {output.png}) > {log} 2>&1"

@@ -1,7 +1,5 @@
 """Build a wheel with compiled kernels, for processors of the levels in `disc_model.engine.cache`."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -7,9 +7,6 @@ with times in the future get the present one, since Snakemake refuses results ol
 Not to be run while jobs are running.
 """
 
-from __future__ import annotations
-
-import argparse
 import json
 import os
 import sys
@@ -17,31 +14,10 @@ import time
 from pathlib import Path
 
 from disc_model.data.dataset import DamagedFile, check_whole, set_aside
+from disc_model.errors import script
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--results", type=Path, default=Path("results"))
-    args = parser.parse_args()
-    unrecorded = [Path(name) for name in json.load(sys.stdin)]
-    datasets = sorted(args.results.rglob("*.nc"))
-    damaged = [path for path in datasets if not _whole(path)]
-    for path in damaged:
-        print(f"{path}: damaged, now called {set_aside(path).name}")
-    for path in unrecorded:
-        print(f"{path}: not known how it was made, removed")
-    leftovers = sorted(args.results.rglob(".*.tmp"))
-    for path in [*leftovers, *unrecorded]:
-        path.unlink(missing_ok=True)
-    early = _from_the_future(args.results)
-    print(f"{len(datasets)} datasets, {len(damaged)} damaged; {len(leftovers)} left-overs of killed jobs removed")
-    if early:
-        print(f"{len(early)} files had times in the future and now have the present one")
-    if damaged or unrecorded or early:
-        print("Run snakemake again: it makes anew what is needed.")
-
-
-def _whole(path: Path) -> bool:
+def whole(path: Path) -> bool:
     try:
         check_whole(path)
     except DamagedFile:
@@ -49,13 +25,25 @@ def _whole(path: Path) -> bool:
     return True
 
 
-def _from_the_future(results: Path) -> list[Path]:
+@script
+def main(folder: str = "results") -> None:
+    results = Path(folder)
+    unrecorded = [Path(name) for name in json.load(sys.stdin)]
+    datasets = sorted(results.rglob("*.nc"))
+    damaged = [path for path in datasets if not whole(path)]
+    for path in damaged:
+        print(f"{path}: damaged, now called {set_aside(path).name}")
+    for path in unrecorded:
+        print(f"{path}: not known how it was made, removed")
+    leftovers = sorted(results.rglob(".*.tmp"))
+    for path in [*leftovers, *unrecorded]:
+        path.unlink(missing_ok=True)
     now = time.time()
     early = [path for path in results.rglob("*") if path.stat().st_mtime > now]
     for path in early:
         os.utime(path, (now, now))
-    return early
-
-
-if __name__ == "__main__":
-    main()
+    print(f"{len(datasets)} datasets, {len(damaged)} damaged; {len(leftovers)} left-overs of killed jobs removed")
+    if early:
+        print(f"{len(early)} files had times in the future and now have the present one")
+    if damaged or unrecorded or early:
+        print("Run snakemake again: it makes anew what is needed.")

@@ -1,27 +1,17 @@
 """Compute the motions that can be looked at in the explorer, at a few points of a grid study, and save them.
 
-What to compute, a text of `disc_model.studies.study.Cut`, is read from standard input.
+What to compute, a text of `disc_model.studies.study.Cut`, is read from standard input: it may be too long otherwise.
 """
 
-from __future__ import annotations
-
-import argparse
-import logging
 import sys
 
 import xarray as xr
 
 from disc_model.data.dataset import save
+from disc_model.errors import script
 from disc_model.studies.grids.motions import run_motions
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("output", help="netCDF file to write")
-    args = parser.parse_args()
-    logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
-    save(xr.DataTree(run_motions(sys.stdin.read().strip())), args.output)
-
-
-if __name__ == "__main__":
-    main()
+@script
+def main(output: str) -> None:
+    save(xr.DataTree(run_motions(sys.stdin.read().strip())), output)

@@ -1,8 +1,5 @@
 """Write the page that lists a study's cases, and the sources and versions they come from."""
 
-from __future__ import annotations
-
-import argparse
 import json
 from html import escape
 from pathlib import Path
@@ -13,22 +10,9 @@ import xarray as xr
 from disc_model.claims.pages import page, table_html
 from disc_model.data.dataset import load_inputs
 from disc_model.data.variables import STATUSES
-from disc_model.errors import exit_on_error
+from disc_model.errors import script
 from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("cases", type=Path, help="netCDF file of the merged cases")
-    parser.add_argument("output", type=Path, help="HTML file to write")
-    parser.add_argument("--title", default="", help="of the study")
-    args = parser.parse_args()
-    (tree,) = load_inputs([args.cases])
-    found = f"<h2>Sources</h2>{table_html(sources(tree))}"
-    cases = f"<h2>Cases</h2>{table_html(rows(tree))}"
-    args.output.write_text(page(args.title or "Provenance", f"<p>{escape(SAID)}</p>", found, cases), encoding="utf-8")
-
 
 SAID = (
     "The full specification of every case has a hash, and so have the sources that made the results: a result and the "
@@ -68,5 +52,8 @@ def rows(tree: xr.DataTree) -> pd.DataFrame:
     return pd.DataFrame(found)
 
 
-if __name__ == "__main__":
-    exit_on_error(main)
+@script
+def main(title: str, cases: str, output: str) -> None:
+    (tree,) = load_inputs([Path(cases)])
+    parts = (f"<h2>Sources</h2>{table_html(sources(tree))}", f"<h2>Cases</h2>{table_html(rows(tree))}")
+    Path(output).write_text(page(title or "Provenance", f"<p>{escape(SAID)}</p>", *parts), encoding="utf-8")

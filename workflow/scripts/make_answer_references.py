@@ -7,9 +7,6 @@ precision, and once more at another tolerance; what the two differ by is stored 
 engine's doing at its tightest tolerance: any state would do there.  The fold of the quiet cycle is the engine's alone.
 """
 
-from __future__ import annotations
-
-import argparse
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -23,6 +20,7 @@ from disc_model.benchmarks.answers.questions import Found
 from disc_model.benchmarks.answers.simulated import Solve
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
+from disc_model.errors import script
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
@@ -97,10 +95,8 @@ def fold() -> dict[str, Any]:
             "by": "continuation of the cycle by the engine at tolerances 1e-12 and 1e-14"}  # fmt: skip
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("output", type=Path)
-    output = parser.parse_args().output
+@script
+def main(output: str) -> None:
     data: dict[str, Any] = {
         "starts": {
             "settled": state_at(questions.SETTLED, questions.SETTLED_AT),
@@ -110,7 +106,7 @@ def main() -> None:
     }
 
     def keep() -> None:
-        output.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+        Path(output).write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
         questions.stored.cache_clear()
 
     keep()
@@ -124,7 +120,3 @@ def main() -> None:
     keep()
     data["region"] = region()
     keep()
-
-
-if __name__ == "__main__":
-    main()

@@ -6,9 +6,6 @@ Event times, kinds and the state at the end, by the long-double Taylor reference
 code with the engine.  Each run is repeated with a tighter tolerance; the larger of the two differences is stored.
 """
 
-from __future__ import annotations
-
-import argparse
 import json
 from pathlib import Path
 
@@ -18,6 +15,7 @@ from tests.references.stored import BASE, Case, reference_state
 
 from disc_model import plate_modes
 from disc_model.benchmarks.scenes import REFERENCED, problem
+from disc_model.errors import script
 from disc_model.parameters import Parameters
 
 FIELDS = ("time", "phase", "direction", "psi", "f", "u", "u_velocity", "a", "b", "alpha", "beta")
@@ -56,13 +54,7 @@ def reference(name: str) -> dict[str, object]:
     }
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("output", type=Path)
-    args = parser.parse_args()
+@script
+def main(output: str) -> None:
     data = {name: reference(name) for name in REFERENCED}
-    args.output.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main()
+    Path(output).write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")

@@ -1,8 +1,5 @@
 """Make the gallery of docs/ from finished figures: small pictures and the page that shows them."""
 
-from __future__ import annotations
-
-import argparse
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +7,9 @@ from PIL import Image, ImageColor
 from scipy.spatial import cKDTree
 
 from disc_model.data.dataset import load_cases
+from disc_model.errors import script
 from disc_model.figures import parts
+from disc_model.figures.paper import disc
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
 from disc_model.studies.study import load_study
 
@@ -87,40 +86,6 @@ PAGE = 2161
 """Pixels of such a figure as it was drawn."""
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--study", type=Path, default=Path("config/paper.yaml"))
-    parser.add_argument("--results", type=Path, default=Path("results/paper/figures"))
-    parser.add_argument("--docs", type=Path, default=Path("docs"))
-    args = parser.parse_args()
-    specs = load_study(args.study).specs
-    parameters = {name: spec.parameters for name, spec in specs.items()}
-    windows = {name: spec.sections for name, spec in specs.items()}
-    lines = ["# Gallery", "", "Made by `make gallery` from the figures of `make reproduce`.", ""]
-    for name in SHOWN:
-        small = shrink(args.results / f"{name}.png", args.docs / "gallery" / f"{name}.png")
-        text = f"**{number_of(name)}. {CATALOGUE[name].title}.** {caption(name, parameters, windows)}"
-        lines += [f"![{number_of(name)}](gallery/{small.name})", "", text, ""]
-    film(args.results.parent / "cases" / "F02.nc", args.docs / "gallery" / "film.webp")
-    lines += ["![Disc and slider in motion](gallery/film.webp)", "", f"**Disc and slider in motion.** {FILM}", ""]
-    for name, (title, text) in OTHERS.items():
-        source = args.results.parents[1] / name
-        small = args.docs / "gallery" / source.name
-        if source.is_file():
-            shrink(source, small)
-        if small.is_file():
-            lines += [f"![{title}](gallery/{small.name})", "", f"**{title}** {text}", ""]
-    (args.docs / "gallery.md").write_text("\n".join(lines), encoding="utf-8")
-
-
-def film(source: Path, target: Path) -> None:
-    """Draw the film from the file of its case."""
-    from disc_model.figures.paper import disc
-
-    (case,) = load_cases([source]).values()
-    disc.film(case, target)
-
-
 def shrink(source: Path, target: Path) -> Path:
     """Write a small copy of a picture, with a palette that holds the style's colours; equal ones give equal bytes."""
     target.parent.mkdir(parents=True, exist_ok=True)
@@ -146,5 +111,25 @@ def _indexed(picture: Image.Image) -> Image.Image:
     return found
 
 
-if __name__ == "__main__":
-    main()
+@script
+def main() -> None:
+    results, docs = Path("results/paper/figures"), Path("docs")
+    specs = load_study("config/paper.yaml").specs
+    parameters = {name: spec.parameters for name, spec in specs.items()}
+    windows = {name: spec.sections for name, spec in specs.items()}
+    lines = ["# Gallery", "", "Made by `make gallery` from the figures of `make reproduce`.", ""]
+    for name in SHOWN:
+        small = shrink(results / f"{name}.png", docs / "gallery" / f"{name}.png")
+        text = f"**{number_of(name)}. {CATALOGUE[name].title}.** {caption(name, parameters, windows)}"
+        lines += [f"![{number_of(name)}](gallery/{small.name})", "", text, ""]
+    (case,) = load_cases([results.parent / "cases" / "F02.nc"]).values()
+    disc.film(case, docs / "gallery" / "film.webp")
+    lines += ["![Disc and slider in motion](gallery/film.webp)", "", f"**Disc and slider in motion.** {FILM}", ""]
+    for name, (title, text) in OTHERS.items():
+        source = results.parents[1] / name
+        small = docs / "gallery" / source.name
+        if source.is_file():
+            shrink(source, small)
+        if small.is_file():
+            lines += [f"![{title}](gallery/{small.name})", "", f"**{title}** {text}", ""]
+    (docs / "gallery.md").write_text("\n".join(lines), encoding="utf-8")

@@ -1,18 +1,13 @@
 """Make Table 1 or 2 of the paper with our values beside its own: as CSV, as Markdown and as a page."""
 
-from __future__ import annotations
-
-import argparse
 import math
 from pathlib import Path
-
-import pandas as pd
 
 from disc_model.claims.measures import CaseView
 from disc_model.claims.pages import table_page
 from disc_model.claims.paper_tables import table_1, table_2_or_why
 from disc_model.data.dataset import load_inputs, markdown_table
-from disc_model.errors import exit_on_error
+from disc_model.errors import script
 
 TITLES = {"table1": "Table 1: base values", "table2": "Table 2: frequencies of the disc in the first 10 s"}
 NOTES = {
@@ -37,40 +32,24 @@ NAMES = {
 }
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("table", choices=list(TITLES))
-    parser.add_argument("case", type=Path, help="netCDF file of the case it is about")
-    parser.add_argument("--csv", type=Path, required=True)
-    parser.add_argument("--md", type=Path, required=True)
-    parser.add_argument("--html", type=Path, required=True)
-    args = parser.parse_args()
-    (tree,) = load_inputs([args.case])
-    case = CaseView(args.case.stem, tree)
-    note = NOTES[args.table]
-    if args.table == "table1":
-        table = table_1(case.parameters)
-    else:
-        table, missing = table_2_or_why(case)
-        table, note = table.round(3), missing or note
-    table.to_csv(args.csv, index=False)
-    args.md.write_text(_markdown(args.table, note, table), encoding="utf-8")
-    args.html.write_text(table_page(TITLES[args.table], note, table, NAMES), encoding="utf-8")
-
-
-def _markdown(name: str, note: str, table: pd.DataFrame) -> str:
-    lines = [f"# {TITLES[name]}", "", note, ""]
-    head = [NAMES[str(column)] for column in table.columns]
-    rows = ([_cell(x) for x in row] for row in table.itertuples(index=False))
-    lines += markdown_table(head, rows)
-    return "\n".join(lines) + "\n"
-
-
-def _cell(value: object) -> str:
+def cell(value: object) -> str:
     if isinstance(value, float):
         return "" if math.isnan(value) else f"{value:g}"
     return str(value)
 
 
-if __name__ == "__main__":
-    exit_on_error(main)
+@script
+def main(name: str, csv: str, md: str, html: str, path: str) -> None:
+    (tree,) = load_inputs([Path(path)])
+    case, note = CaseView(Path(path).stem, tree), NOTES[name]
+    if name == "table1":
+        table = table_1(case.parameters)
+    else:
+        table, missing = table_2_or_why(case)
+        table, note = table.round(3), missing or note
+    table.to_csv(csv, index=False)
+    head = [NAMES[str(column)] for column in table.columns]
+    rows = ([cell(x) for x in row] for row in table.itertuples(index=False))
+    lines = [f"# {TITLES[name]}", "", note, "", *markdown_table(head, rows)]
+    Path(md).write_text("\n".join(lines) + "\n", encoding="utf-8")
+    Path(html).write_text(table_page(TITLES[name], note, table, NAMES), encoding="utf-8")

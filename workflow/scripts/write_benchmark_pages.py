@@ -3,9 +3,6 @@
 What was not measured is left as it was.
 """
 
-from __future__ import annotations
-
-import argparse
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -15,38 +12,12 @@ from workflow.scripts.make_gallery import shrink
 
 from disc_model.benchmarks import pages, truncation_pages
 from disc_model.data.dataset import load
-from disc_model.errors import DiscModelError, exit_on_error
+from disc_model.errors import DiscModelError, script
 
 PAGES = ("README.md", "docs/method.md")
 """Those that hold passages on speed."""
 MODES_PAGE = "docs/contact.md"
 """The one that holds those on the number of modes."""
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--bench", type=Path, default=Path("results/bench"))
-    parser.add_argument("--root", type=Path, default=Path())
-    args = parser.parse_args()
-    measured = {name: args.bench / f"{name}.nc" for name in ("work_precision", "answers", "contact_truncation")}
-    there = {name: load(path).to_dataset() for name, path in measured.items() if path.is_file()}
-    if not there:
-        raise DiscModelError(f"{args.bench} holds no measurements: make bench")
-    docs = args.root / "docs"
-    if "work_precision" in there and "answers" in there:
-        run = pages.summary(there["work_precision"], there["answers"])
-        keep(run, docs / "benchmark.json")
-        (docs / "benchmark.md").write_text(pages.page(run), encoding="utf-8")
-        for name in PAGES:
-            fill(args.root / name, run, pages.passages)
-    if "contact_truncation" in there:
-        run = truncation_pages.summary(there["contact_truncation"])
-        keep(run, docs / "contact_truncation.json")
-        fill(args.root / MODES_PAGE, run, truncation_pages.passages)
-    for name in pages.FIGURES:
-        source = args.bench / "figures" / f"{name}.png"
-        if source.is_file():  # else the picture stays as it was
-            shrink(source, docs / "gallery" / f"{name}.png")
 
 
 def keep(run: Mapping[str, Any], path: Path) -> None:
@@ -59,5 +30,25 @@ def fill(path: Path, run: Mapping[str, Any], passages: Callable[[Mapping[str, An
     path.write_text(pages.fill(path.read_text(encoding="utf-8"), passages(run)), encoding="utf-8")
 
 
-if __name__ == "__main__":
-    exit_on_error(main)
+@script
+def main(bench: str = "results/bench", root: str = "") -> None:
+    folder, top = Path(bench), Path(root)
+    measured = {name: folder / f"{name}.nc" for name in ("work_precision", "answers", "contact_truncation")}
+    there = {name: load(path).to_dataset() for name, path in measured.items() if path.is_file()}
+    if not there:
+        raise DiscModelError(f"{bench} holds no measurements: make bench")
+    docs = top / "docs"
+    if "work_precision" in there and "answers" in there:
+        run = pages.summary(there["work_precision"], there["answers"])
+        keep(run, docs / "benchmark.json")
+        (docs / "benchmark.md").write_text(pages.page(run), encoding="utf-8")
+        for name in PAGES:
+            fill(top / name, run, pages.passages)
+    if "contact_truncation" in there:
+        run = truncation_pages.summary(there["contact_truncation"])
+        keep(run, docs / "contact_truncation.json")
+        fill(top / MODES_PAGE, run, truncation_pages.passages)
+    for name in pages.FIGURES:
+        source = folder / "figures" / f"{name}.png"
+        if source.is_file():  # else the picture stays as it was
+            shrink(source, docs / "gallery" / f"{name}.png")

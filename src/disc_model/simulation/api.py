@@ -510,7 +510,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
     if truncation:
         tree.attrs["truncation"] = truncation
     tree.attrs |= {
-        "source_hash": source_hash(__name__),
+        "source_hash": source_hash("case"),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
         "specification": spec.canonical,

@@ -64,7 +64,7 @@ def identity(
         "stop_at": str(stop_at),
         "max_steps": str(max_steps),
         "initial state": " ".join(array.tobytes().hex() for array in start),
-        "sources": source_hash("disc_model.simulation.api"),
+        "sources": source_hash("case"),
         "versions": json.dumps(versions(), sort_keys=True),
     }
 

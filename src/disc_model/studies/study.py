@@ -25,7 +25,6 @@ from typing import Any
 import yaml
 from pydantic import ValidationError, create_model
 
-from disc_model.data.provenance import source_hash
 from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import DiscModelError, Fault, ParameterError, faults_of, shown, suggestion
 from disc_model.figures.kinds import CasePlot, General, Plot, RegionMap, Values
@@ -63,7 +62,6 @@ from disc_model.studies.document import (
     blocks_of,
 )
 from disc_model.studies.grids.summaries import summary_of
-from disc_model.studies.modes import chooser
 from disc_model.truncation import FREQUENCIES, asked_modes
 
 TAKEN = ("compiled", "bench")
@@ -571,9 +569,10 @@ class GridStudy:
     motions: Mapping[str, str]
 
     @property
-    def key(self) -> str:
-        """Name of the merged dataset: a hash of the names of its batches and of its grid."""
-        return content_key(canonical_json([sorted(self.batches), self.grid]))
+    def sources(self) -> tuple[str, ...]:
+        """Names of the sources of its points beyond those of all, as in `disc_model.data.sources`."""
+        asked = asked_modes(self.base)[1] if leaves_modes(self.base) else None
+        return self.quantity, *["modes_by_motion"] * (asked is not None and asked.quantity != FREQUENCIES)
 
     @property
     def grid(self) -> list[dict[str, Any]]:
@@ -891,9 +890,6 @@ def _general(plot: General, quantity: str, options: Strict, values: Values) -> I
 # ----------------------------------------------------------------------------------------------------
 # Batches
 
-RUNNER = "disc_model.studies.grids.run"
-MOTIONS = "disc_model.studies.grids.motions"
-
 
 def module_of(name: str) -> str:
     """Module that computes a quantity, of the same name."""
@@ -918,9 +914,9 @@ class Cut:
         """All points; `sampled` are those of a plane at which a tiled quantity is worked out in any case."""
         entry = QUANTITIES[self.quantity]
         if entry.tiled:
-            return self._texts(RUNNER, dims, _tiles(dims, batch, sampled))
+            return self._texts(dims, _tiles(dims, batch, sampled))
         size = batch.size or entry.batch_size(self.options)
-        return self._texts(RUNNER, dims, ({"points": cut} for cut in _chunks(dims, batch.over, size)))
+        return self._texts(dims, ({"points": cut} for cut in _chunks(dims, batch.over, size)))
 
     def motions(self, dims: Sequence[Dimension]) -> dict[str, str]:
         """For `disc_model.studies.grids.motions`: one batch of a few points; none for some quantities."""
@@ -929,16 +925,14 @@ class Cut:
             return {}
         few = [dim.thinned(most) for dim in dims]
         cut = _chunks(few, [dim.name for dim in few], n_points(few))
-        return self._texts(MOTIONS, few, ({"points": every} for every in cut))
+        return self._texts(few, ({"points": every} for every in cut))
 
-    def _texts(self, runner: str, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
-        choosing = chooser(asked_modes(self.base)[1]) if leaves_modes(self.base) else ()
+    def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
         shared: dict[str, Any] = {
             "quantity": self.quantity,
             "options": self.options.model_dump(),
             "base": self.base,
             "names": [name for dim in dims for name in dim.names],
-            "sources": source_hash(module_of(self.quantity), runner, *choosing),
         }
         texts = [canonical_json({**shared, **self._used(shared["names"], part["points"]), **part}) for part in parts]
         return {content_key(text): text for text in texts}

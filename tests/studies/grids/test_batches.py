@@ -74,7 +74,6 @@ def test_spelling_order_and_the_sign_of_zero_do_not_matter() -> None:
     axes = {"Omega": ["20.0", 1.5e1, 10], "N": [300, 100, 200.0, 100]}
     other = parse_grid(study(axes=axes, title="called otherwise"))
     assert other.batches == parse_grid(study()).batches
-    assert other.key == parse_grid(study()).key
     one, other = (parse_grid(study(axes={"N": [1], "Omega": [zero]})) for zero in (0.0, -0.0))
     assert one.batches == other.batches
 
@@ -140,12 +139,6 @@ def test_finer_resolution_keeps_all_batches(scale: str) -> None:
     coarse, fine, finest = (parse_grid(study(axes=axes), resolution) for resolution in (1, 2, "4"))
     assert [grid.n_points for grid in (coarse, fine, finest)] == [4, 7, 13]
     assert coarse.batches.keys() < fine.batches.keys() < finest.batches.keys()
-
-
-def test_the_key_tells_grids_apart_and_covers_the_sources() -> None:
-    keys = {parse_grid(study(axes={"N": [n], "Omega": [10]})).key for n in (100, 200)}
-    assert len(keys) == 2
-    assert all("sources" in json.loads(text) for text in parse_grid(study()).batches.values())
 
 
 AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
@@ -215,11 +208,11 @@ def test_what_modes_are_chosen_by_makes_other_batches() -> None:
 
 
 def test_only_batches_whose_modes_a_motion_chooses_depend_on_what_chooses() -> None:
-    def sources(**base: Any) -> str:
-        return str(json.loads(next(iter(parse_grid(study(base=base)).batches.values())))["sources"])
+    def sources(**base: Any) -> tuple[str, ...]:
+        return parse_grid(study(base=base)).sources
 
-    assert sources(n_diameters="auto") == sources(n_diameters=3)
-    assert sources(n_diameters="auto", truncation_quantity="growth") != sources(n_diameters="auto")
+    assert sources(n_diameters="auto") == sources(n_diameters=3) == ("outcome",)
+    assert sources(n_diameters="auto", truncation_quantity="growth") == ("outcome", "modes_by_motion")
 
 
 def test_modes_chosen_by_a_motion_are_chosen_for_each_point(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -111,7 +111,6 @@ def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, st
         every = [json.loads(batch.attrs["specification"])["starts"] for batch in batches]
         specification["starts"] = {name: start for starts in every for name, start in sorted(starts.items())}
     common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
-    common["source_hash"] = common.pop("sources")
-    for name in ("git_commit", "versions"):
+    for name in ("source_hash", "git_commit", "versions"):
         common[name] = agreed(str(batch.attrs[name]) for batch in batches)
     return common

@@ -14,11 +14,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
-from disc_model.data.provenance import git_commit, versions
+from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Column, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import AUTO, Parameters, leaves_modes
 from disc_model.simulation.case import START, Start
+from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row
 from disc_model.studies.modes import chosen
 from disc_model.truncation import read_asked
@@ -28,8 +29,6 @@ from disc_model.truncation import read_asked
 
 log = logging.getLogger(__name__)
 POINT = "point"
-DOCUMENT = "disc_model.studies.document"
-"""By name, since it is no source of a batch: the text of a batch holds the values of all options."""
 
 
 def run_batch(text: str) -> xr.Dataset:
@@ -49,7 +48,7 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     """As `run_batch`, with another quantity computed at the points, from the options of the batch's own."""
     data = json.loads(text)
     names, points = data["names"], data["points"]
-    entry = importlib.import_module(DOCUMENT).QUANTITIES[data["quantity"]]
+    entry = QUANTITIES[data["quantity"]]
     options, start = entry.parted(entry.said.model_validate(data["options"]))
     varied = [dict(zip(names, point, strict=True)) for point in points]
     parameters = [_made(data["base"], values) for values in varied]
@@ -77,6 +76,7 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     attrs = {
         "Conventions": CONVENTIONS,
         "specification": text,
+        "source_hash": source_hash("compute_batch", data["quantity"]),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
     }

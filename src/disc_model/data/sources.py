@@ -1,0 +1,109 @@
+"""Which sources each kind of result depends on.
+
+A kind bears the name of the rule that makes it, or of the quantity; others gather what several share.  Where imports
+and a list differ, `tests/data/test_sources.py` fails: a new import is named here, or under `BESIDES`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Kind(NamedTuple):
+    """What a kind of result is made by.
+
+    sources : names of other kinds, of modules and packages of `disc_model`, and, with a slash, of further files
+    version : a greater one has all results of the kind made anew
+    """
+
+    sources: str
+    version: int = 1
+
+
+BESIDES = {
+    "": "names only",
+    "data.provenance": "says what made a result",
+    "data.sources": "says what made a result",
+    "explorer": "a name only",
+    "figures": "names only",
+    "figures.grids": "a name only",
+    "figures.kinds": "says what a file may ask for",
+    "figures.paper": "a name only",
+    "figures.paper.catalogue": "says what a file may ask for",
+    "kernels": "decides when kernels are compiled",
+    "plausibility": "warns",
+    "mode_choice": "a kind of its own, where it is asked",
+    "progress": "shows what goes on",
+    "simulation.quicklook": "draws for a reader",
+    "studies.grids": "a name only",
+    "studies.document": "a batch's text holds the values of all options",
+    "studies.grids.quantities": "a name only",
+}
+"""Modules that are imported and decide no result, with the reason."""
+
+_BENCHMARK = "case benchmarks.methods benchmarks.grid benchmarks.machine benchmarks.scenes"
+_REFERENCES = (
+    "benchmarks/data/benchmark_reference.json benchmarks/data/separating_start.json benchmarks/data/answers.json"
+)
+_QUESTIONS = (
+    "truncation benchmarks.register benchmarks.answers.questions benchmarks.answers.simulated analysis.classify "
+    "analysis.sobol " + _REFERENCES
+)
+_TEXTS = "benchmarks.texts benchmarks/texts.yaml data.texts"
+_ANSWERS = "benchmarks.answers.measure benchmarks.answers.modelled benchmarks.truncation continuation " + _QUESTIONS
+
+KINDS = {
+    # shared
+    "dataset": Kind("data.dataset data.variables errors parameters plate flexibility"),
+    "case": Kind("dataset engine simulation.api simulation.case simulation.kept simulation.ramps simulation.result"),
+    "cycle": Kind("case stability.cycle stability.return_map stability.sliding"),
+    "settled": Kind("cycle stability.attractor analysis.classify"),
+    "continuation": Kind("cycle stability.branch stability.continuation stability.grazing"),
+    "point": Kind(
+        "dataset simulation.case simulation.ramps studies.grids.points studies.grids.run studies.modes truncation"
+    ),
+    "figure": Kind("dataset simulation.case simulation.ramps figures.kinds figures.parts figures/disc_model.mplstyle"),
+    "modes_by_motion": Kind("cycle mode_choice truncation"),
+    # named cases
+    "simulate_case": Kind("case studies.modes truncation"),
+    "merge_cases": Kind("dataset studies.cases"),
+    "describe_study": Kind("check_claims"),
+    # grids, with a quantity each
+    "compute_batch": Kind("point"),
+    "compute_motions": Kind("point case studies.grids.motions"),
+    "merge_batches": Kind(
+        "point studies.document studies.grids.merge studies.grids.summaries studies.grids.draws analysis.sobol"
+    ),
+    "outcome": Kind("point settled studies.grids.quantities.outcome"),
+    "regions": Kind("point settled stability.resonances studies.grids.quantities.regions"),
+    "critical_speed": Kind("point settled studies.grids.quantities.critical_speed"),
+    "floquet": Kind("point cycle studies.grids.quantities.floquet"),
+    "hysteresis": Kind("point settled studies.grids.quantities.hysteresis"),
+    "ramps": Kind("point case studies.grids.quantities.ramps"),
+    "basins": Kind("point settled analysis.sobol studies.grids.quantities.basins"),
+    "bifurcation": Kind("point settled stability.bifurcation studies.grids.quantities.bifurcation"),
+    "lyapunov": Kind("point case stability.lyapunov stability.return_map studies.grids.quantities.lyapunov"),
+    "stability_curves": Kind(
+        "point continuation stability.curves stability.resonances studies.grids.quantities.stability_curves"
+    ),
+    "sensitivity": Kind("point settled studies.grids.draws studies.grids.quantities.sensitivity"),
+    "campbell": Kind("floquet stability.campbell studies.grids.quantities.campbell"),
+    # pictures and pages; a figure's own module is named beside its kind
+    "draw_figure": Kind(
+        "figure analysis figures.paper.catalogue figures.grids.cells figures.grids.growth_map "
+        "figures.grids.stability_map stability.resonances"
+    ),
+    "check_claims": Kind("cycle analysis claims/ data.texts figures.kinds figures.paper.catalogue config/paper.yaml"),
+    "compare_normalisations": Kind("check_claims"),
+    "judge_survival": Kind("check_claims"),
+    "make_table": Kind("check_claims"),
+    "build_explorer": Kind("figure explorer explorer/static"),
+    # the benchmark
+    "measure_work_precision": Kind(
+        f"{_BENCHMARK} benchmarks.register {_TEXTS} benchmarks.table benchmarks.work_precision {_REFERENCES}"
+    ),
+    "measure": Kind(f"{_BENCHMARK} {_ANSWERS} benchmarks.failure_maps"),
+    "merge_answers": Kind(f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.words"),
+    "tell_truncation": Kind(f"dataset benchmarks.truncation_pages {_TEXTS}"),
+}
+"""By name."""
