@@ -22,7 +22,6 @@ from disc_model import (
     Poincare,
     Record,
     Result,
-    Status,
     StepLimit,
     Window,
     flexibility,
@@ -33,11 +32,9 @@ from disc_model.data.dataset import (
     InputsError,
     WriteError,
     check_whole,
-    each_intact,
     load,
     load_inputs,
     save,
-    write_whole,
 )
 from disc_model.data.variables import STATUSES, attributes, flag_names
 from disc_model.simulation import api as batch
@@ -211,10 +208,6 @@ def test_a_case_that_fails_of_its_compliance_is_a_status(monkeypatch: pytest.Mon
     assert np.isnan(failed["contact_compliance"])
 
 
-def test_every_status_of_a_result_can_be_stored() -> None:
-    assert {status.value for status in Status} < set(STATUSES)
-
-
 def test_a_failing_write_leaves_the_old_file_and_nothing_else(
     tree: xr.DataTree, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -328,15 +321,6 @@ def test_no_folder_is_made(path: Path) -> None:
     assert os.listdir(path.parent) == ["case.nc"]
 
 
-def test_what_is_no_matter_of_space_is_handed_on(tmp_path: Path) -> None:
-    def fail(_: str) -> None:
-        raise RuntimeError("of another kind")
-
-    with pytest.raises(RuntimeError, match="of another kind"):
-        write_whole(tmp_path / "a", fail, 10)
-    assert not list(tmp_path.iterdir())
-
-
 def test_all_damaged_inputs_are_named_and_set_aside(path: Path) -> None:
     other, intact = path.with_name("other.nc"), path.with_name("intact.nc")
     intact.write_bytes(path.read_bytes())
@@ -348,11 +332,3 @@ def test_all_damaged_inputs_are_named_and_set_aside(path: Path) -> None:
     assert [line.split(":")[0] for line in lines[:3]] == [str(path), str(other), str(path.with_name("gone.nc"))]
     assert lines[3] == "Run snakemake again: it computes them anew."
     assert sorted(os.listdir(path.parent)) == ["case.nc.damaged", "intact.nc", "other.nc.damaged"]
-
-
-def test_inputs_are_read_in_their_order(tmp_path: Path) -> None:
-    for name in ("a", "b"):
-        (tmp_path / name).write_text(name)
-    assert each_intact(lambda path: path.read_text(), [tmp_path / "b", tmp_path / "a"]) == ["b", "a"]
-    with pytest.raises(InputsError, match="not there"):
-        each_intact(lambda path: path.read_text(), [tmp_path / "c"])

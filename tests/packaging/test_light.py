@@ -122,14 +122,6 @@ def test_there_is_one_version() -> None:
 CONTAINER = (ROOT / "Containerfile").read_text(encoding="utf-8")
 
 
-def test_the_container_copies_what_there_is() -> None:
-    copied = [source for line in re.findall(r"^COPY (.+)$", CONTAINER, re.MULTILINE) for source in line.split()[:-1]]
-    assert len(copied) >= 8
-    tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
-    for source in copied:
-        assert any(name == source or name.startswith(f"{source}/") for name in tracked), source
-
-
 @pytest.mark.parametrize("target", ["src/disc_model/workflow", "src/disc_model/config"])
 def test_the_container_has_what_the_packages_links_lead_to(target: str) -> None:
     link = ROOT / target

@@ -28,27 +28,6 @@ def test_envelopes_are_the_extremes_of_the_samples():
     assert result.poincare["time"].tolist() == [0.0]
 
 
-def test_a_long_bin_is_put_together_once(monkeypatch):
-    """What there was of a bin was copied whenever the buffer was full: the square of its length."""
-    record = Record(windows=(Window(rate=1e5), Window(rate=1e5, envelope=4000)), events=False)
-    expected = simulate(P, 0.1, record=record).samples
-    monkeypatch.setattr(kept, "BUFFER", 16)
-    copied, concatenate = [], np.concatenate
-
-    def counting(arrays, *args):
-        copied.append(sum(map(len, arrays)))
-        return concatenate(arrays, *args)
-
-    monkeypatch.setattr(np, "concatenate", counting)
-    found = simulate(P, 0.1, record=record).samples
-    for one, other in zip(found, expected, strict=True):
-        for name in other:
-            np.testing.assert_array_equal(one[name], other[name])
-    cells = expected[0]["P"][:8000].reshape(2, 4000)
-    np.testing.assert_array_equal(expected[1]["P_max"], cells.max(axis=1))
-    assert sum(copied) < 5 * 10_000
-
-
 def test_nothing_is_kept_if_nothing_is_asked_for():
     result = simulate(P, 0.03, tol=1e-9, record=Record(events=False))
     assert len(result.events) == 0

@@ -6,11 +6,9 @@ import copy
 import dataclasses
 import importlib
 import json
-import logging
 import os
 import pickle
 import re
-import signal
 import subprocess
 import sys
 import time
@@ -29,7 +27,6 @@ from disc_model.simulation.api import run_case, simulate
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.result import Result, State
 from tests.simulation.equal import same
-from tests.workflow.conftest import copy_repository
 
 ROOT = Path(__file__).parents[2]
 SIMULATE = importlib.import_module("disc_model.simulation.api")
@@ -336,30 +333,6 @@ class TestArguments:
         simulate(P, 0.5, checkpoint=file, checkpoint_every=0)
         assert os.listdir(file.parent) == []
 
-    def test_large_checkpoints_are_written_more_rarely(self, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-        """Each holds all rows: they may take a tenth of the time."""
-        now = iter([0.0, 10.0, 12.0, 31.9, 32.0])
-        monkeypatch.setattr(kept.clock, "monotonic", lambda: next(now))
-        checkpoint = kept.Checkpoint(file, 5.0, {})
-        checkpoint.save(kept.Contents({}, {}))  # from 10 to 12 s
-        assert [checkpoint.due, checkpoint.due] == [False, True]
-
-    @pytest.mark.compiled
-    def test_the_file_is_removed_by_someone(self, run: Options, file: Path) -> None:
-        run["record"] = ALL
-        pauses = iter(range(100))
-
-        def progress(time: float) -> None:
-            pause = next(pauses)
-            if pause == 3:
-                file.unlink()
-            if pause == 6:
-                raise Interrupted
-
-        with pytest.raises(Interrupted):
-            simulate(P, 55.6, **run, checkpoint_every=0, progress=progress)
-        same(simulate(P, 55.6, **run), simulate(P, 55.6, **run | {"checkpoint": None}))
-
 
 @pytest.mark.compiled
 class TestCommands:
@@ -390,14 +363,6 @@ class TestCommands:
 
 class TestResult:
     """The table of events is made when it is asked for."""
-
-    def test_events_are_made_once(self) -> None:
-        result = simulate(P, 0.2)
-        assert "events" not in vars(result)
-        assert result.events is result.events
-        assert list(result.events) == ["time", "kind", "phase", "psi", "f", "u", "u_velocity", "P"]
-        assert list(result.events["phase"].cat.categories) == ["stick", "slip", "separation"]
-        assert len(result.events) == result.statistics["events"] == len(result.event_rows) > 0
 
     def test_a_result_cannot_be_changed(self) -> None:
         result = simulate(P, 0.1)
@@ -503,41 +468,3 @@ study: long
 record: {windows: {history: {rate: 50, envelope: 10}}, events: {last: 10}}
 cases: {A: {title: a long one, parameters: {N: 385, Omega: 15.1}, t_end: 12000}}
 """
-
-
-@pytest.mark.slow
-@pytest.mark.workflow
-def test_a_workflow_that_is_killed(tmp_path: Path) -> None:
-    """Snakemake and its job vanish together, as with the machine; the job goes on when Snakemake runs again."""
-    interrupted, undisturbed = projects = [
-        copy_repository(tmp_path / name, {"config/long.yaml": STUDY}) for name in ("interrupted", "undisturbed")
-    ]
-    cases = interrupted.folder / "results/long/cases"
-    file = cases / ".A.checkpoint"
-    command = interrupted.command("-j1", "results/long/cases/A.nc")
-    options: Options = {"cwd": interrupted.folder, "env": interrupted.environment, "start_new_session": True}
-    with subprocess.Popen(command, **options, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-        sizes = [0, 0]
-        while not 0 < sizes[-1] == sizes[-2]:  # else the first record may be cut off
-            assert process.poll() is None
-            time.sleep(1)
-            sizes.append(file.stat().st_size if file.exists() else 0)
-        os.killpg(process.pid, signal.SIGKILL)
-    assert os.listdir(cases) == [".A.checkpoint"]
-    interrupted.snakemake("--unlock")
-    for project in projects:
-        project.complete("-j1", "results/long/cases/A.nc")
-    assert "goes on at t = " in (interrupted.folder / "results/long/logs/simulate_case/A.log").read_text()
-    assert os.listdir(cases) == ["A.nc"]
-    assert (cases / "A.nc").read_bytes() == (undisturbed.folder / "results/long/cases/A.nc").read_bytes()
-
-
-@pytest.mark.compiled
-def test_progress_goes_on_as_before(caplog: pytest.LogCaptureFixture) -> None:
-    """Without a checkpoint nothing is written or said."""
-    caplog.set_level(logging.INFO)
-    times: list[float] = []
-    simulate(P, 1, progress=times.append)
-    assert times == sorted(times)
-    assert times[-1] == 1
-    assert not caplog.records

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Ramp, Record, Window, floquet, simulate
+from disc_model import Parameters, Ramp, simulate
 from disc_model.engine import layout
 from disc_model.plate import mode_arrays
 from disc_model.simulation.result import Workspace, engine_case, read_state, series_order, write_state
@@ -14,26 +14,6 @@ from tests.simulation.equal import same
 
 P = Parameters(N=385, Omega=15.1)
 APART = Parameters(N=700, Omega=50, k=0, mu_s=1.4, mu_k=0.2, n_diameters=1)
-
-
-def contents(p: Parameters) -> list[bytes]:
-    """Every array that runs of a case share."""
-    case = engine_case(p)
-    parts = (*case, *case.model, *case.model.modes, *case.start)
-    return [part.tobytes() for part in parts if isinstance(part, np.ndarray)]
-
-
-@pytest.mark.parametrize("p", [P, APART], ids=["contact", "apart"])
-def test_runs_share_what_they_never_write(p: Parameters) -> None:
-    before = contents(p)
-    assert len(before) > 25
-    record = Record(windows=(Window(start=0, stop=0.1, rate=1000),), energy=True)
-    result = simulate(p, 0.1, record=record)
-    assert result.statistics["events"] > 1
-    simulate(p, 0.2, initial_state=result.final_state)
-    floquet(p)
-    assert contents(p) == before
-    assert engine_case(p.replace()) is engine_case(p)
 
 
 def test_a_case_seen_before_gives_the_same_to_the_last_bit() -> None:

@@ -132,10 +132,3 @@ def test_what_is_not_said_is_not_in_the_text_of_a_window() -> None:
         "start": 0.0, "stop": 1.0, "rate": 5.0, "theta": 1.0, "envelope": None,
     }  # fmt: skip
     assert Window(last=1, rate=5).model_dump()["last"] == 1.0
-
-
-def test_a_window_beyond_memory_is_refused_before_anything_runs() -> None:
-    """It used to end in a MemoryError, or in the machine's."""
-    with pytest.raises(ParameterError, match=r"record.windows.0: must fit into memory: .* GB of samples"):
-        simulate(P, 1e3, record=Record(windows=(Window(rate=1e12),)))
-    assert simulate(P, 1e-3, record=Record(windows=(Window(stop=1e9, rate=1e6),))).status.complete

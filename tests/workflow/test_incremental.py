@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import base64
 import os
 import re
-import signal
-import subprocess
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,7 +11,6 @@ import pytest
 import xarray as xr
 
 from tests.workflow.conftest import Project, copy_repository
-from tests.workflow.faulty import kill, needs_proc, wait_until
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -247,81 +242,3 @@ def test_gc_removes_what_no_study_needs(grid: Project) -> None:
     assert left == {batch for _, batch in batches(grid, "inc_map")}
     assert {path.name for path in (grid.folder / "results" / "inc_growth").rglob("*.nc")} == kept
     assert planned(grid) == set()
-
-
-# ---- crashes
-
-
-def start(project: Project) -> subprocess.Popen[bytes]:
-    """Snakemake in the background, on a study whose four batches take some seconds each."""
-    project.edit(GRID, "N: [100, 200.0, 300]", "N: [100, 200, 300, 400]")
-    project.edit(GRID, "horizon: 1,", "horizon: 6000, settled: 0, near: 0,")
-    project.edit(GRID, "normalization: [as_published, orthonormal]", "normalization: [as_published]")
-    project.edit(GRID, "Omega: [10, 15, 20, 25]", "Omega: [5, 6]")
-    return resume(project)
-
-
-def resume(project: Project) -> subprocess.Popen[bytes]:
-    return project.start(*RUN)
-
-
-def running_batches(project: Project) -> list[int]:
-    """Processes that are computing batches in the project."""
-    commands = project.processes().items()
-    return [process for process, words in commands if "workflow/scripts/compute_batch.py" in words[1]]
-
-
-def wait_for_batches(project: Project, process: subprocess.Popen[bytes]) -> dict[str, int]:
-    """Times of the files of finished batches, once there are some while others are being computed.
-
-    A batch is finished when Snakemake has taken note of it, a moment after the file has appeared.
-    """
-    folder = project.folder / "results" / "inc_map" / "batches"
-    wanted = {batch for _, batch in batches(project, "inc_map")}
-    for _ in range(6000):
-        running = running_batches(project)
-        files = {path.stem: path.stat().st_mtime_ns for path in folder.glob("*.nc") if path.stem in wanted}
-        finished = {batch: at for batch, at in files.items() if batch not in unfinished(project)}
-        if finished and running:
-            return finished
-        assert process.poll() is None, (project.folder / "run.log").read_text()
-        time.sleep(0.1)
-    raise AssertionError("no batch was finished")
-
-
-def unfinished(project: Project) -> set[str]:
-    """Batches that Snakemake holds for begun and not finished."""
-    marks = (project.folder / ".snakemake" / "incomplete").iterdir()
-    return {Path(base64.b64decode(mark.name).decode()).stem for mark in marks}
-
-
-def check_the_rest_is_done(project: Project, finished: dict[str, int]) -> None:
-    folder = project.folder / "results" / "inc_map"
-    for path in folder.rglob("*.nc"):
-        xr.open_dataset(path).close()
-    left = {job for job in planned(project) if job[0] == "compute_batch"}
-    assert left
-    assert not left & {("compute_batch", batch) for batch in finished}
-    assert resume(project).wait(timeout=900) == 0, (project.folder / "run.log").read_text()
-    assert {batch: (folder / "batches" / f"{batch}.nc").stat().st_mtime_ns for batch in finished} == finished
-    assert planned(project) == set()
-
-
-def kill_jobs(project: Project, _: subprocess.Popen[bytes]) -> None:
-    wait_until(lambda: sum(map(kill, running_batches(project))) > 0, 5.0)
-
-
-def interrupt(_: Project, process: subprocess.Popen[bytes]) -> None:
-    os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C in a terminal does
-
-
-@needs_proc
-@pytest.mark.parametrize("fault", [kill_jobs, interrupt])
-def test_a_fault_costs_only_batches_that_are_not_finished(
-    grid: Project, fault: Callable[[Project, subprocess.Popen[bytes]], None]
-) -> None:
-    process = start(grid)
-    finished = wait_for_batches(grid, process)
-    fault(grid, process)
-    assert process.wait(timeout=900) != 0
-    check_the_rest_is_done(grid, finished)

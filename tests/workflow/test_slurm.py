@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import os
 import re
-import signal
 import subprocess
 import time
 from collections import Counter
@@ -19,7 +18,6 @@ import xarray as xr
 from tests import needs
 from tests.workflow import slurm
 from tests.workflow.conftest import Project, copy_repository
-from tests.workflow.faulty import wait_until
 from tests.workflow.slurm import Cluster
 
 pytestmark = [
@@ -231,10 +229,6 @@ def test_results_are_those_of_one_machine(queued: tuple[Project, str], local: Pr
     assert_same_results(queued[0], local)
 
 
-def test_a_second_run_submits_nothing(queued: tuple[Project, str]) -> None:
-    assert "Nothing to be done" in queued[0].complete(*PROFILE)
-
-
 def test_a_cancelled_job_is_submitted_again(grown: tuple[Project, list[str]], cluster: Cluster) -> None:
     project, (unlucky, other) = grown
     before = times(project)
@@ -267,61 +261,3 @@ def test_a_job_that_takes_too_long_gets_more_time(grown: tuple[Project, list[str
     assert (finished[second]["JobState"], finished[second]["TimeLimit"]) == ("COMPLETED", "2")
     assert len(attempts(project)[other]) == 1
     assert {batch: at for batch, at in times(project).items() if batch in before} == before
-
-
-def test_a_job_that_takes_too_much_gets_more_memory(grown: tuple[Project, list[str]], cluster: Cluster) -> None:
-    """What fails with 1200 MB goes through with 2400."""
-    project, (big, _) = grown
-    ask_for(project, big, "hog", "hog")
-    ended_well(start(project), project)
-    first, second = attempts(project)[big]
-    finished = cluster.finished()
-    assert finished[first]["JobState"] in ("OUT_OF_MEMORY", "CANCELLED", "FAILED")
-    assert "mem=1200M" in finished[first]["Tres"]
-    assert finished[second]["JobState"] == "COMPLETED"
-    assert "mem=2400M" in finished[second]["Tres"]
-
-
-def test_a_job_that_always_fails_costs_nothing_but_itself(grown: tuple[Project, list[str]], cluster: Cluster) -> None:
-    project, (bad, good) = grown
-    ask_for(project, bad, "die", "die", "die")
-    said = project.refused(*PROFILE, PUBLISHED)
-    jobs = attempts(project)[bad]
-    assert len(jobs) == 3
-    for job in jobs:
-        assert f"SLURM-job '{job}' failed, SLURM status is: 'FAILED'" in said
-        assert cluster.finished()[job]["JobState"] == "FAILED"
-    assert planned_batches(project) == [bad]
-    before = times(project)
-    assert good in before
-    ended_well(start(project), project)
-    assert len(attempts(project)[bad]) == 4
-    assert {batch: at for batch, at in times(project).items() if batch in before} == before
-
-
-def test_an_interrupted_run_cancels_its_jobs_and_goes_on(grown: tuple[Project, list[str]], cluster: Cluster) -> None:
-    project, (unlucky, other) = grown
-    ask_for(project, unlucky, "hang")
-    ask_for(project, other, "hang")
-    process = start(project)
-    jobs = [wait_for_attempt(project, unlucky), wait_for_attempt(project, other)]
-    os.kill(process.pid, signal.SIGINT)
-    assert process.wait(timeout=300) != 0
-    wait_until(lambda: not cluster.queue(), 30.0)
-    assert {cluster.finished()[job]["JobState"] for job in jobs} == {"CANCELLED"}
-    before = times(project)
-    assert planned_batches(project) == sorted([unlucky, other])
-    ended_well(start(project), project)
-    assert {batch: at for batch, at in times(project).items() if batch in before} == before
-    assert planned_batches(project) == []
-
-
-def test_a_controller_that_restarts_does_no_harm(grown: tuple[Project, list[str]], cluster: Cluster) -> None:
-    project, batches = grown
-    process = start(project)
-    wait_for_attempt(project, batches[0])
-    cluster.stop("slurmctld")
-    time.sleep(5)
-    cluster.start_controller()
-    ended_well(process, project)
-    assert [len(attempts(project)[batch]) for batch in batches] == [1, 1]
