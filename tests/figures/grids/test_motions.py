@@ -1,0 +1,186 @@
+"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps; and what all figures of grids do."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.data.variables import Outcome
+from disc_model.figures.grids import ramps as drawn
+from disc_model.figures.grids.growth_map import Curve, crossings
+from disc_model.stability.attractor.many import Arrival, Attractor
+from disc_model.studies.grids.points import STATUSES
+from disc_model.studies.grids.quantities import basins, ramps
+from tests.figures.grids.reading import crosses, draw, labels, lines
+from tests.stability.test_attractor import stretch
+from tests.studies.grids.conftest import computed, growth_over, in_base, made_up_samples, with_failed
+
+# ---- bifurcation diagrams
+
+
+def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
+    samples, exponents = made_up_samples()
+    above, below = draw("bifurcation", with_failed(samples, N=2), {"lyapunov": with_failed(exponents, N=3)}, x="N").axes
+    assert [crosses(ax) for ax in (above, below)] == [[[2]], [[3]]]
+    assert above.lines[0].get_xdata().tolist() == [1, 1, 3, 3]
+    samples["phase"][{"N": 1}] = 0  # not reached, as where a motion slides steadily
+    (ax,) = draw("bifurcation", samples, x="N").axes
+    assert not crosses(ax)
+    assert lines(ax)["slides steadily"].get_xdata() == [2]
+
+
+def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() -> None:
+    samples, _ = made_up_samples()
+    study = samples.assign_attrs(
+        base=json.dumps({"normalization": "orthonormal", "Omega": 15, "k": 5e4, "c_p": 1.0}),
+        options=json.dumps({"section": "switch", "prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}}),
+    )
+    figure = draw("bifurcation", study, x="N", title="Made up")
+    assert labels(figure.axes[0]) == ["at release of stick"]
+    assert figure.get_suptitle() == "Made up\nΩ = 15 rad/s, $c_p$ = 1 N s/m, orthonormal modes"  # k is that of Table 1
+    assert "from the state of N = 385 N, Ω = 15.1 rad/s after 70 s" in figure.get_supxlabel()
+    assert "published start" in draw("bifurcation", samples, x="N").get_supxlabel()
+
+
+def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
+    samples, exponents = made_up_samples()
+    words = {"flag_meanings": "unknown no yes"}
+    samples["steady"] = ("N", np.array([2, 1, 2], np.int8), words)
+    exponents["converged"] = (("N", "exponent_number"), np.array([[2], [2], [1]], np.int8), words)
+    above, below = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes
+    assert list(lines(above)["not steady"].get_xdata()) == [2, 2]
+    assert 2 not in lines(above)["stick"].get_xdata()
+    ring, _in_the_legend = (line for line in below.lines if line.get_markerfacecolor() == "none")
+    assert list(ring.get_xdata()) == [3]
+    assert ring.get_color() == lines(below)["largest exponent"].get_color()
+
+
+def test_a_diagram_of_any_variable_has_its_unit() -> None:
+    samples, _ = made_up_samples()
+    samples["P"] = xr.full_like(samples["psi"], 1.0).assign_attrs(units="N")
+    (ax,) = draw("bifurcation", samples, x="N", variable="P", scale=1.0).axes
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Preload N (N)", "Contact force P (N)")
+    angle = draw("bifurcation", samples.assign(psi=samples["psi"].assign_attrs(units="rad")), x="N").axes[0]
+    assert angle.get_ylabel() == "Angle ψ (mrad)"
+
+
+# ---- basins
+
+QUIET, APART = (
+    Attractor(Outcome.QUIET, stretch(u_min=0, u_max=1e-5, separation_rate=0, share_stick=0.3, share_separation=0)),
+    Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03)),
+)
+
+
+@pytest.fixture
+def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
+    """All quiet at 12 rad/s, some at 13 and 14, none at 15."""
+
+    class Made:
+        def __init__(self, p, *_, **__) -> None:
+            self.least = {12: 9.0, 13: 0.5, 14: 0.05, 15: -1.0}[p.Omega]
+
+        def reached(self, energy: float) -> Arrival:
+            attractor = APART if energy > self.least else QUIET
+            return Arrival(attractor.kind, attractor, 50.0, False)
+
+    monkeypatch.setattr(basins, "Basins", Made)
+    monkeypatch.setattr(basins, "random_kick", lambda p, state, energy, key: energy)
+    options = {"energies": [0.01, 0.1, 1], "starts": 4}
+    return computed(quantity="basins", options=options, base={"N": 385}, axes={"Omega": [12, 13, 14, 15]})
+
+
+def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
+    figure = draw("basins", shares, x="Omega")
+    assert labels(figure) == ["quiet", "separating"]
+    kicks = lines(figure.axes[2])["by bisection"].get_ydata()
+    np.testing.assert_allclose(kicks, [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
+    # what separates without a kick has no place on a logarithmic scale, and is not left out
+    assert [(text.get_position()[0], text.get_text()) for text in figure.axes[2].texts] == [(15, "0")]
+    assert crosses(draw("basins", with_failed(shares, Omega=13.0), x="Omega").axes[0]) == [[13]]
+
+
+def test_the_band_of_fig_15_is_where_both_shares_are_above_zero(
+    shares: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset
+) -> None:
+    others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7))}
+    assert "quiet or separating,\nnot measured" in labels(draw("critical_speed", speeds, others))
+    figure = draw("critical_speed", speeds, others | {"basins": shares})
+    assert "quiet or separating,\nmeasured at 385 N" in labels(figure)
+    assert "quiet or separating,\nnot measured" not in labels(figure)
+    # not beyond what was measured: the bar used to go on to halfway to the next speed, past the cycle's end
+    bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in figure.axes[1].patches if bar.get_width() > 0]
+    assert bars == [(13.0, 14.0)]
+
+
+# ---- ramps
+
+
+def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest.MonkeyPatch) -> None:
+    values = {
+        "status": "ok",
+        "rate_status": np.array([0, 0, STATUSES.index("stalled")]),
+        "onset": np.array([15.3, np.nan, np.nan]),
+        "top_separation_rate": np.array([135.0, 0.0, np.nan]),
+        "persists_to": np.array([9.7, 9.3, np.nan]),
+    }
+    monkeypatch.setattr(ramps, "at", lambda *_, **__: (values, ""))
+    options = {"low": 8, "high": 20, "rates": {"start": 0.01, "stop": 1, "count": 3, "scale": "log"}}
+    study = computed(quantity="ramps", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
+    folds = [
+        Curve(np.array([15.0, 15.2]), np.array([380.0, 390.0]), "fold"),
+        Curve(np.array([12.0, 12.5]), np.array([380.0, 390.0]), "neutral"),
+        Curve(np.array([11.0, np.nan, 30.0, 31.0]), np.array([380.0, np.nan, 380.0, 390.0]), "fold"),
+    ]
+    monkeypatch.setattr(drawn, "curves_of", lambda _: folds)
+    shown = lines(draw("ramps", study, {"curves": xr.Dataset()}, title="t").axes[0])
+    np.testing.assert_allclose(shown["onset of separation, speed rising"].get_ydata(), [15.3, np.nan, np.nan])
+    np.testing.assert_allclose(shown["end of separation, speed falling"].get_ydata(), [9.7, 9.3, np.nan])
+    assert list(shown[drawn.BEYOND].get_xdata()) == [0.1]
+    assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
+
+
+def test_a_curve_may_pass_a_load_several_times() -> None:
+    back = Curve(np.array([10.0, 11.0, 12.0, np.nan, 13.0]), np.array([300.0, 400.0, 300.0, np.nan, 350.0]), "fold")
+    np.testing.assert_allclose(crossings(back, 350.0), [10.5, 11.5])
+    assert (crossings(back, 400.0).tolist(), crossings(back, 500.0).size) == ([11.0], 0)
+
+
+# ---- all figures of grids
+
+
+def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:
+    lost = with_failed(speeds, N=200)
+    both = draw("critical_speed", lost, {"hysteresis": with_failed(sweep, N=400)})
+    assert [crosses(ax) for ax in both.axes] == [[[200]], [[400]]]
+    shown = lines(both.axes[0]) | lines(both.axes[1])
+    for label in ("separation begins, within 1000 s", "published start, within 1000 s"):
+        loads = np.asarray(shown[label].get_ydata())
+        assert set(loads[np.isfinite(loads)]) == {400}
+    for label in ("sweep up: separation begins", "sweep down: separation ends"):
+        assert np.isfinite(shown[label].get_xdata()).tolist() == [True, False]
+    # nothing is known of any
+    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    (ax,) = draw("thresholds", with_failed(lost, N=400), {"curves": plane, "cycle": growth}).axes
+    assert crosses(ax) == [[200, 400]]
+
+
+def test_the_normalization_may_be_given_in_base(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:
+    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
+    both = xr.concat([growth, growth.assign_coords(normalization=["orthonormal"])], "normalization")
+    alone = in_base(speeds)
+    assert len(draw("critical_speed", alone, {"hysteresis": in_base(sweep), "cycle": both}).axes) == 2
+    assert len(draw("thresholds", alone, {"curves": plane, "cycle": both}).axes) == 1
+    assert len(draw("growth_map", in_base(growth), {"curves": plane}).axes) == 2  # and the colour bar
+    samples, exponents = made_up_samples("as_published")
+    exponents = exponents.expand_dims(normalization=["as_published"])
+    assert len(draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes) == 2
+
+
+def test_grids_too_narrow_for_contours_are_drawn_without(plane: xr.Dataset, speeds: xr.Dataset) -> None:
+    for growth in (growth_over([200.0], np.linspace(5, 18, 9)), growth_over([200.0, 400.0], [5.0, 9.0])):
+        assert draw("critical_speed", speeds, {"cycle": growth}).axes
+        assert draw("thresholds", speeds, {"curves": plane, "cycle": growth}).axes
