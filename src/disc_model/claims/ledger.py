@@ -73,7 +73,7 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
         ("The cases of the paper", text, _cases([old[name] for name in shared], [new[name] for name in shared])),
     ]
     if only:
-        sections.append(("Where instability goes instead", texts["instead"], _elsewhere(only)))
+        sections.append(("Where instability goes instead", texts["instead"], _cases(only)))
     changed = _verdicts(published, orthonormal)
     sections.append(("Statements of the paper whose verdict changes", texts["verdicts"], changed))
     return Comparison(texts["title"], tuple(sections))
@@ -112,30 +112,14 @@ def _modes() -> pd.DataFrame:
     )
 
 
-def _cases(old: list[CaseView], new: list[CaseView]) -> pd.DataFrame:
-    return pd.DataFrame(
-        {
-            "Case": [case.name for case in old],
-            "Parameters": [_said(case) for case in old],
-            "First separation, as published": [_first(case) for case in old],
-            "First separation, Eq. (17)": [_first(case) for case in new],
-            "Growth, as published (1/s)": [_growth(case) for case in old],
-            "Growth, Eq. (17) (1/s)": [_growth(case) for case in new],
-            "P in the end, Eq. (17) (N)": [_late(case) for case in new],
-        }
-    )
-
-
-def _elsewhere(cases: list[CaseView]) -> pd.DataFrame:
-    return pd.DataFrame(
-        {
-            "Case": [case.name for case in cases],
-            "Parameters": [_said(case) for case in cases],
-            "First separation": [_first(case) for case in cases],
-            "Growth (1/s)": [_growth(case) for case in cases],
-            "P in the end (N)": [_late(case) for case in cases],
-        }
-    )
+def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
+    """What cases come to, beside what the same ones do with normalised modes if these are given."""
+    pairs = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
+    table = {"Case": [case.name for case in cases], "Parameters": [_said(case) for case in cases]}
+    table |= {f"First separation{which}": [_first(case) for case in those] for which, those in pairs.items()}
+    table |= {f"Growth{which} (1/s)": [_growth(case) for case in those] for which, those in pairs.items()}
+    table[f"P in the end{[*pairs][-1]} (N)"] = [_late(case) for case in new or cases]
+    return pd.DataFrame(table)
 
 
 def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:

@@ -6,25 +6,20 @@ from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
+import yaml
 
 from disc_model.analysis import spectra
 from disc_model.claims import measures
 from disc_model.claims.measures import CaseView
+from disc_model.claims.model import FOLDER
 from disc_model.data.dataset import Missing
 from disc_model.parameters import Parameters
 
-NATURAL = "natural frequency of the disc with the slider, shifted by the rotation"
-INPLANE = "in-plane frequency of the slider, split by the rotation"
-TABLE_2 = {
-    "f_Ω": (2.4, "the rotating drive point"),
-    "f_h1": (65.5, INPLANE),
-    "f_h2": (70.0, INPLANE),
-    "f_1": (133.0, NATURAL),
-    "f_2": (138.0, NATURAL),
-    "f_3": (200.0, NATURAL),
-    "f_4": (206.0, NATURAL),
-    "f_5": (269.0, NATURAL),
-    "f_6": (273.0, NATURAL),
+TEXTS = yaml.safe_load((FOLDER / "paper_tables.yaml").read_text(encoding="utf-8"))
+TABLE_1: dict[str, float] = TEXTS["table_1"]
+"""Base values as the paper has them, SI units."""
+TABLE_2: dict[str, tuple[float, str]] = {
+    symbol: (value, TEXTS[kind]) for symbol, (value, kind) in TEXTS["table_2"].items()
 }
 """By symbol: frequency in Hz and attribution, as the paper has them."""
 LISTED = tuple(value for value, _ in TABLE_2.values())
@@ -33,24 +28,6 @@ SEARCHED = 2.0
 COMBINED = 0.3
 """Hz; a line no further than this from n f_s + m f_Omega is one of these."""
 UNNAMED = "no n f_s + m f_Ω"
-TABLE_1 = {
-    "a": 0.044,
-    "b": 0.12,
-    "r_0": 0.1,
-    "h": 0.002,
-    "E": 150e9,
-    "nu": 0.211,
-    "D_star": 1e-5,
-    "mu_s": 0.4,
-    "mu_k": 0.24,
-    "k": 5e4,
-    "k_p": 2e4,
-    "m": 0.1,
-    "rho": 7200.0,
-    "c": 0.0,
-    "c_p": 0.0,
-}
-"""Base values as the paper has them, SI units."""
 
 
 def table_1(p: Parameters) -> pd.DataFrame:
