@@ -106,6 +106,11 @@ def one_more(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     return waves(t, *((126.1 + n * rate + m * drive(p), 1.0) for n in (-1, 0, 1) for m in (-1, 1)))
 
 
+def split(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
+    """One further frequency, and a line 0.15 Hz beside one of its sums with the drive's."""
+    return waves(t, (rate, 0.3), (126.1, 1.0), (126.1 + drive(p) + 0.15, 0.5))
+
+
 def cycle_as_told(p: Parameters) -> Any:
     """What a search for the cycle finds: a stiffer disc and a damped one are more stable, and stick grows with load."""
     rate = 0.2 * (150e9 / p.E - 0.9) - 1e3 * p.D_star
@@ -332,18 +337,20 @@ def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
     return xr.DataTree.from_dict({f"/{name}": tell(SPECS[name], story) for name, story in stories.items()})
 
 
-def scans(least: float = 0.2, settled: bool = True, softest: str = "growing") -> dict[str, xr.Dataset]:
+def scans(
+    least: float = 0.2, settled: bool = True, discs: tuple[str, ...] = ("growing", "quiet", "separation")
+) -> dict[str, xr.Dataset]:
     """Grid studies: stick without separation, and what becomes of the published start on softer and stiffer discs.
 
     least, settled : share of stick where it is least, and whether the motion there has settled
-    softest : outcome on the softest disc
+    discs : outcome on the softest, a softer and the usual one
     """
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
     bonded = {"share_stick": (("Omega", "N"), shares), "settled": (("Omega", "N"), times)}
     kinds = ["failed", "quiet", "growing", "separation"]
     outcome = np.full((3, 2, 2), kinds.index("quiet"), dtype=np.int8)
-    outcome[0, 1], outcome[2] = kinds.index(softest), kinds.index("separation")
+    outcome[:, 1] = np.array([[kinds.index(kind)] for kind in discs])
     flags = {"flag_values": np.arange(len(kinds), dtype=np.int8), "flag_meanings": " ".join(kinds)}
     map_E = xr.Dataset(
         {"outcome": (("E", "Omega", "normalization"), outcome, flags)},

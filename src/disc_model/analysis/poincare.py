@@ -49,7 +49,7 @@ def stages(time: Array, phase: NDArray[np.int8], first_separation: float, t_end:
     return Stages(before & ~apart, ~before & ~apart, apart, divided)
 
 
-def distinct_points(points: Array) -> int:
+def distinct_points(points: Array, extent: Array | None = None) -> int:
     """How many different points a section has, found greedily.
 
     Those within `SAME` of each other are one; chains of near points stay several, so that a closed curve has about
@@ -57,12 +57,13 @@ def distinct_points(points: Array) -> int:
 
     Parameters
     ----------
-    points : shape (n, d); each coordinate is measured in units of its own range
+    points : shape (n, d)
+    extent : shape (d,), units in which the coordinates are measured; if not given, each its own range
     """
     points = np.asarray(points, dtype=float)
     if points.size == 0:
         return 0
-    extent = np.ptp(points, axis=0)
+    extent = np.ptp(points, axis=0) if extent is None else extent
     rounding = 1e-9 * np.max(np.abs(points))  # an axis along which nothing but rounding changes
     scaled = np.where(extent > rounding, (points - points.min(axis=0)) / np.where(extent > 0, extent, 1.0), 0.0)
     centres: list[Array] = []

@@ -76,15 +76,9 @@ def pairs_split(*, within: float) -> Answer:
     for below, omega in pairwise(disc):
         between = attached[(attached > below + within) & (attached < omega - within)]
         lowered += [omega - float(between[0])] if between.size == 1 else []
-    return Answer(len(lowered) == len(disc) - 1, count=len(lowered), pairs=len(disc) - 1, lowered=lowered)
-
-
-@CHECKS("P06b")
-def pairs_move(*, within: float) -> Answer:
-    attached = slider_at_rest_frequencies(BASE)
-    disc = plate_modes(BASE).query("diameters > 0")["omega"].to_numpy()
-    kept = [omega for omega in disc if np.min(np.abs(attached - omega)) < within]
-    return Answer(not kept, count=len(kept), pairs=len(disc), kept=kept)
+    kept = [omega for omega in disc[1:] if np.min(np.abs(attached - omega)) < within]
+    split = len(lowered) == len(disc) - 1
+    return Answer(split, count=len(lowered), pairs=len(disc) - 1, lowered=lowered, kept=kept, stays=len(kept))
 
 
 @CHECKS("P07")

@@ -18,7 +18,7 @@ from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes, slider_at_rest_frequencies
 
-COLUMNS = ("id", "location", "claim", "paper_value", "ours", "tolerance", "reason", "verdict", "remark")
+COLUMNS = ("id", "location", "claim", "paper_value", "ours", "tolerance", "reason", "verdict", "remark", "apart")
 SECTIONS = (disc, section41, section42, section43, section44)
 CLAIMS: tuple[Claim, ...] = CHECKS.claims(*(f"{section.__name__.rpartition('.')[2]}.yaml" for section in SECTIONS))
 """In the order in which they stand in the files."""
@@ -37,7 +37,7 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     for claim in CLAIMS:
         found, said = claim.evaluate(cases), claim.said
         texts = (claim.id, said.location, claim.text, said.paper, found.ours, claim.tolerance, said.reason)
-        rows.append((*texts, found.verdict, found.remark))
+        rows.append((*texts, found.verdict, found.remark, said.apart))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

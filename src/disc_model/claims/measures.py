@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, motion_of, stick_disappears
-from disc_model.analysis.poincare import distinct_points
 from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -361,29 +360,20 @@ def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -
         raise Absent(f"case {case.name}: {error} in w_point") from None
 
 
-def trajectory_change(case: CaseView, share: float) -> tuple[bool, dict[str, Any]]:
-    """Whether the in-plane motion's section changes from before the first separation to long after it; and both.
-
-    It does if its width, or the share of time in stick, changes by more than a share of what it was.
-    """
-    samples, first = case.samples("poincare"), case["first_separation"]
+def section_widths(case: CaseView, first: float, end: float) -> list[float]:
+    """Widths of the in-plane motion's section before a time, and in the later half of the time from there to an end."""
+    samples = case.samples("poincare")
     time, psi = samples["time"].values, samples["psi"].values
-    stages = time < first, time > (first + case["time_reached"]) / 2
+    stages = time < first, (time > (first + end) / 2) & (time <= end)
     if min(int(inside.sum()) for inside in stages) < FEWEST:
         raise Missing(f"case {case.name} has no section of {FEWEST} points before or long after its first separation")
-    before, after = (float(np.ptp(psi[inside])) for inside in stages)
-    then = phase_share(case, "stick")
-    # of the events only late ones are kept: what the whole run sticks less what it sticks after separation
-    stick = max(0.0, case["time_stick"] - then * (case["time_reached"] - first)) / first
-    wider = ratio(after, before, f"the width of the section of case {case.name} before separation")
-    changes = abs(wider - 1) > share or abs(then - stick) > share * stick
-    return changes, {"name": case.name, "before": before, "after": after, "stick": 100 * stick, "then": 100 * then}
+    return [float(np.ptp(psi[inside])) for inside in stages]
 
 
-def late_points(case: CaseView, last: int) -> int:
-    """Different Poincare points of the disc among the last ones."""
+def late_section(case: CaseView, last: int) -> Array:
+    """The last Poincare points of the disc, displacement and velocity: shape (``last``, 2) or fewer."""
     samples = case.samples("poincare").isel(time=slice(-last, None))
-    return distinct_points(np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values]))
+    return np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values])
 
 
 def slope(case: CaseView, name: str, start: float, stop: float) -> float:

@@ -55,9 +55,11 @@ def ledger(table: pd.DataFrame) -> str:
 
 
 def _counts(table: pd.DataFrame) -> str:
-    """How often each verdict was given."""
-    count = table["verdict"].str.partition(":")[0].value_counts()
-    return ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
+    """How often each verdict was given, and how many rows that leaves out."""
+    counted = table["apart"] == ""
+    count = table.loc[counted, "verdict"].str.partition(":")[0].value_counts()
+    said = ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
+    return said if counted.all() else f"{said}; not counted, for they repeat others or are misprints: {sum(~counted)}"
 
 
 def _claim(row: Mapping[Any, Any]) -> list[str]:
@@ -67,7 +69,7 @@ def _claim(row: Mapping[Any, Any]) -> list[str]:
         escape(row["location"]),
         escape(row["claim"]),
         escape(row["paper_value"]),
-        escape(row["ours"]) + (_small(row["remark"]) if row["remark"] else ""),
+        escape(row["ours"]) + "".join(_small(row[name]) for name in ("remark", "apart") if row[name]),
         f'<span class="verdict {CLASSES.get(shown, "")}">{escape(shown)}</span>{_small(missing)}',
         escape(row["tolerance"]) + (_small(row["reason"]) if row["reason"] else ""),
     )

@@ -10,6 +10,7 @@ import xarray as xr
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import closure, irregularity, stick_disappears
+from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
 from disc_model.claims.measures import CaseView, is_kind, pairs
 from disc_model.claims.model import CHECKS, Answer
@@ -128,22 +129,47 @@ def more_frequencies(*cases: CaseView, floor: float) -> Answer:
 @CHECKS("S41p")
 def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
     """More than the section without separation can have: as many points as it takes to fill that."""
-    rows: list[dict[str, Any]] = []
-    filling, points = [], int(last)
+    found: list[dict[str, Any]] = []
+    filling, more, points = [], [], int(last)
     for free, bonded in pairs(cases):
-        ours, full = (measures.late_points(case, points) for case in (free, bonded))
-        rows.append({"case": free, "points": ours, "full": full})
-        if full > FULL * measures.late_points(bonded, points // 2):
+        sections = [measures.late_section(case, points) for case in (free, bonded)]
+        larger = np.maximum(*(np.ptp(section, axis=0) for section in sections))
+        ours, full = map(distinct_points, sections)
+        common, common_full = (distinct_points(section, larger) for section in sections)
+        counts = {"points": ours, "full": full, "common": common, "common_full": common_full}
+        found.append({"case": free, **counts})
+        more += [ours >= factor * full, common >= factor * common_full]
+        if full > FULL * distinct_points(measures.late_section(bonded, points // 2)):
             filling.append(bonded.name)
-    more = all(row["points"] >= factor * row["full"] for row in rows)
-    return Answer(None if filling else more, "filling", pairs=rows, filling=filling)
+    if filling:
+        return Answer(None, "filling", pairs=found, filling=filling)
+    return Answer(more[0] if len({*more}) == 1 else None, "scale", pairs=found)
 
 
-@CHECKS("S41d")
+@CHECKS("S41d", "F18t")
 def trajectory_changes(*cases: CaseView, share: float) -> Answer:
-    found = [measures.trajectory_change(case, share) for case in cases[:3]]
-    another = measures.another_motion(*zip(cases[:2], cases[3:], strict=True))
-    return Answer(all(changed for changed, _ in found), changes=[row for _, row in found], another=another)
+    """Whether the width of the section, or the share of time in stick, changes with the first separation.
+
+    The control beside each case is the one without separation over the same times: if that changes as well, nothing is
+    decided.
+    """
+    published = [case for case in cases if "start" not in case.node.attrs]
+    found, changes, controls = [], [], []
+    for case, bonded in pairs(published):
+        first, end = case["first_separation"], case["time_reached"]
+        before, after = measures.section_widths(case, first, end)
+        _, control = measures.section_widths(bonded, first, end)
+        then = measures.phase_share(case, "stick")
+        # of the events only late ones are kept: what the whole run sticks less what it sticks after separation
+        stick = max(0.0, case["time_stick"] - then * (end - first)) / first
+        wider = measures.ratio(after, before, f"the width of the section of case {case.name} before separation")
+        changes.append(abs(wider - 1) > share or abs(then - stick) > share * stick)
+        controls += [bonded.name] if abs(control / before - 1) > share else []
+        widths = {"before": before, "after": after, "control": control}
+        found.append({"case": case, **widths, "stick": 100 * stick, "then": 100 * then})
+    another = measures.another_motion(*zip(published, cases[len(published) :], strict=False))
+    holds = None if all(changes) and controls else all(changes)
+    return Answer(holds, "control", changes=found, without=controls, another=another)
 
 
 @CHECKS("A1")
@@ -186,17 +212,17 @@ def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
     points = study[["share_stick", "settled"]].stack(point=("N", "Omega"))
     if np.isnan(points["share_stick"]).any():
         raise Missing("study bonded has points that failed")
-    settled = points.where(np.isfinite(points["settled"]), drop=True)["share_stick"]
-    moving = points.where(np.isnan(points["settled"]), drop=True)["share_stick"]
+    moves = np.isnan(points["settled"])
+    settled, moving = (points["share_stick"].where(at, drop=True) for at in (~moves, moves))
     return Answer(
-        float(settled.min()) > share if settled.size else None,
-        "none_settled",
+        None if moving.size else float(settled.min()) > share,
+        "moving",
         count=points.sizes["point"],
         N=measures.extent(study["N"]),
         Omega=measures.extent(study["Omega"]),
         settled=[{"count": settled.size, "least": _least_stick(settled)}] if settled.size else [],
-        none=[] if settled.size else [{}],
-        moving=[{"count": moving.size, "least": _least_stick(moving)}] if moving.size else [],
+        moving=moving.size,
+        least=_least_stick(moving) if moving.size else "",
     )
 
 

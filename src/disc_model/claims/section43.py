@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis.classify import closure, irregularity, separation_location
+from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
 from disc_model.claims.disc import moving_load_speed
 from disc_model.claims.measures import (
@@ -127,12 +128,6 @@ def preload(*cases: CaseView) -> Answer:
     return Answer(between_only(cases[:3]), loads=rows(cases[:3]), beyond=beyond)
 
 
-@CHECKS("F18t")
-def undamped_trajectory(case: CaseView, *, share: float) -> Answer:
-    changes, found = measures.trajectory_change(case, share)
-    return Answer(changes, changes=found)
-
-
 @CHECKS("S43z")
 def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
     undamped, damped, slow = cases[0], cases[1:4], cases[4:]
@@ -149,8 +144,9 @@ def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
 def disc_damping(*cases: CaseView) -> Answer:
     rates = {speed: growth_or_nan(cases[1].parameters.replace(Omega=float(speed))) for speed in SPEEDS}
     said = [f"{speed:g}: {said_rate(rate)}" for speed, rate in rates.items()]
-    grows = any(rate > 0 for rate in rates.values())
-    return Answer(not any(case.separates or _grew(case) for case in cases), rates=said if grows else [])
+    stable = [not case.separates and not _grew(case) for case in cases]
+    holds = all(stable) if len({*stable}) == 1 else None
+    return Answer(holds, "speed", rates=said)
 
 
 @CHECKS("F19")
@@ -170,7 +166,7 @@ def disc_repeats(case: CaseView, *, within: float) -> Answer:
         motion.period > 0 and apart <= within,
         said=said.removeprefix("periodic: "),
         apart=apart,
-        points=measures.late_points(case, 150),
+        points=distinct_points(measures.late_section(case, 150)),
     )
 
 
@@ -292,7 +288,8 @@ def soft_enough(study: xr.Dataset) -> Answer:
     mixed = some.any() and not some.all()
     softer = [{"GPa": E[i], "Omega": Omega[apart[i]].min()} for i in range(quiet)] if mixed else []
     return Answer(
-        mixed and not softer,
+        mixed if some.any() else None,
+        "nowhere",
         N=json.loads(study.attrs["base"])["N"],
         Omega=measures.extent(Omega),
         E=measures.extent(E),

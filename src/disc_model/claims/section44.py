@@ -85,22 +85,18 @@ def follow(*cases: CaseView) -> Answer:
 
 
 @CHECKS("T2d")
-def inplane_line(case: CaseView, *, printed: float, within: float) -> Answer:
-    rate = stick_slip_rate(case)
-    drive = case["Omega"] / (2 * np.pi)
-    pair = sorted(measures.loudest(measures.lines(case, *EARLY, above=40, below=100, apart=1.0), 2))
-    middle = float(np.mean([line.frequency for line in pair]))
-    holds = abs(middle - printed) <= within
-    return Answer(
-        holds,
-        rate=rate,
-        pair=[line.frequency for line in pair],
-        middle=middle,
-        split=not holds,
-        low=rate - drive,
-        high=rate + drive,
-        free=float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi),
-    )
+def inplane_pair(case: CaseView) -> Answer:
+    rate, drive = stick_slip_rate(case), case["Omega"] / (2 * np.pi)
+    found = measures.loudest(measures.lines(case, *EARLY, above=40, below=100, apart=1.0), 2)
+    pair, split = sorted(line.frequency for line in found), [rate - drive, rate + drive]
+    return Answer(len(pair) == 2 and np.allclose(pair, split, atol=COMBINED, rtol=0), rate=rate, pair=pair, split=split)
+
+
+@CHECKS("T2f")
+def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
+    rate, free = stick_slip_rate(case), float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
+    holds = abs(rate - printed) <= within
+    return Answer(holds, rate=rate, free=free, slower=not holds)
 
 
 @CHECKS("T2e")
@@ -208,18 +204,20 @@ def growth_stages(case: CaseView, *, factor: float) -> Answer:
 def natural_lines(case: CaseView, *, share: float) -> Answer:
     span = ("spectrum_d", 143.0, 153.0)
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case, *span)
-    every, higher = (
-        measures.loudest(measures.lines(case, *span, above=above, floor=1e-3), 4) for above in (0.5 * drive, LOW)
+    found, every = (
+        measures.loudest(measures.lines(case, *span, above=above, floor=1e-3), 4) for above in (LOW, 0.5 * drive)
     )
-    ours, without = (_natural_share(case, found, rate) for found in (every, higher))
+    ours, counted = (_natural_share(case, lines, rate) for lines in (found, every))
     return Answer(
         ours > share,
-        lines=[line.frequency for line in every],
+        low=LOW,
+        lines=[line.frequency for line in found],
         percent=100 * ours,
         lowest=_natural(case)[0],
         rate=rate,
-        coupled=without > share,
-        not_drive=[{"low": LOW, "without": 100 * without}] if ours <= share < without else [],
+        counted=100 * counted,
+        with_drive=counted <= share < ours,
+        coupled=ours > share,
     )
 
 
@@ -249,16 +247,22 @@ def no_high_line(case: CaseView, *, share: float) -> Answer:
 
 
 @CHECKS("F29b")
-def erratic(case: CaseView, *, several: float, part: float) -> Answer:
+def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Answer:
+    """Undecided where the number of frequencies hangs on how far apart two lines are."""
     rate = stick_slip_rate(case, "spectrum_d", 465, 475)
     found = measures.lines(case, "spectrum_d", 465, 475, above=LOW, below=600, floor=1e-2)
     strongest = max(line.amplitude for line in found)
-    every = _further(found, rate, case["Omega"] / (2 * np.pi))
-    further = [line for line in every if line.amplitude >= part * strongest]
+    every, coarse = (_further(found, rate, case["Omega"] / (2 * np.pi), width) for width in (apart, 2 * apart))
+    further, fewer = ([line for line in lines if line.amplitude >= part * strongest] for lines in (every, coarse))
     motion, _ = measures.late_motion(case)
     second = further[1].amplitude / further[0].amplitude if len(further) >= several else 1.0
+    holds, why = is_kind(Outcome.IRREGULAR, motion, len(further) >= several)
+    depends = holds and len(fewer) < several
     return Answer(
-        *is_kind(Outcome.IRREGULAR, motion, len(further) >= several),
+        None if depends else holds,
+        "width" if depends else why,
+        fewer=len(fewer),
+        double=2 * apart,
         count=len(found),
         rate=rate,
         further=len(further),
@@ -303,16 +307,16 @@ def _natural_share(case: CaseView, lines: list[spectra.Line], rate: float) -> fl
     return sum(line.amplitude**2 for line in near) / sum(line.amplitude**2 for line in lines)
 
 
-def _further(lines: list[spectra.Line], rate: float, drive: float) -> list[spectra.Line]:
+def _further(lines: list[spectra.Line], rate: float, drive: float, apart: float) -> list[spectra.Line]:
     """Lines, the strongest first, that are not made of f_s, f_Omega and those before: each a further frequency.
 
-    A line is made of them if it is p f + n f_s + m f_Omega to 0.1 Hz, with one f of those before and abs(p) <= 2.
+    A line is made of them if it is p f + n f_s + m f_Omega to ``apart`` Hz, with one f of those before and abs(p) <= 2.
     """
     sums = np.add.outer(rate * np.arange(-12, 13), drive * np.arange(-3, 4)).ravel()
     further: list[spectra.Line] = []
     known = sums
     for line in measures.loudest(lines, len(lines)):
-        if np.min(np.abs(known - line.frequency)) > 0.1:
+        if np.min(np.abs(known - line.frequency)) > apart:
             further.append(line)
             known = np.concatenate([known, *(sums + p * line.frequency for p in (-2, -1, 1, 2))])
     return further
