@@ -26,6 +26,8 @@ from disc_model.stability.return_map import Counts, Flight, ReturnMap
 from tests.engine.full_system import Full
 from tests.references.divergence import divergence
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
+from tests.tally import tried
+from tests.validation.test_random_cases import drawn_case
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
 
@@ -256,3 +258,23 @@ def test_attractors_are_those_that_are_stable():
     assert quiet.attractors[0] == "stick_slip"
     assert quiet.raise_for_status() is quiet
     assert floquet(P.replace(N=300)).attractors == ()
+
+
+@pytest.mark.slow
+@COMPILED
+def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed: int) -> None:
+    """Under all laws of contact. Two steps of differences say how good these are: near a graze they are not."""
+    rng, sure = np.random.default_rng(seed), 0
+    cycles = (floquet(p) for p in (drawn_case(rng) for _ in range(200)) if p.n_diameters >= 0)
+    for found in (cycle for cycle in cycles if cycle.status is CycleStatus.OK):
+        map_, how = ReturnMap(found.parameters), {"releases": found.releases}
+        x = map_.point(found.state)
+        size = np.linalg.norm(x)
+        rough, fine = (central_differences(map_, x, h * size, **how) for h in (1e-4, 3e-5))
+        got, error = map_.evaluate(x, **how)[2], np.abs(rough - fine).max()
+        # rounding of flights, 1e-13, over the step
+        assert np.abs(got - fine).max() <= 1e-7 * max(1.0, np.abs(fine).max()) + 10 * error, found.parameters
+        assert np.sum(found.multipliers) == pytest.approx(np.trace(got), rel=1e-9, abs=1e-9 * np.abs(got).max())
+        sure += error < 1e-5
+    tried("random cycles against differences of the return map", "cycles", sure)
+    assert sure > 10

@@ -56,14 +56,17 @@ def fresh(done: Copy, tmp_path: Path) -> Copy:
 @needs_proc
 def test_jobs_killed_at_random(fresh: Copy) -> None:
     wanted, killed, chance = 8, 0, random.Random(7)
-    while killed < wanted:
-        process = fresh.start("-j2")
+    failed = True
+    while killed < wanted and failed:
+        process, before = fresh.start("-j2"), killed
         while process.poll() is None:
             time.sleep(chance.uniform(0.2, 2.0))
             running = jobs(fresh)
             if running and killed < wanted:
                 killed += kill(chance.choice(running))
-        assert process.returncode or not killed
+        failed = process.returncode != 0
+        assert failed or killed == before  # where jobs are quick, the last may end unharmed
+    assert killed > 0
     fresh.recovers("jobs killed", killed)
 
 
@@ -73,8 +76,9 @@ def test_whole_runs_killed_at_random(fresh: Copy) -> None:
     chance = random.Random(3)
     for number in range(4):
         process = fresh.start("-j2")
-        wait_until(lambda: bool(jobs(fresh)))
-        time.sleep(chance.uniform(0.0, 3.0 + 2.0 * number))
+        # by what is done, and not by the clock: where jobs are quick, all was done before the last kill
+        wait_until(lambda number=number: len(products(fresh)) >= number and jobs(fresh))
+        time.sleep(chance.uniform(0.0, 0.3))
         os.killpg(process.pid, signal.SIGKILL)
         assert process.wait() == -signal.SIGKILL
         told = fresh.refused("-j2")

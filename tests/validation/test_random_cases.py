@@ -1,0 +1,244 @@
+"""Random admissible cases with ramps, from any start: against an integrator in coordinates fixed in space."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
+from disc_model.flexibility import contact_give
+from disc_model.simulation.api import published_start
+from tests.references import equations, stored
+from tests.references.literal import from_slider_frame
+from tests.references.space_fixed import Motion
+from tests.tally import tried
+
+pytestmark = [pytest.mark.slow, pytest.mark.compiled]
+
+CASES = 200
+RADIANS = 400
+"""Of the fastest oscillation: how long a case is followed."""
+SAMPLES, BIN = 48, 6
+
+
+def spread(rng, low, high):
+    """Evenly over the logarithm."""
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+
+def drawn_case(rng):
+    """All fields of `Parameters`; many are sometimes zero."""
+
+    def sometimes(share, value, otherwise=0.0):
+        return value if rng.random() < share else otherwise
+
+    a, mu_k = rng.uniform(0.03, 0.06), sometimes(0.9, rng.uniform(0, 0.6))
+    b = a + rng.uniform(0.03, 0.1)
+    give = str(rng.choice(["rigid", "number", "residual"], p=[0.5, 0.3, 0.2]))
+    # as published the residual flexibility is a sum of a thousand modes, which takes seconds
+    normalization = "orthonormal" if give == "residual" else str(rng.choice(["as_published", "orthonormal"]))
+    p = Parameters(
+        N=spread(rng, 20, 1000),
+        Omega=spread(rng, 2, 60),
+        c=sometimes(0.5, spread(rng, 1e-2, 10)),
+        # without kinetic friction an undamped slider comes to rest where stick is just not possible, or just possible
+        c_p=sometimes(0.5 if mu_k else 1.0, spread(rng, 1e-2, 10)),
+        k=sometimes(0.8, spread(rng, 5e3, 5e5)),
+        k_p=spread(rng, 2e3, 2e5),
+        E=spread(rng, 30e9, 300e9),
+        m=spread(rng, 0.01, 1),
+        mu_k=mu_k,
+        mu_s=mu_k + sometimes(0.8, rng.uniform(0.01, 0.6)),
+        a=a,
+        b=b,
+        r_0=a + rng.uniform(0.3, 1) * (b - a),
+        h=spread(rng, 1e-3, 5e-3),
+        nu=rng.uniform(-0.2, 0.45),
+        rho=spread(rng, 2000, 9000),
+        n_diameters=int(rng.choice([-1, 0, 1, 1, 1, 2, 2, 3, 4, 5])),
+        n_circles=int(rng.choice([0, 0, 0, 0, 1, 2])),
+        normalization=normalization,
+        contact=str(rng.choice(["separable", "separable", "separable", "bonded"])),
+        contact_compliance={"rigid": 0.0, "number": spread(rng, 1e-7, 1e-5), "residual": "residual"}[give],
+        contact_force=str(rng.choice(["vertical", "normal"])),
+    )
+    # damping ratio of the fastest mode: beyond, an explicit integrator takes ever smaller steps
+    ratio, fastest = (
+        sometimes(0.8, spread(rng, 1e-5, 0.3)),
+        plate_modes(p)["omega"].max() if p.n_diameters >= 0 else 1.0,
+    )
+    return p.replace(D_star=2 * ratio * p.D / fastest)
+
+
+def fastest(p):
+    """Fastest oscillation, rad/s."""
+    modes = plate_modes(p)
+    found = max(modes["omega"].max() if len(modes) else 0.0, math.sqrt(max(p.k, p.k_p) / p.m))
+    give = contact_give(p)
+    return max(found, math.sqrt((1 / p.m + float(modes["psi"] @ modes["psi"])) / give)) if give else found
+
+
+def drawn_ramps(rng, p, span):
+    """None, or one or two; and the corners of Omega and N that they make: (time, Omega, N)."""
+    names = [str(name) for name in rng.permutation(["Omega", "N"])[: rng.choice([0, 0, 1, 2])]]
+    if p.n_diameters * (p.n_circles + 1) > 4 and (p.contact_compliance != 0 or p.contact_force == "normal"):
+        names = []  # with two blocks of modes: kernels more that would be compiled for a minute each
+    ramps = []
+    for name in names:
+        begin = span * rng.uniform(0, 0.6)
+        end = begin + span * rng.uniform(0.1, 0.6)
+        ramps.append(Ramp(parameter=name, to=getattr(p, name) * rng.uniform(0.5, 1.5), start=begin, end=end))
+    lines = {name: ([0.0], [getattr(p, name)]) for name in ("Omega", "N")}
+    for ramp in ramps:
+        times, values = lines[ramp.parameter]
+        lines[ramp.parameter] = [*times, ramp.start, ramp.end], [*values, values[-1], ramp.to]
+    corners = sorted({0.0, *(t for ramp in ramps for t in (ramp.start, ramp.end))})
+    return tuple(ramps), [(t, *(float(np.interp(t, *lines[name])) for name in ("Omega", "N"))) for t in corners]
+
+
+def drawn_start(rng, p, time):
+    """The published start, or any motion in any phase, in the slider's frame; contact is as its law says."""
+    rest = published_start(p).replace(time=time)
+    phase = str(rng.choice(["rest", "stick", "slip", "slip", "separation"]))
+    if phase == "rest" or (phase == "separation" and p.contact == "bonded"):
+        return rest
+    modes, direction = plate_modes(p), int(rng.choice([-1, 1])) if phase == "slip" else 0
+    psi, omega, l = (modes[name].to_numpy() for name in ("psi", "omega", "diameters"))
+    pair, size = l > 0, np.abs(p.N * psi / omega**2)
+    f = {"stick": 0.0, "slip": direction * spread(rng, 0.1, 3) * p.Omega, "separation": rng.normal() * 2 * p.Omega}[
+        phase
+    ]
+    angle = rng.uniform(-1.2, 1.2) * p.mu_s * p.N / (p.r_0 * p.k_p)
+    lively = spread(rng, 0.03, 3)
+    give = contact_give(p)
+    for _ in range(20):
+        a, b, alpha, beta = (lively * size * rng.normal(size=len(psi)) for _ in range(4))
+        a, b, alpha, beta = rest.a + a, b * pair, omega * alpha, omega * beta * pair
+        w, velocity = float(psi @ a), float(psi @ (alpha + l * f * b))
+        u, u_velocity = w, velocity
+        if phase == "separation":
+            u, u_velocity = w + spread(rng, 1e-7, 1e-3), velocity + 0.3 * rng.normal()
+        elif give:
+            u, u_velocity = w - give * p.N * spread(rng, 0.1, 3), velocity + 0.03 * rng.normal()
+        start = rest.replace(
+            phase=phase,
+            direction=direction,
+            psi=angle,
+            f=f,
+            u=u,
+            u_velocity=u_velocity,
+            a=a,
+            b=b,
+            alpha=alpha,
+            beta=beta,
+        )
+        _, R, T, *_ = reference(p, start).evaluate()
+        if phase == "separation" or (R > 0 and (phase == "slip" or abs(T) < p.mu_s * R)):
+            return start
+        lively, angle = lively / 2, angle / 2
+    return rest
+
+
+def reference(p, start, drive=0.0, **how):
+    given = stored.reference_state(start, p)
+    return Motion(p, from_slider_frame(given, drive, plate_modes(p)["diameters"].to_numpy()), drive, **how)
+
+
+QUANTITIES = ("P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity")
+
+
+class Compared:
+    """A random case, followed by the engine and by the reference with two tolerances: their difference is its error."""
+
+    def __init__(self, seed, number):
+        rng = np.random.default_rng([seed, number])
+        self.p = p = drawn_case(rng)
+        self.span = RADIANS / fastest(p)
+        self.ramps, course = drawn_ramps(rng, p, self.span)
+        self.begin = 0.0 if self.ramps or rng.random() < 0.5 else rng.uniform(0, 50)
+        self.start, self.theta, end = drawn_start(rng, p, self.begin), rng.uniform(0, 6), self.begin + self.span
+        window = Window(start=self.begin, stop=end, rate=(SAMPLES - 0.5) / self.span, theta=self.theta)
+        record = Record(windows=(window, window.replace(envelope=BIN)), energy=True)
+        self.result = simulate(p, end, tol=1e-14, initial_state=self.start, ramps=self.ramps, record=record)
+        self.times = self.result.samples[0]["time"] - self.begin
+        runs = [reference(p, self.start, p.Omega * self.begin, course=course, rtol=rtol) for rtol in (1e-13, 1e-11)]
+        self.samples = [np.array([run.run(t).sample(self.theta) for t in self.times]) for run in runs]
+        self.run, self.rough = (run.run(self.span) for run in runs)
+
+    def check(self):
+        """Switches, samples, envelope and energies, as long as the reference is sure; how many switches those were."""
+        statistics, events = self.result.statistics, self.result.events
+        assert self.result.status.complete, self.result.message
+        assert max(statistics[f"energy_{name}"] for name in ("residual", "transverse", "inplane")) < 1e-11
+        sure, horizon, error = self.sure()
+        times, kinds = events["time"].to_numpy() - self.begin, list(events["kind"])
+        wanted = self.run.events[:sure]
+        assert kinds[:sure] == [kind for _, kind in wanted]
+        off = np.abs(times[:sure] - [t for t, _ in wanted])
+        # 4e-13 was found where friction reaches its limit slowly
+        assert np.all(off <= 1e-12 + 10 * error), (off.max(), error.max())
+        # nor may it have found more
+        assert np.all(times[sure:] > horizon - 1e-9)
+        self.check_samples(horizon)
+        if horizon == math.inf:
+            self.check_energies()
+        return sure
+
+    def sure(self):
+        """How many switches both runs of the reference agree on, up to when no other is, and errors of their times."""
+        pairs = list(zip(self.run.events, self.rough.events, strict=False))
+        error, same = [0.0], 0
+        for (t, kind), (u, other) in pairs:
+            if kind != other or abs(t - u) > 1e-7:
+                break
+            error.append(max(error[-1], abs(t - u)))
+            same += 1
+        others = [run.events[same][0] for run in (self.run, self.rough) if len(run.events) > same]
+        return same, min(others, default=math.inf), np.array(error[1:])
+
+    def check_samples(self, horizon):
+        """Against the reference, and the envelope against its samples; where none is near a switch."""
+        fine, rough = self.samples
+        switches = np.array([t for t, _ in [*self.run.events, (math.inf, "")]])
+        clear = np.abs(self.times[:, None] - switches).min(axis=1) > 1e-8
+        scale = np.abs(fine).max(axis=0) + 1e-300
+        # near rest a velocity is the rounding of its displacement, 1e-16 of it at the fastest oscillation
+        scale[[2, 5, 7]] = np.maximum(scale[[2, 5, 7]], 1e-4 * fastest(self.p) * scale[[1, 4, 6]])
+        error = np.maximum.accumulate(np.where(clear[:, None], np.abs(fine - rough) / scale, 0), axis=0)
+        good = clear & (self.times < horizon) & (error.max(axis=1) < 1e-4)
+        allowed = (1e-10 + 10 * error) * scale
+        sample, folded = self.result.samples
+        for i, name in enumerate(QUANTITIES):
+            off = np.abs(sample[name] - fine[:, i])
+            assert np.all(off[good] <= allowed[good, i]), (name, (off / scale[i])[good].max(), error[good, i].max())
+            for j in np.flatnonzero(good.reshape(-1, BIN).all(axis=1)) if f"{name}_min" in folded else ():
+                inside = slice(j * BIN, (j + 1) * BIN)
+                least, most = fine[inside, i].min(), fine[inside, i].max()
+                off = max(abs(folded[f"{name}_min"][j] - least), abs(folded[f"{name}_max"][j] - most))
+                assert off <= allowed[inside, i].max(), (name, off / scale[i])
+
+    def check_energies(self):
+        """Those of the last state, in the slider's frame."""
+        p, end, give = self.p, self.result.final_state, contact_give(self.p)
+        now = p.replace(N=float(self.result.value_at("N", end.time)))
+        found = np.array(equations.energies(now, equations.modal_damping(p), end, self.result.u_0))
+        if give and end.phase != "separation":
+            found[0] += (float(plate_modes(p)["psi"] @ end.a) - end.u) ** 2 / give / 2
+        wanted, rough = (np.array(run.energies()) for run in (self.run, self.rough))
+        size = np.abs(wanted).sum() + p.N * abs(self.result.u_0)
+        assert np.all(np.abs(found - wanted) <= 1e-10 * size + 10 * np.abs(wanted - rough)), (found, wanted, rough)
+
+
+def test_random_cases(seed):
+    """One of them again: ``Compared(seed, number).check()``."""
+    failed, counts = [], []
+    for number in range(CASES):
+        try:
+            counts.append(Compared(seed, number).check())
+        except Exception as error:  # all of them are looked at, whatever one ends in
+            failed.append(f"case {number}: {error!r}")
+    tried("random cases against coordinates fixed in space", "cases", CASES)
+    tried("random cases against coordinates fixed in space", "switches", sum(counts))
+    assert not failed, "\n".join(failed)
