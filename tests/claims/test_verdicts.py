@@ -292,7 +292,7 @@ def test_between_regular_and_chaotic_nothing_is_decided(
     [
         (made_up.erratic, "500 points do not fill the section of F04"),
         (
-            lambda *at: 100 * made_up.few(*at),
+            lambda *at: 1e4 * made_up.few(*at),
             "the order depends on the scale, each section's own or that of the larger one",
         ),
     ],
