@@ -116,6 +116,20 @@ def test_a_campbell_diagram_cuts_nothing_off_and_numbers_what_matters() -> None:
     assert multiples >= set(study["crossing_multiple"].values.tolist())
 
 
+def test_a_campbell_diagram_numbered_small_peaks_and_joined_two_cycles() -> None:
+    """43/s at speeds at which another cycle was found had no number, and a line down to the next cycle."""
+    study = made_up_crossings()
+    for name in ("growth_rate", "cycle_growth_rate"):
+        study[name][65:67] = 43.0
+    assert "14.50 rad/s: 100 Hz mode, 43/s" in [one.said for one in noted(study)]
+    line = draw("campbell", study).axes[1].lines[0]
+    height = np.asarray(line.get_ydata())
+    assert not np.any(np.abs(np.diff(height)) > 1), "broken where the rate jumps"
+    assert np.nanmax(height) == 43
+    study["cycle_growth_rate"][30, 0] = study["growth_rate"][30] = study["crossing_growth_rate"][1:] = 0.005
+    assert not any("0.005" in one.said for one in noted(study))
+
+
 @pytest.mark.parametrize("places", [[1.0, 1.01, 1.02], [0.0, 0.0, 10.0], [5.0], [], list(np.zeros(30))])
 def test_names_are_spread(places: list[float]) -> None:
     found = np.array(spread(places, 0.5, 0.0, 10.0))

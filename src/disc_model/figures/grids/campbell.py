@@ -16,12 +16,14 @@ from scipy.optimize import isotonic_regression
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.kinds import Campbell
-from disc_model.figures.parts import BLACK, BLUE, BROWN, COLUMN, GREY, SKY, SLIDER, new_figure
+from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, SKY, SLIDER, new_figure
 
 COLOURS = ("#332288", BLUE, "#999933", "#882255", SKY, BROWN)
 """Of the disc's modes by their nodal diameters; those of six or more as those of six fewer. None is that of a phase."""
 RISES = ("rises", "destabilises")
 """Effects of a crossing that are numbered."""
+LEAST = 0.01
+"""1/s: growth rates from which a peak is numbered."""
 GAP = 3
 """Speeds in a row without a cycle, from which on a gap is numbered: at fewer, Newton's method may have failed."""
 LINEAR = 1.0
@@ -33,8 +35,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Campbell) ->
     norm = plot.normalization or parts.normalizations(study)[0]
     study = parts.of(study, norm).transpose("Omega", ...)
     met = noted(study)
-    heights = [3.2, 1.9, 0.105 * (1 + len(met))]
-    figure = new_figure(COLUMN, sum(heights) + 2.0)
+    heights = [3.2, 1.9, 0.13 * (1 + len(met))]
+    figure = new_figure(PAGE, sum(heights) + 1.6)
     top, bottom, below = figure.subplots(3, 1, height_ratios=heights)
     _frequencies(top, study)
     _growth_rates(bottom, study)
@@ -48,8 +50,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Campbell) ->
     bottom.set_xlabel(parts.axis_of("Omega")[0])
     below.set_axis_off()
     said = "\n".join([_SAID if met else _NOTHING, *(f"{i}  {one.said}" for i, one in enumerate(met, 1))])
-    below.text(-0.2, 1, said, fontsize=6, va="top", transform=below.transAxes, linespacing=1.25)
-    figure.legend(handles=_handles(study), loc="outside lower center", ncols=3, columnspacing=1.2)
+    below.text(0, 1, said, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
+    figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
     parts.head(figure, study, f"{plot.title or study.attrs.get('title', '')}, {parts.MODES[norm]}", modes_said=True)
     return figure
 
@@ -66,17 +68,23 @@ class Noted(NamedTuple):
     said: str
 
 
-_SAID = "Peaks of the cycle's growth rate, at crossings: mode that grows, and its rate"
+_SAID = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
 _NOTHING = "the cycle's growth rate has no peak at a crossing"
 
 
 def noted(study: xr.Dataset) -> list[Noted]:
-    """Of one normalization, by speed; crossings with one and the same rise are one."""
+    """Of one normalization, by speed: peaks from `LEAST` on at crossings, those with one peak together; others that
+    leave the linear part of the scale; and gaps."""
     effects = flag_names(study["crossing_effect"])
     by_peak: dict[tuple[float, int], list[int]] = {}
     for i in np.flatnonzero(np.isin(effects, RISES)):
         by_peak.setdefault(_peak(study, float(study["crossing_growth_rate"][i])), []).append(int(i))
-    found = [_rise(study, place, crossings) for place, crossings in by_peak.items()]
+    rate = study["growth_rate"].values
+    for first, after in parts.stretches(np.nan_to_num(rate) > LINEAR):
+        peak = _peak(study, float(rate[first:after].max()))
+        by_peak.setdefault(peak, [])
+    high = LEAST * (1 - 1e-9)
+    found = [_rise(study, peak, at) for peak, at in by_peak.items() if _rate_at(study, peak) >= high]
     wide = [(low, high) for low, high, count in gaps(study) if count >= GAP]
     found += [Noted(low, (), f"{low:.2f} to {high:.2f} rad/s: no cycle found") for low, high in wide]
     return sorted(found)
@@ -88,6 +96,10 @@ def _peak(study: xr.Dataset, highest: float) -> tuple[float, int]:
     return float(there["Omega"]), int(there["cycle_growth_rate"].idxmax("mode"))
 
 
+def _rate_at(study: xr.Dataset, peak: tuple[float, int]) -> float:
+    return float(study["cycle_growth_rate"].sel(Omega=peak[0], mode=peak[1]))
+
+
 def _rise(study: xr.Dataset, peak: tuple[float, int], crossings: list[int]) -> Noted:
     """Of the mode that leads at the peak, which need not be that of a crossing."""
     met = []
@@ -95,9 +107,9 @@ def _rise(study: xr.Dataset, peak: tuple[float, int], crossings: list[int]) -> N
         one = study.isel(crossing=i)
         line = "$f_s$" if flag_names(one["crossing_line"]) == "stick_slip" else _TURN
         met.append(f"{float(one['crossing_multiple']):g} {line} = {float(one['crossing_frequency']):.0f} Hz")
-    there = study.sel(Omega=peak[0], mode=peak[1])
-    own, rate = float(there["sliding_frequency"]), float(there["cycle_growth_rate"])
-    return Noted(peak[0], tuple(crossings), f"{peak[0]:.2f} rad/s, {', '.join(met)}: {own:.0f} Hz mode, {rate:.2g}/s")
+    own, at = float(study["sliding_frequency"].sel(Omega=peak[0], mode=peak[1])), f"{peak[0]:.2f} rad/s"
+    said = f"{', '.join([at, *met])}: {own:.0f} Hz mode, {_rate_at(study, peak):.2g}/s"
+    return Noted(peak[0], tuple(crossings), said)
 
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
@@ -167,13 +179,16 @@ def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -
             if leaves - named < 0.05 * (speeds[-1] - speeds[0]):
                 continue  # no room
             named = leaves
-            ax.text(leaves, highest, f"{n:g}", fontsize=6, color=GREY, ha="center", va="top", path_effects=_HALO)
+            ax.text(leaves, highest, f"{n:g}", fontsize=7, color=GREY, ha="center", va="top", path_effects=_HALO)
 
 
 def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     speeds = study["Omega"].values
     for l, values in _parts(study, "cycle_growth_rate"):
-        ax.plot(speeds, values, color=_colour(l), linewidth=0.8)
+        # a step so large is one to another cycle
+        jumps = np.flatnonzero(np.abs(np.diff(values)) > LINEAR) + 1
+        x, y = (np.insert(along, jumps, np.nan) for along in (speeds, values))
+        ax.plot(x, y, ".-", color=_colour(l), linewidth=0.8, markersize=1.5)
     ax.axhline(0, color=BLACK, linewidth=0.5)
     ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
     low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))
@@ -197,7 +212,7 @@ def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:
     for i, (one, place) in enumerate(zip(met, places, strict=True), 1):
         ax.annotate(
             str(i), (one.Omega, 1), xycoords=("data", "axes fraction"), xytext=(place, 1.03),
-            textcoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=6,
+            textcoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=7,
             arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": GREY, "shrinkA": 0, "shrinkB": 0},
         )  # fmt: skip
 
@@ -218,7 +233,7 @@ def _handles(study: xr.Dataset) -> list[Line2D]:
     ring: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 2.5, "markeredgewidth": 0.5}
     return [
         *(Line2D([], [], color=_colour(l), label="slider in the plane" if l < 0 else f"l = {l}") for l in shown),
-        Line2D([], [], color=BLACK, marker=".", linestyle="", markersize=4, label="stick-slip cycle"),
+        Line2D([], [], color=BLUE, marker=".", markersize=4, linewidth=0.9, label="dots: stick-slip cycle"),
         Line2D([], [], color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
         Line2D([], [], marker="o", markerfacecolor="white", label="crossing", **ring),
         Line2D([], [], marker="o", label="numbered", **ring),

@@ -1,9 +1,12 @@
-"""The paper's figures: what each shows and needs. Imports nothing heavy: studies are checked against it."""
+"""The paper's figures: what each shows and needs, from `catalogue.yaml`. Studies are checked against it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any, NamedTuple
+
+import yaml
 
 from disc_model.data.variables import said_values
 from disc_model.figures.kinds import HIGHEST, OwnFigure, spectrum_faults
@@ -43,185 +46,18 @@ class Entry(NamedTuple):
         return OwnFigure(by=f"paper.{self.drawn_by}", options=dict(self.options))
 
 
-SECTIONS = {
-    "2": "2 The model",
-    "4.1": "4.1 Separation during vibration",
-    "4.2": "4.2 The critical speed",
-    "4.3": "4.3 Influence of parameters",
-    "4.4": "4.4 Frequencies that change with time",
-    "A": "Appendix",
-    "B": "Beyond the paper",
-}
+def _read() -> tuple[dict[str, str], dict[str, Entry]]:
+    """Sections by their numbers, and figures by their names."""
+    found = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
+    entries = {}
+    for name, said in found["figures"].items():
+        caption = " ".join([said["caption"]] if isinstance(said["caption"], str) else said["caption"])
+        needs = {case: tuple(windows) for case, windows in said["needs"].items()}
+        entries[name] = Entry(**said | {"caption": caption, "needs": needs})
+    return found["sections"], entries
 
 
-def _section(section: str, case: str, title: str, what: str) -> Entry:
-    text = (
-        "Poincare sections, one point each drive period 2π/Ω: (a) in-plane motion of the slider relative to the drive "
-        f"point, (b) disc at r_0 and {{theta}}. {what}"
-    )
-    return Entry(section, f"Poincare sections, {title}", text, {case: ("poincare",)}, "sections.sections")
-
-
-def _ranges(case: str, title: str, **options: Any) -> Entry:
-    text = "(a) Contact force, (b) disc at r_0 and {theta}, as ranges."
-    options |= {"window": "history", "variables": ("P", "w_point")}
-    return Entry("4.2", title, text, {case: ("history",)}, "histories.history", options)
-
-
-def _response(case: str, title: str, text: str, variable: str, window: str, **options: Any) -> Entry:
-    windows = ("history", window, *(name for name, _ in options.get("zooms", ())))
-    options |= {"variable": variable, "window": window}
-    return Entry("4.4", title, text, {case: tuple(dict.fromkeys(windows))}, "spectra.response", options)
-
-
-def _portrait(case: str, title: str, what: str) -> Entry:
-    text = f"Phase portrait of the slider relative to the drive point, {{orbit}}, {what}."
-    return Entry("A", f"Phase portrait, {title}", text, {case: ("orbit",)}, "sections.portrait")
-
-
-BEFORE = (
-    "Light blue crosses: in contact before the first separation; black dots: in contact after it; vermilion triangles: "
-    "apart."
-)
-HALVES = "Light blue crosses: first half of the run; black dots: second half."
-IGNORED = f"Separation ignored. {HALVES}"
-STAGES = f"Stages: {BEFORE}"
-QUIET = f"No separation occurs. {HALVES}"
-
-SLIDER = (
-    "In-plane motion of the slider: (a) range of ψ over the run and two tenths of a second of it before and after "
-    "the first separation, (b) its time-frequency spectrum in the shaded stretch. Dashed: first separation."
-)
-DISC = "Disc at r_0 and {theta}: (a) range of its displacement, (b) its time-frequency spectrum in the"
-
-AROUND = tuple(f"around{i}" for i in range(9))
-"""Windows with the disc at so many angles as nine modes need."""
-ABOVE = {"until": 120.0}
-"""Histories of N = 385 N, 15.1 rad/s end where the paper's do; the run goes on for the section's sake."""
-
-CATALOGUE: Mapping[str, Entry] = {
-    "fig01": Entry(
-        "2",
-        "The model",
-        "Disc and slider: (a) from the side, with springs, dampers and preload, (b) from above, radii to scale, (c) "
-        "forces at the contact. The displacement Δ, kept, gives the preload N; u_0 is the height at the static start, "
-        "f = dφ/dt, F = k_p ψ + c_p (Ω - f), B = ∂w/∂θ under the slider.",
-        {"F02": ()},
-        "model.schematic",
-    ),
-    "fig02": Entry(
-        "4.1",
-        "Contact force",
-        "Contact force: (a) its range over the whole run, (b) {zoom} of it, separations shaded.",
-        {"F02": ("history", "zoom")},
-        "separations.contact_force",
-    ),
-    "fig03": Entry(
-        "4.1",
-        "One separation",
-        "Disc and slider during one separation and reattachment: (a) displacements from static equilibrium, (b) the "
-        "gap between them.",
-        {"F02": ("zoom",)},
-        "separations.one_separation",
-    ),
-    "fig04": _section("4.1", "F04", "separation ignored", IGNORED),
-    "fig05": _section("4.1", "F02", "with separation", STAGES),
-    "fig06": _section("4.1", "F06", "separation ignored, larger preload", IGNORED),
-    "fig07": _section("4.1", "F07", "with separation, larger preload", STAGES),
-    "fig08": _section("4.1", "F08", "separation ignored, higher speed", IGNORED),
-    "fig09": _section("4.1", "F09", "with separation, higher speed", STAGES),
-    "fig10": Entry(
-        "4.1",
-        "Disc, with separation and without",
-        "Range of the disc's displacement at r_0 and {theta}, with separation ignored and with separation.",
-        {"F02": ("history",), "F04": ("history",)},
-        "histories.with_and_without",
-    ),
-    "fig11": _ranges("F11", "Histories below the critical speed"),
-    "fig12": _section("4.2", "F11", "below the critical speed", QUIET),
-    "fig13": _ranges("F13", "Histories above the critical speed", **ABOVE),
-    "fig14": _section("4.2", "F13", "above the critical speed", STAGES),
-    "fig16": _section("4.3", "F16", "small preload", QUIET),
-    "fig17": _section("4.3", "F17", "intermediate preload", STAGES),
-    "fig18": _section("4.3", "F18", "undamped disc", STAGES),
-    "fig19": _section("4.3", "F19", "in-plane damping", STAGES),
-    "fig20": _section("4.3", "F20", "damping normal to the disc", QUIET),
-    "fig21": _section("4.3", "F21", "soft disc", QUIET),
-    "fig22": _section("4.3", "F22", "soft in-plane spring", STAGES),
-    "fig23": Entry(
-        "4.3",
-        "Separations of a light slider",
-        "Disc and slider around separations of a light slider, displacements from static equilibrium; separations "
-        "shaded.",
-        {"F23": ("zoom",)},
-        "separations.light_slider",
-    ),
-    "fig24": Entry(
-        "4.4",
-        "Disc's vibration above the critical speed",
-        "Range of the disc's displacement at r_0 and {theta}; the stretches of Fig. 25 are marked.",
-        {"F13": ("history", "spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
-        "spectra.with_stretches",
-        options=ABOVE,
-    ),
-    "fig25": Entry(
-        "4.4",
-        "Disc's spectrum in time above the critical speed",
-        "Time-frequency spectrum of the disc's displacement at r_0 and {theta} in four stretches of the run, relative "
-        "to the strongest line of all four; below, the same up to 300 Hz, the lines of Table 2 named. The "
-        "first half second, half a window, is left out. Dashed: first separation. Ticks without a name: the lines of a "
-        "pair.",
-        {"F13": ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")},
-        "spectra.four_stretches",
-    ),
-    "fig26": _response(
-        "F13",
-        "Slider's motion above the critical speed",
-        SLIDER,
-        "psi",
-        "spectrum_c",
-        zooms=[["spectrum_c", 52.0], ["spectrum_d", 105.0]],
-        **ABOVE,
-    ),
-    "fig27": _response(
-        "F07",
-        "Disc's vibration, smaller preload",
-        f"{DISC} shaded stretch. Dashed: first separation.",
-        "w_point",
-        "spectrum_d",
-        until=200.0,
-    ),
-    "fig28": _response(
-        "F07",
-        "Slider's motion, smaller preload",
-        SLIDER,
-        "psi",
-        "spectrum_d",
-        zooms=[["spectrum_d", 143.1], ["spectrum_d", 152.0]],
-        until=200.0,
-    ),
-    "fig29": _response(
-        "F21",
-        "Disc's vibration, soft disc",
-        f"{DISC} stretch marked there. Dotted: the disc's highest natural frequency.",
-        "w_point",
-        "spectrum_d",
-        highest=True,
-    ),
-    "figA1": _portrait("F04", "separation ignored", "separation ignored"),
-    "figA2": _portrait("F02", "with separation", "by phase"),
-    "figB1": Entry(
-        "B",
-        "The whole disc while the slider leaves it",
-        "Deflection of the disc from the plane of the disc at rest at four instants, equally far apart, from one loss "
-        "of contact to the next: (a) to (d) from above, the slider as a dot, with a tick at θ = 0 and an arrow in the "
-        "sense of θ and of the drive's rotation, (e) along its circle, the slider as a square.",
-        {"F02": AROUND},
-        "disc.instants",
-    ),
-}
-
-
+SECTIONS, CATALOGUE = _read()
 RANGES = ("history",)
 """Windows that are drawn as ranges and need an envelope; all others are drawn as samples and must have none."""
 ZOOM = 0.2
