@@ -15,6 +15,7 @@ from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, State
 from disc_model.data import dataset
 from disc_model.simulation.api import published_start
 from disc_model.stability.bifurcation import bifurcation_samples
+from disc_model.stability.branch import Steps
 from disc_model.stability.continuation import continue_border, continue_cycle
 from disc_model.stability.curves import stability_curves
 from disc_model.stability.lyapunov import lyapunov_exponents
@@ -104,9 +105,14 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         continue_cycle,
         {"p": P, "name": "Omega", "bounds": (10.0, 30.0)},
-        dict.fromkeys(("near", "start", "scale"), "None") | {"max_points": "huge"},
+        {"near": "None"},
     ),
-    (continue_border, PLANE | {"kind": "fold"}, {"start": "None", "max_points": "huge"}),
+    (continue_border, PLANE | {"kind": "fold"}, {"near": "None"}),
+    (
+        Steps,
+        {},
+        dict.fromkeys(("growth", "easy", "sharpest"), " ".join(HOSTILE)) | {"scale": "None", "max_points": "huge"},
+    ),
     (stability_curves, PLANE | {"lines": (200.0,)}, {"lines": "pair empty", "max_points": "huge"}),
     (
         lyapunov_exponents,

@@ -10,6 +10,7 @@ import pytest
 
 from disc_model import ParameterError, Parameters, floquet, steady_sliding
 from disc_model.engine import layout, outcomes, switches
+from disc_model.stability.branch import Steps
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.stability.return_map import ReturnMap, multipliers
@@ -133,7 +134,7 @@ def test_steady_sliding_has_the_flows_eigenvalues(law: str, case: dict[str, floa
 @pytest.mark.parametrize("law", LAWS)
 def test_a_branch_has_the_cycles_growth(law: str) -> None:
     p = Parameters(N=300, Omega=20.0, **LAWS[law])
-    branch = continue_cycle(p, "Omega", (19.0, 20.5), longest=0.5)
+    branch = continue_cycle(p, "Omega", (19.0, 20.5), steps=Steps(longest=0.5))
     assert branch.values[-1, 0] > 20.5
     middle = len(branch) // 2
     here = floquet(p.replace(Omega=float(branch.values[middle, 0])))

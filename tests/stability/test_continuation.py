@@ -12,8 +12,9 @@ from disc_model.simulation.result import State
 from disc_model.stability import branch as branch_module
 from disc_model.stability import continuation
 from disc_model.stability import cycle as cycle_module
-from disc_model.stability.branch import CycleProblem, Lost
+from disc_model.stability.branch import CycleProblem, Lost, Steps
 from disc_model.stability.continuation import (
+    BORDER,
     _next_on_border,
     _OnCurve,
     _Ways,
@@ -49,7 +50,7 @@ def test_a_branch_goes_round_its_fold():
 
 
 def test_a_branch_may_begin_the_other_way_and_stop_short():
-    branch = continue_cycle(P, "Omega", (12.0, 17.0), direction=-1, max_points=3)
+    branch = continue_cycle(P, "Omega", (12.0, 17.0), direction=-1, steps=Steps(max_points=3))
     assert branch.ended == "the number of points allowed is reached"
     assert branch.values[:, 0] == pytest.approx(sorted(branch.values[:, 0], reverse=True))
     by_load = continue_cycle(P, "N", (250.0, 320.0), direction=-1)
@@ -66,7 +67,7 @@ def test_a_branch_may_begin_the_other_way_and_stop_short():
     ],
 )
 def test_where_a_branch_ends_is_said(start, bounds, why):
-    branch = continue_cycle(P.replace(Omega=start), "Omega", bounds, direction=-1, shortest=1e-3)
+    branch = continue_cycle(P.replace(Omega=start), "Omega", bounds, direction=-1, steps=Steps(shortest=1e-3))
     assert why in branch.ended
 
 
@@ -127,14 +128,16 @@ def test_the_neutral_curve_is_the_ellipse():
     assert curve.growth_rate == pytest.approx(np.zeros(len(curve)), abs=1e-7)
     span = np.ptp(curve.values, axis=0)
     assert span == pytest.approx([8, 200], rel=0.02)
-    other = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=-1, max_points=4)
+    other = continue_border(
+        "neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=-1, steps=replace(BORDER, max_points=4)
+    )
     assert len(other) == 4
     assert (curve.values[1] - curve.values[0]) @ (other.values[1] - curve.values[0]) < 0
 
 
 def test_the_curve_of_folds_is_the_line():
     at = P.replace(Omega=15.9)
-    curve = continue_border("fold", at, ("Omega", "N"), BOX, start=cycle_at(15.9, 300))
+    curve = continue_border("fold", at, ("Omega", "N"), BOX, near=cycle_at(15.9, 300))
     assert curve.ended == "Omega or N has left the bounds"
     assert curve.values[:, 0] == pytest.approx(fold_at(curve.values[:, 1]), abs=1e-7)
     assert np.min(np.abs(curve.multipliers - 1), axis=1) == pytest.approx(np.zeros(len(curve)), abs=1e-8)

@@ -197,7 +197,7 @@ def test_what_the_transient_did_is_reported(monkeypatch, outcome, status, words)
 def test_from_a_given_point_no_other_cycle_is_taken():
     far = 3 * ReturnMap(P).static
     assert find_cycle(P).status is CycleStatus.OK
-    found = find_cycle(P, start=far)
+    found = find_cycle(P, near=far)
     assert found.status is CycleStatus.NO_CYCLE
     assert found.message == "no_cycle: no cycle near the given point of the section"
 

@@ -25,11 +25,11 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
         (lambda: floquet("x", tol=0.5, releases=0), "p='x' tol=0.5 releases=0"),
         (lambda: floquet(P, releases=2), "releases=2"),
         (lambda: floquet(P, near="x", releases=1.5), "near='x' releases=1.5"),
-        (lambda: continue_cycle(P, "k", (1, 2), near="x", releases=0, start=[1]), "near='x' releases=0 start=[1]"),
+        (lambda: continue_cycle(P, "k", (1, 2), near="x", releases=0), "near='x' releases=0"),
         (lambda: continue_cycle("x", "nu", (1, 2), releases=2), "p='x' name='nu' releases=2"),
         (lambda: floquet(P, tol=True, releases=np.True_), "tol=True releases=np.True_"),
         (lambda: continue_cycle(P, "k", (1, 2), tol="x"), "tol='x'"),
-        (lambda: continue_cycle(P, "k", (1, 2), start=[1.0, 2.0]), "start=[1.0, 2.0]"),
+        (lambda: continue_cycle(P, "k", (1, 2), near=[1.0, 2.0]), "near=[1.0, 2.0]"),
         (lambda: continue_border("fold", P, ("k", "N"), {}, tol=0.5), "bounds={} tol=0.5"),
         (lambda: steady_sliding("x"), "p='x'"),
         (

@@ -9,6 +9,7 @@ import pytest
 
 from disc_model import Parameters, floquet, simulate
 from disc_model.simulation.result import State
+from disc_model.stability.branch import Steps
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.return_map import PATIENT, ReturnMap, multipliers
@@ -101,7 +102,7 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     """N = 385 N, two releases: up to 15.9717 rad/s, where a stop is grazed and left out."""
     p, time, *_ = LOCKED["2 releases"]
     late = settled(p, time)
-    branch = continue_cycle(p, "Omega", (14.0, 18.0), near=late, releases=2, step=1e-2)
+    branch = continue_cycle(p, "Omega", (14.0, 18.0), near=late, releases=2, steps=Steps(step=1e-2))
     end = float(branch.values[-1, 0])
     assert end == pytest.approx(15.97174, abs=1e-4)
     assert branch.ended.startswith("the order of switches changes: separations 2 to ")
@@ -126,13 +127,13 @@ def test_a_branch_turns_at_the_period_doubling_that_it_came_from() -> None:
     """N = 385 N: below 14.2877 rad/s the motion repeats after each release, and the two releases become one."""
     p, time, *_ = LOCKED["2 releases"]
     late = settled(p, time)
-    branch = continue_cycle(p, "Omega", (14.0, 15.2), near=late, releases=2, step=1e-2, direction=-1)
+    branch = continue_cycle(p, "Omega", (14.0, 15.2), near=late, releases=2, steps=Steps(step=1e-2), direction=-1)
     assert branch.folds == pytest.approx(np.array([[14.2877]]), abs=1e-3)
     below = p.replace(Omega=14.2)
     one = floquet(below, near=settled(below, 600.0, late), releases=1)
     assert one.stable
     assert one.separations == 1
-    upward = continue_cycle(below, "Omega", (14.0, 14.4), near=one.state, releases=1, step=1e-2)
+    upward = continue_cycle(below, "Omega", (14.0, 14.4), near=one.state, releases=1, steps=Steps(step=1e-2))
     crossing = np.flatnonzero(upward.growth_rate > 0)[0]
     assert upward.kinds()[crossing] == "period_doubling"
     assert upward.values[crossing - 1, 0] < branch.folds[0, 0] + 1e-6
@@ -151,7 +152,9 @@ def test_the_locking_of_45_releases() -> None:
     assert found.stable
     ends = []
     for direction in (-1, 1):
-        branch = continue_cycle(p, "Omega", (19.9, 20.1), near=late, releases=45, step=1e-4, direction=direction)
+        branch = continue_cycle(
+            p, "Omega", (19.9, 20.1), near=late, releases=45, steps=Steps(step=1e-4), direction=direction
+        )
         assert "a further stop" in branch.ended or "the omission of a stop" in branch.ended
         assert np.all(branch.growth_rate < -0.1)
         ends.append(float(branch.values[-1, 0]))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.stability.continuation import continue_border, continue_cycle
+from disc_model.stability.continuation import BORDER, continue_border, continue_cycle
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.resonances import nearest_tongue
 from disc_model.stability.return_map import RETURNED, ReturnMap
@@ -132,7 +133,7 @@ def test_the_fold_in_two_parameters():
     near = int(np.argmin(np.abs(branch.values[:, 0] - branch.folds[0, 0])))
     start = Parameters(N=385, Omega=float(branch.values[near, 0]))
     curve = continue_border(
-        "fold", start, ("Omega", "N"), {"Omega": (12, 20), "N": (300, 450)}, start=branch.points[near], direction=1
+        "fold", start, ("Omega", "N"), {"Omega": (12, 20), "N": (300, 450)}, near=branch.points[near], direction=1
     )
     assert curve.ended.startswith("Omega or N")
     at = float(np.interp(385.0, *np.sort(curve.values[:2], axis=0)[:, ::-1].T))
@@ -175,7 +176,7 @@ def test_neutral_curves_in_other_pairs(start, names):
     p = Parameters(**start)
     value = {name: getattr(p, name) for name in names}
     bounds = {name: (0.5 * value[name], 2.5 * value[name]) for name in names}
-    curve = continue_border("neutral", p, names, bounds, max_points=12)
+    curve = continue_border("neutral", p, names, bounds, steps=replace(BORDER, max_points=12))
     assert len(curve) == 12 or "bounds" in curve.ended
     assert np.max(np.abs(curve.growth_rate)) < 1e-6
     for values in curve.values[:: max(1, len(curve) // 3)]:

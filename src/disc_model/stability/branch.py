@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -213,15 +213,13 @@ def check(
     bounds: object,
     tol: float,
     *,
-    max_points: object,
     direction: object = 1,
-    lengths: Mapping[str, object],
+    steps: object,
     more: Sequence[str] = (),
 ) -> None:
     """Raise `ParameterError` on these faults and on those of what continuations are given.
 
     count, names, bounds : the free parameter and its bounds; of two, both names and a mapping of them to bounds
-    lengths : what has to be a positive number, by name
     """
     given = names if isinstance(names, tuple | list) else [names]
     known = all(isinstance(name, str) and name in PARAMETERS for name in given)
@@ -233,9 +231,8 @@ def check(
     wrong = broken(
         (free, "name" if count == 1 else "names", names, f"must be {count} of {', '.join(PARAMETERS)}"),
         (within, "bounds", bounds, "must be two ascending finite numbers" + ", by name" * (count > 1)),
-        (is_whole(max_points) and max_points >= 1, "max_points", max_points, "must be a whole number >= 1"),
+        (isinstance(steps, Steps), "steps", steps, "must be Steps"),
         (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),  # type: ignore[arg-type]
-        *((is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0") for name, x in lengths.items()),  # type: ignore[operator]
     )
     refuse([*foreign_case(p), *wrong, *limits_faults("tol", tol, CYCLE_TOLERANCES), *more])
 
@@ -281,25 +278,47 @@ class Place:
 AnyPlace = TypeVar("AnyPlace", bound=Place)
 
 
-class Stride(NamedTuple):
-    """Arclengths of the first step, the longest and the shortest; and cosines of the tangent's turn in a step.
+@dataclass(frozen=True)
+class Steps:
+    """How a curve is followed.
 
-    A step grows by `growth` where the cosine is above `easy`; where it is below `sharpest`, a shorter one is taken.
+    Parameters
+    ----------
+    step, longest, shortest : arclength of the first step, of the longest and of the shortest
+    max_points : bound on the number of points
+    scale : value of the parameter that counts as one in the arclength; its own by default. Of one parameter only
+    growth, easy, sharpest : a step grows by the first where the cosine of the tangent's turn is above the second; where
+        it is below the third, a shorter one is taken
     """
 
-    first: float
-    longest: float
-    shortest: float
-    growth: float
-    easy: float
-    sharpest: float
+    step: float = 0.02
+    longest: float = 0.1
+    shortest: float = 1e-7
+    max_points: int = 1000
+    scale: float | None = None
+    growth: float = 1.5
+    easy: float = 0.99
+    sharpest: float = 0.9
+
+    def __post_init__(self) -> None:
+        lengths = {name: getattr(self, name) for name in ("step", "longest", "shortest")}
+        lengths |= {} if self.scale is None else {"scale": self.scale}
+        counts = is_whole(self.max_points) and self.max_points >= 1
+        refuse(
+            broken(
+                *(
+                    (is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0")
+                    for name, x in lengths.items()
+                ),
+                (counts, "max_points", self.max_points, "must be a whole number >= 1"),
+            )
+        )
 
 
 def walk(
     start: AnyPlace,
     take: Callable[[AnyPlace, float], AnyPlace],
-    stride: Stride,
-    max_points: int,
+    steps: Steps,
     *,
     meet: Callable[[AnyPlace, AnyPlace], None],
     leaves: Callable[[list[AnyPlace], float], str],
@@ -312,34 +331,34 @@ def walk(
     meet : is told of each step's two ends; raises `Lost` where the curve has to end at the first
     leaves : why the curve ends at the last of the places, given also the last step's arclength; "" if it goes on
     """
-    places, ds = [start], stride.first
-    while len(places) < max_points:
+    places, ds = [start], steps.step
+    while len(places) < steps.max_points:
         here = places[-1]
         try:
-            new, ds = _step(take, here, ds, stride)
+            new, ds = _step(take, here, ds, steps)
             meet(here, new)
         except Lost as lost:
             return places, str(lost)
         places.append(new)
         if reason := leaves(places, ds):
             return places, reason
-        if new.tangent @ here.tangent > stride.easy:
-            ds = min(stride.longest, stride.growth * ds)
+        if new.tangent @ here.tangent > steps.easy:
+            ds = min(steps.longest, steps.growth * ds)
     return places, "the number of points allowed is reached"
 
 
 def _step(
-    take: Callable[[AnyPlace, float], AnyPlace], here: AnyPlace, ds: float, stride: Stride
+    take: Callable[[AnyPlace, float], AnyPlace], here: AnyPlace, ds: float, steps: Steps
 ) -> tuple[AnyPlace, float]:
     """The next place at arclength ``ds``, halved as often as it is lost, and that arclength."""
     while True:
         try:
             new = take(here, ds)
             cosine = float(new.tangent @ here.tangent)
-            if abs(cosine) < stride.sharpest:
+            if abs(cosine) < steps.sharpest:
                 raise Lost("the curve bends too sharply")
             return (new if cosine > 0 else replace(new, tangent=-new.tangent)), ds
         except Lost:
             ds /= 2
-            if ds < stride.shortest:
+            if ds < steps.shortest:
                 raise

@@ -13,6 +13,7 @@ from functools import partial
 from typing import Literal
 
 import numpy as np
+from scipy.optimize import brentq
 
 from disc_model.errors import ParameterError, broken
 from disc_model.parameters import Parameters
@@ -25,7 +26,7 @@ from disc_model.stability.branch import (
     CycleProblem,
     Lost,
     Place,
-    Stride,
+    Steps,
     branch_of,
     check,
     newton_step,
@@ -40,6 +41,9 @@ from disc_model.stability.return_map import Array, ComplexArray, Counts, multipl
 # One parameter
 
 
+CYCLE = Steps()
+BORDER = Steps(step=0.01, longest=0.05, shortest=1e-6, max_points=400, growth=1.4, easy=0.98, sharpest=0.8)
+"""How borders are followed: each point costs several cycles."""
 UNLOCATED = "a fold that cannot be located"
 """How the reason for which a branch ends may begin."""
 
@@ -51,15 +55,10 @@ def continue_cycle(
     bounds: tuple[float, float],
     *,
     direction: int = 1,
-    step: float = 0.02,
-    longest: float = 0.1,
-    shortest: float = 1e-7,
-    max_points: int = 1000,
-    scale: float | None = None,
-    start: Array | None = None,
-    tol: float = 1e-12,
-    near: State | None = None,
+    near: State | Array | None = None,
     releases: int = 1,
+    tol: float = 1e-12,
+    steps: Steps = CYCLE,
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
@@ -72,25 +71,22 @@ def continue_cycle(
     name : the free parameter, one of Omega, N, D_star, c, c_p, k, k_p, E, m
     bounds : values between which to follow it
     direction : 1 to begin with rising values, -1 with falling ones
-    step, longest, shortest : arclength of the first step, of the longest and of the shortest
-    max_points : bound on the number of points
-    scale : value of the parameter that counts as one in the arclength; its own by default
-    start : point of the section to start Newton's method from; the static equilibrium by default
+    near : where the first cycle is looked for: near the next release after a state, as in `floquet`, or near a point of
+        the section; the static equilibrium by default
+    releases : of the cycle near a state
     tol : as in `floquet`
-    near, releases : the cycle of so many releases near the next release after this state, as in `floquet`
+    steps : how long steps are, and how many
 
     Raises
     ------
     ParameterError
         Bad input, or no cycle to start from.
     """
-    beside = broken((near is None or start is None, "start", start, "must not be given beside near"))
-    lengths = {"step": step, "longest": longest, "shortest": shortest} | ({} if scale is None else {"scale": scale})
-    more = [*faults_near(near, releases), *beside]
-    check(p, 1, name, bounds, tol, max_points=max_points, direction=direction, lengths=lengths, more=more)
-    cycle = find_cycle(p, tol, start) if near is None else find_cycle_near(p, near, releases, tol)
-    order = None if near is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
-    problem = CycleProblem(p, (name,), None if scale is None else {name: scale}, tol, order)
+    check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=faults_near(near, releases, points=True))
+    at_state = isinstance(near, State)
+    cycle = find_cycle_near(p, near, releases, tol) if isinstance(near, State) else find_cycle(p, tol, near)
+    order = Counts(*(getattr(cycle, name) for name in Counts._fields)) if at_state else None
+    problem = CycleProblem(p, (name,), None if steps.scale is None else {name: steps.scale}, tol, order)
     point = starting_point(problem, cycle)
     tangent = problem.tangents(point)[0]
     tangent *= direction * (1.0 if tangent[-1] >= 0 else -1.0)
@@ -108,8 +104,7 @@ def continue_cycle(
     def leaves(places: list[Place], ds: float) -> str:
         return "" if low <= places[-1].point.z[-1] <= high else f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
 
-    stride = Stride(step, longest, shortest, growth=1.5, easy=0.99, sharpest=0.9)
-    places, ended = walk(Place(point, tangent), partial(_next, problem), stride, max_points, meet=meet, leaves=leaves)
+    places, ended = walk(Place(point, tangent), partial(_next, problem), steps, meet=meet, leaves=leaves)
     if ended.startswith(REORDERED):
         last = places[-1].point
         ended += f"; {grazing(problem.case(last.z), problem.state(last.z), last.flight.period)}"
@@ -128,26 +123,15 @@ def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, t
     length = float(tangent @ (after.z - before.z))
     chord = (after.z - before.z) / length
 
-    def slope(s: float) -> tuple[float, float]:
-        guess = before.z + s * chord
-        point = problem.correct(guess, tangent[None, :], np.array([tangent @ before.z + s]))
-        turned = problem.tangents(point)[0]
-        return float(turned[-1] / (turned @ tangent)), float(point.z[-1])
+    def at(s: float) -> CyclePoint:
+        return problem.correct(before.z + s * chord, tangent[None, :], np.array([tangent @ before.z + s]))
 
-    low, high = 0.0, length
-    at_low, _ = slope(low)
-    at_high, value = slope(high)
-    for i in range(60):
-        # Illinois would do; bisection every third time keeps the bracket shrinking
-        middle = 0.5 * (low + high) if i % 3 == 2 else (low * at_high - high * at_low) / (at_high - at_low)
-        at_middle, value = slope(middle)
-        if abs(at_middle) < 1e-10 or high - low < 1e-12:
-            break
-        if at_middle * at_low > 0:
-            low, at_low = middle, at_middle
-        else:
-            high, at_high = middle, at_middle
-    return value
+    def turned(s: float) -> float:
+        """The parameter's component of the curve's tangent."""
+        tangent_there = problem.tangents(at(s))[0]
+        return float(tangent_there[-1] / (tangent_there @ tangent))
+
+    return float(at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -185,12 +169,9 @@ def continue_border(
     bounds: Mapping[str, tuple[float, float]],
     *,
     direction: int = 1,
-    step: float = 0.01,
-    longest: float = 0.05,
-    shortest: float = 1e-6,
-    max_points: int = 400,
-    start: Array | None = None,
+    near: Array | None = None,
     tol: float = 1e-12,
+    steps: Steps = BORDER,
 ) -> Branch:
     """Follow a border of stability in two parameters.
 
@@ -198,10 +179,10 @@ def continue_border(
     ----------
     kind : "neutral", the curve on which the leading multiplier of the first cycle has modulus one; or "fold", that on
         which a multiplier is one, from the point of a branch of `continue_cycle` that is nearest to its fold
-    p, start : a case near the curve, and the point of the section to start Newton's method from
+    p, near : a case near the curve, and the point of the section to start Newton's method from
     names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
     bounds : of both; the curve is followed until it leaves them, closes or ends
-    direction, step, longest, shortest, max_points, tol : as in `continue_cycle`
+    direction, tol, steps : as in `continue_cycle`
 
     Raises
     ------
@@ -209,11 +190,10 @@ def continue_border(
         Bad input, no cycle to start from, or no curve of this kind near it.
     """
     known = broken((isinstance(kind, str) and kind in ("neutral", "fold"), "kind", kind, "must be 'neutral' or 'fold'"))
-    lengths = {"step": step, "longest": longest, "shortest": shortest}
-    check(p, 2, names, bounds, tol, max_points=max_points, direction=direction, lengths=lengths, more=known)
+    check(p, 2, names, bounds, tol, direction=direction, steps=steps, more=[*known, *faults_near(near, 1, points=True)])
     names = tuple(names)  # type: ignore[assignment]
     problem = CycleProblem(p, names, None, tol)
-    point = starting_point(problem, find_cycle(p, tol, start))
+    point = starting_point(problem, find_cycle(p, tol, near))
     test, mu = (_on_circle, complex(multipliers(point.jacobian)[0])) if kind == "neutral" else (_at_one, 1.0 + 0j)
     try:
         point, mu = _reach(problem, point, test, mu)
@@ -232,9 +212,8 @@ def continue_border(
             return "the curve is closed"
         return ""
 
-    stride = Stride(step, longest, shortest, growth=1.4, easy=0.98, sharpest=0.8)
     first, take = _OnCurve(point, tangent, mu, ways), partial(_next_on_border, problem, test)
-    places, ended = walk(first, take, stride, max_points, meet=lambda *_: None, leaves=leaves)
+    places, ended = walk(first, take, steps, meet=lambda *_: None, leaves=leaves)
     return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), ended)
 
 

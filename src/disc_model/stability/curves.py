@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import pairwise
 from typing import Any
@@ -15,8 +15,8 @@ from disc_model.errors import ParameterError, broken
 from disc_model.parameters import Parameters, is_whole
 from disc_model.progress import compiling
 from disc_model.simulation.result import is_finite_array
-from disc_model.stability.branch import check
-from disc_model.stability.continuation import UNLOCATED, Kind, continue_border, continue_cycle
+from disc_model.stability.branch import Steps, check
+from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Tongue, nearest_tongue
 from disc_model.stability.return_map import Array, ReturnMap
@@ -105,8 +105,9 @@ def stability_curves(
             f"must be a whole number from 2 to {MOST_POINTS}",
         ),
     )
-    check(p, 2, names, bounds, tol, max_points=max_points, lengths={"longest": longest}, more=other)
-    how = {"max_points": max_points, "longest": longest, "shortest": SHORTEST, "tol": tol}
+    steps = replace(BORDER, longest=longest, shortest=SHORTEST, max_points=max_points)
+    check(p, 2, names, bounds, tol, steps=steps, more=other)
+    how = {"steps": steps, "tol": tol}
     found: list[StabilityCurve] = []
     notes: list[str] = []
     span = np.array([bounds[name][1] - bounds[name][0] for name in names])
@@ -151,7 +152,7 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
     bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
     try:
         branch = continue_cycle(
-            case, name, bounds, direction=direction, scale=abs(end - begin), step=0.02, max_points=40, tol=tol
+            case, name, bounds, direction=direction, tol=tol, steps=Steps(scale=abs(end - begin), max_points=40)
         )
     except ParameterError as error:
         notes.append(f"{name}={begin:.6g}: {error}")
@@ -198,7 +199,7 @@ def _trace(
     seed: _Seed, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], how: Mapping[str, Any]
 ) -> StabilityCurve:
     """The curve through a seed, both ways; `how` as in `continue_border`."""
-    follow = partial(continue_border, seed.kind, seed.case, names, bounds, start=seed.point, **how)
+    follow = partial(continue_border, seed.kind, seed.case, names, bounds, near=seed.point, **how)
     back = follow(direction=-1)
     on = None if back.ended == "the curve is closed" else follow(direction=1)
 

@@ -153,17 +153,18 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
     return find_cycle(p, tol) if near is None else find_cycle_near(p, near, releases, tol)
 
 
-def faults_near(near: object, releases: object) -> list[str]:
-    """What is wrong with a state near which a cycle of so many releases is to be looked for."""
-    counts = is_whole(releases) and releases >= 1 and (near is not None or releases == 1)
+def faults_near(near: object, releases: object, *, points: bool = False) -> list[str]:
+    """What is wrong with where a cycle of so many releases is looked for: a state, or else a point of the section."""
+    counts = is_whole(releases) and releases >= 1 and (isinstance(near, State) or releases == 1)
+    fits = near is None or isinstance(near, State) or (points and is_finite_array(near))
     return broken(
-        (near is None or isinstance(near, State), "near", near, "must be a State"),
+        (fits, "near", near, "must be a State" + " or a point of the section" * points),
         (counts, "releases", releases, "must be a whole number >= 1, and 1 without a state to look near"),
     )
 
 
-def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) -> FloquetResult:
-    """The cycle Newton's method finds from `start` (a point of the section), the static equilibrium by default.
+def find_cycle(p: Parameters, tol: float = 1e-12, near: Array | None = None) -> FloquetResult:
+    """The cycle Newton's method finds from `near` (a point of the section), the static equilibrium by default.
 
     Where it finds none from the equilibrium, the motion from there is simulated for some returns, and cycles of up to
     three releases are looked for from where it has come to.
@@ -171,12 +172,12 @@ def find_cycle(p: Parameters, tol: float = 1e-12, start: Array | None = None) ->
     if not may_stick_and_slip(p):
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol)
-    point = start is None or is_finite_array(start, map_.size)
-    refuse(broken((point, "start", start, f"must be {map_.size} finite numbers, a point of the section")))
-    found = newton(map_, map_.static if start is None else np.asarray(start, float), tol=tol)
+    point = near is None or is_finite_array(near, map_.size)
+    refuse(broken((point, "near", near, f"must be {map_.size} finite numbers, a point of the section")))
+    found = newton(map_, map_.static if near is None else np.asarray(near, float), tol=tol)
     if found is not None:
         return cycle_of(map_, tol, found)
-    if start is not None:
+    if near is not None:
         return _none(p, tol, CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
     return _second_try(map_, tol)
 
