@@ -15,7 +15,7 @@ from disc_model.plate import mode_arrays
 from disc_model.simulation.api import kicked, published_start, simulate
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.course import Reached, Stretch, come_to, growing, late_stretch
-from disc_model.stability.attractor.many import Arrival, Basins, random_kick
+from disc_model.stability.attractor.many import Basins, random_kick
 from disc_model.stability.attractor.near import Near, follows, published_start_near
 
 P14 = Parameters(N=385, Omega=14)
@@ -279,14 +279,14 @@ def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alon
     assert random_kick(P14, start, 0.0, (1, 0, 5)) is start
 
 
-def same(one: Arrival, other: Arrival) -> bool:
-    if one.kind != other.kind or one.attractor is None or other.attractor is None:
+def same(one: Reached, other: Reached) -> bool:
+    if one.outcome != other.outcome or one.attractor is None or other.attractor is None:
         return False
-    ranges = [arrival.attractor.stretch.range for arrival in (one, other) if arrival.attractor is not None]
-    return one.kind is Outcome.QUIET or math.isclose(*ranges, rel_tol=0.05)
+    ranges = [reached.attractor.stretch.range for reached in (one, other) if reached.attractor is not None]
+    return one.outcome is Outcome.QUIET or math.isclose(*ranges, rel_tol=0.05)
 
 
-def compared(p: Parameters, starts: range, horizon: float, longer: float) -> list[tuple[Arrival, Arrival]]:
+def compared(p: Parameters, starts: range, horizon: float, longer: float) -> list[tuple[Reached, Reached]]:
     """What kicks come to as it is judged early, and at the end of a longer horizon."""
     early, late = Basins(p, horizon), Basins(p, longer, near=0)
     kicks = [random_kick(p, published_start(p), energy, (3, i)) for i in starts for energy in (0.05, 0.3, 2.0)]
@@ -298,7 +298,7 @@ def test_what_is_judged_early_comes_true() -> None:
     """At 14 rad/s disturbances of the quiet cycle die out at 0.067/s: after 200 s it is where it goes."""
     found = compared(P14, range(1, 2), 100.0, 200.0)
     assert all(same(*pair) for pair in found)
-    assert {early.kind for early, _ in found} == {Outcome.QUIET, Outcome.SEPARATING}
+    assert {early.outcome for early, _ in found} == {Outcome.QUIET, Outcome.SEPARATING}
     assert max(early.simulated for early, _ in found) < 100
 
 
@@ -312,7 +312,7 @@ def test_what_is_judged_early_comes_true_after_a_long_time(Omega: float) -> None
     goes on to another vibration: of the small vibrations there contact is told, not the range.
     """
     found = compared(Parameters(N=385, Omega=Omega), range(8), 200.0, 800.0)
-    decided = [pair for pair in found if Outcome.UNDECIDED not in (pair[0].kind, pair[1].kind)]
+    decided = [pair for pair in found if Outcome.UNDECIDED not in (pair[0].outcome, pair[1].outcome)]
     assert len(decided) > len(found) / 2
     if Omega in (9, 11):
         assert all(early.separates == late.separates for early, late in decided)
@@ -339,13 +339,13 @@ def test_what_stays_near_an_unstable_cycle_has_not_settled() -> None:
     """At 11 rad/s disturbances of the cycle grow by 0.0004/s: for a minute nothing is seen of it."""
     basins = Basins(Parameters(N=385, Omega=11), 60.0)
     assert basins.cycle is None
-    assert basins.reached(published_start(basins.p)).kind is Outcome.UNDECIDED
+    assert basins.reached(published_start(basins.p)).outcome is Outcome.UNDECIDED
 
 
 @pytest.mark.compiled
 def test_a_motion_that_comes_to_steady_sliding_is_told() -> None:
     p = Parameters(N=50, Omega=15, c_p=0.5)
-    assert Basins(p, 100.0).reached(published_start(p)).kind is Outcome.SLIDING
+    assert Basins(p, 100.0).reached(published_start(p)).outcome is Outcome.SLIDING
 
 
 def stretch(**changes: float) -> Stretch:

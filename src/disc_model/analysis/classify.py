@@ -22,6 +22,9 @@ NEAR_RETURN = 1e-3
 of n must close a thousand times better than that."""
 FEWEST = 20
 """Fewest intervals that a motion is judged by."""
+SETTLED = 0.01
+"""Largest relative change of ranges, rates and shares over 40 s and more of a motion that has settled. Motions that are
+not periodic vary by half of it. What grows or dies out by 0.00025/s or faster changes by more."""
 REGULAR = 0.3
 """Result of the 0-1 test, which tends to 0 or to 1 with more intervals, below which a motion is regular; and as far
 below 1, above which it is chaotic. Signals of known nature stay within a tenth of these ends."""

@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 
 
-STRETCHES, STRETCH, STEADY = 3, 20.0, 0.01
+STRETCHES, STRETCH = 3, 20.0
 """A motion is steady if the ranges of contact force and disc over its last three stretches of 20 s differ by no more
 than 1 % of the widest. What grows or decays by 3e-4/s or more does not pass."""
 

@@ -17,7 +17,8 @@ import numpy as np
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from disc_model.claims.measures import STEADY, STRETCH, Absent, CaseView, rows
+from disc_model.analysis.classify import SETTLED
+from disc_model.claims.measures import STRETCH, Absent, CaseView, rows
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Parts, Sentences
 from disc_model.errors import DiscModelError
@@ -256,7 +257,7 @@ def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
     moving = "; ".join(
         f"case {at}: ranges of successive {STRETCH:g} s differ by {100 * drift:.2g} %"
         for at, drift in drifts.items()
-        if not drift <= STEADY
+        if not drift <= SETTLED
     )
     if moving:
         return Finding(found.ours, UNDECIDED, f"not yet steady: {moving}")

@@ -32,7 +32,7 @@ from disc_model.stability.attractor.near import (
     recurrence,
 )
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
-from disc_model.stability.return_map import RETURNED, ReturnMap, case_faults
+from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_faults
 
 FIRST_LEG = 5.0
 """s, simulated before a motion is looked at again: dozens of cycles, and some turns of the disc at published speeds."""
@@ -69,6 +69,26 @@ class Stretch:
 
 
 @dataclass(frozen=True, eq=False)
+class Attractor:
+    """What motions come to.
+
+    Attributes
+    ----------
+    kind : what it is
+    stretch : of a leg on it
+    period, releases, growth_rate : of a periodic one, s, 1 and 1/s; nan, 0 and nan otherwise
+    points : shape (releases, n), its points on the section; None if none are known
+    """
+
+    kind: Outcome
+    stretch: Stretch
+    period: float = math.nan
+    releases: int = 0
+    growth_rate: float = math.nan
+    points: Array | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class Reached:
     """What a motion has come to.
 
@@ -76,6 +96,7 @@ class Reached:
     ----------
     outcome : None if the simulation failed
     simulated : s, 0 if multipliers decide
+    attractor : of those known to `disc_model.stability.attractor.many.Basins`; None if it is none of them
     cycle : the stable one to which it has come, or else the unstable one from which it departs; None if neither
     departed : the unstable cycle from which its multipliers have led it away, None if all was simulated
     first_separation : s, nan if there was none
@@ -90,7 +111,8 @@ class Reached:
 
     outcome: Outcome | None
     simulated: float
-    cycle: FloquetResult | None
+    cycle: FloquetResult | None = None
+    attractor: Attractor | None = None
     departed: FloquetResult | None = None
     first_separation: float = math.nan
     time: float = 0.0
@@ -100,6 +122,16 @@ class Reached:
     times: Sequence[float] = ()
     distance: float = math.nan
     stretch: Stretch | None = None
+
+    @property
+    def word(self) -> str:
+        """The outcome as datasets say it."""
+        return self.outcome or "failed"
+
+    @property
+    def separates(self) -> bool:
+        """Whether it goes on losing contact."""
+        return self.attractor is not None and self.attractor.stretch.separation_rate > 0
 
     @property
     def status(self) -> Status:

@@ -10,19 +10,19 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain, pairwise
 
 import numpy as np
 
-from disc_model.analysis.classify import FEWEST, Motion, motion_of
+from disc_model.analysis.classify import FEWEST, SETTLED, Motion, motion_of
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import kicked, published_start, simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State
-from disc_model.stability.attractor.course import FIRST_LEG, RATE, Stretch, at_rest, stretch_of
+from disc_model.stability.attractor.course import FIRST_LEG, RATE, Attractor, Reached, Stretch, at_rest, stretch_of
 from disc_model.stability.attractor.near import (
     CYCLE_TOL,
     LARGEST_PERIOD,
@@ -35,15 +35,12 @@ from disc_model.stability.attractor.near import (
     recurrence,
 )
 from disc_model.stability.cycle import may_stick_and_slip
-from disc_model.stability.return_map import PATIENT, RETURNED, Array, ReturnMap
+from disc_model.stability.return_map import PATIENT, RETURNED, ReturnMap
 
 NEARING, SETTLING = 4, 8
 """Legs over which a motion has to come closer to a known attractor, and to stay as it is on another one."""
 WATCHED = 1.0
 """s, at the end of a leg, over which the range is taken: a hundred oscillations and more."""
-SETTLED = 0.01
-"""Largest relative change of a stretch over those legs. Motions that are not periodic vary by half of it. A disturbance
-that dies out or grows by 0.00025/s or faster changes by more."""
 STEADY = 1e-3
 """Relative change of the range over those legs that is no drift: samples of a periodic motion vary by a tenth."""
 SAME = 0.05
@@ -52,52 +49,6 @@ SMALLEST = 1e-3
 """Ranges, over the static deflection, below which they are alike: the slider rests in height."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Downward kicks of the published start from which attractors are looked for, over the static deflection."""
-
-
-@dataclass(frozen=True, eq=False)
-class Attractor:
-    """What motions come to.
-
-    Attributes
-    ----------
-    kind : what it is
-    stretch : of a leg on it
-    period, releases, growth_rate : of a periodic one, s, 1 and 1/s; nan, 0 and nan otherwise
-    points : shape (releases, n), its points on the section; None if none are known
-    """
-
-    kind: Outcome
-    stretch: Stretch
-    period: float = math.nan
-    releases: int = 0
-    growth_rate: float = math.nan
-    points: Array | None = None
-
-
-@dataclass(frozen=True, eq=False)
-class Arrival:
-    """What a motion has come to.
-
-    Attributes
-    ----------
-    kind : None if it has failed
-    attractor : None if it is undecided or has failed
-    simulated : s
-    separated : whether contact was lost on the way
-    status, message : of the simulation
-    """
-
-    kind: Outcome | None
-    attractor: Attractor | None
-    simulated: float
-    separated: bool
-    status: str = "ok"
-    message: str = ""
-
-    @property
-    def separates(self) -> bool:
-        """Whether it goes on losing contact."""
-        return self.attractor is not None and self.attractor.stretch.separation_rate > 0
 
 
 class Basins:
@@ -131,16 +82,16 @@ class Basins:
             start = published_start(p)
             self.reached(kicked(p, start, u=-kick * self.static) if kick else start)
 
-    def reached(self, state: State) -> Arrival:
+    def reached(self, state: State) -> Reached:
         """What the motion from a state at time 0 comes to; an attractor that is new is known from now on."""
         stretches: list[Stretch] = []
-        separated, since, least = False, -1, math.inf
+        first, since, least = math.nan, -1, math.inf
         while True:
             result = self._leg(state, min(state.time + FIRST_LEG, self.horizon))
             state = result.final_state
-            separated = separated or result.statistics["separations"] > 0
+            first = result.first_separation if math.isnan(first) else first
             if not result.status.complete:
-                return Arrival(None, None, state.time, separated, result.status.value, result.message)
+                return Reached(None, state.time, first_separation=first, failed=result)
             stretches.append(stretch_of(result))
             over, found = state.time >= self.horizon, None
             if self.near:
@@ -153,9 +104,9 @@ class Basins:
                 found = self._settled_on(result, stays)
                 since = len(stretches) - 1 if since < 0 else since
             if found is not None:
-                return Arrival(found.kind, found, state.time, separated)
+                return Reached(found.kind, state.time, attractor=found, first_separation=first)
             if over:
-                return Arrival(Outcome.UNDECIDED, None, state.time, separated)
+                return Reached(Outcome.UNDECIDED, state.time, first_separation=first)
 
     def _leg(self, state: State, end: float) -> Result:
         window = Window(start=max(end - WATCHED, state.time), stop=end, rate=RATE)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
 from disc_model.data.variables import Outcome
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor.many import Arrival, Attractor
+from disc_model.stability.attractor.course import Attractor, Reached
 from disc_model.studies.document import BasinsOptions
 from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import basins
@@ -31,17 +33,17 @@ APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 class Made:
     """Of a start i, what is kicked by more than 0.02 (i + 1) J separates; further starts are as said."""
 
-    fates: ClassVar[dict[int, Arrival]] = {}
+    fates: ClassVar[dict[int, Reached]] = {}
 
     def __init__(self, p, horizon, **_) -> None:
         self.known = [QUIET, APART]
 
-    def reached(self, state: tuple[float, int]) -> Arrival:
+    def reached(self, state: tuple[float, int]) -> Reached:
         energy, i = state
         if i in self.fates:
             return self.fates[i]
         attractor = APART if energy > 0.02 * (i + 1) else QUIET
-        return Arrival(attractor.kind, attractor, 50.0, attractor is APART)
+        return Reached(attractor.kind, 50.0, attractor=attractor)
 
 
 @pytest.fixture
@@ -78,8 +80,8 @@ def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: N
 
 
 def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    lost = Arrival(None, None, 3.0, False, "paradox", "paradox: at t = 3 s")
-    monkeypatch.setattr(Made, "fates", {1: lost, 2: Arrival(Outcome.UNDECIDED, None, 200.0, True)})
+    lost = Reached(None, 3.0, failed=SimpleNamespace(status=Status.PARADOX, message="paradox: at t = 3 s"))
+    monkeypatch.setattr(Made, "fates", {1: lost, 2: Reached(Outcome.UNDECIDED, 200.0)})
     table = found(energies=[0.1], starts=4)
     fates = list(basins.FATES)
     assert STATUSES[table.arrays["status"][0]] == "ok"

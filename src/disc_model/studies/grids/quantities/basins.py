@@ -17,7 +17,8 @@ from disc_model.analysis.sobol import share
 from disc_model.data.variables import LASTING, Column, Variable
 from disc_model.simulation.api import prepared, published_start
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.many import Arrival, Attractor, Basins, random_kick
+from disc_model.stability.attractor.course import Attractor, Reached
+from disc_model.stability.attractor.many import Basins, random_kick
 from disc_model.studies.grids.points import STATUS, Point, listed
 
 if TYPE_CHECKING:
@@ -80,13 +81,13 @@ def at(point: Point, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
     attractors = [attractor for attractor, _ in starts.most_common()]
     numbers = {attractor: i for i, attractor in enumerate([None, *attractors])}
-    failed = [reached for reached in rows if reached.kind is None]
+    failed = [reached for reached in rows if reached.outcome is None]
     values: dict[str, Any] = {
         "status": failed[0].status if len(failed) == len(rows) else "ok",
-        "kind": [[reached.kind or "failed" for reached in row] for row in found],
+        "kind": [[reached.word for reached in row] for row in found],
         "reached": [[numbers[reached.attractor] for reached in row] for row in found],
         "simulated": [[reached.simulated for reached in row] for row in found],
-        "separated": [["yes" if reached.separated else "no" for reached in row] for row in found],
+        "separated": [["no" if math.isnan(reached.first_separation) else "yes" for reached in row] for row in found],
     }
     values |= _shares("energy_share", found, options.confidence)
     values |= {name: one for name, (one,) in _shares("share", [rows], options.confidence).items()}
@@ -109,7 +110,7 @@ class _Sample:
         all_of = [[self.kicked(energy, j, i) for j, energy in energies] for i in range(options.starts)]
         self.found = list(zip(*all_of, strict=True))
 
-    def kicked(self, energy: float, j: int, i: int) -> Arrival:
+    def kicked(self, energy: float, j: int, i: int) -> Reached:
         """What a kick of any energy in the direction of a start comes to."""
         return self.basins.reached(random_kick(self.p, self.start, energy, (self.options.seed, j, i)))
 
@@ -148,13 +149,10 @@ class _Sample:
         return low, high
 
 
-def _shares(name: str, found: Sequence[Sequence[Arrival]], confidence: float) -> dict[str, Any]:
+def _shares(name: str, found: Sequence[Sequence[Reached]], confidence: float) -> dict[str, Any]:
     """Shares of what each row comes to, with Wilson's intervals: shape (rows, fates)."""
     shares = [
-        [
-            share(sum((reached.kind or "failed") == fate for reached in row), len(row), confidence=confidence)
-            for fate in FATES
-        ]
+        [share(sum(reached.word == fate for reached in row), len(row), confidence=confidence) for fate in FATES]
         for row in found
     ]
     return dict(zip((name, f"{name}_low", f"{name}_high"), np.moveaxis(np.array(shares), -1, 0), strict=True))

@@ -45,7 +45,7 @@ def at(point: Point, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     last = reached if result is None else result
     values: dict[str, Any] = {
         "status": "ok" if last.status.complete else last.status.value,
-        "outcome": reached.outcome or "failed",
+        "outcome": reached.word,
         "first_separation": reached.first_separation,
         "time_reached": reached.time,
         "difference_rate": _rate(reached),

@@ -261,7 +261,7 @@ class _Tile:
         if isinstance(found, Reached):
             row |= {
                 "status": found.status,
-                "outcome": found.outcome or "failed",
+                "outcome": found.word,
                 "origin": "simulation" if found.simulated else "multipliers",
                 "first_separation": found.first_separation,
                 "simulated": found.simulated,

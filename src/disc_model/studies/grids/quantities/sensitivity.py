@@ -160,4 +160,4 @@ def _followed(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any
         found = come_to(p, options.horizon, tol=options.motion_tol)
     except NUMERICAL as error:
         return {"outcome": "failed"}, f"{type(error).__name__}: {error}"
-    return {"outcome": found.outcome or "failed", "first_separation": found.first_separation}, found.message
+    return {"outcome": found.word, "first_separation": found.first_separation}, found.message
