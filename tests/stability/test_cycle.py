@@ -121,11 +121,12 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     x = map_.point(result.state)
     away = x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0]
     found = cycle_near(map_, away, (1e-4, 6))
+    assert found.own
     assert found.cycle.releases == 1  # not six times around
     assert found.kind is Outcome.QUIET
     assert found.cycle.growth_rate == pytest.approx(result.growth_rate, rel=1e-6)
     assert not floquet(P).stable
-    assert cycle_near(ReturnMap(P), ReturnMap(P).point(floquet(P).state), (0.0, 1)) is None
+    assert not cycle_near(ReturnMap(P), ReturnMap(P).point(floquet(P).state), (0.0, 1)).own
 
 
 def test_no_cycle_near_a_state_is_said():

@@ -17,6 +17,9 @@ from scipy.signal import correlate
 from disc_model.data.variables import Outcome
 
 Array = NDArray[np.float64]
+CLOSES = 1e-8
+"""How exactly intervals of a periodic motion repeat, s: what is left of the approach after minutes is smaller, and the
+own differences of a motion on a torus are mostly far larger."""
 NEAR_RETURN = 1e-3
 """A quasi-periodic motion, too, comes back: among its first n returns one misses by about 1/n of its spread. A period
 of n must close a thousand times better than that."""
@@ -59,7 +62,7 @@ class Motion(NamedTuple):
         return str(self.kind).replace("_", "-")
 
 
-def motion_of(intervals: Array, tolerance: float = 1e-8, *, separates: bool = False) -> Motion:
+def motion_of(intervals: Array, tolerance: float = CLOSES, *, separates: bool = False) -> Motion:
     """Classify a motion by the intervals between its releases, or between its separations.
 
     Parameters

@@ -7,8 +7,8 @@ The words are those of `disc_model.data.variables.Outcome`. Each is decided by o
   that of the published start, or within a tenth of the static deflection of that start.
 - `sliding`: it slides near stable steady sliding, and nears it as the eigenvalues there say (`near.nears_sliding`).
 - `resting`: it has stuck for a whole leg, and nothing will ever pull the slider off the disc (`course.at_rest`).
-- `quasi_periodic`, `irregular`: it has settled (`many.Basins`), is near no stable cycle, and the 0-1 test calls the
-  intervals between its switches regular, or chaotic (`disc_model.analysis.classify`).
+- `quasi_periodic`, `irregular`: it has settled (`many.Basins`), is near no stable cycle, and its largest Lyapunov
+  exponent but for that along the motion is zero, or positive (`many.regularity`).
 - `growing`: it is in contact at the horizon and departs from an unstable cycle, or changes from one period to the next
   have risen (`course.growing`). `separation`: contact is lost before the horizon.
 - `undecided`: none of these.

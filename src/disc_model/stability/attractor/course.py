@@ -276,7 +276,8 @@ class _Course:
         self.changes.append(again[0])
         if not self.early and self.time < self.horizon:
             return None
-        return cycle_near(self.map, x, again, stable=self.left is not None)
+        near = cycle_near(self.map, x, again, stable=self.left is not None)
+        return near if near is not None and near.own else None
 
 
 def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:

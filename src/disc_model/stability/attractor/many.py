@@ -12,10 +12,11 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain, pairwise
+from typing import NamedTuple
 
 import numpy as np
 
-from disc_model.analysis.classify import FEWEST, SETTLED, Motion, motion_of
+from disc_model.analysis.classify import CLOSES, FEWEST, SETTLED, closure, shortest_period
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
@@ -35,6 +36,7 @@ from disc_model.stability.attractor.near import (
     recurrence,
 )
 from disc_model.stability.cycle import may_stick_and_slip
+from disc_model.stability.lyapunov import CONVERGED, lyapunov_exponents
 from disc_model.stability.return_map import PATIENT, RETURNED, ReturnMap
 
 NEARING, SETTLING = 4, 8
@@ -45,6 +47,8 @@ STEADY = 1e-3
 """Relative change of the range over those legs that is no drift: samples of a periodic motion vary by a tenth."""
 SAME = 0.05
 """Stretches that differ by less are those of one attractor; a drift, going on as it does, may have left half of it."""
+NEUTRAL = CONVERGED[1]
+"""Largest exponents nearer to zero than this, 1/s, are zero: half a minute tells them no better."""
 SMALLEST = 1e-3
 """Ranges, over the static deflection, below which they are alike: the slider rests in height."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
@@ -166,23 +170,26 @@ class Basins:
         stays : whether it has been as it is until the horizon
         """
         found = self._described(leg)
+        if found is None:
+            return None
         same = next((attractor for attractor in self.known if self._same(found, attractor)), None)
         if same is None and (stays or found.points is not None):
             if found.kind is Outcome.UNDECIDED:
-                motion = regularity(self.p, leg.final_state, self.tol)
-                found = found if motion is None else replace(found, kind=motion.kind)
+                found = replace(found, kind=regularity(self.p, leg.final_state, self.tol).kind)
             self.known.append(found)
             return found
         return same
 
-    def _described(self, leg: Result) -> Attractor:
-        """What a motion is on by now, undecided if that is no cycle nor rest."""
+    def _described(self, leg: Result) -> Attractor | None:
+        """What a motion is on by now, undecided if that is no cycle nor rest; None near an unstable cycle."""
         stretch = stretch_of(leg)
         calm = at_rest(self.p, leg, self.tol)
         if calm is not None:
             return Attractor(calm, stretch)
         near = cycle_reached(self.p, leg, LARGEST_PERIOD)
-        return Attractor(Outcome.UNDECIDED, stretch) if near is None else self._periodic(near, stretch)
+        if near is not None and not near.cycle.stable:
+            return None
+        return self._periodic(near, stretch) if near is not None and near.own else Attractor(Outcome.UNDECIDED, stretch)
 
     def _same(self, one: Attractor, other: Attractor) -> bool:
         """Whether two are one: periodic ones by their fixed points, others by their stretches."""
@@ -198,7 +205,7 @@ class Basins:
 
 
 def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Near | None:
-    """The stable cycle that a motion follows by the end of a stretch with its events, which may lose contact.
+    """The cycle near which a motion is by the end of a stretch with its events; it may lose contact.
 
     Periods of up to half the releases of the stretch are looked for, and at most of so many.
     """
@@ -214,15 +221,33 @@ def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Ne
     )
 
 
-def regularity(p: Parameters, state: State, tol: float) -> Motion | None:
-    """What a settled motion near no stable cycle is, by its separations, or releases, from a state on; None for few."""
+class Regularity(NamedTuple):
+    """What a settled motion near no cycle of the section is; the number of switches after which it repeats (0: it does
+    not), and how nearly it does, s."""
+
+    kind: Outcome
+    period: int = 0
+    closure: float = math.nan
+
+
+def regularity(p: Parameters, state: State, tol: float) -> Regularity:
+    """Of a motion from a state on, by its separations, or by its releases if it has none, and by its largest exponent.
+
+    On a torus the exponent is zero. One below zero tells of a motion that still nears a cycle: it has not settled.
+    """
     run = simulate(p, state.time + SETTLING * FIRST_LEG, tol=tol, initial_state=state)
     times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
     separates = bool((kinds == "separation").any())
-    times = times[kinds == ("separation" if separates else "stick_to_slip")]
-    if not run.status.complete or len(times) <= FEWEST:
-        return None
-    return motion_of(np.diff(times), separates=separates)
+    intervals = np.diff(times[kinds == ("separation" if separates else "stick_to_slip")])
+    if not run.status.complete or len(intervals) < FEWEST:
+        return Regularity(Outcome.UNDECIDED)
+    if n := shortest_period(intervals, CLOSES):
+        return Regularity(Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE, n, closure(intervals, n))
+    duration = SETTLING * FIRST_LEG / 2
+    found = lyapunov_exponents(p, duration, count=1, initial_state=state, tol=tol, leave_out_trivial=True)
+    if found.chaotic and found.exponents[0] > NEUTRAL:
+        return Regularity(Outcome.IRREGULAR)
+    return Regularity(Outcome.QUASI_PERIODIC if abs(found.exponents[0]) <= NEUTRAL else Outcome.UNDECIDED)
 
 
 def random_kick(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:

@@ -115,13 +115,13 @@ def published_start_near(p: Parameters) -> Near | FloquetResult:
 def cycle_near(
     map_: ReturnMap, x: Array, again: tuple[float, int], *, may_separate: bool = False, stable: bool = True
 ) -> Near | None:
-    """The cycle that the motion at a point of the section follows as its multipliers say; None if that is not shown.
+    """The cycle near which a motion at a point of the section is, and whether it follows its multipliers; None if none.
 
     Parameters
     ----------
     again : as `recurrence` gives it
     may_separate : whether it may lose contact
-    stable : whether only a stable one counts
+    stable : whether only a stable one can be the motion's own
     """
     change, releases = again
     if not change <= NEARLY_PERIODIC:
@@ -130,10 +130,7 @@ def cycle_near(
     if found is None or np.linalg.norm(found.x - x) > NEAR * np.linalg.norm(map_.static):
         return None
     cycle = cycle_of(map_, CYCLE_TOL, run_through_once(map_, CYCLE_TOL, found))
-    if stable and not cycle.stable:
-        return None
-    near = _near(map_, cycle, x)
-    return near if near.own else None
+    return _near(map_, cycle, x, WAITS if cycle.stable or not stable else ())
 
 
 def recurrence(
@@ -172,14 +169,14 @@ def first_release(p: Parameters) -> float:
     return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
 
 
-def _near(map_: ReturnMap, cycle: FloquetResult, at: Array) -> Near:
+def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[float] = WAITS) -> Near:
     """A motion at a point of the section, seen from a cycle."""
     assert cycle.state is not None
     x = map_.point(cycle.state)
     _, _, jacobian, _ = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
     near = Near(cycle, False, map_, x, at - x, jacobian)
     waited, moved = 0.0, at
-    for wait in WAITS:
+    for wait in waits:
         if wait > waited:
             moved, took = near.moved(moved, max(1, round((wait - waited) / cycle.period)), coarse=False)
             if math.isnan(took):

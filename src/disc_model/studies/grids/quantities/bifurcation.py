@@ -139,7 +139,7 @@ def _periodic(p: Parameters, stretch: Result, kind: str) -> Periodic:
     at = (stretch.events["kind"] == kind).to_numpy()
     intervals = np.diff(stretch.events["time"].to_numpy(dtype=float)[at])
     near = None if case_faults(p, "a cycle") else cycle_reached(p, stretch)
-    if near is not None:
+    if near is not None and near.own:
         n = near.cycle.separations if kind == "separation" else near.cycle.releases
         if 0 < n < len(intervals):
             return Periodic(n, closure(intervals, n), near.kind, near.cycle.state)
@@ -152,10 +152,10 @@ def _periodic(p: Parameters, stretch: Result, kind: str) -> Periodic:
 def _aperiodic(p: Parameters, stretch: Result, tol: float) -> Periodic:
     """Of a motion that has settled, and repeats after more switches than a stretch has if at all."""
     calm = at_rest(p, stretch, tol)
-    motion = regularity(p, stretch.final_state, tol) if calm is None else None
-    if motion is None:
-        return Periodic(0, math.nan, calm or Outcome.UNDECIDED)
-    return Periodic(motion.period, motion.closure if motion.period else math.nan, motion.kind)
+    if calm is not None:
+        return Periodic(0, math.nan, calm)
+    kind, period, apart = regularity(p, stretch.final_state, tol)
+    return Periodic(period, apart, kind)
 
 
 def repeats(intervals: np.ndarray) -> int:
