@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import inspect
 import json
 import math
 import numbers
 import operator
+import re
 import sys
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_args, get_type_hints
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic.fields import FieldInfo
 
 from disc_model.errors import Fault, ParameterError, faults_of, shown
 
@@ -31,12 +35,73 @@ CYCLE_TOLERANCES = (1e-14, 1e-6)
 """Those of the search for a cycle: relative residual of the return map."""
 
 
+@dataclass(frozen=True)
+class Unit:
+    """Marks the type of a number, or of something made of numbers, with the SI unit that they are in."""
+
+    name: str
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {**handler(schema), "unit": self.name}
+
+
+class Unfit(str):
+    """A text with a unit that cannot be turned into another one."""
+
+    unit: str
+
+
+_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµΩ°%][\w µΩ°%*/^.-]{0,30}|1/\w+)")
+_ANGLES = ("rad", "deg", "rev", "turn", "rpm", "rps", "cycle", "°")
+
+
+@functools.lru_cache(maxsize=1)
+def _units() -> Any:
+    import pint  # takes a second, and few need it
+
+    return pint.UnitRegistry()
+
+
+def in_si(value: Any, unit: str) -> Any:
+    """A value, or all within it, in a unit: ``"150 GPa"`` is 1.5e11 where Pa is asked for; what has no unit stays.
+
+    To 15 digits, so that another spelling of a decimal number is the same number.
+    """
+    if isinstance(value, list | tuple):
+        return type(value)(in_si(one, unit) for one in value) if type(value) in (list, tuple) else value
+    if isinstance(value, dict):
+        return {name: in_si(one, unit) for name, one in value.items()}
+    found = _WITH_UNIT.fullmatch(value) if isinstance(value, str) and unit else None
+    if found is None or _is_float(value):
+        return value
+    try:
+        if unit.startswith("rad") and not any(word in found[2] for word in _ANGLES):
+            raise ValueError("Hz may mean turns or radians")
+        converted = _units().Quantity(float(found[1]), found[2].replace("^", "**")).to("" if unit == "1" else unit)
+        return float(f"{converted.magnitude:.15g}")
+    except Exception:  # pint's own, and those of Python's tokenizer, which share no base
+        unfit = Unfit(value)
+        unfit.unit = unit
+        return unfit
+
+
+def _is_float(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def number(value: Any) -> Any:
     """Turn what stands for a number into a float; leave the rest for pydantic to refuse.
 
     Strings are accepted because YAML reads ``1e-3`` as one. A bool is no number here, although Python says
     so.
     """
+    if isinstance(value, Unfit):
+        kind = "without a unit" if value.unit == "1" else f"in {value.unit}, or with a unit of its kind"
+        raise ValueError(f"must be a number {kind}")
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")
     try:
@@ -110,6 +175,8 @@ Real = Annotated[float, BeforeValidator(number)]
 Finite = Annotated[Real, Field(allow_inf_nan=False)]
 Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})]
 Count = Annotated[int, BeforeValidator(whole)]
+Seconds = Annotated[Positive, Unit("s")]
+Speed = Annotated[Positive, Unit("rad/s")]
 Tolerance = Annotated[Real, _within(TOLERANCES)]
 CycleTolerance = Annotated[Real, _within(CYCLE_TOLERANCES)]
 
@@ -131,9 +198,43 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
 
 
 class Strict(BaseModel):
-    """What a file says: immutable, unknown keys refused."""
+    """What a file says: immutable, unknown keys refused, numbers with units in SI."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_si(cls, data: Any) -> Any:
+        return each_in_si(data, _units_of(cls))
+
+
+def each_in_si(data: Any, units: Mapping[str, str]) -> Any:
+    """A mapping with `in_si` of each value whose name has a unit."""
+    if not isinstance(data, dict):
+        return data
+    said = [name for name, value in data.items() if isinstance(value, str | list | tuple | dict) and name in units]
+    return data | {name: in_si(data[name], units[name]) for name in said} if said else data
+
+
+@functools.cache
+def _units_of(model: type[BaseModel]) -> dict[str, str]:
+    """SI units of the fields that have one."""
+    found = {name: _unit_of(field) for name, field in model.model_fields.items()}
+    return {name: unit for name, unit in found.items() if unit}
+
+
+def _unit_of(field: FieldInfo) -> str:
+    """Of a field, by what is said of it or by a mark of its type."""
+    said = field.json_schema_extra
+    if isinstance(said, dict) and "unit" in said:
+        return str(said["unit"])
+    return next((mark.name for mark in (*field.metadata, *_marks(field.annotation)) if isinstance(mark, Unit)), "")
+
+
+def _marks(annotation: Any) -> Iterator[Any]:
+    for part in get_args(annotation):
+        yield part
+        yield from _marks(part)
 
 
 class _OwnNames(ModelMetaclass):
@@ -169,6 +270,7 @@ class Checked(Strict, metaclass=_OwnNames):
             name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
             said = ", ".join(f"{key}={shown(value)}" for key, value in named)
             raise ParameterError(f"{name} takes named values: {name}({said})")
+        data = each_in_si(data, _units_of(type(self)))
         faults: list[str] = list(faults_of_names(data))
         try:
             if not faults:
@@ -526,9 +628,8 @@ class Parameters(Checked):
 
     @classmethod
     def unit(cls, name: str) -> str:
-        """SI unit of a parameter; "1" if it has no dimension, "" if it is a choice."""
-        extra = cls.model_fields[name].json_schema_extra
-        return str(extra["unit"]) if isinstance(extra, dict) else ""
+        """SI unit of a parameter; "1" if it has no dimension, "" if it is a choice, or no parameter."""
+        return _units_of(cls).get(name, "")
 
 
 def foreign_case(p: object) -> list[str]:

@@ -16,7 +16,8 @@ import typer
 from rich.table import Column, Table
 
 from disc_model.errors import Fault, ParameterError, shown
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, in_si
+from disc_model.parameters import number as number_of
 from disc_model.plausibility import tell_doubts
 from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
 
@@ -137,15 +138,17 @@ def tell(lines: Iterable[tuple[str, str]]) -> None:
         typer.echo(f"{name:<20}{text}")
 
 
-def number(name: str, text: str | None, holds: Callable[[float], bool], rule: str, faults: list[str]) -> float:
+def number(
+    name: str, text: str | None, holds: Callable[[float], bool], rule: str, faults: list[str], unit: str = ""
+) -> float:
     """The number that `text` stands for; what is wrong with it is added to `faults`."""
     if text is None:
         faults.append(Fault((name,), "", "is required"))
         return math.nan
     try:
-        value = float(text)
-    except ValueError:
-        faults.append(Fault((name,), shown(text), "must be a number"))
+        value = float(number_of(in_si(text, unit)))
+    except ValueError as error:
+        faults.append(Fault((name,), shown(text), str(error)))
         return math.nan
     if not holds(value):
         faults.append(Fault((name,), shown(value), rule))

@@ -61,7 +61,7 @@ def run(
     """Simulate one case from static equilibrium and print what happened."""
     faults: list[str] = []
     p, choice = parameters_of(case, faults)
-    end = number("t_end", t_end, lambda x: 0 < x < math.inf, "must be finite and > 0", faults)
+    end = number("t_end", t_end, lambda x: 0 < x < math.inf, "must be finite and > 0", faults, "s")
     how = _how(tol, stop_at, max_steps, faults)
     windows = _windows(window or [], end, faults)
     ramps = _ramps(ramp or [], p, faults)

@@ -25,16 +25,20 @@ from disc_model.parameters import (
     Parameters,
     Positive,
     Real,
+    Seconds,
     Strict,
+    Unit,
     canonical_json,
     content_key,
+    each_in_si,
 )
 from disc_model.simulation.ramps import Ramp
 
 # ----------------------------------------------------------------------------------------------------
 # What is kept
 
-Time = Annotated[Real, Field(ge=0, allow_inf_nan=False)]
+Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
+Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
 
 
 class Span(Checked):
@@ -47,8 +51,8 @@ class Span(Checked):
     """
 
     start: Time = 0.0
-    stop: Annotated[Real, Field(ge=0)] = math.inf
-    last: Positive | None = None
+    stop: Annotated[Real, Field(ge=0), Unit("s")] = math.inf
+    last: Seconds | None = None
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
@@ -102,8 +106,8 @@ class Window(Span):
         samples that do not fill a bin are left out
     """
 
-    rate: Positive
-    theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
+    rate: Annotated[Positive, Unit("Hz")]
+    theta: Angle = 1.0
     envelope: Annotated[Count, Field(ge=2, le=2**53)] | None = None
 
     def _end(self, first: float, t_end: float) -> float:
@@ -127,8 +131,8 @@ class Poincare(Checked):
     """Samples at the drive's period, t = i 2 pi/Omega (i whole), within [start, stop]; ``theta`` as in `Window`."""
 
     start: Time = 0.0
-    stop: Annotated[Real, Field(gt=0)] = math.inf
-    theta: Annotated[Real, Field(allow_inf_nan=False)] = 1.0
+    stop: Annotated[Real, Field(gt=0), Unit("s")] = math.inf
+    theta: Angle = 1.0
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
@@ -206,7 +210,7 @@ class Preparation(Strict):
     """
 
     parameters: dict[str, Any]
-    time: Positive
+    time: Seconds
 
     @field_validator("parameters")
     @classmethod
@@ -228,6 +232,11 @@ class Start(Strict):
 
     prepare: Preparation | None = None
     kick: dict[Coordinate, Finite] = Field({})
+
+    @field_validator("kick", mode="before")
+    @classmethod
+    def _in_units(cls, given: Any) -> Any:
+        return each_in_si(given, {"u": "m", "u_velocity": "m/s", "f": "rad/s"})
 
 
 # ----------------------------------------------------------------------------------------------------

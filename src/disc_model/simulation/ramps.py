@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import Annotated, Literal, NamedTuple, Self
+from typing import Annotated, Any, Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
 from disc_model.errors import Fault, ParameterError, shown
-from disc_model.parameters import Checked, Parameters, Positive, Real
+from disc_model.parameters import Checked, Parameters, Positive, Real, Seconds, Unit, each_in_si
 
 Ramped = Literal["Omega", "N"]
 RAMPED: tuple[Ramped, ...] = ("Omega", "N")
@@ -32,8 +32,13 @@ class Ramp(Checked):
 
     parameter: Ramped
     to: Positive
-    start: Annotated[Real, Field(ge=0, allow_inf_nan=False)]
-    end: Positive
+    start: Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
+    end: Seconds
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_unit(cls, said: Any) -> Any:
+        return each_in_si(said, {"to": Parameters.unit(str(said.get("parameter")))}) if isinstance(said, dict) else said
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:

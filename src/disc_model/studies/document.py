@@ -28,6 +28,7 @@ from pydantic import (
     WithJsonSchema,
     WrapValidator,
     create_model,
+    field_validator,
     model_validator,
 )
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
@@ -44,9 +45,13 @@ from disc_model.parameters import (
     Parameters,
     Positive,
     Real,
+    Seconds,
+    Speed,
     Strict,
     Title,
     Tolerance,
+    Unit,
+    each_in_si,
     leaves_modes,
 )
 from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
@@ -254,6 +259,8 @@ Zip = Annotated[Annotated[Columns, Tag("one zip")] | Annotated[list[Columns], Ta
 # ----------------------------------------------------------------------------------------------------
 # Distributions of uncertain parameters
 
+NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
+"""Parameters that can be distributed."""
 FARTHEST = 6.47
 """Standard deviations that a normal distribution reaches: 1e-10 of it lies beyond, and is left out."""
 
@@ -319,6 +326,7 @@ Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator
 # ----------------------------------------------------------------------------------------------------
 # Options of each quantity
 
+Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
 
 
@@ -342,9 +350,9 @@ class OutcomeOptions(SettlingOptions):
     after_separation : s that are simulated beyond the first separation, so that the late stretch shows its regime
     """
 
-    horizon: Positive
-    late: Positive = 1.0
-    after_separation: Positive = 5.0
+    horizon: Seconds
+    late: Seconds = 1.0
+    after_separation: Seconds = 5.0
 
     @model_validator(mode="after")
     def _room(self) -> Self:
@@ -361,7 +369,7 @@ class RegionsOptions(Strict):
     """
 
     tol: Tolerance = 1e-8
-    horizon: Positive
+    horizon: Seconds
     coarse: Annotated[Count, Field(ge=1, le=1000)] = 8
 
 
@@ -374,9 +382,9 @@ class CriticalSpeedOptions(SettlingOptions):
     max_crossings : room for that many crossings at each horizon
     """
 
-    horizons: Annotated[tuple[Positive, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
-    scan: Range
-    precision: Positive = 0.1
+    horizons: Annotated[tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
+    scan: Annotated[Range, Unit("rad/s")]
+    precision: Speed = 0.1
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
 
     @model_validator(mode="after")
@@ -404,9 +412,9 @@ class HysteresisOptions(Strict):
     """
 
     tol: Tolerance = 1e-10
-    scan: Range
-    dwell: Positive
-    late: Positive = 5.0
+    scan: Annotated[Range, Unit("rad/s")]
+    dwell: Seconds
+    late: Seconds = 5.0
 
     @model_validator(mode="after")
     def _room(self) -> Self:
@@ -424,10 +432,10 @@ class RampsOptions(Strict):
     """
 
     tol: Tolerance = 1e-10
-    low: Positive
-    high: Positive
-    rates: Range
-    stay: Positive = 60.0
+    low: Speed
+    high: Speed
+    rates: Annotated[Range, Unit("rad/s^2")]
+    stay: Seconds = 60.0
 
     @model_validator(mode="after")
     def _rising(self) -> Self:
@@ -451,10 +459,10 @@ class BifurcationOptions(Strict):
 
     tol: Tolerance = 1e-10
     section: Literal["turn", "switch"] = "turn"
-    transient: Positive
-    longest: Positive = 240.0
+    transient: Seconds
+    longest: Seconds = 240.0
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
-    theta: Finite = 1.0
+    theta: Annotated[Finite, Unit("rad")] = 1.0
 
 
 class LyapunovOptions(Strict):
@@ -467,10 +475,10 @@ class LyapunovOptions(Strict):
     """
 
     tol: Tolerance = 1e-10
-    transient: Positive
-    duration: Positive
+    transient: Seconds
+    duration: Seconds
     exponents: Annotated[Count, Field(ge=1, le=7)] = 2
-    interval: Positive = 0.01
+    interval: Seconds = 0.01
 
 
 class BasinsOptions(Strict):
@@ -488,10 +496,12 @@ class BasinsOptions(Strict):
     """
 
     tol: Tolerance = 1e-10
-    energies: Annotated[tuple[Annotated[Real, Field(ge=0, allow_inf_nan=False)], ...], Field(min_length=1)] = (0.0,)
+    energies: Annotated[
+        tuple[Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")], ...], Field(min_length=1)
+    ] = (0.0,)
     starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
     seed: Annotated[Count, Field(ge=0)] = 1
-    horizon: Positive = 200.0
+    horizon: Seconds = 200.0
     near: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
     confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
     bisected: Annotated[Count, Field(ge=0, le=1000)] = 1
@@ -532,6 +542,13 @@ class StabilityCurvesOptions(Strict):
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
     tol: CycleTolerance = 1e-12
 
+    @model_validator(mode="before")
+    @classmethod
+    def _in_units(cls, said: Any) -> Any:
+        plane = {"x_range": "x", "y_lines": "y"}
+        usual = {"x": "Omega", "y": "N"} | (said if isinstance(said, dict) else {})
+        return each_in_si(said, {name: Parameters.unit(str(usual[axis])) for name, axis in plane.items()})
+
     @model_validator(mode="after")
     def _plane(self) -> Self:
         if self.x == self.y:
@@ -558,10 +575,15 @@ class SensitivityOptions(Strict):
     samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
     seed: Annotated[Count, Field(ge=0)] = 0
     outcomes: Annotated[Count, Field(ge=0)] = 0
-    horizon: Positive = 500.0
-    cap: Positive = 0.5
+    horizon: Seconds = 500.0
+    cap: Annotated[Positive, Unit("1/s")] = 0.5
     tol: CycleTolerance = 1e-12
     motion_tol: Tolerance = 1e-10
+
+    @field_validator("distributions", mode="before")
+    @classmethod
+    def _in_units(cls, given: Any) -> Any:
+        return each_in_si(given, {name: Parameters.unit(name) for name in NUMBERS})
 
     @model_validator(mode="after")
     def _balanced(self) -> Self:
@@ -580,8 +602,8 @@ class CampbellOptions(Strict):
     """
 
     modes: Annotated[Count, Field(ge=1, le=1000)] = 12
-    window: Positive = 1.0
-    rise: Positive = 0.01
+    window: Annotated[Positive, Unit("Hz")] = 1.0
+    rise: Annotated[Positive, Unit("1/s")] = 0.01
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
     tol: CycleTolerance = 1e-12
 
@@ -791,7 +813,7 @@ class NamedCase(Strict):
     parameters: Annotated[Chosen, PlainValidator(_of_case, json_schema_input_type=GivenParameters)] = Field(
         {}, validate_default=True
     )
-    t_end: Positive
+    t_end: Seconds
     tol: Tolerance = 1e-10
     stop_at: Literal["first_separation"] | None = None
     start: Start = Start()
@@ -948,6 +970,10 @@ class _Plain(GenerateJsonSchema):
 
     def field_title_should_be_set(self, schema: Any) -> bool:
         return False
+
+    def float_schema(self, schema: Any) -> Any:
+        """Texts stand for numbers as well: with a unit, or as YAML reads 1e-3."""
+        return super().float_schema(schema) | {"type": ["number", "string"], "pattern": r"^\s*[-+.]*\d"}
 
     def get_default_value(self, schema: Any) -> Any:
         found = super().get_default_value(schema)

@@ -49,6 +49,7 @@ from disc_model.plausibility import RULES
 from disc_model.simulation.case import START, CaseSpec, SomeParameters, Start
 from disc_model.studies.document import (
     DOCUMENTS,
+    NUMBERS,
     PUBLISHED,
     QUANTITIES,
     VARIED,
@@ -541,8 +542,6 @@ FIRST_SAMPLES = 64
 """In the first block of samples."""
 MOST_POINTS = 1_000_000
 """Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
-NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
-"""Parameters that can be distributed."""
 _KICKS: dict[str, Any] = dict.fromkeys(KICKS, (Finite, 0.0))
 _Varied = create_model("_Varied", __base__=SomeParameters, **_KICKS)
 
@@ -725,8 +724,9 @@ class _Grid:
 
     def _value(self, name: str, value: Value, place: tuple[str, ...]) -> Value:
         """Each for itself; see `_check_points`."""
-        if name == START and not (isinstance(value, str) and value in self.starts):
-            self.add(place, f"no such start{suggestion(value, self.starts)}", value)
+        known = {**self.starts, **mapping(self.raw.get("starts"))}
+        if name == START and not (isinstance(value, str) and value in known):
+            self.add(place, f"no such start{suggestion(value, known)}", value)
         elif name == "n_diameters" and value == AUTO:
             self.add(place, "cannot be varied: give it in base, for all points", value)
         elif name == "contact_compliance" and value == RESIDUAL:

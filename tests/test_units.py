@@ -1,0 +1,117 @@
+"""Numbers with units: what is accepted, what it amounts to in SI, and what is said of a unit that does not fit."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from typing import Any
+
+import pytest
+
+from disc_model import ParameterError, Parameters, Ramp, Window
+from disc_model.parameters import in_si
+from disc_model.studies.study import parse_study
+from tests.studies.refused import faults_of, parse_grid
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("150 GPa", "Pa", 1.5e11),
+        ("12.3GPa", "Pa", 1.23e10),
+        ("7.2 g/cm^3", "kg/m^3", 7200.0),
+        ("190 rpm", "rad/s", 190 * math.pi / 30),
+        ("-30 deg", "rad", -math.pi / 6),
+        ("0.3 N*s/mm", "N s/m", 300.0),
+        ("1e-5 N m s", "N m s", 1e-5),
+        ("1 µm/N", "m/N", 1e-6),
+        ("40 %", "1", 0.4),
+        ("30 ms", "s", 0.03),
+        ("2 kHz", "Hz", 2000.0),
+    ],
+)
+def test_a_number_with_a_unit_is_that_in_si(text: str, unit: str, value: float) -> None:
+    # decimals are exact; pi is rounded to 15 digits
+    assert in_si(text, unit) == pytest.approx(value, rel=1e-14)
+    if not ("rpm" in text or "deg" in text):
+        assert in_si(text, unit) == value
+
+
+@pytest.mark.parametrize("text", ["auto", "residual", "nan", "1e-3", "1_000", "", "fast", " 5 "])
+def test_what_has_no_unit_stays(text: str) -> None:
+    assert in_si(text, "Pa") is text
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"E": "150 kg"}, "E='150 kg': must be a number in Pa, or with a unit of its kind"),
+        ({"E": "150 gpa"}, "E='150 gpa': must be a number in Pa, or with a unit of its kind"),
+        ({"Omega": "3 Hz"}, "Omega='3 Hz': must be a number in rad/s, or with a unit of its kind"),
+        ({"mu_s": "4 m"}, "mu_s='4 m': must be a number without a unit"),
+        ({"h": "2 m/"}, "h='2 m/': must be a number in m, or with a unit of its kind"),
+        ({"h": "-2 mm"}, "h=-0.002: must be > 0"),
+        ({"mu_k": "50 %"}, "mu_k=0.5: must be <= mu_s=0.4"),
+    ],
+)
+def test_a_unit_that_does_not_fit_is_named_with_the_one_that_does(given: dict[str, Any], said: str) -> None:
+    with pytest.raises(ParameterError) as error:
+        Parameters(**({"N": 1, "Omega": 1} | given))
+    assert error.value.faults == (said,)
+
+
+def test_python_takes_units_everywhere() -> None:
+    assert Parameters(N="0.2 kN", Omega=20, E="150 GPa").key == Parameters(N=200, Omega=20).key
+    assert Window(last="30 ms", rate="2 kHz") == Window(last=0.03, rate=2000)
+    assert Ramp(parameter="N", to="1 kN", start="1 min", end="2 min") == Ramp(parameter="N", to=1e3, start=60, end=120)
+
+
+def grid(E: Any, h: Any, Omega: Any, **options: Any) -> dict[str, Any]:
+    axes = {"Omega": Omega, "h": h, "start": ["published", "k"]}
+    starts = {"k": {"kick": {"u": options.pop("u")}}}
+    return {
+        "study": "s",
+        "quantity": "outcome",
+        "options": options,
+        "base": {"N": 200, "E": E},
+        "axes": axes,
+        "starts": starts,
+    }
+
+
+def test_spelling_with_units_runs_nothing_anew() -> None:
+    plain = grid(1.5e11, {"start": 1e-3, "stop": 3e-3, "count": 5, "extra": [2.7e-3]}, [10, 20], horizon=60, u=1e-4)
+    units = grid(
+        "150 GPa",
+        {"start": "1 mm", "stop": "3 mm", "count": 5, "extra": ["2.7 mm"]},
+        ["10 rad/s", "20 rad/s"],
+        horizon="1 min",
+        u="0.1 mm",
+    )
+    assert parse_grid(units).batches == parse_grid(plain).batches
+    samples = {"k": {"distribution": "uniform", "low": "40 N/mm", "high": "50 N/mm"}}
+    raw = {"study": "s", "quantity": "sensitivity", "base": {"Omega": 15}, "axes": {"N": [200]}}
+    (text,) = parse_grid(raw | {"options": {"distributions": samples, "samples": 2}}).batches.values()
+    assert json.loads(text)["options"]["distributions"]["k"]["high"] == 5e4
+    curves = {"x_range": ["50 rpm", "100 rpm"], "y_lines": {"start": "0.1 kN", "stop": "0.2 kN", "count": 2}}
+    options = parse_grid({"study": "s", "quantity": "stability_curves", "options": curves, "axes": {"c": [0]}}).options
+    assert (options.y_lines.stop, round(options.x_range[0], 6)) == (200.0, round(50 * math.pi / 30, 6))  # type: ignore[attr-defined]
+
+
+def test_a_study_names_the_place_of_a_unit_that_does_not_fit() -> None:
+    raw = grid("150 kg", ["2 N"], [10], horizon="60 m", u="1 s")
+    rule = "must be a number in {}, or with a unit of its kind"
+    assert set(faults_of(parse_study, raw)) == {
+        f"base.E = '150 kg': {rule.format('Pa')}",
+        f"options.horizon = '60 m': {rule.format('s')}",
+        f"starts.k.kick.u = '1 s': {rule.format('m')}",
+        f"axes.h = '2 N': {rule.format('m')}",
+    }
+
+
+def test_units_are_loaded_where_one_is_met_only() -> None:
+    """The library for them takes a second."""
+    code = "import sys, disc_model as dm; dm.Parameters(N='1e2', Omega=1); print('pint' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"
