@@ -78,11 +78,15 @@ def test_table_1_is_what_is_computed_with() -> None:
 
 def test_the_ledger_counts_and_escapes() -> None:
     verdicts = (HOLDS, HOLDS, REMARK, FAILS, f"{NOT_COMPUTED}: no case")
-    rows = [{name: f"{name} <{i}>" for name in COLUMNS} | {"verdict": v, "apart": ""} for i, v in enumerate(verdicts)]
+    rows = [
+        {name: f"{name} <{i}>" for name in COLUMNS} | {"verdict": v, "apart": "", "robust": "stable"}
+        for i, v in enumerate(verdicts)
+    ]
     rows.append(rows[0] | {"apart": "a misprint"})
     text = ledger(pd.DataFrame(rows))
     assert f"6 statements; {HOLDS}: 2" in text
     assert f"{FAILS}: 1" in text
+    assert text.count("stable") == 6
     assert "not counted, for they repeat others or are misprints: 1." in text
     assert "&lt;3&gt;" in text
     assert not re.search(r"<\d>", text)

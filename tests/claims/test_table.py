@@ -145,6 +145,23 @@ def test_an_open_question_says_why(tmp_path: Path) -> None:
     assert claim.judge() == Finding("by 1.0 mm; ", UNDECIDED, "the 0-1 test lies between regular and chaotic motion")
 
 
+@pytest.mark.parametrize(
+    ("bounds", "turned"),
+    [
+        ({"most": 10.0}, "stable"),  # the value is 3
+        ({"most": 5.0}, "does not hold with most = 2.5"),
+        ({"most": 2.0}, "holds with most = 4"),
+        ({"most": 5.0, "other": 1.2}, "does not hold with most = 2.5; undecided with other = 1.4"),
+        ({}, ""),
+    ],
+)
+def test_a_verdict_says_which_bound_it_turns_on(tmp_path: Path, bounds: dict[str, float], turned: str) -> None:
+    checks = Checks()
+    checks("A")(lambda most=9, other=0: Answer(None if other > 1.3 else most > 3, "chaos", mm=3, rows=[]))
+    (claim,) = claims_from(tmp_path, checks, A=TEXT | {"bounds": bounds, "undecided": {"chaos": None}})
+    assert claim.turned_by({}, claim.evaluate({}).verdict) == turned
+
+
 def test_texts_and_checks_that_do_not_fit_are_refused_at_once(tmp_path: Path) -> None:
     checks = Checks()
     checks("Known", "Unsaid")(lambda: Answer(True))

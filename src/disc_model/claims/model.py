@@ -89,7 +89,7 @@ class Text(BaseModel):
     claim : the statement in our own words
     paper : the value the paper gives, or "" if it only shows it
     tolerance, reason : what counts as agreement, and why that much
-    bounds : numbers that the check is given, and that sentences may be filled with
+    bounds, given : numbers for the check and for sentences: thresholds of ours, and others
     cases : those of config/paper.yaml that the check is given, each with the time in s to which it must have run
     separates : those of them that the claim says something of after separation: without one it does not hold; true
         stands for all in which contact can be lost
@@ -109,6 +109,7 @@ class Text(BaseModel):
     tolerance: str = ""
     reason: str = ""
     bounds: dict[str, float] = {}
+    given: dict[str, float] = {}
     cases: dict[str, float] = {}
     separates: Names = ()
     steady: Names = ()
@@ -135,7 +136,12 @@ class Claim:
 
     @property
     def tolerance(self) -> str:
-        return Sentences({}, self.said.bounds).fill(self.said.tolerance)
+        return Sentences({}, self.numbers).fill(self.said.tolerance)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """What the check is given besides its evidence."""
+        return self.said.given | self.said.bounds
 
     @property
     def separating(self) -> tuple[str, ...]:
@@ -153,7 +159,7 @@ class Claim:
     def judge(self, *evidence: Any) -> Finding:
         """What the check makes of this evidence; the verdict says what that lacks."""
         try:
-            return self._found(self.check(*evidence, **self.said.bounds))
+            return self._found(self.check(*evidence, **self.numbers))
         except Missing as missing:
             return _without(missing)
 
@@ -169,13 +175,30 @@ class Claim:
                 said = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(said, FAILS)
             scans = [cases[name].node.to_dataset() for name in self.said.scans]
-            found = self._found(self.check(*needed.values(), *scans, **self.said.bounds), needed)
+            found = self._found(self.check(*needed.values(), *scans, **self.numbers), needed)
             return _of_steady_state(found, [needed[name] for name in self.steady])
         except Missing as missing:
             return _without(missing)
 
+    def turned_by(self, cases: Mapping[str, CaseView], verdict: str) -> str:
+        """Which of its bounds, halved or doubled, turns this verdict of the claim, and into what; else "stable".
+
+        Of bounds between 0.5 and 2, what is halved or doubled is their distance from 1.
+        """
+        if not self.said.bounds or verdict.startswith(NOT_COMPUTED):
+            return ""
+        turned = []
+        for name, bound in self.said.bounds.items():
+            for factor in (0.5, 2.0):
+                other = 1 + factor * (bound - 1) if 0.5 < bound < 2 else factor * bound
+                said = self.said.model_copy(update={"bounds": self.said.bounds | {name: other}})
+                found = replace(self, said=said).evaluate(cases).verdict
+                if found.replace(REMARK, HOLDS) != verdict.replace(REMARK, HOLDS):
+                    turned.append(f"{found} with {name} = {other:.4g}")
+        return "; ".join(turned) or "stable"
+
     def _found(self, answer: Answer, cases: Mapping[str, CaseView] | None = None) -> Finding:
-        said, values = self.said, self.said.bounds | rows_of(cases or {}) | answer.values
+        said, values = self.said, self.numbers | rows_of(cases or {}) | answer.values
         if answer.holds is None:
             remarks, verdict = [said.undecided[answer.why]], UNDECIDED
         else:

@@ -71,7 +71,7 @@ def _claim(row: Mapping[Any, Any]) -> list[str]:
         escape(row["paper_value"]),
         escape(row["ours"]) + "".join(_small(row[name]) for name in ("remark", "apart") if row[name]),
         f'<span class="verdict {CLASSES.get(shown, "")}">{escape(shown)}</span>{_small(missing)}',
-        escape(row["tolerance"]) + (_small(row["reason"]) if row["reason"] else ""),
+        escape(row["tolerance"]) + "".join(_small(row[name]) for name in ("reason", "robust") if row[name]),
     )
     return [f"<td>{cell}</td>" for cell in cells]
 

@@ -56,7 +56,8 @@ def drive(case: CaseView, *, level: float) -> Answer:
     near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))
     strongest = every.amplitude <= found[0].amplitude * (1 + 1e-9)
     rows = [{"Hz": line.frequency, "dB": x} for line, x in zip(found, levels, strict=True)]
-    return Answer(near and strongest and min(levels) > level, lines=rows)
+    loud = min(line.amplitude for line in found) > level * found[0].amplitude
+    return Answer(near and strongest and loud, lines=rows)
 
 
 @CHECKS("T2c")
