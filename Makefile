@@ -58,7 +58,7 @@ survival: env
 
 # The small pictures of docs/ and of the README, from finished figures.
 gallery: env
-	$(BIN)/python workflow/scripts/make_gallery.py
+	$(BIN)/python docs/make_gallery.py
 
 $(VENV)/.docs: requirements-docs.lock $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-docs.lock
@@ -149,7 +149,7 @@ bench: $(VENV)/.bench
 
 # What README and docs say about speed, and their pictures of it, from that run: all from one, with its machine's name.
 bench-pages: env
-	$(BIN)/python -m workflow.scripts.write_benchmark_pages
+	$(BIN)/python -m docs.write_benchmark_pages
 
 # One version of each package for every system and every Python that the project supports.
 LOCK := $(BIN)/uv pip compile --quiet --upgrade --universal --fork-strategy fewest --python-version 3.11 \

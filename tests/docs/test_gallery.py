@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from docs.make_gallery import PAGE, shrink
 from PIL import Image, ImageColor
-from workflow.scripts.make_gallery import PAGE, shrink
 
 from disc_model.figures.parts import PHASE_COLOURS, SLIDER
 

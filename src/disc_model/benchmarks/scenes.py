@@ -11,7 +11,7 @@
     rad/s that nothing excites
 
 The answers of the first three are stored in ``data/benchmark_reference.json``, computed in long double by
-``workflow/scripts/make_benchmark_reference.py``; that of the last is `rigid_cycle`.
+``tests/references/make_benchmark_reference.py``; that of the last is `rigid_cycle`.
 """
 
 from __future__ import annotations

@@ -71,9 +71,7 @@ KINDS = {
     # grids, with a quantity each
     "compute_batch": Kind("point"),
     "compute_motions": Kind("point case studies.grids.motions"),
-    "merge_batches": Kind(
-        "point studies.document studies.grids.merge studies.grids.summaries studies.grids.draws analysis.sobol"
-    ),
+    "merge_batches": Kind("point studies.document studies.grids.merge studies.grids.summaries analysis.sobol"),
     "outcome": Kind("point settled studies.grids.quantities.outcome"),
     "regions": Kind("point settled stability.resonances studies.grids.quantities.regions"),
     "critical_speed": Kind("point settled studies.grids.quantities.critical_speed"),
@@ -86,7 +84,7 @@ KINDS = {
     "stability_curves": Kind(
         "point continuation stability.curves stability.resonances studies.grids.quantities.stability_curves"
     ),
-    "sensitivity": Kind("point settled studies.grids.draws studies.grids.quantities.sensitivity"),
+    "sensitivity": Kind("point settled studies.grids.quantities.sensitivity"),
     "campbell": Kind("floquet stability.campbell studies.grids.quantities.campbell"),
     # pictures and pages; a figure's own module is named beside its kind
     "draw_figure": Kind(

@@ -513,7 +513,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
         "source_hash": source_hash("case"),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
-        "specification": spec.canonical,
+        "specification": spec.beside,
         "specification_key": spec.key,
     }
     return tree

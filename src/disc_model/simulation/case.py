@@ -288,6 +288,11 @@ class CaseSpec(Strict):
         return canonical_json(self.model_dump(exclude=unsaid) | {"parameters": self.parameters.canonical})
 
     @property
+    def beside(self) -> str:
+        """JSON text of what is asked for beside the parameters."""
+        return canonical_json({name: x for name, x in json.loads(self.canonical).items() if name != "parameters"})
+
+    @property
     def key(self) -> str:
         """First 12 hexadecimal digits of the sha256 of `canonical`."""
         return content_key(self.canonical)

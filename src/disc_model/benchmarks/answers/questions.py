@@ -14,7 +14,7 @@
     `SIDE` x `SIDE` cells of speed and preload: share of the cells for which it is said wrongly whether the published
     start leads to a separation within `REGION_HORIZON` s
 
-Right answers are stored in ``data/answers.json``, made by ``workflow/scripts/make_answer_references.py`` with methods
+Right answers are stored in ``data/answers.json``, made by ``tests/references/make_answer_references.py`` with methods
 that share no code with the engine; each with its own error.
 """
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import COURSES, Variable
 from disc_model.errors import DiscModelError, Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
@@ -42,3 +42,15 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
     """Rows along a dimension of a quantity's own as its columns; what some rows lack is None, which is missing."""
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: [row.get(name) for row in rows] for name in names}
+
+
+# ----------------------------------------------------------------------------------------------------
+# What is found at samples of distributed parameters
+
+STABLE = ("stable", "slides", "sticks")
+UNSTABLE = ("unstable", "no_cycle", "separates", "slips")
+CYCLES = ("failed", *STABLE, *UNSTABLE)
+"""What there is near the published start: a stable cycle, stable steady sliding, or rest on the disc; or an unstable
+cycle, none though the slider sticks and slips, loss of contact at once, or unstable sliding."""
+OUTCOMES = ("not_followed", *COURSES)
+DRAWS = ("A", "B")

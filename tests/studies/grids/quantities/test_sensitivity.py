@@ -14,8 +14,8 @@ from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import floquet
 from disc_model.studies.document import SensitivityOptions
-from disc_model.studies.grids.draws import CYCLES
 from disc_model.studies.grids.merge import failures
+from disc_model.studies.grids.points import CYCLES
 from disc_model.studies.grids.quantities import sensitivity
 from disc_model.studies.grids.quantities.sensitivity import Evaluated, quantile, unit_draws, variants
 from tests.studies.grids.conftest import SMALL, computed

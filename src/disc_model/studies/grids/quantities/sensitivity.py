@@ -21,8 +21,7 @@ from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.course import come_to
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
-from disc_model.studies.grids.draws import CYCLES, DRAWS, OUTCOMES
-from disc_model.studies.grids.points import NUMERICAL, STATUS, Point
+from disc_model.studies.grids.points import CYCLES, DRAWS, NUMERICAL, OUTCOMES, STATUS, Point
 
 if TYPE_CHECKING:
     from disc_model.studies.document import Distribution, SensitivityOptions

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import share, sobol_intervals
 from disc_model.data.variables import SAMPLE, Column, Variable, flag_names
-from disc_model.studies.grids.draws import CYCLES, DRAWS, OUTCOMES, UNSTABLE
+from disc_model.studies.grids.points import CYCLES, DRAWS, OUTCOMES, UNSTABLE
 
 if TYPE_CHECKING:
     from disc_model.studies.document import SensitivityOptions

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from workflow.scripts.make_gallery import shrink
+from docs.make_gallery import shrink
 
 from disc_model.benchmarks import pages, truncation_pages
 from disc_model.data.dataset import load

@@ -1,6 +1,6 @@
 """Compute the right answers of the benchmark (extra `bench`); run from the repository's root::
 
-    python -m workflow.scripts.make_answer_references src/disc_model/benchmarks/data/answers.json
+    python -m tests.references.make_answer_references src/disc_model/benchmarks/data/answers.json
 
 Each is found without the engine: by the long-double Taylor reference of tests/references, or by heyoka in double
 precision, and once more at another tolerance; what the two differ by is stored with it.  Where motions start is the
@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tests.references.stored import load
 
 from disc_model.benchmarks.answers import questions, simulated
 from disc_model.benchmarks.answers.questions import Found
@@ -25,6 +24,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
 from disc_model.stability.continuation import continue_cycle
+from tests.references.stored import load
 
 TIGHT, TIGHTER = 1e-13, 1e-15
 ENGINE = 1e-14

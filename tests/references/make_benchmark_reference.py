@@ -1,6 +1,6 @@
 """Compute the benchmark's high-precision references (extra `bench`); run from the repository's root::
 
-    python -m workflow.scripts.make_benchmark_reference src/disc_model/benchmarks/data/benchmark_reference.json
+    python -m tests.references.make_benchmark_reference src/disc_model/benchmarks/data/benchmark_reference.json
 
 Event times, kinds and the state at the end, by the long-double Taylor reference of tests/references, which shares no
 code with the engine.  Each run is repeated with a tighter tolerance; the larger of the two differences is stored.
@@ -10,13 +10,13 @@ import json
 from pathlib import Path
 
 import numpy as np
-from tests.references.heyoka_reference import LONG, Reference, decimal
-from tests.references.stored import BASE, Case, reference_state
 
 from disc_model import plate_modes
 from disc_model.benchmarks.scenes import REFERENCED, problem
 from disc_model.errors import script
 from disc_model.parameters import Parameters
+from tests.references.heyoka_reference import LONG, Reference, decimal
+from tests.references.stored import BASE, Case, reference_state
 
 FIELDS = ("time", "phase", "direction", "psi", "f", "u", "u_velocity", "a", "b", "alpha", "beta")
 
