@@ -57,7 +57,7 @@ KINDS = {
     "dataset": Kind("data.dataset data.variables errors parameters plate flexibility"),
     "case": Kind("dataset engine simulation.api simulation.case simulation.kept simulation.ramps simulation.result"),
     "cycle": Kind("case stability.cycle stability.return_map stability.sliding"),
-    "settled": Kind("cycle stability.attractor analysis.classify"),
+    "settled": Kind("cycle stability.attractor stability.lyapunov analysis.classify"),
     "continuation": Kind("cycle stability.branch stability.continuation stability.grazing"),
     "point": Kind(
         "dataset simulation.case simulation.ramps studies.grids.points studies.grids.run studies.modes truncation"
