@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 
 import disc_model as dm
+from disc_model import cli
 from disc_model.disc import disc_table
 from disc_model.plate import modal_damping, mode_arrays
 from disc_model.stability.return_map import ReturnMap
+from disc_model.studies.study import StudyError, load_study
 
 P = dm.Parameters(N=385, Omega=15.1)
 THREE = {"diameters": [0, 1, 2], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]}
@@ -170,3 +172,50 @@ def test_the_derivative_by_E_of_a_plate_with_a_damping_ratio() -> None:
 def test_there_is_no_derivative_by_what_a_case_has_not(parameters: dict[str, object], name: str) -> None:
     with pytest.raises(dm.ParameterError, match="must be a parameter that the case has"):
         ReturnMap(P.replace(**parameters), parameters=(name,))
+
+
+def study(folder: Path, disc: str) -> Path:
+    path = folder / "study.yaml"
+    text = f"study: own\nbase: {{disc: {disc}, Omega: 15}}\nquantity: floquet\naxes: {{N: [300, 385]}}\n"
+    path.write_text(text)
+    return path
+
+
+def test_a_study_names_a_table_beside_it(tmp_path: Path) -> None:
+    """What the table holds, and not its name, decides which batches there are."""
+    for name in ("a.csv", "b.csv"):
+        (tmp_path / name).write_text(disc_table(P))
+    grids = [load_study(study(tmp_path, name)).grid for name in ("a.csv", "b.csv")]
+    batches = [list(grid.batches) for grid in grids if grid is not None]
+    assert batches[0] == batches[1]
+    (tmp_path / "b.csv").write_text(disc_table(P.replace(h=0.0021)))
+    changed = load_study(study(tmp_path, "b.csv")).grid
+    assert changed is not None
+    assert list(changed.batches) != batches[0]
+
+
+@pytest.mark.parametrize(
+    ("disc", "said"),
+    [
+        ("nowhere.csv", "must be a text file that can be read (No such file or directory)"),
+        ("{diameters: [1], omega: [0], amplitude: [1]}", "base.disc.omega.0 = 0: must be > 0"),
+        ("5", "base.disc = 5: must be a mapping"),
+    ],
+)
+def test_a_study_with_no_disc_says_so(disc: str, said: str, tmp_path: Path) -> None:
+    with pytest.raises(StudyError) as error:
+        load_study(study(tmp_path, disc))
+    assert said in str(error.value)
+
+
+def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def out(*arguments: str) -> str:
+        with pytest.raises(SystemExit) as ended:
+            cli.main(list(arguments))
+        assert not ended.value.code
+        return capsys.readouterr().out
+
+    path = tmp_path / "disc.csv"
+    path.write_text(out("modes", "--normalization", "orthonormal", "--csv"))
+    assert dm.read_disc(path).omega == tuple(mode_arrays(P).omega)
+    assert "a disc of 5 modes" in out("modes", "--disc", str(path))

@@ -454,10 +454,11 @@ class Disc(Checked):
     @classmethod
     def _complete(cls, data: Any) -> Any:
         """Fill in columns that may be left out."""
-        columns = {name: data.get(name) for name in ("diameters", "omega")}
-        if not all(isinstance(column, tuple | list) for column in columns.values()):
+        if not isinstance(data, Mapping):
             return data
-        diameters, omega = columns["diameters"], columns["omega"]
+        diameters, omega = data.get("diameters"), data.get("omega")
+        if not (isinstance(diameters, tuple | list) and isinstance(omega, tuple | list)):
+            return data
         ratio, circles = data.get("damping_ratio") or (), data.get("circles") or ()
         if not ratio:
             ratio = (0.0,) * len(diameters)
@@ -551,7 +552,7 @@ class Parameters(Checked):
         default 0)
     contact_force : direction of the contact force: vertical as in the paper, or normal to the bent disc (vertical or
         normal, default vertical)
-    damping_ratio : damping ratio of every mode of the plate, instead of D_star (>= 0, < 1, default None)
+    damping_ratio : damping ratio of every mode of the plate, from 0 to below 1, instead of D_star (default None)
     disc : a disc given by its modes, instead of the plate (default None)
 
     Raises
@@ -593,10 +594,10 @@ class Parameters(Checked):
     contact_force: Literal["vertical", "normal"] = _field(
         "vertical", "", "direction of the contact force: vertical as in the paper, or normal to the bent disc"
     )
-    damping_ratio: Real | None = _number(
-        None, "1", "damping ratio of every mode of the plate, instead of D_star", ge=0, lt=1
+    damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
+        None, "1", "damping ratio of every mode of the plate, from 0 to below 1, instead of D_star"
     )
-    disc: Annotated[Disc, BeforeValidator(_disc)] | None = _field(
+    disc: Annotated[Disc, BeforeValidator(_disc, json_schema_input_type=str)] | None = _field(
         None, "", "a disc given by its modes, instead of the plate"
     )
 

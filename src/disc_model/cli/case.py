@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 import typer
 from rich.table import Column, Table
 
+from disc_model.disc import read_disc
 from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters, in_si
 from disc_model.parameters import number as number_of
@@ -98,8 +99,15 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
     """Parameters of the options given, and how their modes were chosen if so; what is wrong is added to `faults`."""
     from disc_model.mode_choice import choose_modes
 
+    given: dict[str, Any] = dict(case)
     try:
-        p, asked = read_asked(case)
+        if "disc" in case:
+            given["disc"] = read_disc(case["disc"])
+    except ParameterError as error:
+        del given["disc"]
+        faults += (Fault(("disc",), shown(case["disc"]), fault.rule) for fault in error.faults)
+    try:
+        p, asked = read_asked(given)
         tell_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
         if asked is None:
             return p, None
@@ -112,8 +120,13 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
 
 def case_lines(p: Parameters, choice: ModeChoice | None) -> list[tuple[str, str]]:
     """What was computed, and its modes if they were chosen: the first lines of every command on one case."""
-    case = f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {p.normalization}, {p.contact} (key {p.key})"
+    case = f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {disc_words(p)}, {p.contact} (key {p.key})"
     return [("case", case), *choice_lines(choice)]
+
+
+def disc_words(p: Parameters) -> str:
+    """Which disc it is."""
+    return p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
 
 
 def choice_lines(choice: ModeChoice | None) -> Iterator[tuple[str, str]]:

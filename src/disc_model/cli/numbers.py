@@ -8,7 +8,17 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from disc_model.cli.case import case_lines, choice_lines, number, parameters_of, table, tell, with_case_options
+from disc_model.cli.case import (
+    case_lines,
+    choice_lines,
+    disc_words,
+    number,
+    parameters_of,
+    table,
+    tell,
+    with_case_options,
+)
+from disc_model.disc import disc_table
 from disc_model.errors import Fault, refuse, shown, suggestion
 from disc_model.kernels import KINDS
 from disc_model.kernels import warm as compile_kernels
@@ -18,7 +28,11 @@ TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOL
 
 
 @with_case_options(N="0", Omega="0")
-def modes(*, case: dict[str, str]) -> None:
+def modes(
+    *,
+    csv: Annotated[bool, typer.Option("--csv", help="print the modes as a table that --disc reads, 17 digits")] = False,
+    case: dict[str, str],
+) -> None:
     """Print the modes of the disc, its give under the slider, and the frequencies of both with the slider at rest."""
     from disc_model.flexibility import residual_flexibility
     from disc_model.plate import mode_arrays, slider_at_rest_frequencies
@@ -26,6 +40,9 @@ def modes(*, case: dict[str, str]) -> None:
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
     refuse(faults)
+    if csv:
+        typer.echo(disc_table(parameters), nl=False)
+        return
     tell(choice_lines(choice))
     found = mode_arrays(parameters)
     rows = [
@@ -33,14 +50,15 @@ def modes(*, case: dict[str, str]) -> None:
         for circles, diameters, omega, psi in zip(found.circles, found.diameters, found.omega, found.psi, strict=True)
     ]
     columns = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)")
-    modes = table(f"Modes of the disc ({parameters.normalization})", columns, rows, justify="right")
-    give = residual_flexibility(parameters)
-    numbers = (f"{give.total:.7g}", f"{give.remainder:.1e}", f"{give.kept:.7g}", f"{give.residual:.7g}")
-    heads = ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)")
-    static = table("Static give of the disc under the slider", heads, [numbers], justify="right")
+    tables = [table(f"Modes of the disc ({disc_words(parameters)})", columns, rows, justify="right")]
+    if parameters.disc is None or parameters.disc.static_compliance is not None:
+        give = residual_flexibility(parameters)
+        numbers = (f"{give.total:.7g}", f"{give.remainder:.1e}", f"{give.kept:.7g}", f"{give.residual:.7g}")
+        heads = ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)")
+        tables.append(table("Static give of the disc under the slider", heads, [numbers], justify="right"))
     at_rest = [(f"{value:.3f}", f"{value / math.tau:.3f}") for value in slider_at_rest_frequencies(parameters)]
-    shifted = table("Disc and slider at rest", ("lambda (rad/s)", "f (Hz)"), at_rest, justify="right")
-    for one in (modes, static, shifted):
+    tables.append(table("Disc and slider at rest", ("lambda (rad/s)", "f (Hz)"), at_rest, justify="right"))
+    for one in tables:
         Console().print(one)
 
 

@@ -221,8 +221,8 @@ def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Bl
     return axis.blocks(resolution) if isinstance(axis, AxisRange) else (tuple(axis),)
 
 
-VARIED = (*Parameters.model_fields, START, *KICKS)
-"""What a grid may vary, in the order of its dimensions: every parameter, and the start."""
+VARIED = (*(name for name in Parameters.model_fields if name != "disc"), START, *KICKS)
+"""What a grid may vary, in the order of its dimensions: every parameter but the table of a disc, and the start."""
 
 
 class _Columns(Strict):

@@ -26,6 +26,7 @@ import yaml
 from pydantic import ValidationError, create_model
 
 from disc_model.data.variables import KICKS, SAMPLE
+from disc_model.disc import read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, faults_of, shown, suggestion
 from disc_model.figures.kinds import CasePlot, General, Plot, RegionMap, Values
 from disc_model.figures.paper.catalogue import CATALOGUE, lacking
@@ -280,7 +281,7 @@ class Study:
 def load_study(path: str | Path) -> Study:
     """Read and check a study file, but for the files that it names."""
     raw, faults = read_file(Path(path))
-    return _with_more_faults(raw, faults, str(path))
+    return _with_more_faults(_with_discs(raw, Path(path).parent, faults), faults, str(path))
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
@@ -290,6 +291,7 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     """
     paths = [Path(file) for file in files]
     faults = [fault for path in paths for fault in read_file(path)[1]]
+    config = _with_discs(config, paths[-1].parent if paths else Path(), faults)
     return _with_more_faults(config, faults, ", ".join(map(_shown_path, paths)) or "study")
 
 
@@ -322,6 +324,25 @@ def _with_more_faults(raw: Any, more: Sequence[str], source: str) -> Study:
     if more:
         raise StudyError(*more, source=source)
     return study
+
+
+def _with_discs(raw: Any, folder: Path, faults: list[str], place: tuple[str, ...] = ()) -> Any:
+    """A file's content with discs in the place of the names of their tables, which are relative to the folder.
+
+    So the content of a table, and not its name, decides what is computed anew.
+    """
+    if not isinstance(raw, Mapping):
+        return raw
+    made = {}
+    for key, value in raw.items():
+        if key == "disc" and isinstance(value, str) and place[-1:] in (("base",), ("parameters",)):
+            try:
+                made[key] = read_disc(folder / value).model_dump(mode="json", exclude_none=True)
+            except ParameterError as error:
+                faults += [Fault((*place, "disc"), "", str(fault)).in_file for fault in error.faults]
+        else:
+            made[key] = _with_discs(value, folder, faults, (*place, str(key)))
+    return made
 
 
 def _shown_path(path: Path) -> str:
