@@ -282,10 +282,9 @@ class _Course:
 
 def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:
     """Whether the slider rests on the disc, for good, or comes to steady sliding; None if that is not shown."""
-    stick, slip, *_ = shares(leg)
-    if stick == 1 and never_pulls(p):
+    if shares(leg)[0] == 1 and never_pulls(p):
         return Outcome.RESTING
-    return Outcome.SLIDING if slip == 1 and nears_sliding(p, leg.final_state, tol) else None
+    return Outcome.SLIDING if nears_sliding(p, leg.final_state, tol) else None
 
 
 def growing(changes: Sequence[float]) -> bool:
