@@ -225,6 +225,7 @@ SHOWN = {
     "h": Shown("Thickness", "h", "mm", 1e3),
     "nu": Shown("Poisson's ratio", "ν", ""),
     "rho": Shown("Density", "ρ", "kg/m³"),
+    "damping_ratio": Shown("Damping ratio of the disc's modes", "ζ", ""),
     "contact_compliance": Shown("Contact compliance C", "", "μm/N", 1e6),
     "kick_u": Shown("Kick", "", "mm", 1e3),
     "kick_u_velocity": Shown("Kick", "", "m/s"),

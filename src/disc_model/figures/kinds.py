@@ -207,7 +207,7 @@ class RegionMap(StabilityMap):
         """As of any map; and curves over speed and preload lie in that plane only."""
         yield from super().faults(values)
         if "curves" in self.others and (self.x, self.y) != ("Omega", "N"):
-            yield Fault(("others", "curves"), self.others["curves"], "needs x: Omega and y: N")
+            yield Fault.of(("others", "curves"), self.others["curves"], "needs x: Omega and y: N")
 
 
 class CriticalSpeed(Plot):
@@ -251,9 +251,10 @@ class GrowthMap(Plot):
 
 
 class Bifurcation(Plot):
-    """Samples once a turn against a parameter.
+    """Samples once a turn against a parameter, and after how many switches the motion repeats.
 
     scale : of the variable, 1e3 for mrad or mm
+    paper : cases of the paper by name, each with its value of x
     """
 
     drawn_by = "grids.bifurcation.draw"
@@ -264,6 +265,7 @@ class Bifurcation(Plot):
     x: str
     variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
     scale: Number = 1.0e3
+    paper: dict[str, Number] = Field({})
 
 
 class BasinShares(Plot):

@@ -67,6 +67,16 @@ def test_a_diagram_of_any_variable_has_its_unit() -> None:
     assert angle.get_ylabel() == "Angle ψ (mrad)"
 
 
+def test_a_diagram_looked_like_chaos_where_the_motion_repeats() -> None:
+    """Nearly all points are periodic, after 21 to 259 switches; nothing said so, nor where the paper's cases lie."""
+    samples, _ = made_up_samples()
+    samples["period"] = ("N", [2, 0, 45])
+    above, below = draw("bifurcation", samples, x="N", paper={"F2": 1.0, "F7": 3.0}).axes
+    assert below.lines[0].get_xydata().tolist() == [[1, 2], [3, 45]]
+    assert list(lines(below)["not shown to repeat"].get_xdata()) == [2]
+    assert [text.get_text() for text in above.texts] == ["F2", "F7"]
+
+
 # ---- basins
 
 QUIET, APART = (

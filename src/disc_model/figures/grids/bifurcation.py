@@ -21,6 +21,8 @@ SWITCHES = {"stick": "at release of stick", "separation": "at loss of contact"}
 """What samples at switches are called, by the phase that ends or begins there."""
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
 """Colours of the exponents, the largest first: none that of a phase."""
+HEIGHTS = {"samples": 2.4, "period": 0.9, "lyapunov": 1.4}
+"""Of the panels, inch."""
 ERRORS = 4
 """Of an exponent, in half of the band about it."""
 
@@ -36,8 +38,10 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     study = study.transpose(plot.x, "sample", ...)
     options = json.loads(study.attrs.get("options", "{}"))
     names = SWITCHES if options.get("section") == "switch" else {}
-    figure = new_figure(PAGE, 4.5 if "lyapunov" in others else 3.1)
-    axes = figure.subplots(2 if "lyapunov" in others else 1, 1, sharex=True, squeeze=False)[:, 0]
+    below = ["period"] * ("period" in study) + ["lyapunov"] * ("lyapunov" in others)
+    heights = [HEIGHTS[name] for name in ("samples", *below)]
+    figure = new_figure(PAGE, sum(heights) + 0.7)
+    axes = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
     ax = axes[0]
     xlabel, factor = parts.axis_of(plot.x)
     along, values = study[plot.x].values * factor, study[plot.variable].values * plot.scale
@@ -63,15 +67,37 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(xlabel)
     ax.set_ylabel(f"{parts.axis_of(plot.variable)[0].rpartition(' (')[0]} ({prefix}{unit.replace(' s-1', '/s')})")
-    if "lyapunov" in others:
-        exponents = parts.without_failed(others["lyapunov"], "exponent", "exponent_error")
-        _exponents(axes[1], exponents, plot.x)
+    for one, name in zip(axes[1:], below, strict=True):
+        if name == "period":
+            _period(one, along[~lost], study["period"].values[~lost])
+        else:
+            _exponents(one, parts.without_failed(others["lyapunov"], "exponent", "exponent_error"), plot.x)
+    for one, letter in zip(axes, "abc", strict=False):
+        for i, (case, value) in enumerate(plot.paper.items()):
+            one.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
+            if one is ax:  # the first to the left of its line, the next to the right
+                side = 2 * (-1) ** (i + 1)
+                parts.say(ax, case, (value * factor, 0), (side, 2), xycoords=("data", "axes fraction"), fontsize=7)
+        if below:
+            parts.letter(one, letter)
     for handle in parts.legend_above(ax).legend_handles:  # dots of the diagram are too small for it
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
     parts.head(figure, study, plot.title)
     figure.supxlabel(_start(options), fontsize=7, x=1, ha="right")
     return figure
+
+
+def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
+    """After how many switches the motion repeats; crosses at the foot where that is not shown."""
+    repeats = period > 0
+    ax.plot(along[repeats], period[repeats], ".", color=BLACK, markersize=3)
+    ax.set_yscale("log")
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.set_ylabel("Period\n(switches)")
+    parts.mark_failed(ax, along[~repeats], name="not shown to repeat")
+    if not repeats.all():
+        parts.legend_above(ax)
 
 
 def _start(options: Mapping[str, Any]) -> str:
