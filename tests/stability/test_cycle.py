@@ -264,9 +264,13 @@ def test_attractors_are_those_that_are_stable():
 @pytest.mark.slow
 @COMPILED
 def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed: int) -> None:
-    """Under all laws of contact. Two steps of differences say how good these are: near a graze they are not."""
+    """Under all laws of contact. Two steps of differences say how good these are: near a graze they are not.
+
+    Where friction does not fall, stick may last for no time, and the map has a corner.
+    """
     rng, sure = np.random.default_rng(seed), 0
-    cycles = (floquet(p) for p in (drawn_case(rng) for _ in range(200)) if p.n_diameters >= 0)
+    cases = (drawn_case(rng) for _ in range(200))
+    cycles = (floquet(p) for p in cases if p.n_diameters >= 0 and p.mu_s > p.mu_k)
     for found in (cycle for cycle in cycles if cycle.status is CycleStatus.OK):
         map_, how = ReturnMap(found.parameters), {"releases": found.releases}
         x = map_.point(found.state)
