@@ -74,6 +74,7 @@ SEPARATING = 5.0
 """How long a motion is followed for its history, beyond where its fate was known, s."""
 MOST_CYCLES = 4
 """Cycles carried from point to point, at most."""
+GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
 CALM = (Outcome.QUIET, Outcome.SLIDING, Outcome.RESTING)
 
 
@@ -153,12 +154,11 @@ class _Tile:
                 self.outcome((i, j))
 
     def outcome(self, place: Place) -> str:
-        """Of the published start at a point, worked out once; another cycle counts as growth for the cells around."""
+        """Of the published start at a point, worked out once."""
         if place not in self.fates:
             self.fates[place] = self._fate(place)
         found = self.fates[place]
-        word = found.outcome if isinstance(found, Reached) else None
-        return Outcome.GROWING if word is Outcome.OTHER_CYCLE else word or "failed"
+        return found.word if isinstance(found, Reached) else "failed"
 
     def _fate(self, place: Place) -> Reached | Exception:
         point, start = self.points[place[0]][place[1]], self.starts[place]
@@ -193,7 +193,7 @@ class _Tile:
         outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
-        if len(outcomes) == 1 and (outcomes != {Outcome.GROWING} or side <= max(1, self.options.coarse // 2)):
+        if len(outcomes) == 1 and (not outcomes <= GROWN or side <= max(1, self.options.coarse // 2)):
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
             if side <= FINE:
