@@ -15,9 +15,6 @@ from disc_model.stability import cycle as cycle_module
 from disc_model.stability.branch import CycleProblem, Lost, Steps
 from disc_model.stability.continuation import (
     BORDER,
-    _next_on_border,
-    _OnCurve,
-    _Ways,
     continue_border,
     continue_cycle,
 )
@@ -110,17 +107,6 @@ def test_a_singular_matrix_is_no_convergence():
         problem.correct(z, np.zeros((2, 5)), np.ones(2))
 
 
-def test_a_corrector_without_gradient_is_lost(monkeypatch):
-    """F = 0, test = 0 and the plane then leave a direction free."""
-    problem = CycleProblem(P, ("Omega", "N"), None, 1e-12)
-    point = problem.evaluate(problem.unknowns(cycle_at(15, 300)))
-    along = problem.tangents(point)[0]
-    ways = _Ways(along, np.zeros(5), np.zeros(5, complex))
-    monkeypatch.setattr(continuation, "_ways", lambda *_: ways)
-    with pytest.raises(Lost, match="its matrix is singular"):
-        _next_on_border(problem, lambda _, former: (1e-3, former), _OnCurve(point, along, 1j, ways), 1e-3)
-
-
 def test_the_neutral_curve_is_the_ellipse():
     curve = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX)
     assert curve.ended == "the curve is closed"
@@ -155,12 +141,6 @@ def test_a_curve_without_direction_is_refused_and_no_inner_error_escapes():
     """On the ellipse, but in parameters that change nothing: this used to end in an error of the package's inside."""
     with pytest.raises(ParameterError, match="does not depend on the parameters"):
         continue_border("neutral", P.replace(Omega=14, c=1), ("c", "k"), {"c": (0, 9), "k": (0, 1e6)})
-
-
-@pytest.mark.parametrize("names", [("Omega",), ("Omega", "Omega"), ("Omega", "rho")])
-def test_parameters_that_cannot_be_free_are_refused(names):
-    with pytest.raises(ParameterError, match="must be 2 of Omega, N"):
-        continue_border("neutral", P, names, BOX)
 
 
 def test_all_curves_of_a_plane_are_found_once():

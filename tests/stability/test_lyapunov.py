@@ -209,23 +209,6 @@ def exponents_of(jacobians: Iterable[np.ndarray], count: int) -> np.ndarray:
     return lyapunov._summary(LyapunovStatus.OK, half, 1.0, count, np.zeros(16), None, False).exponents
 
 
-@pytest.mark.slow
-def test_exponents_of_random_linear_maps_are_those_of_their_eigenvalues(seed: int):
-    """Some of them are 0, which no direction survives."""
-    rng = np.random.default_rng(seed)
-    for _ in range(200):
-        n = int(rng.integers(2, 9))
-        left = int(rng.integers(1, n + 1))
-        rates = np.cumsum(rng.uniform(0.2, 0.8, left)) - 2.0
-        matrix = np.zeros((n, n))
-        matrix[:left] = np.triu(rng.normal(size=(left, n)), 1)
-        matrix[range(left), range(left)] = rng.choice([-1, 1], left) * np.exp(rng.permutation(rates))
-        q, _ = np.linalg.qr(rng.normal(size=(n, n)))
-        found = exponents_of([q @ matrix @ q.T] * 400, n)
-        # what is left of columns that turn as exp(-0.2 i) from step 200 on, and rounding
-        np.testing.assert_allclose(found, np.append(rates[::-1], [-np.inf] * (n - left)), atol=1e-6)
-
-
 def henon(steps: int) -> Iterator[np.ndarray]:
     """x -> 1 - 1.4 x^2 + y, y -> 0.3 x."""
     x, y = 0.1, 0.1

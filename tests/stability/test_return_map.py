@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, simulate
-from disc_model.stability.return_map import RETURNED, Counts, Flight, ReturnMap, _solve, newton
+from disc_model.stability.return_map import RETURNED, Counts, Flight, ReturnMap, newton
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.test_variational import check_derivatives, differences
 from tests.references.printed import Printed
@@ -85,20 +85,6 @@ def test_the_section_is_where_stick_is_released():
     assert events["kind"][0] == "stick_to_slip"
     with pytest.raises(ValueError, match="must be one of Omega, N"):
         ReturnMap(p, parameters=("rho",))
-
-
-def test_a_singular_step_is_the_shortest():
-    matrix = np.diag([2.0, 0.0])
-    np.testing.assert_allclose(_solve(matrix, np.array([4.0, 0.0])), [2.0, 0.0])
-
-
-def test_the_map_is_iterated_until_it_does_not_return(monkeypatch):
-    toy = Affine([[0.5, 0.0], [0.0, 0.5]], [1.0, 1.0], lost_at=(3,))
-    monkeypatch.setattr(ReturnMap, "evaluate", lambda self, x, **_: toy.evaluate(x))
-    one, two = ReturnMap(P).returns(np.zeros(2), 5)
-    assert toy.calls == 3
-    assert np.all(one == 1)
-    assert np.all(two > 1)
 
 
 @pytest.mark.compiled
