@@ -9,10 +9,12 @@ import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import cycle, product
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
+import yaml
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
@@ -24,63 +26,18 @@ from matplotlib.ticker import NullFormatter, NullLocator
 
 from disc_model.data.variables import said_values
 from disc_model.figures import parts
-from disc_model.figures.parts import (
-    BLACK,
-    BLUE,
-    BROWN,
-    GREEN,
-    GREY,
-    ORANGE,
-    PAGE,
-    PURPLE,
-    SKY,
-    VERMILION,
-    halo,
-    new_figure,
-)
+from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, new_figure
 
-TITLES = {
-    "stick_slip": "Stick-slip, first second",
-    "separating": "Separating, 54.4 to 55.4 s",
-    "many_modes": "Many modes, l up to 12",
-    "rigid": r"Rigid disc, $E = 10^{20}$ Pa",
-}
-WORDS = {
-    "converged": "converged",
-    "inaccurate": "inaccurate (> 1 μs)",
-    "wrong_events": "events missed or invented",
-    "unstable": "unstable",
-    "gave_up": "gave up",
-    "not_run": "not run",
-}
-"""What verdicts are called, by number."""
-_HALO = halo()
-SHADES = ("#08519C", "#9ECAE1", "#F6B23C", "#B2182B", "#555555", "#FFFFFF")
-ANSWER_SHADES = ("#08519C", "#B2182B", "#D9D9D9")
-ANSWER_WORDS = ("right", "wrong, without a warning", "no answer")
-SETTING_LABELS = {"tol": "Tolerance", "step": "Step (s)", "epsilon": r"$\epsilon$ (rad/s)"}
-PRICED = {"tol": "tol {}", "step": "step {} s", "epsilon": "ε {} rad/s"}
-"""A setting as a cell of prices has room for it."""
-ERRORS = {"event": "Event-time error (s)", "state": "State error (energy norm)"}
-LINES = {
-    "series": (VERMILION, "o", "-"),
-    "series-fewest": (VERMILION, "X", "-."),
-    "RK4": (BLACK, "s", "-"),
-    "RK45": (SKY, "v", "-"),
-    "DOP853": (BLUE, "^", "-"),
-    "DOP853-numpy": (BLUE, "^", "--"),
-    "LSODA": (GREEN, "D", "-"),
-    "Radau": (PURPLE, "p", "-"),
-    "regularised": (ORANGE, "h", "-"),
-    "heyoka": (BROWN, "*", "-"),
-    "heyoka-unguarded": (BROWN, "X", "--"),
-    "CVODE": (GREY, "<", "-"),
-    "CVODE-BDF": (GREY, ">", "--"),
-    "cycle": (VERMILION, "P", "--"),
-    "rigid": (BLACK, "$n$", ":"),
-    "residual": (BLACK, "$n$", "--"),
-}
+_TEXTS = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
+TITLES: dict[str, str] = _TEXTS["titles"]
+WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]
+"""What verdicts are called, by number, and their shades."""
+ANSWERED: dict[str, tuple[str, str]] = _TEXTS["answered"]
+SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
+ERRORS: dict[str, str] = _TEXTS["errors"]
+LINES = {name: (getattr(parts, colour), *look) for name, (colour, *look) in _TEXTS["lines"].items()}
 """Colour, marker and line style of each method, and of lines that are no method's."""
+_HALO = halo()
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -191,23 +148,8 @@ def _method_handles(part: xr.Dataset) -> list[Line2D]:
 # ----------------------------------------------------------------------------------------------------
 # What each answer costs
 
-ANSWERS = {
-    "first_separation": "First separation, error (s)",
-    "separation_rate": "Separations per second, error (1/s)",
-    "disc_range": "Range of the disc, error (m)",
-    "onset": "Speed of onset, error (rad/s)",
-    "growth_rate": "Growth rate, error (1/s)",
-    "region": "Share of cells judged wrong",
-}
-HEADS = {
-    "first_separation": "First\nseparation",
-    "separation_rate": "Separations\nper second",
-    "disc_range": "Range of\nthe disc",
-    "period": "Period in\nreleases",
-    "onset": "Speed of\nonset",
-    "growth_rate": "Growth\nrate",
-    "region": "Region,\n32 x 32 cells",
-}
+ANSWERS: dict[str, str] = _TEXTS["answers"]
+HEADS: dict[str, str] = _TEXTS["heads"]
 RIGHT, WRONG, NO_ANSWER = range(3)
 MODELS = ("rigid", "residual")
 _ENOUGH = "#E4F1E4"
@@ -316,7 +258,7 @@ def _price(ax: Axes, part: xr.Dataset, column: int, row: int, colors: Colormap, 
         best = np.flatnonzero(right)[np.argmin(seconds[right])]
         face = colors(norm(seconds[best]))
         ink = "white" if seconds[best] > 3.0 else BLACK
-        said = PRICED[str(part["varies"].values[best])].format(_power(setting[best]))
+        said = SETTINGS[str(part["varies"].values[best])][1].format(_power(setting[best]))
         texts = [(_seconds(seconds[best]), 6.5, ink), (said, 6.0, ink)]
         if wrong.any():
             texts.append((f"wrong at {wrong.sum()}", 6.0, _RED))
@@ -343,11 +285,11 @@ def _seconds(value: float) -> str:
 
 def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: verdict over setting and number of modes, with what explains the borders."""
-    figure, axes = _map_panels(maps, SHADES, row=1.45, more=0.75)
+    figure, axes = _map_panels(maps, WORDS, row=1.45, more=0.75)
     for ax, dataset in zip(axes, maps, strict=True):
         _map_borders(ax, dataset)
     used = {int(verdict) for dataset in maps for verdict in np.unique(dataset["verdict"])}
-    handles: list[Any] = _verdict_patches({SHADES[i]: [*WORDS.values()][i] for i in sorted(used)})
+    handles: list[Any] = _verdict_patches([*WORDS.values()][i] for i in sorted(used))
     handles += [
         Line2D([], [], color=BLACK, linewidth=1.4, label=r"RK4: $h\,\omega_{max} = 2\sqrt{2}$"),
         Line2D([], [], color=BLACK, linestyle=":", linewidth=1.4, label="longest step = shortest phase"),
@@ -359,24 +301,26 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
 
 def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel a method: whether it finds the first separation, over setting and number of modes."""
-    figure, _ = _map_panels(maps, ANSWER_SHADES, row=1.35, more=0.4)
-    handles = _verdict_patches(dict(zip(ANSWER_SHADES, ANSWER_WORDS, strict=True)))
+    figure, _ = _map_panels(maps, ANSWERED, row=1.35, more=0.4)
+    handles = _verdict_patches(ANSWERED.values())
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
 
-def _map_panels(maps: Sequence[xr.Dataset], shades: Sequence[str], **size: float) -> tuple[Figure, list[Axes]]:
+def _map_panels(
+    maps: Sequence[xr.Dataset], verdicts: Mapping[str, tuple[str, str]], **size: float
+) -> tuple[Figure, list[Axes]]:
     figure, axes = _panels(len(maps), "Real modes", columns=4, **size)
     for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
-        _verdict_cells(ax, dataset, shades)
+        _verdict_cells(ax, dataset, [shade for _, shade in verdicts.values()])
         suffix = ", contact" if dataset.attrs.get("scene") == "stick_slip" else ""
         parts.letter(ax, letter, f"{dataset.attrs['label']}{suffix}", fontsize=7)
     return figure, axes
 
 
-def _verdict_patches(words: Mapping[str, str]) -> list[Patch]:
+def _verdict_patches(verdicts: Iterable[tuple[str, str]]) -> list[Patch]:
     """For legends: what shades of cells stand for."""
-    return [Patch(facecolor=shade, edgecolor=GREY, label=word) for shade, word in words.items()]
+    return [Patch(facecolor=shade, edgecolor=GREY, label=word) for word, shade in verdicts]
 
 
 def _map_borders(ax: Axes, dataset: xr.Dataset) -> None:
@@ -402,7 +346,7 @@ def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None
     ax.set_xscale("log")
     ax.set_xlim(edges[-1], edges[0])
     ax.set_yticks(np.arange(dataset.sizes["diameters"]), [f"{int(n)}" for n in dataset["modes"].values])
-    ax.set_xlabel(SETTING_LABELS[dataset.attrs["setting"]], labelpad=1)
+    ax.set_xlabel(SETTINGS[dataset.attrs["setting"]][0], labelpad=1)
 
 
 def _steps_line(ax: Axes, x: np.ndarray, linestyle: str) -> None:
@@ -441,28 +385,8 @@ _LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
 """Colour and marker of each line."""
 Panels = Sequence[tuple[str, str, bool]]
 """Of eight panels: the variable, its name, and whether its scale is logarithmic."""
-_PANELS: Panels = (
-    ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
-    ("growth_rate", "Growth rate (1/s)", False),
-    ("first_separation", "First separation (s)", False),
-    ("force_swing", "Contact-force range,\nno separation (N)", False),
-    ("compliance", r"$S_2$ (1/kg)", True),
-    ("impact_share", "Velocity change per\nclosing velocity", True),
-    ("separations", "Separations per second", True),
-    ("cost", "Wall time per\nsimulated second", True),
-)
 FAR = 25.0
 """Per cent by which first separations differ, at most, to be shown to scale."""
-_CONTACT_PANELS: Panels = (
-    ("frequency_error", "Coupled frequencies,\nlargest relative error", True),
-    ("growth_rate", "Growth rate (1/s)", False),
-    ("late", "First separation, later than\nconverged (%); arrows: more", False),
-    ("cost", "Cost before it, s of\nprocessor per s", True),
-    ("separations", "After it: separations\nper second", True),
-    ("separated_share", "Share of the time apart", False),
-    ("u_range", "Range of the slider's\nheight (mm)", False),
-    ("force_max_separating", "Greatest contact\nforce (N)", True),
-)
 
 
 def contact_truncation(dataset: xr.Dataset) -> Figure:
@@ -480,7 +404,7 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
         for i, look in zip(range(part.sizes["case"]), cycle(_LOOKS))
         for contact in ("residual", "rigid")
     ]
-    figure, axes = _against_modes(lines, _CONTACT_PANELS, (1, 3, 10, 30, 100))
+    figure, axes = _against_modes(lines, _TEXTS["contact_truncation"], (1, 3, 10, 30, 100))
     for ax in axes.values():
         ax.autoscale(False)
     axes["late"].set_ylim(-FAR, FAR)
@@ -523,7 +447,7 @@ def truncation(dataset: xr.Dataset) -> Figure:
         for i in range(part.sizes["normalization"])
         for j, look in zip(range(part.sizes["circles"]), cycle(_LOOKS))
     ]
-    figure, axes = _against_modes(lines, _PANELS, (3, 10, 30))
+    figure, axes = _against_modes(lines, _TEXTS["truncation"], (3, 10, 30))
     _cut(axes["first_separation"], part["first_separation"].values)
     for name, ticks in (("impact_share", (0.05, 0.1, 0.2, 0.5)), ("separations", (20, 50, 100, 200))):
         axes[name].set_yticks(ticks, [f"{tick:g}" for tick in ticks])
