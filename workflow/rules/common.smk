@@ -216,7 +216,7 @@ def merge_plan(study):
     plan = {
         "batches": sorted(GRIDS[study].batches),
         "grid": GRIDS[study].grid,
-        "attrs": {"study": study, "title": GRIDS[study].title},
+        "attrs": GRIDS[study].attrs,
     }
     return json.dumps(plan, sort_keys=True, ensure_ascii=False)
 

@@ -71,7 +71,7 @@ KINDS = {
     # grids, with a quantity each
     "compute_batch": Kind("point"),
     "compute_motions": Kind("point case studies.grids.motions"),
-    "merge_batches": Kind("point studies.grids.merge studies.grids.summaries analysis.sobol"),
+    "merge_batches": Kind("point studies.rules studies.grids.merge studies.grids.summaries analysis.sobol"),
     "outcome": Kind("point settled studies.grids.quantities.outcome"),
     "regions": Kind("point settled stability.resonances studies.grids.quantities.regions"),
     "critical_speed": Kind("point settled studies.grids.quantities.critical_speed"),

@@ -158,6 +158,8 @@ WITHOUT_CYCLE = {
     "at_rest": "sticks",
 }
 """What a point without a stick-slip cycle is called in tables and figures, by its status."""
+EXCLUDED = "excluded"
+"""What flags say at points that a grid's rule leaves out; other variables have no value there."""
 SAMPLE = "sample"
 """The dimension of a grid along which distributed parameters are drawn, by number."""
 _CF_UNITS = {

@@ -20,7 +20,7 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import SHOWN, WITHOUT_CYCLE, axis_of, flag_names, said_values, typeset
+from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, said_values, typeset
 from disc_model.figures import STYLE
 from disc_model.figures.kinds import CasePlot, OwnFigure, Plot
 
@@ -161,7 +161,7 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
 def flags_of(variable: xr.DataArray) -> list[str]:
     """What the values of a flag stand for; of other variables nothing."""
     words = variable.attrs.get("flag_meanings", "").split()
-    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words]
+    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if word != EXCLUDED]
 
 
 def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.DataArray:
@@ -169,6 +169,14 @@ def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.Da
     words = {dim: value for dim, value in at.items() if isinstance(value, str)}
     numbers = {dim: value for dim, value in at.items() if not isinstance(value, str)}
     return study[name].sel(words).sel(numbers, method="nearest").squeeze()
+
+
+def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray | None:
+    """Which points the study's rule leaves out, `picked`; None if it has no rule."""
+    if EXCLUDED not in study["status"].attrs.get("flag_meanings", ""):
+        return None
+    status = picked(study, "status", {dim: value for dim, value in at.items() if dim in study["status"].dims})
+    return status.copy(data=flag_names(status) == EXCLUDED)
 
 
 def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) -> dict[str, xr.DataArray]:
@@ -179,6 +187,7 @@ def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) 
     status = picked(study, "status", {dim: value for dim, value in at.items() if dim in study["status"].dims})
     words = status.copy(data=flag_names(status))
     names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {"ok": "no value"}
+    names.pop(EXCLUDED, None)
     each = {name: gone & words.isin([word for word in names if names[word] == name]) for name in names.values()}
     return {name: there for name, there in each.items() if there.any()}
 

@@ -58,6 +58,7 @@ from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters
 from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.studies.modes import to_text
+from disc_model.studies.rules import names_in
 from disc_model.truncation import (
     CHOSEN_BY,
     FREQUENCIES,
@@ -908,6 +909,11 @@ def _resolution(value: Any) -> int:
     return number
 
 
+def _rule_of_grid(text: str) -> str:
+    names_in(text)
+    return text
+
+
 class Document(Strict):
     """A grid, named cases, or both, and figures of either: docs/studies.md.
 
@@ -919,6 +925,7 @@ class Document(Strict):
     claims : whether the paper's statements and tables are to be checked against the cases
     quantity, options : of a grid, what is computed at each point
     axes, zip, starts : what varies, and how motions may start
+    where : rules between values, such as mu_k <= mu_s; points that break one are left out
     batch : how points are gathered into jobs
     studies : further files of grid studies, * stands for any part of a name
     overrides : by name, what is laid over one of those files
@@ -936,6 +943,12 @@ class Document(Strict):
     quantity: Annotated[str | None, WithJsonSchema({"enum": list(QUANTITIES)})] = None
     options: Annotated[Any, WithJsonSchema({"type": "object"})] = None
     axes: Columns = Columns()
+    where: Annotated[
+        tuple[Annotated[str, AfterValidator(_rule_of_grid)], ...],
+        BeforeValidator(
+            lambda said: (said,) if isinstance(said, str) else said, json_schema_input_type=str | list[str]
+        ),
+    ] = ()
     zip: Zip = Columns()
     batch: BatchSpec = BatchSpec()
     starts: dict[StartName, Start] = Field({})

@@ -64,11 +64,12 @@ from disc_model.studies.document import (
     blocks_of,
 )
 from disc_model.studies.grids.summaries import summary_of
+from disc_model.studies.rules import holds, names_in
 from disc_model.truncation import FREQUENCIES, asked_modes
 
 TAKEN = ("compiled", "bench")
 """Folders of results that no study may have."""
-GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "batch", "starts"})
+GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts"})
 """What a study file says of a grid alone."""
 REQUIRED = ("N", "Omega")
 """Parameters without a base value."""
@@ -533,11 +534,15 @@ class Dimension:
         return Dimension(self.names, (values,))
 
 
-def points(dims: Sequence[Dimension]) -> Iterator[dict[str, Value]]:
-    """What varies, by name, at every point of a grid."""
+def points(
+    dims: Sequence[Dimension], where: Sequence[str] = (), base: Mapping[str, Any] | None = None
+) -> Iterator[dict[str, Value]]:
+    """What varies, by name, at every point of a grid, and at which the rules hold."""
     names = [name for dim in dims for name in dim.names]
     for point in product(*(dim.values for dim in dims)):
-        yield dict(zip(names, chain.from_iterable(point), strict=True))
+        found = dict(zip(names, chain.from_iterable(point), strict=True))
+        if not where or holds(where, {**(base or {}), **found}):
+            yield found
 
 
 def n_points(dims: Sequence[Dimension]) -> int:
@@ -587,6 +592,7 @@ class GridStudy:
     batches: Mapping[str, str]
     plots: Mapping[str, Plot]
     motions: Mapping[str, str]
+    where: tuple[str, ...] = ()
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -613,8 +619,14 @@ class GridStudy:
 
     @property
     def n_points(self) -> int:
-        """Number of points of the grid."""
-        return n_points(self.dims)
+        """Number of points of the grid that are not left out."""
+        return sum(1 for _ in points(self.dims, self.where, self.base)) if self.where else n_points(self.dims)
+
+    @property
+    def attrs(self) -> dict[str, str]:
+        """What the merged dataset says of the study."""
+        said = {"study": self.name, "title": self.title}
+        return said | ({"where": " and ".join(f"({rule})" for rule in self.where)} if self.where else {})
 
     @property
     def doubts(self) -> Iterator[str]:
@@ -623,7 +635,8 @@ class GridStudy:
         for rule in RULES.values():
             dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]
             looked_at = [dim.thinned(round(LOOKED_AT ** (1 / len(dims)))) for dim in dims]
-            cases = [base | next(points(self.dims)) | point for point in points(looked_at)]
+            first = next(points(self.dims, self.where, base))
+            cases = [base | first | point for point in points(looked_at, self.where, base | first)] or [base | first]
             found = [
                 text
                 for case in cases
@@ -670,6 +683,8 @@ class _Grid:
         self._check_starts()
         self._check_truncation()
         if self.right:
+            self._check_where()
+        if self.right:
             self._check_points()
         if self.right and isinstance(self.options, SensitivityOptions):
             self._check_distributions(self.options)
@@ -679,7 +694,8 @@ class _Grid:
         if self.faults or self.quantity is None or self.options is None:
             return None
         document, quantity = self.document, str(self.document.quantity)
-        first = {name: value for name, value in next(points(self.dims)).items() if name in Parameters.model_fields}
+        point = next(points(self.dims, document.where, self.base))
+        first = {name: value for name, value in point.items() if name in Parameters.model_fields}
         unused = {name: 0.0 for name in self.quantity.scanned(self.options) if name in REQUIRED}
         base = Parameters(**{**unused, **self.base, **first}).canonical | self.automatic
         base = {name: value for name, value in base.items() if name not in first}
@@ -691,10 +707,19 @@ class _Grid:
             if isinstance(plot, RegionMap)
             for mark in plot.marks.values()
         ]
-        cut = Cut(quantity, document.options, base, self.starts)
+        cut = Cut(quantity, document.options, base, self.starts, document.where)
         batches, motions = cut.batches(self.dims, document.batch, sampled), cut.motions(self.dims)
         return GridStudy(
-            document.study, document.title, quantity, self.options, base, self.dims, batches, self.plots, motions
+            document.study,
+            document.title,
+            quantity,
+            self.options,
+            base,
+            self.dims,
+            batches,
+            self.plots,
+            motions,
+            document.where,
         )
 
     # ---- what the file says
@@ -824,11 +849,29 @@ class _Grid:
         for path in given:
             self.add(path, f"is chosen for each point, since base.n_diameters is {AUTO!r}")
 
+    def _check_where(self) -> None:
+        """Rules of the file itself: they compare what a point has, and leave some points."""
+        where = self.document.where
+        known = {**Parameters.model_fields, **dict.fromkeys(name for dim in self.dims for name in dim.names)}
+        for rule in where:
+            for name in sorted(names_in(rule) - known.keys()):
+                self.add(
+                    ("where",), f"{name} is no value of a point{suggestion(name, [*known], all_of_them=False)}", rule
+                )
+        if where and self.right and next(points(self._needed(()), where, self.base), None) is None:
+            self.add(("where",), "leaves no point")
+
+    def _needed(self, names: Iterable[str]) -> list[Dimension]:
+        """Dimensions of some names, and of those that the file's rules compare."""
+        wanted = {*names, *chain(*map(names_in, self.document.where))}
+        return [dim for dim in self.dims if not wanted.isdisjoint(dim.names)]
+
     def _check_points(self) -> None:
         """Rules between parameters of which some vary, each where it is broken first."""
-        related = [dim for dim in self.dims if not set(RELATED).isdisjoint(dim.names)]
+        related = self._needed(RELATED)
         varied = [name for dim in related for name in dim.names]
-        found = (fault for point in points(related) for fault in cross_faults(Parameters, {**self.base, **point}))
+        every = points(related, self.document.where, self.base)
+        found = (fault for point in every for fault in cross_faults(Parameters, {**self.base, **point}))
         self.faults += [
             fault.inside(("axes" if fault.path[0] in varied else "base",)) for fault in first_of_each(found)
         ]
@@ -858,8 +901,8 @@ class _Grid:
     def _out_of_reach(self, options: SensitivityOptions, dims: Sequence[Dimension]) -> Iterator[str]:
         """Rules that ends of the distributions break at any point; those between parameters hold if all corners do."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
-        wanted = [dim for dim in dims if not {*options.distributions, *RELATED}.isdisjoint(dim.names)]
-        for point in points(wanted):
+        wanted = [dim for dim in self._needed([*options.distributions, *RELATED]) if dim in dims]
+        for point in points(wanted, self.document.where, self.base):
             here = {**self.base, **point}
             ends: dict[str, list[float]] = {}
             for name, given in options.distributions.items():
@@ -928,6 +971,7 @@ class Cut:
     options: Strict
     base: Mapping[str, Any]
     starts: Mapping[str, Start]
+    where: Sequence[str] = ()
 
     def batches(
         self, dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
@@ -955,8 +999,19 @@ class Cut:
             "base": self.base,
             "names": [name for dim in dims for name in dim.names],
         }
-        texts = [canonical_json({**shared, **self._used(shared["names"], part["points"]), **part}) for part in parts]
+        kept = (part | {"points": self._kept(shared["names"], part["points"])} for part in parts)
+        texts = [
+            canonical_json(shared | self._used(shared["names"], part["points"]) | part)
+            for part in kept
+            if part["points"]
+        ]
         return {content_key(text): text for text in texts}
+
+    def _kept(self, names: Sequence[str], points: list[list[Value]]) -> list[list[Value]]:
+        """The points at which the rules hold."""
+        if not self.where:
+            return points
+        return [point for point in points if holds(self.where, {**self.base, **dict(zip(names, point, strict=True))})]
 
     def _used(self, names: Sequence[str], points: Sequence[Sequence[Value]]) -> dict[str, Any]:
         """The starts that points name, if they do."""

@@ -30,7 +30,7 @@ def test_every_parameter_may_vary(name: str) -> None:
     values = {"N": [1, 2], "Omega": [1, 2], "n_diameters": [1, 2], "n_circles": [0, 1], "a": [0.02, 0.03]}
     values = (values | {"damping_ratio": [0.01, 0.02]}).get(name)
     values = values or (
-        [field.default] if isinstance(field.default, str) else [field.default, 0.9 * (field.default or 0.1)]
+        [field.default] if isinstance(field.default, str) else [field.default or 0.2, 0.9 * (field.default or 0.1)]
     )
     base = {other: 1 for other in ("N", "Omega") if other != name} | ({"mu_k": 0.1} if name == "mu_s" else {})
     study = parsed(base=base | ({"r_0": 0.05} if name == "b" else {}), axes={name: values})

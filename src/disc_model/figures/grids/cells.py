@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from disc_model.data.variables import WITHOUT_CYCLE, flag_names
+from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
 from disc_model.figures.parts import BLACK, GREY, SEPARATED, label_of
 
 Array = NDArray[np.float64]
@@ -160,6 +160,7 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
     if "status" in data:
         status = words_of(data, "status", x, y)
         words = np.array([WITHOUT.get(word, "failed") for word in status.flat], dtype="<U16").reshape(rate.shape)
+        words[status == EXCLUDED] = ""
     if "sliding_growth_rate" in data:
         # steady sliding that grows is no motion to stay in
         grows = ~(data["sliding_growth_rate"].transpose(y, x).values < 0)

@@ -32,6 +32,9 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> 
     Growth rates have the colours of all growth maps; what has both signs is centred on 0.
     """
     found = parts.picked(study, plot.variable, plot.at)
+    left_out = parts.excluded(study, plot.at)
+    if left_out is not None:
+        found = found.where(~left_out)
     by = next((str(name) for name in found.dims if name not in (plot.x, plot.y)), None)
     panels = parts.slices(found, by)
     figure = new_figure(PAGE if len(panels) > 1 else COLUMN * 1.2, 2.9)
@@ -44,6 +47,9 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> 
         colours = _colours(found, plot)
         for ax, (_, panel) in zip(axes, panels, strict=True):
             mesh = _panel(ax, panel, plot, colours)
+        if left_out is not None:
+            for ax, (_, panel) in zip(axes, parts.slices(left_out, by), strict=False):
+                _empty(ax, panel, plot)
         bar = figure.colorbar(mesh, ax=axes, pad=0.01, aspect=30)
         bar.set_label(parts.label_of(found)[0])
         if words := parts.flags_of(found):
@@ -81,6 +87,14 @@ def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | No
         for axis, name in plot.axes.items():
             ax.set(**{f"{axis}scale": "log" if scale_of(name, data[name].values) == "log" else "linear"})
     return mesh, cycle_patches(words)
+
+
+def _empty(ax: Axes, left_out: xr.DataArray, plot: HeatMap) -> None:
+    """Cells that the study's rule leaves out."""
+    x, y = (left_out[name].values * parts.label_of(left_out[name])[1] for name in (plot.x, plot.y))
+    cells = left_out.transpose(plot.y, plot.x).values
+    white = ListedColormap(["white"])
+    ax.pcolormesh(x, y, np.ma.masked_where(~cells, cells), shading="nearest", rasterized=True, cmap=white)
 
 
 def _panel(ax: Axes, panel: xr.DataArray, plot: HeatMap, colours: Mapping[str, Any]) -> QuadMesh:

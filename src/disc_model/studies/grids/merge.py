@@ -10,6 +10,7 @@ zip is one dimension without coordinate of its own, named after its parameters, 
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, product
 from typing import Any
@@ -18,11 +19,12 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, agreed, json_attribute
-from disc_model.data.variables import WITHOUT_CYCLE, flag_names
+from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
 from disc_model.errors import DiscModelError
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.run import POINT, describe
 from disc_model.studies.grids.summaries import summarised
+from disc_model.studies.rules import holds
 
 
 class MergeError(DiscModelError):
@@ -53,15 +55,17 @@ def merge_batches(
     except ValueError as error:
         raise MergeError(f"the batches do not fit together: {error}") from None
     names = [name for dim in grid for name in dim["names"]]
-    place = _places(flat, grid, names)
+    base, where = _common(batches, names), attrs.get("where", "")
+    place = _places(flat, grid, names, [where] * bool(where), json.loads(base["base"]))
     sizes = {"_".join(dim["names"]): len(dim["values"]) for dim in grid}
     data = {}
     for name, variable in flat.data_vars.items():
-        values = variable.values[place].reshape(*sizes.values(), *variable.shape[1:])
-        data[name] = xr.Variable((*sizes, *map(str, variable.dims[1:])), values, variable.attrs)
+        found = _with_excluded(variable) if (place < 0).any() else variable.variable
+        values = found.values[place].reshape(*sizes.values(), *variable.shape[1:])
+        data[name] = xr.Variable((*sizes, *map(str, variable.dims[1:])), values, found.attrs)
     coords = dict(_coordinates(grid)) | {name: flat[name] for name in flat.coords if name not in names}
     merged = xr.Dataset(data, coords)
-    merged.attrs = {"Conventions": CONVENTIONS, **attrs, **_common(batches, names)}
+    merged.attrs = {"Conventions": CONVENTIONS, **attrs, **base}
     return summarised(merged, str(merged.attrs["quantity"]), json.loads(str(merged.attrs["options"])))
 
 
@@ -70,7 +74,7 @@ def failures(study: xr.Dataset) -> Iterator[str]:
     status = flag_names(study["status"])
     varied = [name for name in study.coords if set(study[name].dims) <= set(study["status"].dims)]
     failed = np.isin(status, STATUSES[1:])
-    others = ~failed & ((status != "ok") | (study["message"].values != ""))
+    others = ~failed & (status != EXCLUDED) & ((status != "ok") | (study["message"].values != ""))
     for index in (*np.argwhere(failed), *np.argwhere(others)):
         place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
         point = study.isel(place)
@@ -80,19 +84,38 @@ def failures(study: xr.Dataset) -> Iterator[str]:
         yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"
 
 
-def _places(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]], names: Sequence[str]) -> np.ndarray:
-    """Row of each point of the grid, in the order of the grid, last dimension fastest."""
+def _with_excluded(variable: xr.DataArray) -> xr.Variable:
+    """A variable along the points with one more: it has no value, and a flag has a word of its own."""
+    attrs = dict(variable.attrs)
+    none: Any = math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0
+    if "flag_meanings" in attrs:
+        words = [*attrs["flag_meanings"].split(), EXCLUDED]
+        none = len(words) - 1
+        attrs |= {"flag_meanings": " ".join(words), "flag_values": np.arange(len(words), dtype=np.int8)}
+    more = np.full((1, *variable.shape[1:]), none, dtype=variable.dtype)
+    return xr.Variable(variable.dims, np.concatenate([variable.values, more]), attrs)
+
+
+def _places(
+    flat: xr.Dataset,
+    grid: Sequence[Mapping[str, Any]],
+    names: Sequence[str],
+    where: Sequence[str],
+    base: Mapping[str, Any],
+) -> np.ndarray:
+    """Row of each point of the grid, in the order of the grid, last dimension fastest; -1 of what rules leave out."""
     rows: dict[tuple[Any, ...], int] = {}
     for row, point in enumerate(zip(*(flat[name].values.tolist() for name in names), strict=True)):
         if point in rows:
             raise MergeError(f"there twice: {dict(zip(names, point, strict=True))}")
         rows[point] = row
     points = [tuple(chain.from_iterable(point)) for point in product(*(dim["values"] for dim in grid))]
-    if missing := [point for point in points if point not in rows]:
+    kept = [point for point in points if not where or holds(where, {**base, **dict(zip(names, point, strict=True))})]
+    if missing := [point for point in kept if point not in rows]:
         raise MergeError(f"missing: {dict(zip(names, missing[0], strict=True))} and {len(missing) - 1} more")
-    if len(points) != len(rows):
-        raise MergeError(f"{len(rows) - len(points)} points do not belong to the grid")
-    return np.array([rows[point] for point in points])
+    if len(kept) != len(rows):
+        raise MergeError(f"{len(rows) - len(kept)} points do not belong to the grid")
+    return np.array([rows.get(point, -1) for point in points])
 
 
 def _coordinates(grid: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, xr.Variable]]:

@@ -1,0 +1,104 @@
+"""Points that a grid's own rule leaves out: not computed, recorded as excluded, drawn as empty."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import flag_names
+from disc_model.figures import parts
+from disc_model.figures.grids import heat_map
+from disc_model.studies.grids.merge import MergeError, failures, merge_batches
+from disc_model.studies.grids.run import run_batch
+from disc_model.studies.rules import holds
+from disc_model.studies.study import StudyError, parse_study
+from tests.studies.refused import faults_of, parse_grid
+
+FRICTION = {"mu_s": [0.1, 0.2, 0.3], "mu_k": [0.1, 0.2, 0.3]}
+
+
+def raw(**changes: Any) -> dict[str, Any]:
+    base = {"N": 200, "Omega": 20, "n_diameters": 1}
+    return {"study": "s", "quantity": "floquet", "base": base, "axes": FRICTION, "where": "mu_k <= mu_s"} | changes
+
+
+def points(said: dict[str, Any]) -> list[list[Any]]:
+    return [point for text in parse_grid(said).batches.values() for point in json.loads(text)["points"]]
+
+
+def test_points_that_break_the_rule_are_not_computed() -> None:
+    grid = parse_grid(raw())
+    assert points(raw()) == [[s, k] for s in FRICTION["mu_s"] for k in FRICTION["mu_k"] if k <= s]
+    assert (grid.n_points, grid.attrs["where"]) == (6, "(mu_k <= mu_s)")
+    assert not list(grid.doubts)
+    assert "must be <= mu_s" in faults_of(parse_study, raw(where=[]))[0]
+
+
+def test_a_rule_that_all_points_keep_changes_no_batch() -> None:
+    said = raw(axes={"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2]})
+    assert parse_grid(said).batches == parse_grid(said | {"where": []}).batches
+    assert (
+        parse_grid(said | {"where": ["mu_k<=mu_s", "mu_k / mu_s < 2", "h == 0.002"]}).batches
+        == parse_grid(said).batches
+    )
+
+
+def test_tiles_and_samples_keep_the_rule() -> None:
+    plane = {"quantity": "regions", "options": {"horizon": 5}, "batch": {"tile": 2}}
+    assert sorted(map(tuple, points(raw(**plane)))) == sorted(
+        (s, k) for s in FRICTION["mu_s"] for k in FRICTION["mu_k"] if k <= s
+    )
+    uncertain = {"distributions": {"k": {"distribution": "uniform", "low": 1e4, "high": 2e4}}, "samples": 2}
+    assert len(points(raw(quantity="sensitivity", options=uncertain))) == 12
+
+
+@pytest.mark.parametrize(
+    ("rule", "said"),
+    [
+        ("mu_k", "where.0 = 'mu_k': must compare values, such as mu_k <= mu_s"),
+        ("mu_k < ", "must compare values"),
+        ("__import__('os').system('true') == 0", "must compare values"),
+        ("9**9**9 > mu_k", "must compare values"),
+        ("mu_k.real < 1", "must compare values"),
+        ("(lambda: 1)() < mu_k", "must compare values"),
+        ("mu_q <= mu_s", "where = 'mu_q <= mu_s': mu_q is no value of a point, did you mean mu_s?"),
+        ("mu_s < 0", "where: leaves no point"),
+        (3, "where = 3: must be a list"),
+    ],
+)
+def test_what_is_no_rule_is_refused(rule: Any, said: str) -> None:
+    assert said in "\n".join(faults_of(parse_study, raw(where=rule)))
+
+
+def test_what_cannot_be_compared_does_not_hold() -> None:
+    assert holds(["0.5 < a/b < 2"], {"a": 1.0, "b": 1.0})
+    assert not holds(["a/b < 2"], {"a": 1.0, "b": 0.0})
+    assert not holds(["contact < 2"], {})
+    assert holds(["contact == 'separable'"], {})
+
+
+def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: Path) -> None:
+    figure = {"kind": "heat_map", "variable": "period", "x": "mu_s", "y": "mu_k"}
+    grid = parse_grid(raw(figures={"f": figure, "g": figure | {"variable": "growth_rate"}}))
+    batches = [run_batch(text) for text in grid.batches.values()]
+    study = merge_batches(batches, grid.grid, grid.attrs)
+    left_out = study["mu_k"] > study["mu_s"]
+    status = flag_names(study["status"])
+    assert ((status == "excluded") == left_out.transpose(*study["status"].dims)).all()
+    assert np.isfinite(study["period"]).equals(~left_out.transpose(*study["period"].dims))
+    assert not list(failures(study))
+    assert list(parts.gaps(study, study["period"], {})) == []
+    assert (parts.excluded(study, {}) == left_out).all()
+    for name, plot in grid.plots.items():
+        heat_map.draw(study, {}, plot).savefig(tmp_path / f"{name}.png")
+    with pytest.raises(MergeError, match="missing"):
+        merge_batches(batches, grid.grid, {})
+
+
+def test_nothing_but_rules_is_a_fault_of_a_grid() -> None:
+    with pytest.raises(StudyError, match="quantity: is required"):
+        parse_study({"study": "s", "where": "mu_k <= mu_s"})
