@@ -10,7 +10,6 @@ import math
 import numbers
 import operator
 import re
-import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -129,8 +128,11 @@ def is_number(value: object) -> bool:
         return True
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         return False
-    # a larger whole number, of which no float can be made, compares as less than infinity
-    return -sys.float_info.max <= value <= sys.float_info.max  # type: ignore[operator,no-any-return]
+    # what is beyond that range compares as less than infinity
+    try:
+        return math.isfinite(float(value)) or not -math.inf < value < math.inf  # type: ignore[operator]
+    except OverflowError:
+        return False
 
 
 def is_whole(value: object) -> TypeGuard[int]:
