@@ -10,7 +10,7 @@ import xarray as xr
 
 from disc_model.benchmarks import failure_maps
 from disc_model.benchmarks.answers import measure, modelled, questions, simulated, words
-from disc_model.benchmarks.answers.questions import SIDE, Found, Status, Verdict, verdict
+from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, AnswerVerdict, Found, verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
 from disc_model.figures import benchmark as figures
@@ -39,13 +39,13 @@ class Late(Method):
 
 def test_to_deny_what_there_is_is_wrong_and_to_give_up_is_not() -> None:
     for found, right, expected in (
-        (Found(54.45, 1.0, Status.FOUND), 54.4, Verdict.RIGHT),
-        (Found(54.6, 1.0, Status.FOUND), 54.4, Verdict.WRONG),
-        (Found(54.4, 1.0, Status.FOUND), math.nan, Verdict.WRONG),
-        (Found(math.nan, 1.0, Status.NONE), 54.4, Verdict.WRONG),
-        (Found(math.nan, 1.0, Status.NONE), math.nan, Verdict.RIGHT),
-        (Found(math.nan, 1.0, Status.TOO_SLOW), 54.4, Verdict.NO_ANSWER),
-        (Found(math.nan, 1.0, Status.UNSTABLE), math.nan, Verdict.NO_ANSWER),
+        (Found(54.45, 1.0, AnswerStatus.FOUND), 54.4, AnswerVerdict.RIGHT),
+        (Found(54.6, 1.0, AnswerStatus.FOUND), 54.4, AnswerVerdict.WRONG),
+        (Found(54.4, 1.0, AnswerStatus.FOUND), math.nan, AnswerVerdict.WRONG),
+        (Found(math.nan, 1.0, AnswerStatus.NONE), 54.4, AnswerVerdict.WRONG),
+        (Found(math.nan, 1.0, AnswerStatus.NONE), math.nan, AnswerVerdict.RIGHT),
+        (Found(math.nan, 1.0, AnswerStatus.TOO_SLOW), 54.4, AnswerVerdict.NO_ANSWER),
+        (Found(math.nan, 1.0, AnswerStatus.UNSTABLE), math.nan, AnswerVerdict.NO_ANSWER),
     ):
         assert verdict("first_separation", found, right) is expected
 
@@ -105,10 +105,10 @@ def test_the_speed_of_onset_is_bracketed() -> None:
     assert found.high - found.low <= questions.ONSET_WITHIN
     assert found.value == pytest.approx(15.0834, abs=questions.ONSET_WITHIN)
     assert found.seconds == 2 + math.ceil(math.log2(1.0 / questions.ONSET_WITHIN))
-    assert onset_of(16.0)[2:4] == (Status.NONE, "no separation at 15.6 rad/s")
-    assert onset_of(14.0)[2:4] == (Status.NONE, "a separation already at 14.6 rad/s")
-    assert onset_of(15.08, seconds=6.0).status is Status.TOO_SLOW
-    assert onset_of(16.0, outcome=Outcome.NON_FINITE).status is Status.UNSTABLE
+    assert onset_of(16.0)[2:4] == (AnswerStatus.NONE, "no separation at 15.6 rad/s")
+    assert onset_of(14.0)[2:4] == (AnswerStatus.NONE, "a separation already at 14.6 rad/s")
+    assert onset_of(15.08, seconds=6.0).status is AnswerStatus.TOO_SLOW
+    assert onset_of(16.0, outcome=Outcome.NON_FINITE).status is AnswerStatus.UNSTABLE
 
 
 def judged(wrong: int, seconds: float, budget: float = 64.0) -> Found:
@@ -129,7 +129,7 @@ def test_cells_are_drawn_where_not_all_can_be_looked_at() -> None:
     middle = (share + z * z / (2 * n)) / (1 + z * z / n)
     assert (part.low, part.high) == pytest.approx((middle - half, middle + half), rel=1e-5)
     few = judged(wrong=0, seconds=8.0)
-    assert (few.status, few.seconds) == (Status.TOO_SLOW, 8.0 * SIDE * SIDE)
+    assert (few.status, few.seconds) == (AnswerStatus.TOO_SLOW, 8.0 * SIDE * SIDE)
 
 
 def test_what_breaks_off_has_a_status_and_a_reason() -> None:
@@ -138,7 +138,7 @@ def test_what_breaks_off_has_a_status_and_a_reason() -> None:
 
     for name in simulated.ASKED:
         for found in simulated.ask(solve, name).values():
-            assert found.status is Status.STALLED
+            assert found.status is AnswerStatus.STALLED
             assert found.message == "stalled"
 
 
@@ -153,13 +153,13 @@ def dataset(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 
     def ask(model):
         count = model["n_diameters"]
-        status = Status.FOUND if count else Status.NONE
+        status = AnswerStatus.FOUND if count else AnswerStatus.NONE
         yield "first_separation", Found(51.0 + (8 - count) / 80 if count else math.nan, 0.1, status)
 
     monkeypatch.setattr(modelled, "ask", ask)
-    monkeypatch.setattr(modelled, "onset", lambda p, tol: Found(15.09 + tol, 1e-4 / tol**0.1, Status.FOUND))
+    monkeypatch.setattr(modelled, "onset", lambda p, tol: Found(15.09 + tol, 1e-4 / tol**0.1, AnswerStatus.FOUND))
     monkeypatch.setattr(
-        modelled, "growth_rate", lambda p, tol: Found(math.nan, 1e-4 / tol**0.1, Status.NONE, "no cycle")
+        modelled, "growth_rate", lambda p, tol: Found(math.nan, 1e-4 / tol**0.1, AnswerStatus.NONE, "no cycle")
     )
     monkeypatch.setattr(modelled, "RICHEST", {"n_diameters": 8})
     monkeypatch.setattr(measure, "CONTACTS", {"rigid": {}})
@@ -173,12 +173,24 @@ def column(dataset: xr.Dataset, line: str, name: str) -> list:
 
 def test_errors_of_models_are_against_the_richest_and_those_of_methods_against_the_stored(dataset: xr.Dataset) -> None:
     np.testing.assert_allclose(column(dataset, "rigid", "error"), [math.nan, 0.05, 0.0], atol=1e-12)
-    assert column(dataset, "rigid", "verdict") == [Verdict.WRONG, Verdict.RIGHT, Verdict.RIGHT]
+    assert column(dataset, "rigid", "verdict") == [AnswerVerdict.WRONG, AnswerVerdict.RIGHT, AnswerVerdict.RIGHT]
     exact = questions.reference("first_separation").value
     expected = [math.nan, 54.7 - exact, exact - 54.41, exact - 54.4001]
     np.testing.assert_allclose(column(dataset, "late", "error")[:4], expected, atol=1e-9)
-    assert column(dataset, "late", "status") == [Status.NONE, Status.FOUND, Status.FOUND, Status.FOUND, Status.TOO_SLOW]
-    words_of = [Verdict.WRONG, Verdict.WRONG, Verdict.RIGHT, Verdict.RIGHT, Verdict.NO_ANSWER]
+    assert column(dataset, "late", "status") == [
+        AnswerStatus.NONE,
+        AnswerStatus.FOUND,
+        AnswerStatus.FOUND,
+        AnswerStatus.FOUND,
+        AnswerStatus.TOO_SLOW,
+    ]
+    words_of = [
+        AnswerVerdict.WRONG,
+        AnswerVerdict.WRONG,
+        AnswerVerdict.RIGHT,
+        AnswerVerdict.RIGHT,
+        AnswerVerdict.NO_ANSWER,
+    ]
     assert column(dataset, "late", "verdict") == words_of
     assert "no cycle" in column(dataset, "cycle", "message")
 
@@ -206,7 +218,7 @@ def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(figures.LINES, "late", ("#000000", "s", "-"))
     monkeypatch.setattr(failure_maps, "_right", lambda count: 54.42 if count < 4 else math.nan)
     found = failure_maps.answer_map("late", (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))
-    right, wrong, silent = Verdict.RIGHT, Verdict.WRONG, Verdict.NO_ANSWER
+    right, wrong, silent = AnswerVerdict.RIGHT, AnswerVerdict.WRONG, AnswerVerdict.NO_ANSWER
     assert found["verdict"].values.tolist() == [
         [wrong, wrong, right, silent, silent],
         [right, wrong, wrong, *[silent] * 2],
@@ -244,5 +256,5 @@ def test_the_engine_gives_the_right_answers() -> None:
     onset = modelled.onset(questions.SEPARATING, 1e-12)
     assert onset.value == pytest.approx(15.0949, abs=5e-5)
     no_cycle = modelled.onset(questions.SEPARATING.replace(n_diameters=0), 1e-10)
-    assert no_cycle.status is Status.NONE
+    assert no_cycle.status is AnswerStatus.NONE
     assert no_cycle.message == "no fold from 14.5 to 16 rad/s"

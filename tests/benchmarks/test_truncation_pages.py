@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import pages, truncation_pages
-from disc_model.benchmarks.truncation_pages import COSTS, QUANTITIES, passages, settled, summary, text
+from disc_model.benchmarks.truncation_pages import COSTS, TABLED, passages, settled, summary, text
 
 ROOT = Path(__file__).parents[2]
 STORED = ROOT / "docs" / "contact_truncation.json"
@@ -22,7 +22,7 @@ MODES = (1.0, 9.0, 17.0, 34.0, 165.0)
 def study() -> xr.Dataset:
     """A case whose residual values have settled from nine modes on, while rigid ones go on growing."""
     rigid, residual = np.array([1.0, 2.0, 3.0, 4.0, 5.0]), np.array([1.0, 2.0, 2.001, 2.0, 2.0])
-    data = {name: (("case", "contact", "model"), np.array([[rigid, residual]])) for name in (*QUANTITIES, *COSTS)}
+    data = {name: (("case", "contact", "model"), np.array([[rigid, residual]])) for name in (*TABLED, *COSTS)}
     data["modes"] = (("case", "contact", "model"), np.broadcast_to(MODES, (1, 2, 5)).copy())
     growth = data["growth_rate"][1].copy()
     growth[..., -1] = np.nan  # too many modes
@@ -66,7 +66,7 @@ def test_a_run_comes_to_words(study: xr.Dataset) -> None:
     known = passages(run)
     rigid, residual, _, counted = known["truncation_settled"].strip().splitlines()[2:]
     assert rigid.startswith("| orthonormal, N=1 | rigid | **not** |")
-    assert residual.count("| from 9 ") == len(QUANTITIES)
+    assert residual.count("| from 9 ") == len(TABLED)
     assert counted == "Settled within 165 modes: 0 of 7 with rigid contact, 7 of 7 with residual contact."
     moving, still = known["truncation_open"].strip().splitlines()
     assert moving.startswith(

@@ -24,9 +24,7 @@ from disc_model.stability.return_map import Counts, Flight
 
 PERIOD, ANGLE = 0.015, 1.2
 ROTATION = np.array([[math.cos(ANGLE), -math.sin(ANGLE)], [math.sin(ANGLE), math.cos(ANGLE)]])
-RETURNED, LOST = (
-    next(code for code, name in floquet.OUTCOMES.items() if name == n) for n in ("returned", "lost_contact")
-)
+RETURNED, LOST = (next(code for code, name in floquet.ENDS.items() if name == n) for n in ("returned", "lost_contact"))
 
 
 def fold_at(N):

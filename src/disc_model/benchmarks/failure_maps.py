@@ -16,7 +16,7 @@ import xarray as xr
 
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.answers import simulated
-from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, Found, Status, verdict
+from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, AnswerStatus, Found, verdict
 from disc_model.benchmarks.grid import measured
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
@@ -181,10 +181,10 @@ def answer_map(
     late: set[int] = set()
 
     def measure(count: int, value: float) -> dict[str, float]:
-        found = Found(math.nan, math.nan, Status.TOO_SLOW)
+        found = Found(math.nan, math.nan, AnswerStatus.TOO_SLOW)
         if count not in late:
             found = _first_separation(simulated.by(own, value), BUDGET, count)
-        if found.status is Status.TOO_SLOW:
+        if found.status is AnswerStatus.TOO_SLOW:
             late.add(count)
         return {
             "verdict": verdict("first_separation", found, right[count]),

@@ -16,7 +16,7 @@ import xarray as xr
 
 from disc_model.benchmarks.answers import words
 from disc_model.benchmarks.answers.measure import Row
-from disc_model.benchmarks.answers.questions import QUESTIONS, Verdict
+from disc_model.benchmarks.answers.questions import QUESTIONS, AnswerVerdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED
 from disc_model.benchmarks.scenes import Verdict as EventVerdict
@@ -65,7 +65,7 @@ def _prices(found: list[Row]) -> dict[str, dict[str, Any]]:
     right = {p.line: p for p in words.cheapest_right(found)}
     table: dict[str, dict[str, Any]] = {}
     for line, label in {p.line: p.label for p in found if p.line not in words.MODELS}.items():
-        wrong = [p.setting for p in found if p.line == line and p.verdict is Verdict.WRONG]
+        wrong = [p.setting for p in found if p.line == line and p.verdict is AnswerVerdict.WRONG]
         best = right.get(line)
         table[label] = {"seconds": best.seconds if best else None, "at": best.at if best else None, "wrong": wrong}
     return table

@@ -36,7 +36,7 @@ class Asked(NamedTuple):
     digits: int
 
 
-QUANTITIES = {
+TABLED = {
     "lowest_coupled": Asked("the lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
     "growth_rate": Asked("the growth rate", "growth, 1/s", 1e-2, 1.0, 3),
     "first_separation": Asked("the first separation", "first separation, s", 1e-2, 1.0, 5),
@@ -60,7 +60,7 @@ def summary(study: xr.Dataset) -> dict[str, Any]:
     """
     counts = [int(count) for count in study["modes"].isel(case=0, contact=0).values]
     looked = sum(count <= study.attrs["most_growth"] for count in counts)
-    ends = {name: looked if name == "growth_rate" else len(counts) for name in (*QUANTITIES, *COSTS)}
+    ends = {name: looked if name == "growth_rate" else len(counts) for name in (*TABLED, *COSTS)}
     return {
         "machine": study.attrs["machine"],
         "late": json.loads(study.attrs["late"]),
@@ -114,17 +114,17 @@ def passages(run: Summary) -> dict[str, str]:
     settled_of: dict[str, list[bool]] = {}
     rows, lines = [], []
     for case, contact, values in _each(run):
-        found = {name: _known(run, values, name) for name in QUANTITIES}
-        places = {name: settled(found[name][1], asked.tolerance) for name, asked in QUANTITIES.items()}
+        found = {name: _known(run, values, name) for name in TABLED}
+        places = {name: settled(found[name][1], asked.tolerance) for name, asked in TABLED.items()}
         settled_of.setdefault(contact, []).extend(place is not None for place in places.values())
         rows.append([case, contact, *(_from_where(found[name], place) for name, place in places.items())])
         moving = [
-            {"quantity": QUANTITIES[name].title, **_moves(found[name], QUANTITIES[name])}
+            {"quantity": TABLED[name].title, **_moves(found[name], TABLED[name])}
             for name, place in places.items()
             if place is None
         ]
         lines.append({"title": _upper(case), "contact": contact, "moving": moving})
-    columns = [f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %" for asked in QUANTITIES.values()]
+    columns = [f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %" for asked in TABLED.values()]
     counts = [{"contact": name, "settled": sum(all_), "count": len(all_)} for name, all_ in settled_of.items()]
     return {
         "truncation_tables": TEXTS["truncation_tables"].fill(
@@ -146,8 +146,8 @@ def _each(run: Summary) -> Iterator[tuple[str, str, Mapping[str, Sequence[float 
 
 def _table(run: Summary, contacts: Mapping[str, Mapping[str, Sequence[float | None]]]) -> str:
     """The table of a case: a row for each model, rigid and residual in each cell."""
-    head = ["diameters, circles", "modes", *(asked.head for asked in QUANTITIES.values()), *COSTS.values()]
-    shown = [(name, asked.scale, asked.digits) for name, asked in QUANTITIES.items()]
+    head = ["diameters, circles", "modes", *(asked.head for asked in TABLED.values()), *COSTS.values()]
+    shown = [(name, asked.scale, asked.digits) for name, asked in TABLED.items()]
     shown += [(name, 1e3, 2) for name in COSTS]
     rows = []
     for i, (model, modes) in enumerate(zip(run["models"], run["modes"], strict=True)):

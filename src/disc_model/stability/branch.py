@@ -20,7 +20,7 @@ from disc_model.parameters import CYCLE_TOLERANCES, Parameters, foreign_case, is
 from disc_model.simulation.result import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
-    OUTCOMES,
+    ENDS,
     PARAMETERS,
     PATIENT,
     RETURNED,
@@ -109,7 +109,7 @@ class CycleProblem:
         releases = self.order.releases if self.order else 1
         flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=self.order is not None)
         if flight.outcome != RETURNED:
-            raise Lost(f"the motion does not return: {OUTCOMES[flight.outcome]}")
+            raise Lost(f"the motion does not return: {ENDS[flight.outcome]}")
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)

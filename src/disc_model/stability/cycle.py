@@ -16,7 +16,7 @@ from disc_model.parameters import CYCLE_TOLERANCES, Parameters, is_whole, limits
 from disc_model.progress import compiling
 from disc_model.simulation.result import State, is_finite_array
 from disc_model.stability.return_map import (
-    OUTCOMES,
+    ENDS,
     PATIENT,
     RETURNED,
     Array,
@@ -188,11 +188,11 @@ def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-1
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol, patience=PATIENT)
     outcome, x = map_.next_release(near)
-    if OUTCOMES[outcome] == "time_over":
+    if ENDS[outcome] == "time_over":
         waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
         return _none(p, tol, CycleStatus.NO_STICK_SLIP, waited)
     if outcome != RETURNED:
-        ended = f"the motion from the given state does not return: {OUTCOMES[outcome]}"
+        ended = f"the motion from the given state does not return: {ENDS[outcome]}"
         return _none(p, tol, CycleStatus.NO_CYCLE, ended)
     found = newton(map_, x, tol=tol, releases=releases, may_separate=True)
     if found is None:
@@ -254,7 +254,7 @@ def _said(flight: Flight) -> tuple[CycleStatus, str]:
         "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
         "paradox": (CycleStatus.PARADOX, "the motion from the published start runs into Painleve's paradox"),
     }
-    return said[OUTCOMES[flight.outcome]]
+    return said[ENDS[flight.outcome]]
 
 
 def _counted(counts: Counts) -> str:

@@ -21,7 +21,7 @@ from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faul
 from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
-from disc_model.stability.return_map import OUTCOMES, Array, case_faults, longest_step
+from disc_model.stability.return_map import ENDS, Array, case_faults, longest_step
 
 
 class LyapunovStatus(StatusBase):
@@ -157,7 +157,7 @@ def lyapunov_exponents(
             t.log[:] = 0.0
         code = variational.fly(model, series, state, t, course)
         if code != outcomes.TIME_OVER or not np.all(np.isfinite(columns)):
-            status = LyapunovStatus.NON_FINITE if code == outcomes.TIME_OVER else LyapunovStatus(OUTCOMES[code])
+            status = LyapunovStatus.NON_FINITE if code == outcomes.TIME_OVER else LyapunovStatus(ENDS[code])
             break
         _bind(model, state, t)
         growth, left = _orthonormalise(columns, rows, metric, left, vanished)

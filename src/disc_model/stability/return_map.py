@@ -42,7 +42,7 @@ USUAL_RATE = 1.25
 """Times that of the disc's highest frequency: so fast a rate, as of all published cases, needs no shorter steps."""
 
 RETURNED = outcomes.RETURNED
-OUTCOMES = {
+ENDS = {
     outcomes.RETURNED: "returned",
     outcomes.TIME_OVER: "time_over",
     outcomes.NO_SOLUTION: "paradox",

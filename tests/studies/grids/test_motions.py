@@ -13,7 +13,7 @@ from disc_model.simulation.api import published_start, simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.stability.cycle import floquet
 from disc_model.studies.document import QUANTITIES, OutcomeOptions
-from disc_model.studies.grids.motions import CYCLES, LONGEST, SAMPLES, cycle_length, run_motions
+from disc_model.studies.grids.motions import CYCLES_SHOWN, LONGEST, SAMPLES, cycle_length, run_motions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import outcome
 from disc_model.studies.study import Dimension, module_of
@@ -64,7 +64,7 @@ def test_a_history_of_the_cycle_repeats():
     for i, N in enumerate((200.0, 300.0)):
         cycle = floquet(Parameters(N=N, Omega=20))
         # one release a period, counted over half a second in which the unstable cycle hardly grows
-        assert float(found["length"][i]) == pytest.approx(CYCLES * cycle.period, rel=1e-6)
+        assert float(found["length"][i]) == pytest.approx(CYCLES_SHOWN * cycle.period, rel=1e-6)
         # begins and ends at a release, where P jumps a little; all move by much more in between
         for name, most in (("P", 1e-2), ("u", 1e-3), ("psi", 1e-3)):
             values = found[name].values[i]

@@ -19,7 +19,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks.answers import modelled, questions, simulated
-from disc_model.benchmarks.answers.questions import Found, Status, Verdict, verdict
+from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict, Found, verdict
 from disc_model.benchmarks.machine import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
@@ -49,10 +49,10 @@ class Row(NamedTuple):
     setting: float
     right: float
     error: float
-    verdict: Verdict
+    verdict: AnswerVerdict
     found: float
     seconds: float
-    status: Status
+    status: AnswerStatus
     message: str
     low: float
     high: float
@@ -73,7 +73,7 @@ class Row(NamedTuple):
     @property
     def says(self) -> str:
         """The answer in words."""
-        return f"{self.found:.6g}" if self.status is Status.FOUND else self.became
+        return f"{self.found:.6g}" if self.status is AnswerStatus.FOUND else self.became
 
 
 @one_core()
@@ -128,7 +128,7 @@ def _of_method(name: str, values: Sequence[float], asked: Sequence[str]) -> Iter
                 continue
             for answer, found in simulated.ask(simulated.by(METHODS[name], value), question).items():
                 yield _row(answer, name, value, questions.reference(answer).value, found)
-                if found.status is Status.TOO_SLOW:
+                if found.status is AnswerStatus.TOO_SLOW:
                     hopeless.add(question)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.benchmarks.answers import questions, simulated
-from disc_model.benchmarks.answers.questions import SIDE, Found, Status
+from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, Found
 from disc_model.benchmarks.answers.simulated import found
 from disc_model.benchmarks.methods import METHODS
 from disc_model.errors import ParameterError
@@ -54,7 +54,7 @@ def after_separation(p: Parameters) -> simulated.Answers:
     """As `simulated.after_separation`, from where the motion of this model gets to."""
     start = _settled(p)
     if start is None:
-        nothing = Found(math.nan, math.nan, Status.NONE, f"no separation within {SETTLES_WITHIN:g} s")
+        nothing = Found(math.nan, math.nan, AnswerStatus.NONE, f"no separation within {SETTLES_WITHIN:g} s")
         return dict.fromkeys(("separation_rate", "disc_range", "period"), nothing)
     return simulated.after_separation(solve, NEVER, p, start)
 

@@ -77,7 +77,7 @@ QUESTIONS: Mapping[str, Question] = {
 the growth rate five)."""
 
 
-class Status(enum.IntEnum):
+class AnswerStatus(enum.IntEnum):
     """What became of a question."""
 
     FOUND = 0
@@ -88,10 +88,10 @@ class Status(enum.IntEnum):
     FAILED = 5
 
 
-STATUS_WORDS = tuple(status.name.lower() for status in Status)
+STATUS_WORDS = tuple(status.name.lower() for status in AnswerStatus)
 
 
-class Verdict(enum.IntEnum):
+class AnswerVerdict(enum.IntEnum):
     """Whether the answer can be believed; a wrong one comes without a warning."""
 
     RIGHT = 0
@@ -99,7 +99,7 @@ class Verdict(enum.IntEnum):
     NO_ANSWER = 2
 
 
-VERDICT_WORDS = tuple(verdict.name.lower() for verdict in Verdict)
+VERDICT_WORDS = tuple(verdict.name.lower() for verdict in AnswerVerdict)
 
 
 class Found(NamedTuple):
@@ -107,20 +107,20 @@ class Found(NamedTuple):
 
     value: float
     seconds: float
-    status: Status
+    status: AnswerStatus
     message: str = ""
     low: float = math.nan
     high: float = math.nan
     cells: int = 0
 
 
-def verdict(question: str, found: Found, right: float) -> Verdict:
+def verdict(question: str, found: Found, right: float) -> AnswerVerdict:
     """To say that there is nothing where there is something is wrong; to give up is not."""
-    if found.status is Status.NONE:
-        return Verdict.RIGHT if math.isnan(right) else Verdict.WRONG
-    if found.status is not Status.FOUND:
-        return Verdict.NO_ANSWER
-    return Verdict.RIGHT if abs(found.value - right) <= QUESTIONS[question].enough else Verdict.WRONG
+    if found.status is AnswerStatus.NONE:
+        return AnswerVerdict.RIGHT if math.isnan(right) else AnswerVerdict.WRONG
+    if found.status is not AnswerStatus.FOUND:
+        return AnswerVerdict.NO_ANSWER
+    return AnswerVerdict.RIGHT if abs(found.value - right) <= QUESTIONS[question].enough else AnswerVerdict.WRONG
 
 
 # ----------------------------------------------------------------------------------------------------

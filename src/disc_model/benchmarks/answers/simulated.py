@@ -17,7 +17,7 @@ from scipy.signal import find_peaks
 from disc_model.analysis.classify import shortest_period
 from disc_model.analysis.sobol import share
 from disc_model.benchmarks.answers import questions
-from disc_model.benchmarks.answers.questions import SIDE, Found, Status
+from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, Found
 from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import published_start
@@ -53,7 +53,7 @@ class Broken(Exception):
     def __init__(self, result: MethodResult) -> None:
         super().__init__(result.message or f"{result.outcome}")
         name = result.outcome.name
-        self.status = Status["UNSTABLE" if name == "NON_FINITE" else name]
+        self.status = AnswerStatus["UNSTABLE" if name == "NON_FINITE" else name]
 
     def found(self, seconds: float) -> Found:
         """No answer, and why."""
@@ -124,15 +124,15 @@ def onset(solve: Solve, budget: float, within: float = questions.ONSET_WITHIN) -
     low, high = questions.ONSET_BETWEEN
     try:
         if not separates(high):
-            return {"onset": Found(math.nan, used, Status.NONE, f"no separation at {high:g} rad/s")}
+            return {"onset": Found(math.nan, used, AnswerStatus.NONE, f"no separation at {high:g} rad/s")}
         if separates(low):
-            return {"onset": Found(math.nan, used, Status.NONE, f"a separation already at {low:g} rad/s")}
+            return {"onset": Found(math.nan, used, AnswerStatus.NONE, f"a separation already at {low:g} rad/s")}
         while high - low > within:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if separates(middle) else (middle, high)
     except Broken as broken:
         return {"onset": broken.found(used)._replace(low=low, high=high)}
-    return {"onset": Found(0.5 * (low + high), used, Status.FOUND, "", low, high)}
+    return {"onset": Found(0.5 * (low + high), used, AnswerStatus.FOUND, "", low, high)}
 
 
 def growth_rate(solve: Solve, budget: float) -> Answers:
@@ -209,7 +209,7 @@ def judged(
         count = min(most, 2 ** int(math.log2(max(1.0, budget / max(each, 1e-9)))))
         if count < FEWEST:
             why = f"{each:.3g} s a cell"
-            return Found(math.nan, each * len(places), Status.TOO_SLOW, why, cells=TRIED)
+            return Found(math.nan, each * len(places), AnswerStatus.TOO_SLOW, why, cells=TRIED)
         verdicts += [judge(int(place)) for place in places[TRIED:count]]
     except Broken as broken:
         return broken.found(sum(s for _, s in verdicts))._replace(cells=len(verdicts))
@@ -219,7 +219,7 @@ def judged(
     if count < len(places):
         _, low, high = share(int(wrong), count)
     seconds = sum(s for _, s in verdicts) / count * len(places)
-    return Found(part, seconds, Status.FOUND, "", low, high, count)
+    return Found(part, seconds, AnswerStatus.FOUND, "", low, high, count)
 
 
 def cell(solve: Solve, p: Parameters, budget: float) -> tuple[bool, float]:
@@ -255,8 +255,8 @@ def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult,
 def found(value: float, seconds: float, missing: str) -> Found:
     """An answer; where it is nan, ``missing`` says why."""
     if math.isfinite(value):
-        return Found(float(value), seconds, Status.FOUND)
-    return Found(math.nan, seconds, Status.NONE, missing)
+        return Found(float(value), seconds, AnswerStatus.FOUND)
+    return Found(math.nan, seconds, AnswerStatus.NONE, missing)
 
 
 def _times(result: MethodResult, kind: str) -> Array:

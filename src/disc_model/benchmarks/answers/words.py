@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import xarray as xr
 
 from disc_model.benchmarks.answers.measure import Row
-from disc_model.benchmarks.answers.questions import Status, Verdict
+from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict
 from disc_model.benchmarks.texts import TEXTS
 from disc_model.data.dataset import markdown_table
 
@@ -20,12 +20,12 @@ def points(dataset: xr.Dataset, question: str) -> list[Row]:
     """The rows of a question, in the order in which they were measured."""
     part = dataset[[*Row._fields]].isel(row=dataset["answer"].values == question)
     rows = [Row(*row) for row in part.to_dataframe().itertuples(index=False)]
-    return [row._replace(status=Status(row.status), verdict=Verdict(row.verdict)) for row in rows]
+    return [row._replace(status=AnswerStatus(row.status), verdict=AnswerVerdict(row.verdict)) for row in rows]
 
 
 def cheapest_right(found: Sequence[Row]) -> list[Row]:
     """Of every line the point that is right and costs least, cheapest line first; models are left out."""
-    right = [p for p in found if p.verdict is Verdict.RIGHT and p.line not in MODELS]
+    right = [p for p in found if p.verdict is AnswerVerdict.RIGHT and p.line not in MODELS]
     best: dict[str, Row] = {}
     for point in sorted(right, key=lambda p: p.seconds):
         best.setdefault(point.line, point)
@@ -36,12 +36,12 @@ def sentence(dataset: xr.Dataset, question: str) -> str:
     """Which method answers a question rightly at what price, which wrongly, and which not at all."""
     own, found = json.loads(dataset.attrs["questions"])[question], points(dataset, question)
     methods = [p for p in found if p.line not in MODELS]
-    answered = {p.line for p in methods if p.verdict is not Verdict.NO_ANSWER}
+    answered = {p.line for p in methods if p.verdict is not AnswerVerdict.NO_ANSWER}
     return TEXTS["answer"].fill(
         enough=own["enough"],
         unit="" if own["units"] == "1" else f" {_unit(own['units'])}",
         right=[{"label": p.label, "at": p.at, "time": _time(p)} for p in cheapest_right(found)],
-        wrong=[{"label": p.label, "at": p.at, "says": p.says} for p in methods if p.verdict is Verdict.WRONG],
+        wrong=[{"label": p.label, "at": p.at, "says": p.says} for p in methods if p.verdict is AnswerVerdict.WRONG],
         silent=[{"label": label} for label in dict.fromkeys(p.label for p in methods if p.line not in answered)],
         models=[
             {"model": model, "which": _enough(line)}
@@ -53,7 +53,7 @@ def sentence(dataset: xr.Dataset, question: str) -> str:
 
 def _enough(model: Sequence[Row]) -> str:
     """How many nodal diameters of a model do."""
-    right = "; ".join(f"{p.setting:.0f}" for p in model if p.verdict is Verdict.RIGHT)
+    right = "; ".join(f"{p.setting:.0f}" for p in model if p.verdict is AnswerVerdict.RIGHT)
     most = max(p.setting for p in model)
     return f"right with {right} nodal diameters" if right else f"with no number of nodal diameters up to {most:.0f}"
 

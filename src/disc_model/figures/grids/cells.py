@@ -36,7 +36,7 @@ class Look(NamedTuple):
 
 HATCH = 8 * "/"
 """So dense that a cell of a fiftieth of a panel has two lines."""
-OUTCOMES = {
+OUTCOME_LOOKS = {
     "quiet": Look("stays quiet", "#e9eef2"),
     "sliding": Look("slides steadily", "#e4dcec"),
     "resting": Look("rests on the disc", "#dcebe1"),
@@ -46,7 +46,7 @@ OUTCOMES = {
     "undecided": Look("undecided", "#a98b6d"),
     "failed": Look("failed", "#333333"),
 }
-CYCLES = {
+CYCLE_LOOKS = {
     "slides": Look(WITHOUT_CYCLE["no_stick_slip"], "#d9cfe3"),
     "sticks": Look(WITHOUT_CYCLE["at_rest"], "#cfe3d6"),
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae"),
@@ -147,12 +147,12 @@ def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
     edges, words = edges_of(data, x, y), cycles_of(data, x, y)
     shown = np.ma.masked_where(~np.isin(words, ["", "alone"]), data["growth_rate"].transpose(y, x).values)
     mesh = ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=growth_norm(), rasterized=True)
-    fill(ax, edges, words, CYCLES)
+    fill(ax, edges, words, CYCLE_LOOKS)
     return mesh
 
 
 def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
-    """What there is where no cycle is followed, a key of `CYCLES`, "alone" or "": shape (len(y), len(x))."""
+    """What there is where no cycle is followed, a key of `CYCLE_LOOKS`, "alone" or "": shape (len(y), len(x))."""
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
         return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y))
@@ -185,7 +185,7 @@ def alone(rate: Array) -> NDArray[np.bool_]:
 
 def cycle_patches(words: Collection[str]) -> list[Patch]:
     """For legends: what there is where no cycle is followed, and what is hatched."""
-    return [patch(look) for name, look in CYCLES.items() if name in words]
+    return [patch(look) for name, look in CYCLE_LOOKS.items() if name in words]
 
 
 def growth_bar(figure: Figure, mesh: QuadMesh, axes: list[Axes]) -> None:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import OUTCOMES, Look, edges_of, fill, paler, patch, words_of
+from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, edges_of, fill, paler, patch, words_of
 from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.kinds import CriticalSpeed, Thresholds
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PURPLE, SKY, new_figure
@@ -26,9 +26,9 @@ from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORA
 Array = NDArray[np.float64]
 
 PALER = {"other_cycle": 0.35, "growing": 0.35, "separation": 0.75}
-BEHIND = OUTCOMES | {name: paler(OUTCOMES[name], share) for name, share in PALER.items()}
+BEHIND = OUTCOME_LOOKS | {name: paler(OUTCOME_LOOKS[name], share) for name, share in PALER.items()}
 """What becomes of the published start, behind curves and marks."""
-STABLE = OUTCOMES["quiet"]._replace(label="stick-slip cycle stable; white: none is")
+STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stick-slip cycle stable; white: none is")
 LOOKS = ((ONSET, "o"), (BLUE, "^"), (SKY, "s"), (GREEN, "D"), (PURPLE, "v"))
 """Colour and marker of each horizon, the longest first."""
 WIDTH = 20.0

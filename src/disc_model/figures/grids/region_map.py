@@ -40,7 +40,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
     for column, norm in enumerate(norms):
         one = parts.of(study, norm)
         edges, words = cells.edges_of(one, plot.x, plot.y), cells.words_of(one, "outcome", plot.x, plot.y)
-        cells.fill(axes[0, column], edges, words, cells.OUTCOMES)
+        cells.fill(axes[0, column], edges, words, cells.OUTCOME_LOOKS)
         single = standing_alone(words)
         cells.fill(axes[0, column], edges, np.where(single, "here", ""), {"here": UNRESOLVED})
         hatched |= bool(single.any())
@@ -49,7 +49,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
             ax = axes[row, column]
             parts.letter(ax, "abcd"[row * len(norms) + column], "" if row else parts.MODES[norm])
             lines += _curves(ax, one, others) if "curves" in others else _borders(ax, one, plot)
-    above: list[Artist] = [cells.patch(cells.OUTCOMES[name]) for name in cells.OUTCOMES
+    above: list[Artist] = [cells.patch(cells.OUTCOME_LOOKS[name]) for name in cells.OUTCOME_LOOKS
                            if name in flag_names(study["outcome"])]  # fmt: skip
     above += [cells.patch(UNRESOLVED)] * hatched
     above += {line.get_label(): line for line in lines}.values()
@@ -115,9 +115,9 @@ def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
     for name, mark in plot.marks.items():
         here = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
         outcome, rate = str(flag_names(here["outcome"])), float(here["growth_rate"])
-        found = cells.OUTCOMES[outcome].label
+        found = cells.OUTCOME_LOOKS[outcome].label
         if outcome != mark.paper:
-            yield f"{name}: the paper says “{cells.OUTCOMES[mark.paper].label}”, the published start: {found}."
+            yield f"{name}: the paper says “{cells.OUTCOME_LOOKS[mark.paper].label}”, the published start: {found}."
         if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"

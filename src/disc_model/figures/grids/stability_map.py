@@ -19,7 +19,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import OUTCOMES, cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
+from disc_model.figures.grids.cells import OUTCOME_LOOKS, cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
 from disc_model.figures.kinds import StabilityMap
 from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure
 
@@ -59,7 +59,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
     present = set(flag_names(study["outcome"]).flat)
     look: dict[str, Any] = {"linewidth": 0.5, "edgecolor": BLACK}
     marks = [name for name in MARKS if name in present]
-    empty = [axes[0, 0].scatter([], [], label=OUTCOMES[name].label, **look, **MARKS[name]) for name in marks]
+    empty = [axes[0, 0].scatter([], [], label=OUTCOME_LOOKS[name].label, **look, **MARKS[name]) for name in marks]
     legend_below_head(figure, study, plot, [*empty, *handles])
     return figure
 
@@ -115,7 +115,7 @@ def _paper_handles(plot: StabilityMap) -> list[Artist]:
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": [withStroke(linewidth=2.4, foreground=BLACK)]}
     return [
-        Line2D([], [], marker=look["marker"], label=f"the paper: {OUTCOMES[name].label}", **ring)
+        Line2D([], [], marker=look["marker"], label=f"the paper: {OUTCOME_LOOKS[name].label}", **ring)
         for name, look in MARKS.items()
         if name in said
     ]

@@ -23,7 +23,7 @@ from disc_model.studies.grids.run import quantity_of, run_as
 
 SAMPLES = 256
 """In a history: nearly four in an oscillation of the disc's fastest mode of the paper over the longest."""
-CYCLES = 2
+CYCLES_SHOWN = 2
 """How many stick-slip cycles a history shows."""
 LONGEST = 0.05
 """Of a cycle, s, where stick lasts very long or nothing pulls the slider back."""
@@ -54,7 +54,7 @@ class Motions:
         """One history."""
         start = self.quantity.state_at(point, options).replace(time=0.0, time_low=0.0)
         p = point.parameters
-        length = CYCLES * cycle_length(p, start)
+        length = CYCLES_SHOWN * cycle_length(p, start)
         record = Record(windows=(Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length),), events=False)
         result = simulate(p, length, tol=TOLERANCE, initial_state=start, record=record).raise_for_status()
         samples = result.samples[0]

@@ -15,7 +15,7 @@ from disc_model.parameters import Parameters
 from disc_model.stability.cycle import floquet
 from disc_model.studies.document import SensitivityOptions
 from disc_model.studies.grids.merge import failures
-from disc_model.studies.grids.points import CYCLES
+from disc_model.studies.grids.points import SAMPLE_CYCLES
 from disc_model.studies.grids.quantities import sensitivity
 from disc_model.studies.grids.quantities.sensitivity import Evaluated, quantile, unit_draws, variants
 from tests.studies.grids.conftest import SMALL, computed
@@ -73,14 +73,14 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """Shares and probabilities against counting; what has no cycle is a class, and what failed widens intervals."""
 
     def function(values: dict[str, float]) -> Evaluated:
-        word = CYCLES[min(int(8 * values["c"]), 7)]
+        word = SAMPLE_CYCLES[min(int(8 * values["c"]), 7)]
         return Evaluated(word, values["c"] if word in ("stable", "unstable") else np.nan)
 
     evaluating(monkeypatch, function)
     spread = {"distribution": "uniform", "low": 0, "high": 1}
     found = computed(**study({"c": spread, "k": UNIFORM}, options={"samples": 64})).sel(N=385)
     c = found["drawn"].sel(parameter="c").values.ravel()
-    words = np.array(CYCLES)[np.minimum((8 * c).astype(int), 7)]
+    words = np.array(SAMPLE_CYCLES)[np.minimum((8 * c).astype(int), 7)]
     known = words[words != "failed"]
     assert len(known) < len(words) == 128
     assert found["n_draws"] == len(known)

@@ -21,7 +21,7 @@ from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.course import come_to
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
-from disc_model.studies.grids.points import CYCLES, DRAWS, NUMERICAL, OUTCOMES, STATUS, Point
+from disc_model.studies.grids.points import DRAWS, NUMERICAL, SAMPLE_CYCLES, SAMPLE_OUTCOMES, STATUS, Point
 
 if TYPE_CHECKING:
     from disc_model.studies.document import Distribution, SensitivityOptions
@@ -31,11 +31,11 @@ Array = NDArray[np.float64]
 COLUMNS = {
     "status": Column(*STATUS),
     "drawn": Column("", "values of the distributed parameters, SI units", dims=("draw", "parameter")),
-    "cycle": Column("1", "what there is near the published start", CYCLES, dims=("variant",)),
+    "cycle": Column("1", "what there is near the published start", SAMPLE_CYCLES, dims=("variant",)),
     "growth_rate": Column(
         "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one", dims=("variant",)
     ),
-    "outcome": Column("1", "what becomes of the published start of A within the horizon", OUTCOMES),
+    "outcome": Column("1", "what becomes of the published start of A within the horizon", SAMPLE_OUTCOMES),
     "first_separation": Column(*SCALARS["first_separation"]),
 }
 
@@ -122,7 +122,7 @@ def variants(drawn: Array) -> Array:
 
 
 class Evaluated(NamedTuple):
-    """A variant: which of `CYCLES` there is, its growth rate (1/s), and what went wrong."""
+    """A variant: which of `SAMPLE_CYCLES` there is, its growth rate (1/s), and what went wrong."""
 
     cycle: str
     growth_rate: float
@@ -144,7 +144,7 @@ def evaluate(p: Parameters, values: Mapping[str, float], tol: float) -> Evaluate
 
 
 def cycle_word(found: FloquetResult) -> str:
-    """Which of `CYCLES` it is."""
+    """Which of `SAMPLE_CYCLES` it is."""
     if found.status is CycleStatus.OK:
         return "stable" if found.stable else "unstable"
     if found.status is CycleStatus.NO_STICK_SLIP:

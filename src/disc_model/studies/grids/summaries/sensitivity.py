@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import share, sobol_intervals
 from disc_model.data.variables import SAMPLE, Column, Variable, flag_names
-from disc_model.studies.grids.points import CYCLES, DRAWS, OUTCOMES, UNSTABLE
+from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE
 
 if TYPE_CHECKING:
     from disc_model.studies.document import SensitivityOptions
@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 
 OVER = SAMPLE
 FAILED = "failed"
-FOLLOWED = tuple(word for word in OUTCOMES if word not in ("not_followed", FAILED))
-KNOWN = tuple(word for word in CYCLES if word != FAILED)
+FOLLOWED = tuple(word for word in SAMPLE_OUTCOMES if word not in ("not_followed", FAILED))
+KNOWN = tuple(word for word in SAMPLE_CYCLES if word != FAILED)
 OUTPUTS = ("instability", "growth_rate")
 """Of which indices are given: whether there is no stable motion (1, else 0), and the cycle's growth rate, capped."""
 _INDEX = ("output", "parameter")
