@@ -106,6 +106,11 @@ def one_more(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     return waves(t, *((126.1 + n * rate + m * drive(p), 1.0) for n in (-1, 0, 1) for m in (-1, 1)))
 
 
+def vertical(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
+    """As `combinations`, with the frequency of the slider on its vertical spring."""
+    return combinations(p, rate, t) + waves(t, (math.sqrt(p.k / p.m) / (2 * np.pi), 0.01))
+
+
 def split(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """One further frequency, and a line 0.15 Hz beside one of its sums with the drive's."""
     return waves(t, (rate, 0.3), (126.1, 1.0), (126.1 + drive(p) + 0.15, 0.5))

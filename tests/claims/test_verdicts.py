@@ -26,7 +26,7 @@ from tests.claims.made_up import DAMAGES, GROWING, STILL, Groups, Story, damaged
 pytestmark = pytest.mark.usefixtures("cycles_as_told")
 BY_NAME = {claim.id: claim for claim in CLAIMS}
 #: Wrong whatever the motion does: about the disc alone, misprints, and attributions that contradict Table 2.
-NEVER = {"P07", "E17", "T2c", "T2f", "T2e"}
+NEVER = {"P07", "E17", "T2c", "T2f", "T2e", "C5"}
 #: Right whatever the motion does, or about the disc alone.
 ALWAYS = {"P01", "P02", "P04", "P05", "P06", "F15b"}
 
@@ -91,6 +91,7 @@ WORLDS = {
         claims=("T2e",),
     ),
     "a slider of 70 Hz": World(some("F13", rate=70.0), claims=("T2f",)),
+    "a vertical branch": World(some("F13", signal=made_up.vertical), claims=("C5",)),
     "no separation": World(dict.fromkeys(("F02", "F09"), STILL), claims=("F15b",)),
 }
 

@@ -119,6 +119,15 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
     )
 
 
+@CHECKS("C5")
+def vertical_branch(case: CaseView, *, level: float) -> Answer:
+    vertical = float(np.sqrt(case["k"] / case["m"])) / (2 * np.pi)
+    every = measures.lines(case, *EARLY, above=0.5 * case["Omega"] / (2 * np.pi))
+    line = measures.strongest(case, measures.stretch(case, *EARLY), vertical, SEARCHED)
+    relative = line.amplitude / max(each.amplitude for each in every)
+    return Answer(relative > level, vertical=vertical, frequency=line.frequency, relative=relative)
+
+
 @CHECKS("F24")
 def three_kinds(case: CaseView, *, factor: float) -> Answer:
     spans = (EARLY, LATER, LATE)
