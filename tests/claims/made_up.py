@@ -308,7 +308,7 @@ def as_told() -> dict[str, Story]:
         "F23": GROWING.but(first=240.0, swing=math.pi),
         **_separating(F18=263, F19=51, C4cp1=40, S43kp2e4=100, S43k2e4=100, S43k3e4=200),
         **_separating(P03l5=54.4, P03l6=54.4, P03l8=54.5, P03l8c2=54.5),
-        **_separating(S43c126=700, S43c14=700, S43c145=700, S43c124=1000),
+        **_separating(S43c126=700, S43c14=700, S43c145=700, S43c124=1000, S43c125=900),
         **slow,
     }
 

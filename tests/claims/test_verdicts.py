@@ -215,6 +215,7 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
         # more modes that do not separate are a change: nan is no maximum
         ("P03", None, {}, REMARK, ""),
         ("P03", None, {"P03l6": root_with(first_separation=np.nan, n_separations=0)}, FAILS, ""),
+        ("S43c", None, {}, REMARK, "a wait of 700 to 900 s gives 12.6 rad/s"),
         # a run that ended early was taken for one without separation
         *(
             (claim, None, {"S43c11": root_with(time_reached=100.0)},

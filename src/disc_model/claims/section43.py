@@ -82,11 +82,14 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     horizon = known["first_separation"]
     lower = [speed for speed, t in scan.items() if t <= horizon and speed < printed - within]
     latest = [speed for speed, t in scan.items() if not math.isnan(t)]
+    # waits for which no speed clearly lower separates
+    first = min((t for speed, t in scan.items() if speed < printed - within and not math.isnan(t)), default=math.inf)
     return Answer(
         scan[printed] <= horizon and not lower,
         speeds=[{"Omega": speed, "time": measures.or_none(scan[speed], ".0f", " s")} for speed in sorted(scan)],
         latest=min(latest, default=math.nan),
         lower=[{"horizon": horizon, "least": min(lower)}] if lower else [],
+        exactly=[{"low": scan[printed], "high": first}] if scan[printed] < first < math.inf else [],
     )
 
 
