@@ -20,6 +20,9 @@ from disc_model.studies.grids.summaries import summary_of
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
 GRAPH = grimp.build_graph("disc_model", exclude_type_checking_imports=True)
+DATA = {".yaml", ".json", ".html", ".css", ".js", ".mplstyle"}
+"""Endings of files that are read and not imported."""
+PAPER = PACKAGE / "config" / "paper.yaml"
 ROOTS = {
     "case": ["simulation.api"],
     "modes_by_motion": ["mode_choice"],
@@ -86,4 +89,6 @@ def test_all_that_is_listed_is_there() -> None:
     for name in KINDS:
         assert source_files(name)
     assert all(import_module(f"disc_model.{name}".rstrip(".")) for name in BESIDES)
+    data = {path for path in PACKAGE.rglob("*") if path.suffix in DATA and not path.is_relative_to(PACKAGE / "engine")}
+    assert data == {path for name in KINDS for path in source_files(name) if path.suffix in DATA and path != PAPER}
     assert {name for name in QUANTITIES if summary_of(name)} == {"campbell", "sensitivity"}

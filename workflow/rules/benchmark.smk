@@ -129,7 +129,7 @@ rule draw_benchmark:
         plot=lambda wildcards: OwnFigure(
             by="benchmark.draw", options={"figure": wildcards.figure}
         ).model_dump_json(),
-        made_of=made_of("draw_figure", "figures.benchmark", "figures/benchmark.yaml"),
+        made_of=made_of("draw_figure", "draw_benchmark"),
         files=lambda wildcards, input: [f"{Path(file).stem}={file}" for file in input],
     shell:
         "job draw_figure {params.plot:q} '' {output} {params.files:q} > {log} 2>&1"

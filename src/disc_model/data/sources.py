@@ -63,6 +63,7 @@ KINDS = {
         "dataset simulation.case simulation.ramps studies.grids.points studies.grids.run studies.modes truncation"
     ),
     "figure": Kind("dataset simulation.case simulation.ramps figures.kinds figures.parts figures/disc_model.mplstyle"),
+    "catalogue": Kind("figures.paper.catalogue figures/paper/catalogue.yaml"),
     "modes_by_motion": Kind("cycle mode_choice truncation"),
     # named cases
     "simulate_case": Kind("case studies.modes truncation"),
@@ -88,10 +89,11 @@ KINDS = {
     "campbell": Kind("floquet stability.campbell studies.grids.quantities.campbell"),
     # pictures and pages; a figure's own module is named beside its kind
     "draw_figure": Kind(
-        "figure analysis figures.paper.catalogue figures.grids.cells figures.grids.growth_map "
+        "figure analysis catalogue figures.grids.cells figures.grids.growth_map "
         "figures.grids.stability_map stability.resonances"
     ),
-    "check_claims": Kind("cycle analysis claims/ data.texts figures.kinds figures.paper.catalogue config/paper.yaml"),
+    "draw_benchmark": Kind("figures.benchmark figures/benchmark.yaml"),
+    "check_claims": Kind("cycle analysis claims/ data.texts figures.kinds catalogue config/paper.yaml"),
     "compare_normalisations": Kind("check_claims"),
     "judge_survival": Kind("check_claims"),
     "make_table": Kind("check_claims"),
