@@ -348,7 +348,7 @@ def test_each_model_is_judged_by_its_own_data() -> None:
     assert verdicts.loc["Critical speed"].str.startswith(NOT_COMPUTED).all()
     page = page_of(table)
     assert [heading for heading, _, _ in page.sections] == ["At a glance", *BY_TITLE]
-    assert page.sections[0][2].shape == (len(CONCLUSIONS), 1 + len(MODELS))
+    assert page.sections[0][2].shape == (len(CONCLUSIONS), 2 + len(MODELS))
     assert "from a stable one" in page.markdown()
     assert "<h2>Onset</h2>" in page.html()
 

@@ -322,6 +322,7 @@ def page_of(table: pd.DataFrame) -> Comparison:
     texts = page_texts("survival")
     verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
     first = pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})
+    first["Place"] = [one.said.location for one in CONCLUSIONS]
     for model in MODELS:
         first[model.name[0].upper() + model.name[1:]] = verdicts[model.name].to_numpy()
     sections = [("At a glance", texts["introduction"], first)]
