@@ -59,7 +59,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
             label = names.get(name_of_phase, name_of_phase)
             ax.plot(position[here], values[here], ".", color=color, markersize=1.5, label=label)
     parts.mark_failed(ax, along[lost])
-    idle = along[(phase == -1).all(axis=1) & ~lost]
+    moving = (phase >= 0).any(axis=1)
+    idle = along[~moving & ~lost]
     if idle.size:
         low = np.full(idle.size, 0.02)
         ax.plot(idle, low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="slides steadily")
@@ -69,7 +70,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     ax.set_ylabel(f"{parts.axis_of(plot.variable)[0].rpartition(' (')[0]} ({prefix}{unit.replace(' s-1', '/s')})")
     for one, name in zip(axes[1:], below, strict=True):
         if name == "period":
-            _period(one, along[~lost], study["period"].values[~lost])
+            _period(one, along[moving], study["period"].values[moving])
         else:
             _exponents(one, parts.without_failed(others["lyapunov"], "exponent", "exponent_error"), plot.x)
     for one, letter in zip(axes, "abc", strict=False):

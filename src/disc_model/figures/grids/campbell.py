@@ -188,7 +188,7 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
         # a step so large is one to another cycle
         jumps = np.flatnonzero(np.abs(np.diff(values)) > LINEAR) + 1
         x, y = (np.insert(along, jumps, np.nan) for along in (speeds, values))
-        ax.plot(x, y, ".-", color=_colour(l), linewidth=0.8, markersize=1.5)
+        ax.plot(x, y, ".-", color=_colour(l), linewidth=0.8, markersize=1)
     ax.axhline(0, color=BLACK, linewidth=0.5)
     ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
     low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))
