@@ -88,6 +88,9 @@ RIVALS = Need(
     pip="-r requirements-bench.lock",
     modules=("heyoka", "sksundae"),
 )
+FINITE_ELEMENTS = Need(
+    "scikit-fem", "modes of a disc by finite elements", pip="-r requirements-bench.lock", modules=("skfem",)
+)
 PYTHONS = {
     version: Need(
         f"Python {version}",
@@ -97,7 +100,7 @@ PYTHONS = {
     )
     for version in ("3.11", "3.12", "3.13")
 }
-ALL = (SLURM, BROWSER, FAKETIME, ZSH, ACTIONLINT, MPMATH, RIVALS, *PYTHONS.values())
+ALL = (SLURM, BROWSER, FAKETIME, ZSH, ACTIONLINT, MPMATH, RIVALS, FINITE_ELEMENTS, *PYTHONS.values())
 
 
 def table() -> str:

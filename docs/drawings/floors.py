@@ -26,6 +26,7 @@ WHAT = {
     "simulation": "a case to a result: the engine behind one function",
     "data": "variables, datasets, whole files, provenance",
     "disc": "discs given by a table of modes",
+    "finite_elements": "modes of a solid disc from its section",
     "truncation": "how many modes frequencies need",
     "flexibility": "how far the disc gives way under the slider",
     "plate": "modes of the disc",

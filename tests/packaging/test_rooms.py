@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
             {"studies/document.py", "simulation/api.py", "plate.py", "data/dataset.py"},
             "fig02.png",
         ),
-        ("point", 22, {"studies/document.py", "studies/grids/run.py", "plate.py", "data/dataset.py"}, "batch.nc"),
+        ("point", 24, {"studies/document.py", "studies/grids/run.py", "plate.py", "data/dataset.py"}, "batch.nc"),
     ],
 )
 def test_a_way_enters_few_rooms(way: str, most: int, some: set[str], written: str, tmp_path: Path) -> None:

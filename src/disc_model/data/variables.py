@@ -267,7 +267,10 @@ def said_values(values: Mapping[str, Any]) -> str:
     for name, field in Parameters.model_fields.items():
         if name in values and name not in ("normalization", "contact"):
             value, unit = values[name], Parameters.unit(name)
-            if name in ("N", "Omega") or value != field.default:
+            if name == "disc" and value:  # a table is too long
+                frequencies = value["omega"] if isinstance(value, Mapping) else value.omega
+                said.append(f"a disc given by {len(frequencies)} modes")
+            elif name in ("N", "Omega") or value != field.default:
                 number = isinstance(value, float | int)  # some parameters may be words, which have no unit
                 shown = f"{value:g}" + (f" {unit}" if unit not in ("", "1") else "") if number else str(value)
                 said.append(f"{symbol_of(name)} = {shown}")

@@ -133,7 +133,9 @@ def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
     return shown if shown.sizes["time"] > 1 else found
 
 
-MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes"}
+GIVEN = "given"
+"""In the place of a normalization, where modes are those of a table."""
+MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", GIVEN: "modes of a table"}
 """What a panel is titled by normalization."""
 FORCES = {"vertical": "vertical contact force", "normal": "normal contact force"}
 """And by the contact force's direction."""
@@ -373,7 +375,8 @@ def normalizations(study: xr.Dataset) -> list[str]:
     """Those that a grid study has values for."""
     if "normalization" in study.coords:
         return [str(name) for name in np.atleast_1d(study["normalization"].values)]
-    return [json.loads(study.attrs["base"])["normalization"]]
+    base = json.loads(study.attrs["base"])
+    return [GIVEN if base.get("disc") else base["normalization"]]
 
 
 def of(study: xr.Dataset, normalization: str) -> xr.Dataset:

@@ -1,0 +1,176 @@
+"""Modes of an axisymmetric solid by finite elements of its section: a disc with a hat, from its drawing to a `Disc`.
+
+With u_r cos(l theta), u_z cos(l theta) and u_theta sin(l theta) the elasticity of a solid of revolution separates into
+one problem on the section for each number l of nodal diameters.  It is solved with quadratic quadrilaterals of
+scikit-fem (extra ``fe``).  The shapes are mass-normalised over the whole solid, so that the axial displacement under
+the slider is the amplitude that a `Disc` asks for.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.errors import Fault, ParameterError, broken, refuse, shown
+from disc_model.parameters import Disc, is_number
+
+if TYPE_CHECKING:
+    from skfem import MeshQuad
+
+Array = NDArray[np.float64]
+
+SEEN = 1e-6
+"""Modes whose amplitude under the slider is a smaller share of the largest move in the plane of the disc alone."""
+SAME_PLACE = 1e-9
+"""m; the slider must run through a node of the mesh."""
+
+
+def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
+    """A mesh of a section that is a union of rectangles.
+
+    Parameters
+    ----------
+    rectangles : (r from, r to, z from, z to) of each, m
+    size : m, edges of the elements at most
+
+    Returns
+    -------
+    skfem.MeshQuad
+        With a line of nodes along every edge of every rectangle.
+    """
+    mesh_type = _skfem().MeshQuad
+    given = [tuple(map(float, rectangle)) for rectangle in rectangles]
+    for i, (inner, outer, low, high) in enumerate(given):
+        if not (0 < inner < outer and low < high):
+            rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
+            raise ParameterError(Fault(("rectangles", str(i)), shown((inner, outer, low, high)), rule))
+    refuse(broken((is_number(size) and size > 0, "size", size, "must be > 0")))
+    axes = [_divided({edge for one in given for edge in one[at : at + 2]}, size) for at in (0, 2)]
+    mesh = mesh_type.init_tensor(*axes)
+    r, z = mesh.p[:, mesh.t].mean(axis=1)
+    inside = np.any([(a < r) & (r < b) & (c < z) & (z < d) for a, b, c, d in given], axis=0)
+    return mesh.remove_elements(np.flatnonzero(~inside))
+
+
+def _divided(edges: set[float], size: float) -> Array:
+    """Coordinates with every edge among them, and no gap larger than ``size``."""
+    ends = sorted(edges)
+    parts = [np.linspace(a, b, math.ceil((b - a) / size) + 1)[:-1] for a, b in itertools.pairwise(ends)]
+    return np.concatenate([*parts, ends[-1:]])
+
+
+def disc_of_section(
+    mesh: MeshQuad,
+    *,
+    E: float,
+    nu: float,
+    rho: float,
+    clamped: Callable[[Array], NDArray[np.bool_]],
+    slider: tuple[float, float],
+    highest_Hz: float,
+    damping_ratio: float = 0.0,
+) -> Disc:
+    """The modes of a solid of revolution that move under the slider.
+
+    Parameters
+    ----------
+    mesh : of the section, coordinates (r, z) in m; see `section`
+    E, nu, rho : Pa, 1 and kg/m^3
+    clamped : of coordinates of shape (2, k), which points are held
+    slider : (r, z) under it, m; a node of the mesh
+    highest_Hz : modes up to this frequency are found
+    damping_ratio : of every mode
+
+    Returns
+    -------
+    Disc
+        Modes ordered by frequency; ``circles`` counts those of as many nodal diameters.
+
+    Raises
+    ------
+    ParameterError
+        If the slider is at no node, or no mode moves under it.
+    """
+    skfem = _skfem()
+    element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
+    basis = skfem.Basis(mesh, element, intorder=6)
+    vertical = basis.split_indices()[1]
+    apart = np.hypot(*(basis.doflocs[:, vertical] - np.array(slider)[:, None]))
+    at = vertical[int(np.argmin(apart))]
+    refuse(broken((apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh")))
+    held, highest = basis.get_dofs(clamped).all(), math.tau * highest_Hz
+    found: list[tuple[float, int, int, float]] = []
+    for l in range(61):
+        omega, amplitude = _harmonic(basis, l, (E, nu, rho), held, at, highest)
+        if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
+            break
+        found += [(w, l, i, a) for i, (w, a) in enumerate(zip(omega, amplitude, strict=True))]
+    largest = max((abs(a) for *_, a in found), default=0.0)
+    kept = sorted(row for row in found if abs(row[3]) > SEEN * largest)
+    if not kept:
+        raise ParameterError(
+            Fault(("highest_Hz",), shown(highest_Hz), "must be above a mode that moves under the slider")
+        )
+    names = ("omega", "diameters", "circles", "amplitude")
+    columns = dict(zip(names, map(list, zip(*kept, strict=True)), strict=True))
+    return Disc(**columns, damping_ratio=[damping_ratio] * len(kept))
+
+
+def _harmonic(
+    basis: Any, l: int, material: tuple[float, float, float], held: Any, at: int, highest: float
+) -> tuple[Array, Array]:
+    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their amplitudes at an unknown."""
+    from scipy.sparse.linalg import eigsh
+
+    stiffness, mass = _matrices(basis, l, *material)
+    if l == 0:  # what turns about the axis moves nothing else
+        held = np.union1d(held, basis.split_indices()[2])
+    free = basis.complement_dofs(held)
+    K, M = stiffness[free][:, free].tocsc(), mass[free][:, free].tocsc()
+    count, place = 4, int(np.searchsorted(free, at))
+    if place == len(free) or free[place] != at:
+        return np.zeros(0), np.zeros(0)
+    while True:
+        squares, shapes = eigsh(K, min(count, len(free) - 1), M, sigma=0.0, v0=np.ones(len(free)))
+        if squares.max() > highest**2 or count >= len(free) - 1:
+            break
+        count *= 2
+    order = np.argsort(squares)
+    order = order[squares[order] <= highest**2]
+    amplitude = shapes[place, order]
+    return np.sqrt(squares[order]), np.abs(amplitude)
+
+
+def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any, Any]:
+    """Stiffness and mass of the solid for one harmonic."""
+    form = _skfem().BilinearForm
+    lame, shear = E * nu / ((1 + nu) * (1 - 2 * nu)), E / 2 / (1 + nu)
+    angle = math.pi if l else 2 * math.pi  # of cos^2(l theta)
+
+    def strain(u: Any, w: Any, v: Any, r: Any) -> tuple[Any, ...]:
+        """Three normal strains, then the doubled shear strains; u, w, v are u_r, u_z, u_theta."""
+        normal = (u.grad[0], w.grad[1], (u + l * v) / r)
+        return (*normal, u.grad[1] + w.grad[0], v.grad[0] - (l * u + v) / r, v.grad[1] - l * w / r)
+
+    def energy(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, at: Any) -> Any:
+        one, other = strain(u, w, v, at.x[0]), strain(u_, w_, v_, at.x[0])
+        doubled = sum((2 * shear if i < 3 else shear) * a * b for i, (a, b) in enumerate(zip(one, other, strict=True)))
+        return (lame * sum(one[:3]) * sum(other[:3]) + doubled) * at.x[0]
+
+    def inertia(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, at: Any) -> Any:
+        return rho * (u * u_ + w * w_ + v * v_) * at.x[0]
+
+    return form(energy).assemble(basis) * angle, form(inertia).assemble(basis) * angle
+
+
+def _skfem() -> Any:
+    try:
+        import skfem
+    except ModuleNotFoundError:
+        raise ModuleNotFoundError("finite elements need scikit-fem: pip install 'disc_model[fe]'") from None
+    return skfem

@@ -1,0 +1,98 @@
+"""Finite elements of a section: against the plate, and against themselves on finer meshes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import disc_model as dm
+from disc_model.finite_elements import disc_of_section, section
+from tests import needs
+
+pytestmark = needs.FINITE_ELEMENTS.mark
+
+P = dm.Parameters(N=0, Omega=0, normalization="orthonormal")
+PAGE = Path(__file__).parents[1] / "docs" / "own_disc.md"
+RING = [(0.06, 0.1, -0.005, 0.005), (0.1, 0.12, -0.005, 0.005)]
+IRON = {"E": P.E, "nu": P.nu, "rho": P.rho}
+
+
+def test_the_plate_is_confirmed() -> None:
+    """Three-dimensional elasticity of a thin annulus: Kirchhoff's theory is off by (h / wave length)^2, some 0.3 %."""
+    mesh = section([(P.a, P.r_0, -P.h / 2, P.h / 2), (P.r_0, P.b, -P.h / 2, P.h / 2)], P.h)
+    disc = disc_of_section(mesh, **IRON, clamped=lambda x: x[0] < P.a + 1e-9, slider=(P.r_0, P.h / 2), highest_Hz=1000)
+    plate = dm.plate_modes(P)
+    assert list(disc.diameters) == plate["diameters"].tolist()
+    np.testing.assert_allclose(disc.omega, plate["omega"], rtol=5e-3)
+    np.testing.assert_allclose(disc.amplitude, plate["psi"], rtol=5e-3)
+
+
+def test_finer_meshes_agree() -> None:
+    """Stress is singular at the clamped corners: halving the elements still changes frequencies by 0.6 %."""
+    found = [
+        disc_of_section(
+            section(RING, size), **IRON, clamped=lambda x: x[0] < 0.06 + 1e-9, slider=(0.1, 0.005), highest_Hz=3000
+        )
+        for size in (0.01, 0.005)
+    ]
+    assert found[0].diameters == found[1].diameters
+    np.testing.assert_allclose(found[0].omega, found[1].omega, rtol=1e-2)
+    np.testing.assert_array_less(found[1].omega, found[0].omega)  # a finer mesh is softer
+
+
+def test_a_disc_that_stands_free_has_no_motion_of_a_rigid_body_missing() -> None:
+    """The lowest mode of a fuller ring rises with its thickness, as bending does."""
+    thick = [(a, b, 2 * c, 2 * d) for a, b, c, d in RING]
+    low = [
+        disc_of_section(
+            section(one, 0.01), **IRON, clamped=lambda x: x[0] < 0.06 + 1e-9, slider=(0.1, top), highest_Hz=12000
+        ).omega[0]
+        for one, top in ((RING, 0.005), (thick, 0.01))
+    ]
+    assert 1.5 < low[1] / low[0] < 2.0  # 2 but for shear, which softens the thicker one
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"slider": (0.0999, 0.005)}, "slider=(0.0999, 0.005): must be a node of the mesh"),
+        ({"highest_Hz": 1.0}, "highest_Hz=1: must be above a mode that moves under the slider"),
+    ],
+)
+def test_what_cannot_be_found_is_said(change: dict[str, object], said: str) -> None:
+    given = IRON | {"clamped": lambda x: x[0] < 0.06 + 1e-9, "slider": (0.1, 0.005), "highest_Hz": 3000.0} | change
+    with pytest.raises(dm.ParameterError) as error:
+        disc_of_section(section(RING, 0.01), **given)
+    assert said in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("rectangles", "size", "said"),
+    [
+        ([(0.1, 0.06, 0, 1)], 0.01, "rectangles.0"),
+        (RING, 0, "size=0: must be > 0"),
+        (RING, "x", "size='x': must be > 0"),
+    ],
+)
+def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: object, said: str) -> None:
+    with pytest.raises(dm.ParameterError) as error:
+        section(rectangles, size)  # type: ignore[arg-type]
+    assert said in str(error.value)
+
+
+def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The table, the section and the case of the page, as they stand there."""
+    text = PAGE.read_text(encoding="utf-8")
+    table, first, drawing = re.findall(r"```(?:text|python)\n(.*?)```", text, re.DOTALL)
+    monkeypatch.chdir(tmp_path)
+    Path("disc.csv").write_text(table)
+    said: dict[str, object] = {}
+    exec(first + drawing, said)
+    disc = said["disc"]
+    assert isinstance(disc, dm.Disc)
+    of_table = dm.read_disc("disc.csv")
+    np.testing.assert_allclose(disc.omega[:3], of_table.omega, rtol=0.01)
+    np.testing.assert_allclose(disc.amplitude[:3], of_table.amplitude, rtol=0.01)
