@@ -37,6 +37,8 @@ class LyapunovStatus(StatusBase):
 _BLOCKS = 16
 MOST_INTERVALS = 10_000_000
 """Orthonormalisations in the time over which rates are averaged: hours of work, and 600 MB of logarithms."""
+CLEAR = 4.0
+"""An exponent is not zero if it differs from it by so many of its errors."""
 CONVERGED = 0.05, 0.002
 """An exponent has converged if the first half of the time gives the same as the second, to this share or this much in
 1/s."""
@@ -80,7 +82,7 @@ class Lyapunov:
     @property
     def chaotic(self) -> bool:
         """Whether the largest exponent is positive by more than four of its errors."""
-        return bool(self.exponents[0] > 4 * self.errors[0] and self.exponents[0] > 0)
+        return bool(self.exponents[0] > CLEAR * self.errors[0] and self.exponents[0] > 0)
 
 
 @compiling()

@@ -36,7 +36,7 @@ from disc_model.stability.attractor.near import (
     recurrence,
 )
 from disc_model.stability.cycle import may_stick_and_slip
-from disc_model.stability.lyapunov import CONVERGED, lyapunov_exponents
+from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
 from disc_model.stability.return_map import PATIENT, RETURNED, ReturnMap
 
 NEARING, SETTLING = 4, 8
@@ -47,8 +47,6 @@ STEADY = 1e-3
 """Relative change of the range over those legs that is no drift: samples of a periodic motion vary by a tenth."""
 SAME = 0.05
 """Stretches that differ by less are those of one attractor; a drift, going on as it does, may have left half of it."""
-NEUTRAL = CONVERGED[1]
-"""Largest exponents nearer to zero than this, 1/s, are zero: half a minute tells them no better."""
 SMALLEST = 1e-3
 """Ranges, over the static deflection, below which they are alike: the slider rests in height."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
@@ -233,7 +231,8 @@ class Regularity(NamedTuple):
 def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     """Of a motion from a state on, by its separations, or by its releases if it has none, and by its largest exponent.
 
-    On a torus the exponent is zero. One below zero tells of a motion that still nears a cycle: it has not settled.
+    That is the one but for the exponent along the motion. It is zero on a torus and positive in chaos. Below zero all
+    motions nearby come together: they come to one cycle, be its period too long to be seen.
     """
     run = simulate(p, state.time + SETTLING * FIRST_LEG, tol=tol, initial_state=state)
     times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
@@ -241,13 +240,17 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     intervals = np.diff(times[kinds == ("separation" if separates else "stick_to_slip")])
     if not run.status.complete or len(intervals) < FEWEST:
         return Regularity(Outcome.UNDECIDED)
+    periodic = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
     if n := shortest_period(intervals, CLOSES):
-        return Regularity(Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE, n, closure(intervals, n))
+        return Regularity(periodic, n, closure(intervals, n))
     duration = SETTLING * FIRST_LEG / 2
     found = lyapunov_exponents(p, duration, count=1, initial_state=state, tol=tol, leave_out_trivial=True)
-    if found.chaotic and found.exponents[0] > NEUTRAL:
-        return Regularity(Outcome.IRREGULAR)
-    return Regularity(Outcome.QUASI_PERIODIC if abs(found.exponents[0]) <= NEUTRAL else Outcome.UNDECIDED)
+    rate, error = float(found.exponents[0]), float(found.errors[0])
+    if not (math.isfinite(rate) and math.isfinite(error)):
+        return Regularity(Outcome.UNDECIDED)
+    if abs(rate) <= max(CLEAR * error, CONVERGED[1]):
+        return Regularity(Outcome.QUASI_PERIODIC)
+    return Regularity(Outcome.IRREGULAR if rate > 0 else periodic)
 
 
 def random_kick(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
