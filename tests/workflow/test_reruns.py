@@ -101,7 +101,7 @@ def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
         ("src/disc_model/plate.py", EVERYTHING),
         ("src/disc_model/simulation/api.py", EVERYTHING),
         ("src/disc_model/parameters.py", EVERYTHING),
-        ("src/disc_model/figures/paper/separations.py", FIGURES),
+        ("src/disc_model/figures/paper/histories.py", FIGURES),
         ("src/disc_model/figures/disc_model.mplstyle", FIGURES),
         ("src/disc_model/figures/parts.py", FIGURES),
         ("workflow/scripts/draw_figure.py", FIGURES),
