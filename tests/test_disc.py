@@ -219,3 +219,15 @@ def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest
     path.write_text(out("modes", "--normalization", "orthonormal", "--csv"))
     assert dm.read_disc(path).omega == tuple(mode_arrays(P).omega)
     assert "a disc of 5 modes" in out("modes", "--disc", str(path))
+
+
+def test_the_first_modes_of_a_table_are_chosen_as_those_of_the_plate(tmp_path: Path) -> None:
+    plate = P.replace(n_diameters=8, normalization="orthonormal")
+    table = written(tmp_path / "disc.csv", plate)
+    of_plate = dm.choose_modes(plate, 1e-2, rich=(8, 0))
+    of_table = dm.choose_modes(table, 1e-2)
+    assert of_table.parameters.disc == table.disc.first(of_plate.parameters.n_diameters + 1)
+    assert (of_table.modes, of_table.error) == (of_plate.modes, pytest.approx(of_plate.error))
+    assert dm.choose_modes(table.replace(disc=table.disc.first(1)), 1e-2).error == 0
+    with pytest.raises(dm.ParameterError, match="must be 'frequencies' for a disc given by its modes"):
+        dm.choose_modes(table, quantity="growth")

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from disc_model.errors import DiscModelError, broken, refuse
+from disc_model.errors import DiscModelError, Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import Parameters, is_number, is_whole
 from disc_model.truncation import (
     BAND,
@@ -93,6 +93,9 @@ def choose_modes(
 
 def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
     """The first candidate with which two larger models agree; raises `DiscModelError` where there is none."""
+    if p.disc is not None:
+        rule = f"must be {FREQUENCIES!r} for a disc given by its modes"
+        raise ParameterError(Fault(("truncation_quantity",), shown(asked.quantity), rule))
     values: dict[Size, float] = {}
     change = math.inf
     for size in CANDIDATES:

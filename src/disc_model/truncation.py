@@ -17,7 +17,7 @@ import numpy as np
 
 from disc_model.errors import DiscModelError, Fault, ParameterError, broken, shown
 from disc_model.flexibility import contact_give
-from disc_model.parameters import AUTO, CHOOSING, Parameters, number
+from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters, number
 from disc_model.plate import coupled_frequencies, mode_arrays
 
 FREQUENCIES = "frequencies"
@@ -40,7 +40,7 @@ class ModeChoice:
 
     Attributes
     ----------
-    parameters : with n_diameters and n_circles chosen
+    parameters : with n_diameters and n_circles chosen; of a disc given by its modes, with the first modes of its table
     quantity : by what they were chosen
     tolerance, error : asked for and reached, relative; of the coupled frequencies in the band, or of the quantity
     modes : number of real modes
@@ -60,9 +60,10 @@ class ModeChoice:
 
     def to_json(self) -> str:
         """The choice as text, to be kept beside the results (a dataset's attribute)."""
+        disc = self.parameters.disc
+        size = {"n_diameters": self.parameters.n_diameters, "n_circles": self.parameters.n_circles}
         record: dict[str, Any] = {
-            "n_diameters": self.parameters.n_diameters,
-            "n_circles": self.parameters.n_circles,
+            **(size if disc is None else {"modes_of_the_table": len(disc.omega)}),
             "tolerance": self.tolerance,
             "error": self.error,
             "modes": self.modes,
@@ -88,6 +89,8 @@ def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tu
 
     `disc_model.choose_modes` checks what it is given, and says what it is.
     """
+    if p.disc is not None:
+        return _first_of_table(p, p.disc, tolerance, band)
     p = p.replace(n_diameters=rich[0], n_circles=rich[1])
     modes = mode_arrays(p)
     right, top = _frequencies(p), band * float(modes.omega.min())
@@ -100,6 +103,22 @@ def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tu
         if error <= tolerance:
             return ModeChoice(chosen, tolerance, error, count, rich, band)
     raise DiscModelError(f"tolerance={tolerance:g}: no model up to {rich} (diameters, circles) meets it; enlarge rich")
+
+
+def _first_of_table(p: Parameters, disc: Disc, tolerance: float, band: float) -> ModeChoice:
+    """The first modes of a table that do as all of it; the last resort is the whole table."""
+    modes, right = mode_arrays(p), _frequencies(p)
+    top, rich = band * float(modes.omega.min()), (int(modes.diameters.max()), int(modes.circles.max()))
+    for count in range(1, len(modes.omega) + 1):
+        chosen = p.replace(disc=disc.first(count))
+        if not np.any(modes.psi[:count]):
+            continue
+        mine = coupled_frequencies(modes.omega[:count], modes.psi[:count], p.m, p.k, contact_give(chosen))
+        error = _worst(mine, right, top)
+        if error <= tolerance:
+            break
+    real = count + int(np.count_nonzero(modes.diameters[:count]))
+    return ModeChoice(chosen, tolerance, error, real, rich, band)
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:

@@ -134,7 +134,9 @@ def choice_lines(choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
     if choice is not None:
         p, name = choice.parameters, choice.quantity.replace("_", " ")
         right = f"{name}: error {choice.error:.2g}, {choice.tolerance:g} asked for"
-        yield "modes chosen", f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles} ({right})"
+        size = f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles}"
+        size = size if p.disc is None else f"the first {len(p.disc.omega)} of the table"
+        yield "modes chosen", f"{size} ({right})"
 
 
 def table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], **column: Any) -> Table:
