@@ -204,7 +204,13 @@ def test_module_runs_as_a_program() -> None:
 
 
 def test_warm_says_that_it_is_done(command: Command) -> None:
-    assert "cached" in command.out("warm")
+    said = command.out("warm")
+    assert [line.partition(":")[0] for line in said.splitlines()] == [
+        "simulate-rigid_vertical",
+        "floquet-rigid_vertical",
+        "kernels compiled and cached",
+    ]
+    assert "did you mean ramp-rigid_normal?" in command.error("warm", "ramp-rigid_norml")
 
 
 def test_a_run_that_ends_early_is_drawn_to_its_end(command: Command, monkeypatch, tmp_path: Path) -> None:
