@@ -2,13 +2,10 @@
 
 from pathlib import Path
 
-import numpy as np
-from PIL import Image, ImageColor
-from scipy.spatial import cKDTree
+from PIL import Image
 
 from disc_model.data.dataset import load_cases
 from disc_model.errors import script
-from disc_model.figures import parts
 from disc_model.figures.paper import disc
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
 from disc_model.studies.study import load_study
@@ -17,9 +14,9 @@ SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25"
 OTHERS = {
     "critical_speed/figures/fig15.png": (
         "Fig. 15. Critical speed for separation against preload.",
-        "(a) First separation from the published start within 500, 1000, 2000 s, by scans; shaded, the refined map. "
-        "Above 480 N the scans find stripes of separation, half a rad/s wide, that lie between points of the map in "
-        "part. (b) Sweeps of the speed up and down; the bar: both motions reached from random kicks.",
+        "(a) First separation from the published start, by scans: a line within 2000 s, marks where 500 or 1000 s give "
+        "another speed. Areas: the refined map. Black: where the cycle loses its stability, or ends. (b) Sweeps of the "
+        "speed up and down; the bar: both motions reached from random kicks.",
     ),
     "basins/figures/basins.png": (
         "What many starts come to at N = 385 N.",
@@ -69,17 +66,6 @@ FILM = (
     "The stretch of Fig. 2b, 35 ms, slowed down about 170 times. Left: deflection of the disc from above, colours as "
     "in Fig. B1. Right: the disc along the circle of radius r_0, and the slider; vermilion where it has left the disc."
 )
-STYLE_COLOURS = (
-    *(parts.BLUE, parts.VERMILION, parts.GREEN, parts.PURPLE, parts.ORANGE, parts.SKY),
-    *(parts.BLACK, parts.GREY, parts.BROWN, parts.FORCE, "#ffffff"),
-)
-TINTS = (1.0, 0.3, 0.25, 0.15)
-"""How strong they are drawn: as lines, and as areas on white."""
-KEPT = [
-    tuple(round(255 - tint * (255 - part)) for part in ImageColor.getrgb(colour)[:3])
-    for colour in STYLE_COLOURS
-    for tint in TINTS
-]
 WIDTH = 900
 """Pixels of a figure as wide as a page; narrower ones are as much smaller."""
 PAGE = 2161
@@ -87,28 +73,14 @@ PAGE = 2161
 
 
 def shrink(source: Path, target: Path) -> Path:
-    """Write a small copy of a picture, with a palette that holds the style's colours; equal ones give equal bytes."""
+    """Write a small copy of a picture, in true colour; equal ones give equal bytes."""
     target.parent.mkdir(parents=True, exist_ok=True)
     with Image.open(source) as picture:
         scale = WIDTH / PAGE
         size = (round(picture.width * scale), round(picture.height * scale))
         small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
-    _indexed(small).save(target, optimize=True)
+    small.save(target, optimize=True)
     return target
-
-
-def _indexed(picture: Image.Image) -> Image.Image:
-    """In 256 colours: those that have a meaning, which a choice by frequency alone would mix, and the picture's own."""
-    rest = 256 - len(KEPT)
-    own = (picture.quantize(rest).getpalette() or [])[: 3 * rest]
-    colours = np.array([*KEPT, *np.reshape(own, (-1, 3))], dtype=np.uint8)
-    pixels = np.asarray(picture)
-    seen, places = np.unique(pixels.reshape(-1, 3), axis=0, return_inverse=True)
-    # Pillow's own search takes colours that are only near: white would be grey
-    _, nearest = cKDTree(colours).query(seen)
-    found = Image.fromarray(nearest[places].reshape(pixels.shape[:2]).astype(np.uint8))
-    found.putpalette(colours.ravel().tolist())
-    return found
 
 
 @script
