@@ -1,6 +1,6 @@
 """Compute one batch of a grid study and save it.
 
-What to compute, a text of `disc_model.studies.study.Cut`, is read from standard input: it may be too
+What to compute, a text of `disc_model.studies.study.GridStudy.batches`, is read from standard input: it may be too
 long otherwise.
 """
 

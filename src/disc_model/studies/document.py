@@ -331,7 +331,22 @@ Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
 
 
-class SettlingOptions(Strict):
+class Options(Strict):
+    """Of a quantity.
+
+    _rules : what holds between its fields, each with what is said if it does not
+    """
+
+    _rules: ClassVar[tuple[tuple[Callable[[Any], bool], str], ...]] = ()
+
+    @model_validator(mode="after")
+    def _keep_rules(self) -> Self:
+        if broken := [said for holds, said in self._rules if not holds(self)]:
+            raise ValueError(broken[0])
+        return self
+
+
+class SettlingOptions(Options):
     """When a motion without separation may be left before the horizon; see `disc_model.stability.attractor`.
 
     settled : successive cycles that agree this well, relative, end the simulation; 0 never does
@@ -355,14 +370,12 @@ class OutcomeOptions(SettlingOptions):
     late: Seconds = 1.0
     after_separation: Seconds = 5.0
 
-    @model_validator(mode="after")
-    def _room(self) -> Self:
-        if self.late > min(self.after_separation, self.horizon):
-            raise ValueError("late must be <= after_separation and <= horizon")
-        return self
+    _rules = (
+        (lambda o: o.late <= min(o.after_separation, o.horizon), "late must be <= after_separation and <= horizon"),
+    )
 
 
-class RegionsOptions(Strict):
+class RegionsOptions(Options):
     """Outcomes over a plane, refined where they change.
 
     horizon : s
@@ -398,13 +411,13 @@ class CriticalSpeedOptions(SettlingOptions):
         return self
 
 
-class FloquetOptions(Strict):
+class FloquetOptions(Options):
     """The stick-slip cycle of each point."""
 
     tol: CycleTolerance = 1e-12
 
 
-class HysteresisOptions(Strict):
+class HysteresisOptions(Options):
     """Sweep of the speed up from the published start and down again, each speed going on where the last one ended.
 
     scan : rad/s
@@ -417,14 +430,10 @@ class HysteresisOptions(Strict):
     dwell: Seconds
     late: Seconds = 5.0
 
-    @model_validator(mode="after")
-    def _room(self) -> Self:
-        if self.late > self.dwell:
-            raise ValueError("late must be <= dwell")
-        return self
+    _rules = ((lambda o: o.late <= o.dwell, "late must be <= dwell"),)
 
 
-class RampsOptions(Strict):
+class RampsOptions(Options):
     """The speed goes steadily up from the published start, stays, goes down and stays, once for each rate.
 
     low, high : rad/s, between which it goes
@@ -438,16 +447,13 @@ class RampsOptions(Strict):
     rates: Annotated[Range, Unit("rad/s^2")]
     stay: Seconds = 60.0
 
-    @model_validator(mode="after")
-    def _rising(self) -> Self:
-        if not self.low < self.high:
-            raise ValueError("low must be < high")
-        if not self.rates.start > 0:
-            raise ValueError("rates must be > 0")
-        return self
+    _rules = (
+        (lambda o: o.low < o.high, "low must be < high"),
+        (lambda o: o.rates.start > 0, "rates must be > 0"),
+    )
 
 
-class BifurcationOptions(Strict):
+class BifurcationOptions(Options):
     """Samples of what the motion has settled to.
 
     section : once a turn of the drive; or at switches, each separation if there are any, else each release of stick: a
@@ -466,7 +472,7 @@ class BifurcationOptions(Strict):
     theta: Annotated[Finite, Unit("rad")] = 1.0
 
 
-class LyapunovOptions(Strict):
+class LyapunovOptions(Options):
     """The largest Lyapunov exponents of the motion but for the one along it, which is zero.
 
     transient : s, left out
@@ -482,7 +488,7 @@ class LyapunovOptions(Strict):
     interval: Seconds = 0.01
 
 
-class BasinsOptions(Strict):
+class BasinsOptions(Options):
     """What many starts come to; see `disc_model.stability.attractor`.
 
     energies : J, of the kicks that are added to the start in random directions; 0 adds nothing
@@ -508,19 +514,19 @@ class BasinsOptions(Strict):
     bisected: Annotated[Count, Field(ge=0, le=1000)] = 1
     precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
 
-    @model_validator(mode="after")
-    def _different(self) -> Self:
-        if list(self.energies) != sorted(set(self.energies)):
-            raise ValueError("energies must ascend")
-        if self.starts > 1 and 0.0 in self.energies:
-            raise ValueError("starts must be 1 where an energy is 0, since no direction tells them apart")
-        return self
+    _rules = (
+        (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
+        (
+            lambda o: o.starts == 1 or 0.0 not in o.energies,
+            "starts must be 1 where an energy is 0, since no direction tells them apart",
+        ),
+    )
 
 
 Free = Literal["Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m"]
 
 
-class StabilityCurvesOptions(Strict):
+class StabilityCurvesOptions(Options):
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
 
     x, y : the parameters
@@ -550,16 +556,13 @@ class StabilityCurvesOptions(Strict):
         usual = {"x": "Omega", "y": "N"} | (said if isinstance(said, dict) else {})
         return each_in_si(said, {name: Parameters.unit(str(usual[axis])) for name, axis in plane.items()})
 
-    @model_validator(mode="after")
-    def _plane(self) -> Self:
-        if self.x == self.y:
-            raise ValueError("x and y must differ")
-        if not self.x_range[0] < self.x_range[1]:
-            raise ValueError("x_range must ascend")
-        return self
+    _rules = (
+        (lambda o: o.x != o.y, "x and y must differ"),
+        (lambda o: o.x_range[0] < o.x_range[1], "x_range must ascend"),
+    )
 
 
-class SensitivityOptions(Strict):
+class SensitivityOptions(Options):
     """The stick-slip cycle at samples of distributed parameters, and what becomes of the published start.
 
     distributions : by parameter
@@ -593,7 +596,7 @@ class SensitivityOptions(Strict):
         return self
 
 
-class CampbellOptions(Strict):
+class CampbellOptions(Options):
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
 
     modes : room for that many, the lowest in frequency

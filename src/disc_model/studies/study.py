@@ -16,7 +16,7 @@ import importlib
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from glob import glob
 from itertools import chain, pairwise, product
 from pathlib import Path
@@ -578,21 +578,74 @@ class GridStudy:
 
     Attributes
     ----------
+    document : what the file says
+    options, base : of the quantity, and values that do not vary
     dims : in the order of `VARIED`
-    batches : JSON text of each batch by its name, 12 hexadecimal digits
-    motions : the same of the points whose motion can be looked at
+    starts : where motions may start, by name
     """
 
-    name: str
-    title: str
-    quantity: str
+    document: Document
     options: Strict
     base: Mapping[str, Any]
     dims: tuple[Dimension, ...]
-    batches: Mapping[str, str]
+    starts: Mapping[str, Start]
     plots: Mapping[str, Plot]
-    motions: Mapping[str, str]
-    where: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        return self.document.study
+
+    @property
+    def title(self) -> str:
+        return self.document.title
+
+    @property
+    def quantity(self) -> str:
+        return str(self.document.quantity)
+
+    @property
+    def where(self) -> tuple[str, ...]:
+        return self.document.where
+
+    @cached_property
+    def batches(self) -> dict[str, str]:
+        """JSON text of each batch by its name, 12 hexadecimal digits."""
+        entry, batch = QUANTITIES[self.quantity], self.document.batch
+        if entry.tiled:
+            maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
+            marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
+            return self._texts(self.dims, _tiles(self.dims, batch, marked))
+        size = batch.size or entry.batch_size(self.options)
+        return self._texts(self.dims, ({"points": cut} for cut in _chunks(self.dims, batch.over, size)))
+
+    @cached_property
+    def motions(self) -> dict[str, str]:
+        """The same of the few points whose motion can be looked at, in one batch; none for some quantities."""
+        most = QUANTITIES[self.quantity].motions
+        if not most:
+            return {}
+        few = [dim.thinned(most) for dim in self.dims]
+        cut = _chunks(few, [dim.name for dim in few], n_points(few))
+        return self._texts(few, ({"points": every} for every in cut))
+
+    def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
+        """Parts of the grid that have points left, each as a text with all that its result depends on."""
+        names = [name for dim in dims for name in dim.names]
+        shared = {
+            "quantity": self.quantity,
+            "options": self.document.options.model_dump(),
+            "base": self.base,
+            "names": names,
+        }
+        texts = []
+        for part in parts:
+            every = [dict(zip(names, point, strict=True)) for point in part["points"]]
+            kept = [point for point in every if not self.where or holds(self.where, {**self.base, **point})]
+            starts = {str(point[START]) for point in kept if START in names}
+            said = {"starts": {name: self.starts[name].model_dump() for name in starts}} if starts else {}
+            if kept:
+                texts.append(canonical_json(shared | said | part | {"points": [[*point.values()] for point in kept]}))
+        return {content_key(text): text for text in texts}
 
     @property
     def sources(self) -> tuple[str, ...]:
@@ -693,34 +746,13 @@ class _Grid:
         self._check_plots()
         if self.faults or self.quantity is None or self.options is None:
             return None
-        document, quantity = self.document, str(self.document.quantity)
-        point = next(points(self.dims, document.where, self.base))
+        point = next(points(self.dims, self.document.where, self.base))
         first = {name: value for name, value in point.items() if name in Parameters.model_fields}
         unused = {name: 0.0 for name in self.quantity.scanned(self.options) if name in REQUIRED}
         base = Parameters(**{**unused, **self.base, **first}).canonical | self.automatic
-        base = {name: value for name, value in base.items() if name not in first}
-        if self.automatic:
-            del base["n_circles"]
-        sampled = [
-            {plot.x: mark.x, plot.y: mark.y}
-            for plot in self.plots.values()
-            if isinstance(plot, RegionMap)
-            for mark in plot.marks.values()
-        ]
-        cut = Cut(quantity, document.options, base, self.starts, document.where)
-        batches, motions = cut.batches(self.dims, document.batch, sampled), cut.motions(self.dims)
-        return GridStudy(
-            document.study,
-            document.title,
-            quantity,
-            self.options,
-            base,
-            self.dims,
-            batches,
-            self.plots,
-            motions,
-            document.where,
-        )
+        dropped = {*first, *["n_circles"] * bool(self.automatic)}
+        base = {name: value for name, value in base.items() if name not in dropped}
+        return GridStudy(self.document, self.options, base, self.dims, self.starts, self.plots)
 
     # ---- what the file says
 
@@ -958,67 +990,6 @@ def _general(plot: General, quantity: str, options: Strict, values: Values) -> I
 def module_of(name: str) -> str:
     """Module that computes a quantity, of the same name."""
     return f"disc_model.studies.grids.quantities.{name}"
-
-
-@dataclass(frozen=True)
-class Cut:
-    """A grid that is cut into batches: the text of each by its name, 12 hexadecimal digits.
-
-    options : as the file says them, with where motions start
-    """
-
-    quantity: str
-    options: Strict
-    base: Mapping[str, Any]
-    starts: Mapping[str, Start]
-    where: Sequence[str] = ()
-
-    def batches(
-        self, dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
-    ) -> dict[str, str]:
-        """All points; `sampled` are those of a plane at which a tiled quantity is worked out in any case."""
-        entry = QUANTITIES[self.quantity]
-        if entry.tiled:
-            return self._texts(dims, _tiles(dims, batch, sampled))
-        size = batch.size or entry.batch_size(self.options)
-        return self._texts(dims, ({"points": cut} for cut in _chunks(dims, batch.over, size)))
-
-    def motions(self, dims: Sequence[Dimension]) -> dict[str, str]:
-        """For `disc_model.studies.grids.motions`: one batch of a few points; none for some quantities."""
-        most = QUANTITIES[self.quantity].motions
-        if not most:
-            return {}
-        few = [dim.thinned(most) for dim in dims]
-        cut = _chunks(few, [dim.name for dim in few], n_points(few))
-        return self._texts(few, ({"points": every} for every in cut))
-
-    def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
-        shared: dict[str, Any] = {
-            "quantity": self.quantity,
-            "options": self.options.model_dump(),
-            "base": self.base,
-            "names": [name for dim in dims for name in dim.names],
-        }
-        kept = (part | {"points": self._kept(shared["names"], part["points"])} for part in parts)
-        texts = [
-            canonical_json(shared | self._used(shared["names"], part["points"]) | part)
-            for part in kept
-            if part["points"]
-        ]
-        return {content_key(text): text for text in texts}
-
-    def _kept(self, names: Sequence[str], points: list[list[Value]]) -> list[list[Value]]:
-        """The points at which the rules hold."""
-        if not self.where:
-            return points
-        return [point for point in points if holds(self.where, {**self.base, **dict(zip(names, point, strict=True))})]
-
-    def _used(self, names: Sequence[str], points: Sequence[Sequence[Value]]) -> dict[str, Any]:
-        """The starts that points name, if they do."""
-        if START not in names:
-            return {}
-        used = {str(point[names.index(START)]) for point in points}
-        return {"starts": {name: self.starts[name].model_dump() for name in sorted(used)}}
 
 
 def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[list[Value]]]:

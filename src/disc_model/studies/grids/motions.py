@@ -63,7 +63,7 @@ class Motions:
 
 
 def run_motions(text: str) -> xr.Dataset:
-    """Histories, along `point` and `sample`, of a text of `disc_model.studies.study.Cut.motions`."""
+    """Histories, along `point` and `sample`, of a text of `disc_model.studies.study.GridStudy.motions`."""
     found = run_as(text, Motions(quantity_of(text)))
     return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
 

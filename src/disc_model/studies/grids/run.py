@@ -32,7 +32,7 @@ POINT = "point"
 
 
 def run_batch(text: str) -> xr.Dataset:
-    """Compute a batch, given as a text of `disc_model.studies.study.Cut`.
+    """Compute a batch, given as a text of `disc_model.studies.study.GridStudy.batches`.
 
     The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
     """
