@@ -224,23 +224,3 @@ def test_modes_chosen_by_a_motion_are_chosen_for_each_point(monkeypatch: pytest.
     done = cycles({"k": [5e4, 1e12]}, Omega=0, n_diameters="auto", truncation_quantity="growth")
     assert done["n_diameters"].values.tolist() == [2, -1]
     assert "n_diameters: undecided: growth still changes by 0.5 of itself" in str(done["message"].values[1])
-
-
-def test_the_only_fault_of_a_figure_is_the_one_that_matters() -> None:
-    figure = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growht": "g"}}
-    axes = {"N": [1], "Omega": [1], "k": [1, 2]}
-    assert faults_of(parse_grid, study(axes=axes, figures={"f": figure})) == [
-        "figures.f.kind = 'stability_map': can show N, Omega, normalization, but not k as well",
-        "figures.f.others.growht = 'g': unknown role, did you mean growth? (known: growth)",
-    ]
-    wrong = {"f": {"kind": "critical_speed", "others": {"growht": "g"}}}
-    assert faults_of(parse_grid, study(figures=wrong)) == [
-        "figures.f.kind = 'critical_speed': needs the quantity critical_speed"
-    ]
-
-
-def test_a_bad_axis_is_the_only_fault_of_a_figure_over_it() -> None:
-    figure = {"f": {"kind": "stability_map", "x": "N", "y": "Omega"}}
-    assert faults_of(parse_grid, study(axes={"N": [-1], "Omega": [1]}, figures=figure)) == ["axes.N = -1: must be >= 0"]
-    uneven = study(axes={"Omega": [1]}, zip={"N": [1, 2], "c": [0]}, batch={}, figures=figure)
-    assert faults_of(parse_grid, uneven) == ["zip: must have columns of equal length, not N: 2, c: 1"]

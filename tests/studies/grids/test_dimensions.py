@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from disc_model.data.variables import KICKS
-from disc_model.parameters import RELATED, Parameters
+from disc_model.parameters import Parameters
 from disc_model.studies.study import GridStudy
-from tests.studies.refused import faults_of, parse_grid
+from tests.studies.refused import parse_grid
 
 AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
 
@@ -18,10 +18,6 @@ AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
 def parsed(**changes: Any) -> GridStudy:
     raw = {"study": "x", "quantity": "outcome", "options": {"horizon": 2}, "base": {"N": 200, "Omega": 20}}
     return parse_grid(raw | changes)
-
-
-def faults(**changes: Any) -> list[str]:
-    return faults_of(lambda: parsed(**changes))
 
 
 @pytest.mark.parametrize("name", [name for name in Parameters.model_fields if name != "disc"])
@@ -47,22 +43,6 @@ def test_rules_between_parameters_hold_at_every_point() -> None:
     assert parsed(axes={"a": [0.05, 0.11]}, base={"N": 1, "Omega": 1, "r_0": 0.115}).n_points == 2
     assert parsed(axes={"mu_s": [0.6, 0.7]}, base={"N": 1, "Omega": 1, "mu_k": 0.5}).n_points == 2
     assert parsed(zip={"a": [0.01, 0.06], "r_0": [0.05, 0.1]}).n_points == 2
-    assert faults(axes={"a": [0.01, 0.06], "r_0": [0.05, 0.1]}) == ["axes.a = 0.06: must be < r_0=0.05"]
-    assert faults(axes={"a": [0.05, 0.11], "mu_s": [0.1, 0.5]}) == [
-        "base.mu_k = 0.24: must be <= mu_s=0.1",
-        "axes.a = 0.11: must be < r_0=0.1",
-    ]
-
-
-@pytest.mark.parametrize(("name", "value"), [("mu_s", 0.1), ("mu_k", 1.0), ("a", 0.2), ("b", 0.05), ("r_0", 0.3)])
-def test_a_rule_is_checked_whichever_side_varies(name: str, value: float) -> None:
-    assert "must be <" in faults(axes={name: [value]})[0]
-    assert name in RELATED
-
-
-@pytest.mark.parametrize(("name", "value"), [("h", 1e-300), ("E", 1e-320), ("h", 1e200)])
-def test_a_rigidity_that_is_none_is_refused(name: str, value: float) -> None:
-    assert "must give a finite, positive E h^3/12/(1-nu^2)" in faults(axes={name: [value]})[0]
 
 
 def test_extra_values_leave_the_batches_that_there_are() -> None:
