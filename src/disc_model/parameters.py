@@ -50,7 +50,10 @@ class Unfit(str):
     unit: str
 
 
-_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµΩ°%][\w µΩ°%*/^.-]{0,30}|1/\w+)")
+_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/)?[A-Za-zµΩ°%].*)")
+_POWER = r"[A-Za-zµΩ°%]+(?:(?:\^|\*\*)-?\d)?"
+_UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
+"""A product of units to small powers: more could take any time to work out."""
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "rps", "cycle", "°")
 
 
@@ -74,6 +77,8 @@ def in_si(value: Any, unit: str) -> Any:
     if found is None or _is_float(value):
         return value
     try:
+        if not _UNIT.fullmatch(found[2]):
+            raise ValueError("no unit")
         if unit.startswith("rad") and not any(word in found[2] for word in _ANGLES):
             raise ValueError("Hz may mean turns or radians")
         converted = _units().Quantity(float(found[1]), found[2].replace("^", "**")).to("" if unit == "1" else unit)

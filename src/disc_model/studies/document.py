@@ -58,7 +58,7 @@ from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters
 from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.studies.modes import to_text
-from disc_model.studies.rules import names_in
+from disc_model.studies.rules import LONGEST, names_in
 from disc_model.truncation import (
     CHOSEN_BY,
     FREQUENCIES,
@@ -913,6 +913,8 @@ def _resolution(value: Any) -> int:
 
 
 def _rule_of_grid(text: str) -> str:
+    if len(text) > LONGEST:
+        raise ValueError(f"must be at most {LONGEST} characters")
     names_in(text)
     return text
 

@@ -8,42 +8,47 @@ from functools import cache
 from types import CodeType
 from typing import Any
 
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, number
 
-_OPERATORS = (ast.operator, ast.cmpop, ast.boolop, ast.unaryop, ast.Load)
-_FORBIDDEN = (ast.Pow, ast.LShift, ast.MatMult, ast.Is, ast.IsNot, ast.In, ast.NotIn)
+_MADE_OF = (
+    *(ast.Name, ast.Load, ast.Constant, ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp),
+    *(ast.Add, ast.Sub, ast.Mult, ast.Div, ast.USub, ast.And, ast.Or),
+    *(ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq),
+)
 _DEFAULTS = {name: field.default for name, field in Parameters.model_fields.items()}
 LONGEST = 500
 """Of a rule, in characters."""
 
 
-@cache
 def names_in(rule: str) -> frozenset[str]:
     """Names that a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8`` compares; raises ValueError if it is none."""
-    said = "must compare values, such as mu_k <= mu_s"
+    return frozenset(node.id for node in ast.walk(_tree(rule)) if isinstance(node, ast.Name))
+
+
+@cache
+def _tree(rule: str) -> ast.Expression:
+    """A rule as a tree of comparisons, with floats alone: a whole number could repeat a word without end."""
     try:
-        tree = ast.parse(rule.strip()[: LONGEST + 1], mode="eval")
+        tree = ast.parse(rule.strip(), mode="eval")
+        nodes = list(ast.walk(tree.body))
+        if not isinstance(tree.body, ast.Compare | ast.BoolOp) or not all(isinstance(node, _MADE_OF) for node in nodes):
+            raise ValueError
+        for node in nodes:
+            if isinstance(node, ast.Constant) and not isinstance(node.value, str):
+                node.value = number(node.value)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise ValueError(said) from None
-    if len(rule) > LONGEST or not isinstance(tree.body, ast.Compare | ast.BoolOp):
-        raise ValueError(said)
-    for node in ast.walk(tree.body):
-        value = isinstance(node, ast.Constant) and type(node.value) in (int, float, str)
-        made_of = (ast.Name, ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp, *_OPERATORS)
-        if not (value or isinstance(node, made_of)) or isinstance(node, _FORBIDDEN):
-            raise ValueError(said)
-    return frozenset(node.id for node in ast.walk(tree) if isinstance(node, ast.Name))
+        raise ValueError("must compare values, such as mu_k <= mu_s") from None
+    return tree
 
 
 @cache
 def _compiled(rule: str) -> CodeType:
-    names_in(rule)  # nothing else than comparisons is run
-    return compile(rule.strip(), "where", "eval")
+    return compile(_tree(rule), "where", "eval")
 
 
 def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
     """Whether all rules hold for a point; one that cannot be evaluated, such as a division by zero, does not."""
-    here = {**_DEFAULTS, **values}
+    here = {name: float(x) if isinstance(x, int) else x for name, x in {**_DEFAULTS, **values}.items()}
     try:
         return all(eval(_compiled(rule), {"__builtins__": {}}, here) for rule in rules)
     except (ArithmeticError, TypeError):

@@ -64,6 +64,8 @@ def test_tiles_and_samples_keep_the_rule() -> None:
         ("__import__('os').system('true') == 0", "must compare values"),
         ("9**9**9 > mu_k", "must compare values"),
         ("mu_k.real < 1", "must compare values"),
+        ("'%99999999999d' % 1 < 'x'", "must compare values"),
+        ("mu_k < 1" + " and mu_k < 1" * 99, "must be at most 500 characters"),
         ("(lambda: 1)() < mu_k", "must compare values"),
         ("mu_q <= mu_s", "where = 'mu_q <= mu_s': mu_q is no value of a point, did you mean mu_s?"),
         ("mu_s < 0", "where: leaves no point"),
@@ -78,6 +80,9 @@ def test_what_cannot_be_compared_does_not_hold() -> None:
     assert holds(["0.5 < a/b < 2"], {"a": 1.0, "b": 1.0})
     assert not holds(["a/b < 2"], {"a": 1.0, "b": 0.0})
     assert not holds(["contact < 2"], {})
+    assert not holds(["contact*99999999999*99999999999 == 'x'"], {})
+    assert not holds(["contact*n_diameters*n_diameters == 'x'"], {})
+    assert holds(["n_diameters == 4"], {"n_diameters": 4})
     assert holds(["contact == 'separable'"], {})
 
 
