@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -174,6 +175,7 @@ def come_to(
     return course.run(None)
 
 
+@dataclass
 class _Course:
     """A motion on its way: where it is, and what was seen so far.
 
@@ -181,21 +183,25 @@ class _Course:
     left : the unstable cycle that it has departed from
     """
 
-    def __init__(
-        self, p: Parameters, horizon: float, tol: float, furthest: float, start: State | None, early: bool, late: float
-    ) -> None:
-        self.p, self.tol, self.furthest, self.early = p, tol, furthest, early
-        self.marks = (horizon - late, horizon) if late else (horizon,)
-        self.horizon, self.late = horizon, late
-        has_section = not case_faults(p, "the return map") and may_stick_and_slip(p)
-        self.map = ReturnMap(p, CYCLE_TOL) if has_section else None
-        self.state = start
-        self.time, self.simulated = 0.0, 0.0
-        self.shown: FloquetResult | None = None
-        self.left: Near | None = None
-        self.stretch: Stretch | None = None
-        self.changes: list[float] = []
-        self.times: list[float] = []
+    p: Parameters
+    horizon: float
+    tol: float
+    furthest: float
+    state: State | None
+    early: bool
+    late: float
+    time: float = 0.0
+    simulated: float = 0.0
+    shown: FloquetResult | None = None
+    left: Near | None = None
+    stretch: Stretch | None = None
+    changes: list[float] = field(default_factory=list)
+    times: list[float] = field(default_factory=list)
+
+    @cached_property
+    def map(self) -> ReturnMap | None:
+        has_section = not case_faults(self.p, "the return map") and may_stick_and_slip(self.p)
+        return ReturnMap(self.p, CYCLE_TOL) if has_section else None
 
     def run(self, near: Near | None) -> Reached:
         if near is not None:
@@ -229,7 +235,8 @@ class _Course:
 
     def _simulated(self, leg: float) -> Result:
         """Go on for a time (s), or to the first separation; the stretch to be described is a leg of its own."""
-        stop = next(min(self.time + leg, mark) for mark in self.marks if self.time < mark)
+        marks = (self.horizon - self.late, self.horizon)
+        stop = next(min(self.time + leg, mark) for mark in marks if self.time < mark)
         record = Record(events=False)
         if self.late and stop == self.horizon:
             record = Record(windows=(Window(start=self.time, stop=stop, rate=RATE),), events=False)

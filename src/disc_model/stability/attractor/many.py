@@ -220,12 +220,13 @@ def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Ne
 
 
 class Regularity(NamedTuple):
-    """What a settled motion near no cycle of the section is; the number of switches after which it repeats (0: it does
-    not), and how nearly it does, s."""
+    """What a motion is; after how many switches it repeats, 0 if that is not shown; how nearly by now, s; and where its
+    cycle is, if that is known."""
 
     kind: Outcome
     period: int = 0
     closure: float = math.nan
+    state: State | None = None
 
 
 def regularity(p: Parameters, state: State, tol: float) -> Regularity:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -16,7 +16,7 @@ from disc_model.simulation.api import after, prepared, simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.course import FIRST_LEG, at_rest
-from disc_model.stability.attractor.many import SAME, SMALLEST, cycle_reached, regularity
+from disc_model.stability.attractor.many import SAME, SMALLEST, Regularity, cycle_reached, regularity
 from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.return_map import case_faults
 from disc_model.studies.grids.points import STATUS, Point
@@ -102,7 +102,8 @@ def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, A
             break
         transient *= 2
     if found.kind is Outcome.UNDECIDED and steady:
-        found = _aperiodic(p, stretches[-1], options.tol)
+        calm = at_rest(p, stretches[-1], options.tol)
+        found = regularity(p, run.final_state, options.tol) if calm is None else Regularity(calm)
     if found.state is not None:
         # what the motion tends to is known exactly
         events = simulate(p, found.state.time + FIRST_LEG, tol=options.tol, initial_state=found.state).events
@@ -125,16 +126,7 @@ def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, A
     return values, "" if steady else f"not steady after {transient:g} s"
 
 
-class Periodic(NamedTuple):
-    """Number of switches after which a motion repeats, how nearly by now (s), what it is, and a state on it."""
-
-    period: int
-    closure: float
-    kind: Outcome
-    state: State | None = None
-
-
-def _periodic(p: Parameters, stretch: Result, kind: str) -> Periodic:
+def _periodic(p: Parameters, stretch: Result, kind: str) -> Regularity:
     """Of the switches of a kind in a stretch: a stable cycle that the motion follows, or intervals that repeat."""
     at = (stretch.events["kind"] == kind).to_numpy()
     intervals = np.diff(stretch.events["time"].to_numpy(dtype=float)[at])
@@ -142,20 +134,11 @@ def _periodic(p: Parameters, stretch: Result, kind: str) -> Periodic:
     if near is not None and near.own:
         n = near.cycle.separations if kind == "separation" else near.cycle.releases
         if 0 < n < len(intervals):
-            return Periodic(n, closure(intervals, n), near.kind, near.cycle.state)
+            return Regularity(near.kind, n, closure(intervals, n), near.cycle.state)
     if n := repeats(intervals):
         separates = kind == "separation"
-        return Periodic(n, closure(intervals, n), Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE)
-    return Periodic(0, math.nan, Outcome.UNDECIDED)
-
-
-def _aperiodic(p: Parameters, stretch: Result, tol: float) -> Periodic:
-    """Of a motion that has settled, and repeats after more switches than a stretch has if at all."""
-    calm = at_rest(p, stretch, tol)
-    if calm is not None:
-        return Periodic(0, math.nan, calm)
-    kind, period, apart = regularity(p, stretch.final_state, tol)
-    return Periodic(period, apart, kind)
+        return Regularity(Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE, n, closure(intervals, n))
+    return Regularity(Outcome.UNDECIDED)
 
 
 def repeats(intervals: np.ndarray) -> int:
