@@ -42,6 +42,11 @@ def test_code_counts_and_what_is_said_of_it_does_not(text: str, same: bool, tmp_
     assert (hashes[0] == hashes[1]) == same
 
 
+def test_a_script_is_the_same_beside_the_package_and_within_it() -> None:
+    within = PACKAGE / "workflow" / "scripts" / "gc.py"
+    assert source_hash("errors", files=(within,)) == source_hash("errors", files=(within.resolve(),))
+
+
 def test_names_stand_for_kinds_modules_packages_and_files(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(KINDS, "one", Kind("errors explorer/static figures.paper"))
     monkeypatch.setitem(KINDS, "other", Kind("one plate"))

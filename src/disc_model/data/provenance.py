@@ -29,8 +29,9 @@ def source_hash(*names: str, files: tuple[Path, ...] = ()) -> str:
     files : further sources, such as a script
     """
     digest = hashlib.sha256(repr(sorted((name, KINDS[name].version) for name in _kinds(names))).encode())
-    for path in (*source_files(*names), *files):
-        name = path.relative_to(PACKAGE).as_posix() if path.is_relative_to(PACKAGE) else path.name
+    own = {path: path.relative_to(PACKAGE).as_posix() for path in source_files(*names)}
+    # a script has one name, whether it lies beside the package or, installed, within it
+    for path, name in (own | {path: path.name for path in files}).items():
         content = _code(path) if path.suffix == ".py" else path.read_bytes()
         digest.update(f"{name}\0{len(content)}\0".encode() + content)
     return digest.hexdigest()[:16]
