@@ -143,14 +143,16 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
     folds = [
         Curve(np.array([15.0, 15.2]), np.array([380.0, 390.0]), "fold"),
         Curve(np.array([12.0, 12.5]), np.array([380.0, 390.0]), "neutral"),
-        Curve(np.array([11.0, np.nan, 30.0, 31.0]), np.array([380.0, np.nan, 380.0, 390.0]), "fold"),
+        Curve(np.array([11.0, 11.2, np.nan, 30.0, 31.0]), np.array([380.0, 390.0, np.nan, 380.0, 390.0]), "fold"),
     ]
     monkeypatch.setattr(drawn, "curves_of", lambda _: folds)
-    shown = lines(draw("ramps", study, {"curves": xr.Dataset()}, title="t").axes[0])
+    ax = draw("ramps", study, {"curves": xr.Dataset()}, title="t").axes[0]
+    shown = lines(ax)
     np.testing.assert_allclose(shown["onset of separation, speed rising"].get_ydata(), [15.3, np.nan, np.nan])
     np.testing.assert_allclose(shown["end of separation, speed falling"].get_ydata(), [9.7, 9.3, np.nan])
     assert list(shown[drawn.BEYOND].get_xdata()) == [0.1]
     assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
+    assert [text.get_text() for text in ax.texts] == ["15.10"], "the fold of another cycle, at 11 rad/s, was drawn too"
 
 
 def test_a_curve_may_pass_a_load_several_times() -> None:

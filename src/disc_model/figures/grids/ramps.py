@@ -19,7 +19,7 @@ BEYOND = "none up to the highest speed"
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
-    """One point; with the further study ``curves``, the speeds at which the cycle ends."""
+    """One point; with the further study ``curves``, the speed at which the cycle ends."""
     norm, study, others = parts.of_one(study, others)
     study = study.squeeze()
     options, load = json.loads(study.attrs["options"]), float(json.loads(study.attrs["base"])["N"])
@@ -34,7 +34,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
         top = np.full(late.size, options["high"])
         ax.plot(late, top, "^", color=ONSET, markersize=4, markerfacecolor="white", clip_on=False, label=BEYOND)
     if "curves" in others:
-        _folds(ax, curves_of(others["curves"]), load, options)
+        _fold(ax, curves_of(others["curves"]), load, onset)
     parts.mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)
@@ -46,10 +46,13 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
     return figure
 
 
-def _folds(ax: Axes, curves: list[Curve], load: float, options: Mapping[str, float]) -> None:
-    """Speeds at which the stick-slip cycle ends at this load: where the onset goes as the rate goes to zero."""
+def _fold(ax: Axes, curves: list[Curve], load: float, onset: np.ndarray) -> None:
+    """Speed at which the stick-slip cycle ends at this load: where the onset goes as the rate goes to zero.
+
+    It is the last one below all onsets; cycles that end elsewhere are others.
+    """
     folds = np.concatenate([[], *(crossings(curve, load) for curve in curves if curve.kind == "fold")])
-    for i, speed in enumerate(folds[(folds > options["low"]) & (folds < options["high"])]):
-        style = parts.border("fold") | ({"label": "_nolegend_"} if i else {})
-        ax.axhline(speed, **style, zorder=0)
-        parts.say_beside(ax, speed, f"{speed:.2f}")
+    below = folds[folds <= np.nanmin(onset, initial=np.inf)]
+    if below.size and np.isfinite(onset).any():
+        ax.axhline(below.max(), **parts.border("fold"), zorder=0)
+        parts.say_beside(ax, below.max(), f"{below.max():.2f}")
