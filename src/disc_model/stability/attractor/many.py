@@ -48,7 +48,8 @@ STEADY = 1e-3
 SAME = 0.05
 """Stretches that differ by less are those of one attractor; a drift, going on as it does, may have left half of it."""
 SMALLEST = 1e-3
-"""Ranges, over the static deflection, below which they are alike: the slider rests in height."""
+"""Ranges, over the static deflection, below which they are alike: the slider rests in height. And changes over a period
+of a motion that is as good as periodic."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Downward kicks of the published start from which attractors are looked for, over the static deflection."""
 
@@ -185,9 +186,14 @@ class Basins:
         if calm is not None:
             return Attractor(calm, stretch)
         near = cycle_reached(self.p, leg, LARGEST_PERIOD)
-        if near is not None and not near.cycle.stable:
+        if near is not None and not near.cycle.stable and self._stays(near):
             return None
         return self._periodic(near, stretch) if near is not None and near.own else Attractor(Outcome.UNDECIDED, stretch)
+
+    def _stays(self, near: Near) -> bool:
+        """Whether a motion hardly moves on the section over a period of the cycle near it, as on a torus it would."""
+        at = near.x + near.distance
+        return bool(np.linalg.norm(near.moved(at, 1)[0] - at) <= SMALLEST * self.size)
 
     def _same(self, one: Attractor, other: Attractor) -> bool:
         """Whether two are one: periodic ones by their fixed points, others by their stretches."""
