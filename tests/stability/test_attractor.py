@@ -173,6 +173,13 @@ def test_a_start_of_ones_own_is_followed_to_what_it_comes_to() -> None:
     assert 0 < small.distance < 0.1
 
 
+@pytest.mark.compiled
+def test_a_motion_that_has_long_been_on_its_cycle_is_quiet() -> None:
+    """What the map's coarse flights leave out was larger than what was left of the motion's distance."""
+    found = come_to(Parameters(N=200, Omega=20, c=0.5), 300, early=False)
+    assert (found.outcome, found.simulated) == (Outcome.QUIET, 300.0)
+
+
 @pytest.mark.parametrize("late", [0.0, 0.5, 4.0])
 def test_what_is_not_left_early_is_followed_to_the_horizon_and_judged_there(late: float) -> None:
     found = come_to(SMALL, 8.0, tol=1e-9, early=False, late=late)

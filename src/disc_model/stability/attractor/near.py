@@ -196,7 +196,8 @@ def _linear(near: Near, distance: Array, times: tuple[float, float]) -> bool:
     done = 0
     counts = [max(i, round(time / cycle.period)) for i, time in enumerate(times, 1)]
     for count in counts:
-        moved, took = near.moved(moved, count - done)
+        # what coarse flights leave out would show beside so small a distance
+        moved, took = near.moved(moved, count - done, coarse=bool(np.linalg.norm(distance) > SAME_POINT * near.size))
         expected = np.linalg.matrix_power(jacobian, count - done) @ expected
         error = float(np.linalg.norm(moved - x - expected))
         if math.isnan(took) or not error <= max(AGREES * float(np.linalg.norm(expected)), least):
