@@ -128,3 +128,22 @@ def test_without_a_part_of_numba_kernels_work_and_it_is_said_once(part: str, tmp
     done = ask_for_a_kernel(tmp_path, before=LACKS[part])
     assert done.stdout.split()[0] == "42"
     assert done.stderr.count("in another way than expected") == 1
+
+
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
+def test_a_first_call_with_kernels_in_the_cache_compiles_nothing() -> None:
+    """A helper that Python called was compiled in every process, for 0.2 s."""
+    code = """
+from numba.core import event
+import disc_model as dm
+p = dm.Parameters(N=385, Omega=15)
+class Told(event.Listener):
+    def on_start(self, found): print(found.data["dispatcher"].py_func.__name__)
+    def on_end(self, found): pass
+event.register("numba:compile", Told())
+dm.simulate(p, 0.1)
+dm.floquet(p)
+"""
+    for _ in range(2):
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not done.stdout

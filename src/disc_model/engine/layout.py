@@ -314,7 +314,7 @@ def build_series(model: Model, order: int) -> Series:
 def build_state(model: Model) -> State:
     """The published start: static equilibrium under the preload, in stick, spring relaxed."""
     width, n0 = len(model.force), len(model.force0)
-    disc = aligned(disc_size(width, n0, is_compliant(model)))
+    disc = aligned(disc_size(width, n0, len(model.give) == 1))
     z, e, y, g = np.split(disc[: 2 * (width + n0)], [width, 2 * width, 2 * width + n0])
     np.divide(-model.N * model.force, model.stiffness, out=z, where=model.stiffness > 0)
     np.divide(-model.N * model.force0, model.stiffness0, out=y, where=model.stiffness0 > 0)
