@@ -63,13 +63,6 @@ class KernelLibrary(JITCodeLibrary):
         builder = llvm.create_pass_builder(self._codegen._tm, options)
         builder.getModulePassManager().run(self._final_module, builder)
 
-    def serialize_using_object_code(self):
-        """The machine code, and of all that LLVM knows of it the names: nothing else is linked to a kernel."""
-        self._ensure_finalized()
-        names = (function.name for function in self._final_module.functions if not function.is_declaration)
-        stub = "\n".join(f'define void @"{name}"() {{ ret void }}' for name in names)
-        return self.name, "object", (self._get_compiled_object(), llvm.parse_assembly(stub).as_bitcode())
-
 
 def _visit(library, found):
     """Append a library behind all that it is linked to."""
