@@ -77,6 +77,35 @@ def test_a_damaged_kernel_is_compiled_again(tmp_path: Path) -> None:
     assert ask_for_a_kernel(tmp_path).stdout == "42 1\n"
 
 
+def test_a_kernel_is_compiled_against_one_from_the_cache(tmp_path: Path) -> None:
+    """As when one of two was compiled before an interruption: the file held a stub, and calling it crashed."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        textwrap.dedent("""
+            from disc_model.engine.compile import kernel
+            @kernel
+            def inner(x):
+                for i in range(3):
+                    x += 0.5 * x + i
+                return x
+            @kernel
+            def outer(x):
+                return inner(x) + 1.0
+            print(inner(1.0), outer(1.0))
+        """)
+    )
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    said = []
+    for _ in range(3):  # the third has the kernel that was compiled against the other one from the cache as well
+        done = subprocess.run(
+            [sys.executable, str(script)], capture_output=True, text=True, env=environment, check=False
+        )
+        said.append((done.returncode, done.stdout))
+        for path in (tmp_path / "cache").rglob("*outer*.kernel") if len(said) == 1 else ():
+            path.unlink()
+    assert said == [(0, "6.875 7.875\n")] * 3
+
+
 def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Path) -> None:
     (tmp_path / "cache").write_text("no folder")
     done = ask_for_a_kernel(tmp_path)
