@@ -194,6 +194,15 @@ def test_a_study_names_a_table_beside_it(tmp_path: Path) -> None:
     assert list(changed.batches) != batches[0]
 
 
+def test_a_study_that_is_named_by_another_has_its_tables_beside_it(tmp_path: Path) -> None:
+    """Only the file that was asked for itself had them read."""
+    (tmp_path / "disc.csv").write_text(disc_table(P))
+    (tmp_path / "own.yaml").write_text(study(tmp_path, "disc.csv").read_text())
+    (tmp_path / "all.yaml").write_text(f"study: all\nstudies: [{tmp_path}/own.yaml]\n")
+    grids, _ = load_study(tmp_path / "all.yaml").grids()
+    assert grids["own"].base["disc"]["omega"] == tuple(mode_arrays(P).omega)
+
+
 @pytest.mark.parametrize(
     ("disc", "said"),
     [
@@ -229,5 +238,7 @@ def test_the_first_modes_of_a_table_are_chosen_as_those_of_the_plate(tmp_path: P
     assert of_table.parameters.disc == table.disc.first(of_plate.parameters.n_diameters + 1)
     assert (of_table.modes, of_table.error) == (of_plate.modes, pytest.approx(of_plate.error))
     assert dm.choose_modes(table.replace(disc=table.disc.first(1)), 1e-2).error == 0
+    still = dm.Disc(diameters=[3, 0, 1], omega=[1e3, 1.5e3, 1.6e3], amplitude=[0.0, 1.5, 2.2])
+    assert len(dm.choose_modes(P.replace(disc=still), 1e-2).parameters.disc.omega) > 1
     with pytest.raises(dm.ParameterError, match="must be 'frequencies' for a disc given by its modes"):
         dm.choose_modes(table, quantity="growth")

@@ -110,9 +110,9 @@ def _first_of_table(p: Parameters, disc: Disc, tolerance: float, band: float) ->
     modes, right = mode_arrays(p), _frequencies(p)
     top, rich = band * float(modes.omega.min()), (int(modes.diameters.max()), int(modes.circles.max()))
     for count in range(1, len(modes.omega) + 1):
-        chosen = p.replace(disc=disc.first(count))
-        if not np.any(modes.psi[:count]):
+        if not np.any(modes.psi[:count]):  # these alone would be no disc
             continue
+        chosen = p.replace(disc=disc.first(count))
         mine = coupled_frequencies(modes.omega[:count], modes.psi[:count], p.m, p.k, contact_give(chosen))
         error = _worst(mine, right, top)
         if error <= tolerance:

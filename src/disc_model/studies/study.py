@@ -264,7 +264,7 @@ class Study:
         try:
             raw, more = read_file(path)
             raw = {"resolution": self.resolution, **inherit(mapping(raw), self.overrides.get(path.stem, {}))}
-            study = _with_more_faults(raw, more, _shown_path(path))
+            study = _with_more_faults(raw, more, _shown_path(path), path.parent)
         except StudyError as error:
             faults += [f"{error.source}: {fault}" for fault in error.faults]
             return
@@ -282,7 +282,7 @@ class Study:
 def load_study(path: str | Path) -> Study:
     """Read and check a study file, but for the files that it names."""
     raw, faults = read_file(Path(path))
-    return _with_more_faults(_with_discs(raw, Path(path).parent, faults), faults, str(path))
+    return _with_more_faults(raw, faults, str(path), Path(path).parent)
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
@@ -292,8 +292,8 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     """
     paths = [Path(file) for file in files]
     faults = [fault for path in paths for fault in read_file(path)[1]]
-    config = _with_discs(config, paths[-1].parent if paths else Path(), faults)
-    return _with_more_faults(config, faults, ", ".join(map(_shown_path, paths)) or "study")
+    folder = paths[-1].parent if paths else Path()
+    return _with_more_faults(config, faults, ", ".join(map(_shown_path, paths)) or "study", folder)
 
 
 def parse_study(raw: Any) -> Study:
@@ -316,10 +316,13 @@ def parse_study(raw: Any) -> Study:
     )  # fmt: skip
 
 
-def _with_more_faults(raw: Any, more: Sequence[str], source: str) -> Study:
-    """The study of a file's content; faults found before come with its own, in one error with the source."""
+def _with_more_faults(raw: Any, more: list[str], source: str, folder: Path) -> Study:
+    """The study of a file's content; faults found before come with its own, in one error with the source.
+
+    folder : in which tables of discs are looked for
+    """
     try:
-        study = parse_study(raw)
+        study = parse_study(_with_discs(raw, folder, more))
     except StudyError as error:
         raise StudyError(*more, *error.faults, source=source) from None
     if more:
