@@ -16,6 +16,7 @@ import pytest
 
 from disc_model import cli
 from disc_model.studies.study import StudyError, parse_study
+from tests.trees import places, planted
 
 FILE = Path(__file__).with_name("messages.json")
 TEXTS: dict[str, list[dict[str, Any]]] = json.loads(FILE.read_text(encoding="utf-8"))
@@ -38,21 +39,6 @@ def said_to(arguments: list[str]) -> str:
         cli.main(arguments)
     assert ended.value.code == 2
     return err.getvalue()
-
-
-def places(tree: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    """Paths of all values of a tree, branches before what is on them."""
-    inside = tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
-    return [path, *(place for key, child in inside for place in places(child, (*path, key)))]
-
-
-def planted(tree: Any, path: tuple[Any, ...], value: Any) -> Any:
-    """The tree with another value at a place."""
-    if not path:
-        return value
-    copy = dict(tree) if isinstance(tree, dict) else list(tree)
-    copy[path[0]] = planted(tree[path[0]], path[1:], value)
-    return copy
 
 
 def planted_faults(raw: Any) -> dict[str, str]:

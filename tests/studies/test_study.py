@@ -24,7 +24,6 @@ GRID: dict[str, Any] = {
     "axes": {"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2, 0.3]},
     "figures": {"growth": {"kind": "heat_map", "variable": "growth_rate", "x": "mu_s", "y": "mu_k"}},
 }
-HYSTERESIS = {"scan": {"start": 1, "stop": 2, "count": 2}, "dwell": 9}
 CASES: dict[str, Any] = {
     "study": "small",
     "base": {"N": 385, "c": 0.1},

@@ -23,6 +23,7 @@ from disc_model import ParameterError, Parameters
 from disc_model.cli import main
 from disc_model.studies.study import StudyError, parse_study, read_yaml
 from tests.tally import tried
+from tests.trees import places, planted
 
 ROOT = Path(__file__).parents[2]
 NAMES = [*Parameters.model_fields, "n", "Ω", "", "__class__", "N ", "omega"]
@@ -64,21 +65,6 @@ trees = st.recursive(
 )
 
 
-def leaves(tree: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    """Paths of all nodes of a study, leaves and branches."""
-    children = tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
-    return [path, *(p for key, child in children for p in leaves(child, (*path, key)))]
-
-
-def planted(tree: Any, path: tuple[Any, ...], what: Any) -> Any:
-    """The tree with one node replaced."""
-    if not path:
-        return what
-    copy = dict(tree) if isinstance(tree, dict) else list(tree)
-    copy[path[0]] = planted(tree[path[0]], path[1:], what)
-    return copy
-
-
 STUDY = yaml.safe_load((ROOT / "config/test.yaml").read_text())
 STUDIES = sorted((ROOT / "config/studies").glob("*.yaml"))
 GRIDS = [yaml.safe_load(path.read_text()) for path in STUDIES]
@@ -99,7 +85,7 @@ def test_parameters(given_fields: dict[str, Any]) -> None:
         assert all(math.isfinite(value) for value in p.model_dump().values() if isinstance(value, float))
 
 
-@given(st.sampled_from(leaves(STUDY)), trees)
+@given(st.sampled_from(places(STUDY)), trees)
 def test_study_with_one_hostile_node(path: tuple[Any, ...], what: Any) -> None:
     try_study(parse_study, planted(STUDY, path, what))
 
@@ -107,7 +93,7 @@ def test_study_with_one_hostile_node(path: tuple[Any, ...], what: Any) -> None:
 @given(st.data())
 def test_grid_with_one_hostile_node(data: st.DataObject) -> None:
     grid = data.draw(st.sampled_from(GRIDS))
-    path = data.draw(st.sampled_from(leaves(grid)))
+    path = data.draw(st.sampled_from(places(grid)))
     try_study(parse_study, planted(grid, path, data.draw(trees)))
 
 
