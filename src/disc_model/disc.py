@@ -91,14 +91,14 @@ def disc_table(p: Parameters) -> str:
 
 def _text(path: str | os.PathLike[str]) -> str:
     try:
-        if Path(path).stat().st_size > LARGEST:
-            raise _fault(path, f"must be a table of at most {LARGEST // 1_000_000} MB")
-        return Path(path).read_text(encoding="utf-8-sig")
+        too_large = Path(path).stat().st_size > LARGEST
+        text = "" if too_large else Path(path).read_text(encoding="utf-8-sig")
     except (OSError, TypeError, ValueError) as error:
-        if isinstance(error, ParameterError):
-            raise
         said = getattr(error, "strerror", None) or type(error).__name__
         raise _fault(path, f"must be a text file that can be read ({said})") from None
+    if too_large:
+        raise _fault(path, f"must be a table of at most {LARGEST // 1_000_000} MB")
+    return text
 
 
 def _static_compliance(lines: list[str], path: object) -> float | None:

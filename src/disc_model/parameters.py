@@ -457,6 +457,8 @@ class Disc(Checked):
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = ()
     static_compliance: Positive | None = None
 
+    _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles")
+
     @model_validator(mode="before")
     @classmethod
     def _complete(cls, data: Any) -> Any:
@@ -476,8 +478,7 @@ class Disc(Checked):
 
     @classmethod
     def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
-        columns = {name: data.get(name) for name in ("diameters", "omega", "amplitude", "damping_ratio", "circles")}
-        given = {name: column for name, column in columns.items() if isinstance(column, tuple | list)}
+        given = {name: data[name] for name in cls._columns if isinstance(data.get(name), tuple | list)}
         faults: list[str] = []
         count = len(given.get("diameters", ()))
         if "diameters" in given and not 1 <= count <= MOST_MODES:
@@ -499,8 +500,7 @@ class Disc(Checked):
 
     def first(self, count: int) -> Disc:
         """The disc with the first modes of its table alone."""
-        columns = ("diameters", "omega", "amplitude", "damping_ratio", "circles")
-        return self.replace(**{name: getattr(self, name)[:count] for name in columns})
+        return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
 
 
 def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> list[str]:

@@ -18,11 +18,19 @@ from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, machine, outcomes
 from disc_model.engine.compile import compiled_for
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
-from disc_model.parameters import TOLERANCES, Parameters, foreign_case, is_number, is_whole, limits_faults
+from disc_model.parameters import (
+    TOLERANCES,
+    Parameters,
+    content_key,
+    foreign_case,
+    is_number,
+    is_whole,
+    limits_faults,
+)
 from disc_model.plate import mode_arrays
 from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
-from disc_model.simulation.case import CaseSpec, Record, Start, Window, content_key
+from disc_model.simulation.case import CaseSpec, Record, Start, Window
 from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import (

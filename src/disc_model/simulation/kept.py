@@ -26,9 +26,9 @@ from numpy.typing import NDArray
 from disc_model.data.provenance import source_hash, versions
 from disc_model.engine import machine, sampling
 from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import Parameters, is_number
+from disc_model.parameters import Parameters, canonical_json, content_key, is_number
 from disc_model.plate import mode_arrays
-from disc_model.simulation.case import Poincare, Record, Window, canonical_json, content_key
+from disc_model.simulation.case import Poincare, Record, Window
 
 # ----------------------------------------------------------------------------------------------------
 # Checkpoints
