@@ -45,7 +45,7 @@ FUNCTIONS = {
         *("slip_rates", "grip", "impact"),
     ),
     "engine/switches.py": (
-        *("disc_point", "spring_force", "_free_acceleration", "_deflection_size", "_rounding", "force_in_stick"),
+        *("disc_point", "_free_acceleration", "_deflection_size", "_rounding", "force_in_stick"),
         *("slip_force", "impact", "switch_function"),
     ),
     "flexibility.py": (

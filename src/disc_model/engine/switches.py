@@ -93,8 +93,9 @@ def instant(model, state):
 
 @inlined
 def spring_force(model, state):
-    """F = k_p psi + c_p (Omega - f): the in-plane force over r_0, N/m."""
-    return model.k_p * state.x[PSI] + model.c_p * (drive_now(model, state) - state.x[SPEED])
+    """F, see ``laws.spring_force``."""
+    i, _ = instant(model, state)
+    return laws.spring_force(i)
 
 
 @inlined
@@ -135,8 +136,9 @@ def force_in_stick(model, state, V):
     """What counts as contact force in stick: V, or R under the normal force."""
     if not is_normal(model):
         return V
-    _, _, slope = disc_point(model, state)
-    return (V + spring_force(model, state) * slope) / (1.0 + (slope / model.r_0) ** 2)
+    i, _ = instant(model, state)
+    _, press = laws.grip(model, i, V)
+    return press / (1.0 + (i.slope / model.r_0) ** 2)
 
 
 @inlined
