@@ -71,7 +71,8 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
     for name in SCALARS:
         value = np.int8(values[name]) if name == "status" else values.get(name, math.nan)
         data[name] = ((), np.int64(value) if name in COUNTS else value, attributes(name))
-    for name, value in (p.model_dump() | {"contact_compliance": _compliance(p)}).items():
+    disc = p.disc.model_dump_json() if p.disc else ""  # a file holds no mapping
+    for name, value in (p.model_dump() | {"contact_compliance": _compliance(p), "disc": disc}).items():
         stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
         data[name] = ((), stored, attributes(name))
     attrs = {
