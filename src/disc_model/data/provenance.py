@@ -82,16 +82,16 @@ def versions() -> dict[str, str]:
 
 
 @functools.lru_cache(maxsize=1)
-def git_commit() -> str:
+def git_commit(package: Path = PACKAGE) -> str:
     """Commit of the sources, with ``-dirty`` if they were changed since; "unknown" outside their repository."""
     try:
         # an environment may lie in the repository of something else
-        _git("ls-files", "--error-unmatch", "__init__.py")
-        return _git("describe", "--always", "--dirty", "--abbrev=40", "--exclude=*")
+        _git(package, "ls-files", "--error-unmatch", "__init__.py")
+        return _git(package, "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*")
     except (OSError, subprocess.SubprocessError):
         return "unknown"
 
 
-def _git(*arguments: str) -> str:
-    done = subprocess.run(["git", *arguments], cwd=PACKAGE, capture_output=True, text=True, timeout=20, check=True)
+def _git(folder: Path, *arguments: str) -> str:
+    done = subprocess.run(["git", *arguments], cwd=folder, capture_output=True, text=True, timeout=20, check=True)
     return done.stdout.strip()
