@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model import cli
+from disc_model import cli, mode_choice
 from disc_model.disc import disc_table
 from disc_model.plate import modal_damping, mode_arrays
 from disc_model.stability.return_map import ReturnMap
@@ -240,5 +241,28 @@ def test_the_first_modes_of_a_table_are_chosen_as_those_of_the_plate(tmp_path: P
     assert dm.choose_modes(table.replace(disc=table.disc.first(1)), 1e-2).error == 0
     still = dm.Disc(diameters=[3, 0, 1], omega=[1e3, 1.5e3, 1.6e3], amplitude=[0.0, 1.5, 2.2])
     assert len(dm.choose_modes(P.replace(disc=still), 1e-2).parameters.disc.omega) > 1
-    with pytest.raises(dm.ParameterError, match="must be 'frequencies' for a disc given by its modes"):
-        dm.choose_modes(table, quantity="growth")
+
+
+@pytest.mark.parametrize(
+    ("growth", "modes", "error"),
+    [
+        (lambda n: 1 + 0.1 / n**2, 3, (0.1 / 9 - 0.1 / 64) / (1 + 0.1 / 64)),
+        (lambda n: float(n), 8, 0.0),
+        (lambda n: 1.0 if n > 1 else np.nan, 2, 0.0),
+    ],
+)
+def test_the_first_modes_of_a_table_are_chosen_by_the_motion(
+    growth: Callable[[int], float], modes: int, error: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Compared with twice as many and with the whole table, which is the last resort."""
+    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: growth(len(p.disc.omega)))
+    disc = dm.Disc(diameters=range(8), omega=np.arange(1.0, 9), amplitude=np.ones(8))
+    choice = dm.choose_modes({"N": 385, "Omega": 15.1, "disc": disc, "n_diameters": "auto"}, quantity="growth")
+    assert choice.parameters.disc == disc.first(modes)
+    assert (choice.modes, choice.rich, choice.error) == (2 * modes - 1, (8,), pytest.approx(error))
+
+
+def test_a_table_without_the_quantity_is_not_chosen_from(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: np.nan)
+    with pytest.raises(dm.DiscModelError, match="undecided: no growth to choose by with 1, 3, 5 modes"):
+        dm.choose_modes(P.replace(disc=dm.Disc(**THREE)), quantity="growth")

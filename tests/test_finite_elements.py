@@ -59,11 +59,17 @@ def test_a_disc_that_stands_free_has_no_motion_of_a_rigid_body_missing() -> None
     ("change", "said"),
     [
         ({"slider": (0.0999, 0.005)}, "slider=(0.0999, 0.005): must be a node of the mesh"),
+        ({"slider": 0.1}, "slider=0.1: must be two numbers, r and z"),
+        ({"E": -1.0, "nu": 0.5, "rho": 0}, "E=-1: must be > 0; nu=0.5: must be < 0.5; rho=0: must be > 0"),
+        ({"nu": float("nan"), "damping_ratio": 1}, "nu=nan: must be finite"),
+        ({"highest_Hz": float("inf")}, "highest_Hz=inf: must be finite and > 0"),
         ({"highest_Hz": 1.0}, "highest_Hz=1: must be above a mode that moves under the slider"),
     ],
 )
 def test_what_cannot_be_found_is_said(change: dict[str, object], said: str) -> None:
-    given = IRON | {"clamped": lambda x: x[0] < 0.06 + 1e-9, "slider": (0.1, 0.005), "highest_Hz": 3000.0} | change
+    given: dict[str, object] = (
+        IRON | {"clamped": lambda x: x[0] < 0.06 + 1e-9, "slider": (0.1, 0.005), "highest_Hz": 3000.0} | change
+    )
     with pytest.raises(dm.ParameterError) as error:
         disc_of_section(section(RING, 0.01), **given)
     assert said in str(error.value)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
-from disc_model.parameters import Disc, is_number
+from disc_model.parameters import Disc, Parameters, is_number
 
 if TYPE_CHECKING:
     from skfem import MeshQuad
@@ -94,9 +94,17 @@ def disc_of_section(
     Raises
     ------
     ParameterError
-        If the slider is at no node, or no mode moves under it.
+        If a number breaks its rule, the slider is at no node, or no mode moves under it.
     """
     skfem = _skfem()
+    iron = Parameters(N=0, Omega=0, E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
+    place = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
+    refuse(
+        broken(
+            (place, "slider", slider, "must be two numbers, r and z"),
+            (is_number(highest_Hz) and 0 < highest_Hz < math.inf, "highest_Hz", highest_Hz, "must be finite and > 0"),
+        )
+    )
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
     vertical = basis.split_indices()[1]
@@ -106,7 +114,7 @@ def disc_of_section(
     held, highest = basis.get_dofs(clamped).all(), math.tau * highest_Hz
     found: list[tuple[float, int, int, float]] = []
     for l in range(61):
-        omega, amplitude = _harmonic(basis, l, (E, nu, rho), held, at, highest)
+        omega, amplitude = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, at, highest)
         if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
             break
         found += [(w, l, i, a) for i, (w, a) in enumerate(zip(omega, amplitude, strict=True))]
@@ -118,7 +126,7 @@ def disc_of_section(
         )
     names = ("omega", "diameters", "circles", "amplitude")
     columns = dict(zip(names, map(list, zip(*kept, strict=True)), strict=True))
-    return Disc(**columns, damping_ratio=[damping_ratio] * len(kept))
+    return Disc(**columns, damping_ratio=[iron.damping_ratio] * len(kept))
 
 
 def _harmonic(

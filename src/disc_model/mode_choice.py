@@ -2,15 +2,16 @@
 
 By ``frequencies`` no motion is needed (`disc_model.truncation`).  By a quantity of the motion a model is taken where
 two larger ones agree with it; where none does, nothing is chosen, and the error says how far apart the largest are.
+A table of modes is all that there is of its disc, and is taken whole where its first modes do not do.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from disc_model.errors import DiscModelError, Fault, ParameterError, broken, refuse, shown
+from disc_model.errors import DiscModelError, broken, refuse
 from disc_model.parameters import Parameters, is_number, is_whole
 from disc_model.truncation import (
     BAND,
@@ -22,7 +23,9 @@ from disc_model.truncation import (
     by_frequencies,
     checked_quantity,
     checked_tolerance,
+    counts,
     real_modes,
+    real_modes_of,
 )
 
 if TYPE_CHECKING:
@@ -39,6 +42,7 @@ LATE = (20.0, 10.0)
 """s from the first separation to the stretch in which separations are counted, and its length."""
 
 Size = tuple[int, int]
+"""Highest diameters and circles of a plate."""
 
 
 def choose_modes(
@@ -84,40 +88,56 @@ def choose_modes(
         (isinstance(case, Parameters | Mapping), "case", case, "must be Parameters, or a mapping of names to values"),
     )
     refuse([*faults, *more, *others])
-    size = {"n_diameters": CANDIDATES[0][0], "n_circles": 0}
-    p = case if isinstance(case, Parameters) else Parameters.model_validate({**case, **size})
+    if not isinstance(case, Parameters):
+        sizes = ("n_diameters", "n_circles")
+        case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
     if quantity == FREQUENCIES:
-        return by_frequencies(p, tolerance, band, (int(rich[0]), int(rich[1])))
-    return by_motion(p, Asked(quantity, tolerance))
+        return by_frequencies(case, tolerance, band, (int(rich[0]), int(rich[1])))
+    return by_motion(case, Asked(quantity, tolerance))
 
 
 def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
-    """The first candidate with which two larger models agree; raises `DiscModelError` where there is none."""
-    if p.disc is not None:
-        rule = f"must be {FREQUENCIES!r} for a disc given by its modes"
-        raise ParameterError(Fault(("truncation_quantity",), shown(asked.quantity), rule))
-    values: dict[Size, float] = {}
+    """The first candidate with which larger models agree; raises `DiscModelError` where there is none."""
+    values: dict[tuple[int, ...], float] = {}
     change = math.inf
-    for size in CANDIDATES:
-        group = (size, *larger(size))
+    for size, *others in _compared(p):
+        group = (size, *others)
         for one in group:
             if one not in values:
-                values[one] = MEASURES[asked.quantity](p.replace(n_diameters=one[0], n_circles=one[1]))
-        mine, *others = (values[one] for one in group)
-        if size == GIVEN_UP and all(map(math.isnan, values.values())):
-            raise DiscModelError(f"n_diameters: undecided: no {asked.quantity} to choose by with {_listed(group)}")
-        change = max(_change(mine, other) for other in others)
+                values[one] = MEASURES[asked.quantity](_model(p, one))
+        if (p.disc is not None or size == GIVEN_UP) and all(map(math.isnan, values.values())):
+            raise DiscModelError(f"n_diameters: undecided: no {asked.quantity} to choose by with {_listed(p, group)}")
+        change = max(_change(values[size], values[other]) for other in others or group)
         if change <= asked.tolerance:
-            parameters = p.replace(n_diameters=size[0], n_circles=size[1])
-            return ModeChoice(
-                parameters, asked.tolerance, change, real_modes(*size), group[-1], None, asked.quantity, values
-            )
+            count = _real(p, size)
+            return ModeChoice(_model(p, size), asked.tolerance, change, count, group[-1], None, asked.quantity, values)
     told = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
     raise DiscModelError(
-        f"n_diameters: undecided: {asked.quantity} still changes {told} among {_listed(group)}, more than the "
+        f"n_diameters: undecided: {asked.quantity} still changes {told} among {_listed(p, group)}, more than the "
         f"tolerance {asked.tolerance:g}; give the number of modes, a larger tolerance"
         + ("" if p.contact_compliance else ", or contact_compliance='residual'")
     )
+
+
+def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
+    """Candidates, each with the larger models that it is compared with.
+
+    The first modes of a table are compared with twice as many and with all; if need be all are taken.
+    """
+    if p.disc is None:
+        yield from ((size, *larger(size)) for size in CANDIDATES)
+        return
+    most, count = counts(p.disc)[-1], counts(p.disc)[0]
+    while count < most:
+        yield tuple(dict.fromkeys([(count,), (min(2 * count, most),), (most,)]))
+        count += (count + 1) // 2
+    yield ((most,),)
+
+
+def _model(p: Parameters, size: tuple[int, ...]) -> Parameters:
+    if p.disc is not None:
+        return p.replace(disc=p.disc.first(*size))
+    return p.replace(**dict(zip(("n_diameters", "n_circles"), size, strict=True)))
 
 
 def larger(size: Size) -> tuple[Size, Size]:
@@ -133,8 +153,13 @@ def _change(mine: float, other: float) -> float:
     return abs(mine / other - 1.0) if math.isfinite(mine) and math.isfinite(other) and other else math.inf
 
 
-def _listed(sizes: tuple[Size, ...]) -> str:
-    return ", ".join(str(real_modes(*size)) for size in sizes) + " modes"
+def _real(p: Parameters, size: tuple[int, ...]) -> int:
+    """Number of real modes of a model."""
+    return real_modes(*size) if p.disc is None else real_modes_of(p.disc, *size)
+
+
+def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
+    return ", ".join(str(_real(p, size)) for size in sizes) + " modes"
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -44,19 +44,19 @@ class ModeChoice:
     quantity : by what they were chosen
     tolerance, error : asked for and reached, relative; of the coupled frequencies in the band, or of the quantity
     modes : number of real modes
-    rich : (diameters, circles) of the largest model compared with
+    rich : (diameters, circles) of the largest model compared with; of a table, (modes,)
     band : see `frequency_error`; None where they were not chosen by frequencies
-    values : the quantity for each model looked at, by (diameters, circles); empty where chosen by frequencies
+    values : the quantity for each model looked at, by size as `rich`; empty where chosen by frequencies
     """
 
     parameters: Parameters
     tolerance: float
     error: float
     modes: int
-    rich: tuple[int, int]
+    rich: tuple[int, ...]
     band: float | None = None
     quantity: str = FREQUENCIES
-    values: Mapping[tuple[int, int], float] = field(default_factory=dict)
+    values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
 
     def to_json(self) -> str:
         """The choice as text, to be kept beside the results (a dataset's attribute)."""
@@ -72,7 +72,7 @@ class ModeChoice:
         if self.quantity == FREQUENCIES:
             record["band"] = self.band
         else:
-            found = {f"{d},{c}": x if math.isfinite(x) else None for (d, c), x in self.values.items()}
+            found = {",".join(map(str, size)): x if math.isfinite(x) else None for size, x in self.values.items()}
             record |= {"quantity": self.quantity, "values": found}
         return json.dumps(record, sort_keys=True)
 
@@ -108,17 +108,24 @@ def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tu
 def _first_of_table(p: Parameters, disc: Disc, tolerance: float, band: float) -> ModeChoice:
     """The first modes of a table that do as all of it; the last resort is the whole table."""
     modes, right = mode_arrays(p), _frequencies(p)
-    top, rich = band * float(modes.omega.min()), (int(modes.diameters.max()), int(modes.circles.max()))
-    for count in range(1, len(modes.omega) + 1):
-        if not np.any(modes.psi[:count]):  # these alone would be no disc
-            continue
+    top = band * float(modes.omega.min())
+    for count in counts(disc):
         chosen = p.replace(disc=disc.first(count))
         mine = coupled_frequencies(modes.omega[:count], modes.psi[:count], p.m, p.k, contact_give(chosen))
         error = _worst(mine, right, top)
         if error <= tolerance:
             break
-    real = count + int(np.count_nonzero(modes.diameters[:count]))
-    return ModeChoice(chosen, tolerance, error, real, rich, band)
+    return ModeChoice(chosen, tolerance, error, real_modes_of(disc, count), (len(modes.omega),), band)
+
+
+def counts(disc: Disc) -> range:
+    """Of how many of its first modes a table can be made: not of those alone that do not move under the slider."""
+    return range(1 + next(i for i, each in enumerate(disc.amplitude) if each), len(disc.omega) + 1)
+
+
+def real_modes_of(disc: Disc, count: int) -> int:
+    """Number of real modes among the first of a table."""
+    return count + sum(each > 0 for each in disc.diameters[:count])
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
