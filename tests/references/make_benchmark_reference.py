@@ -1,4 +1,4 @@
-"""Compute the benchmark's high-precision references (extra `bench`); run from the repository's root::
+"""Compute the benchmark's high-precision references (needs mpmath); run from the repository's root::
 
     python -m tests.references.make_benchmark_reference src/disc_model/benchmarks/data/benchmark_reference.json
 
@@ -15,17 +15,11 @@ from disc_model import plate_modes
 from disc_model.benchmarks.scenes import REFERENCED, problem
 from disc_model.errors import script
 from disc_model.parameters import Parameters
-from tests.references.heyoka_reference import LONG, Reference, decimal
-from tests.references.stored import BASE, Case, reference_state
+from tests.references.make_stored_references import decimal, repeated
+from tests.references.stored import reference_state
+from tests.references.taylor import Reference, problem_of
 
 FIELDS = ("time", "phase", "direction", "psi", "f", "u", "u_velocity", "a", "b", "alpha", "beta")
-
-
-def case_of(p: Parameters) -> Case:
-    modes = plate_modes(p)
-    values = p.model_dump()
-    base = {name: values[name] for name in BASE}
-    return Case(p.N, p.Omega, list(modes["omega"]), list(np.abs(modes["psi"])), base)
 
 
 def final(run: Reference, p: Parameters) -> dict[str, object]:
@@ -39,15 +33,12 @@ def final(run: Reference, p: Parameters) -> dict[str, object]:
 
 def reference(name: str) -> dict[str, object]:
     task = problem(name)
-    case, start = case_of(task.parameters), reference_state(task.start, task.parameters)
-    run, check = (Reference(case, start, tol=tol).run(task.t_end) for tol in (1e-21, 1e-23))
-    if [e["kind"] for e in run.events] != [e["kind"] for e in check.events]:
-        raise RuntimeError(f"{name}: two long-double runs disagree")
-    difference = max(abs(LONG(x["time"]) - y["time"]) for x, y in zip(run.events, check.events, strict=True))
+    q, start = problem_of(task.parameters), reference_state(task.start, task.parameters)
+    run, difference = repeated(q, start, task.t_end)
     return {
         "parameters": task.parameters.key,
         "t_end": task.t_end,
-        "largest_difference_to_check_run": float(difference),
+        "largest_difference_to_check_run": difference,
         "kinds": [e["kind"] for e in run.events],
         "times": [decimal(e["time"]) for e in run.events],
         "final": final(run, task.parameters),

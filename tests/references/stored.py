@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -35,29 +35,6 @@ BASE = {
 
 
 @dataclass
-class Case:
-    """Parameters and modes: every number an exact double."""
-
-    N: float
-    Omega: float
-    omega: list
-    psi: list
-    base: dict = field(default_factory=lambda: dict(BASE))
-
-    def numbers(self, real):
-        """The doubles and what follows from them, computed in `real`."""
-        q = {name: real(value) for name, value in self.base.items()}
-        q["N"], q["Omega"] = real(self.N), real(self.Omega)
-        q["omega"] = [real(x) for x in self.omega]
-        q["shape"] = [real(x) for x in self.psi]
-        stiffness = q["E"] * q["h"] * q["h"] * q["h"] / real(12) / (real(1) - q["nu"] * q["nu"])
-        q["damping"] = [q["D_star"] / stiffness * w * w for w in q["omega"]]
-        q["S2"] = sum((s * s for s in q["shape"]), real(0))
-        q["u_0"] = -q["N"] * sum((s * s / (w * w) for s, w in zip(q["shape"], q["omega"], strict=True)), real(0))
-        return q
-
-
-@dataclass
 class State:
     """Time (s), phase, direction (sign of f in slip, else 0) and the variables of the slider's frame."""
 
@@ -82,11 +59,6 @@ def load(name):
         return State(**found) if found.keys() == State.__annotations__.keys() else found
 
     return json.loads((DATA / f"{name}.json").read_text(), object_hook=read)
-
-
-def case_of(data):
-    p = dict(data["parameters"])
-    return Case(p.pop("N"), p.pop("Omega"), data["modes"]["omega"], data["modes"]["psi"], p)
 
 
 def times_of(data):

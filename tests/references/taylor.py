@@ -5,15 +5,10 @@ compliance ``C`` (m/N), contact force ``vertical`` or ``normal``; quotients are 
 for by exclusion: on an interval of middle m and half width r a polynomial has no root if |p(m)| > sum |p_j(m)| r^j, and
 at most one if the same holds for its derivative; else the interval is halved.  Omega and N may change at constant
 rates from the time 0 on; u_0 stays that of the first N.
-
-Regenerate the stored data (about ten minutes)::
-
-    python -m tests.references.taylor
 """
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cache
 from math import comb
@@ -21,7 +16,7 @@ from math import comb
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 
-from tests.references.stored import BASE, DATA, State, load, rounded
+from tests.references.stored import BASE, State, load
 
 LONG = np.longdouble
 ORDER = 32
@@ -435,20 +430,22 @@ class Reference:
             self._separate(2)
 
 
-# ------------------------------------------------------------------------------------- stored data
+# ------------------------------------------------------------------------------------- stored cases
 LAWS = {"compliant": ("vertical", True), "normal": ("normal", False), "compliant_normal": ("normal", True)}
 #: m/N; about the residual flexibility of the nine published modes.
 COMPLIANCE = 2.656e-7
-#: s; violent motion is chaotic (neighbours part by a factor of e in 3 ms): it is stored in pieces, each from the
-#: state, rounded to doubles, in which the one before ended.
-PIECE = 0.01
 
 
-def problem(name, N=385.0, Omega=15.1):
+def stored_problem(data, law=Law()):
+    """`Problem` of a stored reference, with its own modes."""
+    base = dict(data["parameters"])
+    return Problem(base.pop("N"), base.pop("Omega"), data["modes"]["omega"], data["modes"]["psi"], law, base)
+
+
+def problem(name):
     """The published nine modes under one of `LAWS`."""
     force, compliant = LAWS[name]
-    modes = load("C")["modes"]
-    return Problem(N, Omega, modes["omega"], modes["psi"], Law(COMPLIANCE if compliant else 0.0, force))
+    return stored_problem(load("C"), Law(COMPLIANCE if compliant else 0.0, force))
 
 
 def violent_start(scale):
@@ -461,43 +458,3 @@ def violent_start(scale):
     velocity = float(s @ alpha + f * (np.arange(len(s)) * s) @ b)
     modal = [x.tolist() for x in (a, b, alpha, beta)]
     return State(0.0, "separation", 0, float(given.psi), f, float(s @ a) + 1e-5, velocity, *modal)
-
-
-def _stored_run(q, start, t_end):
-    """A run as it is stored, and its last state."""
-    run = Reference(q, start or q.equilibrium(), audit=True).run(t_end)
-    check = Reference(q, start or q.equilibrium(), truncation=TRUNCATION / 1e3).run(t_end)
-    kinds = [e["kind"] for e in run.events]
-    if kinds != [e["kind"] for e in check.events]:
-        raise RuntimeError("two long-double runs disagree")
-    differences = [abs(x["time"] - y["time"]) for x, y in zip(run.events, check.events, strict=True)]
-    data = {
-        "start": None if start is None else vars(start),
-        "t_end": t_end,
-        "largest_difference_to_check_run": float(max(differences, default=0)),
-        "largest_energy_defect": run.defect,
-        "kinds": kinds,
-        "P": [float(e["P"]) for e in run.events],
-        "times": [np.format_float_positional(e["time"], precision=20, unique=False) for e in run.events],
-    }
-    return data, rounded(run.state())
-
-
-def regenerate():
-    """Compute and store data/contact_<law>.json: a first second and half a second of violent motion of each law."""
-    for name in LAWS:
-        q = problem(name)
-        parameters = {"N": float(q.N), "Omega": float(q.Omega)} | BASE
-        parameters |= {"contact_compliance": float(q.C), "contact_force": LAWS[name][0]}
-        runs = [_stored_run(q, None, 1.0)[0]]
-        start = violent_start(1.0 if q.C else 1.3)
-        for i in range(round(0.5 / PIECE)):
-            run, start = _stored_run(q, start, (i + 1) * PIECE)
-            runs.append(run)
-        (DATA / f"contact_{name}.json").write_text(json.dumps({"parameters": parameters, "runs": runs}) + "\n")
-        worst = [max(run[f"largest_{x}"] for run in runs) for x in ("difference_to_check_run", "energy_defect")]
-        print(name, [sum(len(r["kinds"]) for r in runs[i:j]) for i, j in ((0, 1), (1, None))], *worst, flush=True)
-
-
-if __name__ == "__main__":
-    regenerate()

@@ -1,6 +1,8 @@
-"""Wrong signs, factors and comparisons in the functions that hold the equations, one at a time.
+"""Wrong signs, factors and comparisons in the modules that hold the equations, one at a time; and which tests notice.
 
-What is changed is read from the syntax tree, so that no formatting and no new term needs attention here:
+    python -m tests.validation.mutants engine/laws.py ...    # tries all changes of these modules, of all without any
+
+What is changed is read from the syntax tree, so that no formatting and no new function needs attention here:
 
     a + b, a - b, a += b, a -= b    the other sign; of a vector operation, the sign of its last argument
     -a                              a
@@ -9,72 +11,69 @@ What is changed is read from the syntax tree, so that no formatting and no new t
     a < b, a == b, ...              the opposite
 
 Left alone are elements' numbers, messages of errors, and sizes (sums of moduli, by which rounding is judged).
-`FUNCTIONS` says which functions; `EQUIVALENT` lists, each with its reason, the changes that make no difference.
+
+Tests are collected once, without compilation. Each change is put into a fork of that process, which runs them until one
+fails: first those that noticed other changes of the function, then the quickest.
 """
 
 from __future__ import annotations
 
 import ast
-from collections import Counter
-from collections.abc import Iterator
+import contextlib
+import functools
+import gc
+import io
+import json
+import os
+import resource
+import sys
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import NamedTuple
+from types import CodeType, FunctionType
+from typing import Any, NamedTuple
+
+import pytest
 
 import disc_model
 
 PACKAGE = Path(disc_model.__file__).parent
-FUNCTIONS = {
-    "engine/layout.py": ("build_model", "on_ramp", "drive_angle", "build_state"),
-    "engine/dense_output.py": ("state_at",),
-    "engine/stepping.py": ("set_course",),
-    "engine/sampling.py": ("point_motion", "_write_row"),
-    "engine/audit.py": ("transverse_energy", "inplane_energy", "_powers_in", "audit_impact"),
-    "engine/series.py": (
-        *("_disc_point", "_inner_terms", "_pending", "_order", "_order_zero", "_axisymmetric"),
-        *("_first_order", "_last_force"),
-        *("slip_series", "_stick_order", "stick_series", "separation_series"),
-    ),
-    "engine/contact_series.py": (
-        *("_deflection", "_slope", "_disc_velocity", "_closing", "_spring", "_weight", "_leverage", "_move_slider"),
-        *("compliant_slip_series", "compliant_stick_series", "release_series", "normal_slip_series"),
-    ),
-    "engine/coasting.py": ("coast_length", "coast_to", "_times"),
-    "engine/stick_modes.py": ("_eigenmodes", "_compliant_eigenmodes", "_decomposed", "_under_unit_load", "_packed"),
-    "engine/laws.py": (
-        *("spring_force", "free_force", "stick_numerator", "vertical_in_stick", "slip_denominator", "slip_numerator"),
-        *("slip_rates", "grip", "impact"),
-    ),
-    "engine/switches.py": (
-        *("disc_point", "_free_acceleration", "_deflection_size", "_rounding", "force_in_stick"),
-        *("slip_force", "impact", "switch_function"),
-    ),
-    "flexibility.py": (
-        *("residual_flexibility", "harmonic_flexibility", "_point_load", "_moment", "_shear", "_power"),
-        *("_high_harmonics", "_axisymmetric", "_first", "_logarithmic", "_with_edges"),
-    ),
-    "engine/saltation.py": (
-        *("rates", "_free_change", "_put_changes", "_change", "_set_derivative", "switch_gradient"),
-        *("switch_change", "switch_times", "shift", "impact_change"),
-    ),
-    "engine/tangent.py": (
-        *("_convolve", "_motion_slope", "point_change", "_diametral_rates", "_axisymmetric_rates"),
-        *("_slider_forces", "_path_change", "_apply_force", "tangent_series"),
-    ),
-    "engine/variational.py": ("section_map",),
-    "simulation/ramps.py": ("Piece.at", "pieces", "_line", "_at"),
-    "simulation/result.py": ("read_state",),
-    "stability/return_map.py": ("parameter_change", "ReturnMap.state", "ReturnMap.contact_force"),
-    "stability/sliding.py": ("steady_sliding", "_equilibrium", "_jacobian"),
-    "benchmarks/methods/physics.py": (
-        *("Physics.__init__", "Physics.disc_point", "Physics._pull", "Physics._contact", "Physics.rate"),
-    ),
-    "benchmarks/methods/kernels.py": (
-        *("contact", "rate", "rk4_step", "switch_values", "violated", "switch"),
-        *("smooth_friction", "smooth_force", "smooth_rate"),
-    ),
-    "benchmarks/methods/taylor_heyoka.py": ("_system",),
-    "benchmarks/scenes.py": ("static_start",),
-    "plate.py": ("_modes", "_columns", "_coupling", "coupled_frequencies", "modal_damping"),
+LAWS = "tests/validation/test_contact_laws.py"
+RAMPS = ("tests/simulation/test_ramps.py", "tests/validation/test_ramps.py")
+EQUATIONS = ("tests/validation/test_equations.py", LAWS)
+STICK = (*EQUATIONS, "tests/engine/test_stick_modes.py", "tests/engine/test_coasting.py")
+DERIVATIVES = ("tests/engine/test_variational.py",)
+SECTION = ("tests/stability/test_return_map.py", *DERIVATIVES)
+METHODS = (
+    *(f"tests/benchmarks/methods/test_{name}.py" for name in ("kernels", "rk4", "regularised", "short_motions")),
+    *EQUATIONS,
+)
+#: The modules, and the tests that have to notice.
+MODULES = {
+    "engine/layout.py": (*STICK, *RAMPS, "tests/engine/test_layout.py"),
+    "engine/dense_output.py": (*EQUATIONS, *RAMPS),
+    "engine/stepping.py": (*EQUATIONS, *RAMPS),
+    "engine/sampling.py": (*EQUATIONS, *RAMPS),
+    "engine/audit.py": (*EQUATIONS, *RAMPS),
+    "engine/series.py": (*EQUATIONS, *RAMPS, "tests/engine/test_series.py"),
+    "engine/contact_series.py": (LAWS, *RAMPS),
+    "engine/coasting.py": STICK,
+    "engine/stick_modes.py": STICK,
+    "engine/laws.py": (*EQUATIONS, *DERIVATIVES),
+    "engine/switches.py": (*EQUATIONS, *DERIVATIVES),
+    "engine/saltation.py": DERIVATIVES,
+    "engine/tangent.py": DERIVATIVES,
+    "engine/variational.py": SECTION,
+    "flexibility.py": ("tests/test_flexibility.py",),
+    "plate.py": ("tests/test_plate.py",),
+    "simulation/ramps.py": RAMPS,
+    "simulation/result.py": (*EQUATIONS, *(f"tests/simulation/test_{name}.py" for name in ("api", "result", "start"))),
+    "stability/return_map.py": SECTION,
+    "stability/sliding.py": ("tests/stability/test_sliding.py",),
+    "benchmarks/methods/physics.py": METHODS,
+    "benchmarks/methods/kernels.py": METHODS,
+    "benchmarks/methods/taylor_heyoka.py": METHODS,
+    "benchmarks/scenes.py": (*EQUATIONS, "tests/benchmarks/test_scenes.py"),
 }
 #: By the name of a mutant (as `Mutant` prints it): why it makes no difference.
 EQUIVALENT: dict[str, str] = {
@@ -89,7 +88,54 @@ EQUIVALENT: dict[str, str] = {
     ),
     "engine/stick_modes.py:_decomposed: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
 }
+PATIENCE = 300
+"""s of the processor; all that is tried takes a fraction of that."""
 
+
+class Mutant(NamedTuple):
+    """One change: the ``place``-th of a module, in the order of the syntax tree."""
+
+    module: str
+    function: str
+    place: int
+    change: str
+
+    def __str__(self) -> str:
+        return f"{self.module}:{self.function}: {self.change}"
+
+    @property
+    def name(self) -> str:
+        """Of the function, dotted."""
+        return f"disc_model.{self.module.removesuffix('.py').replace('/', '.')}.{self.function}"
+
+    def code(self) -> CodeType:
+        """The changed function's, compiled."""
+        tree = ast.parse((PACKAGE / self.module).read_text(encoding="utf-8"))
+        flip([node for _, node in places(tree)][self.place])
+        ast.fix_missing_locations(tree)
+        return next(code for code in codes(compile(tree, self.module, "exec")) if code.co_qualname == self.function)
+
+
+def mutants(module: str) -> Iterator[Mutant]:
+    """The changes of a module; equal ones are numbered."""
+    seen: Counter[tuple[str, str]] = Counter()
+    tree = ast.parse((PACKAGE / module).read_text(encoding="utf-8"))
+    for place, (function, node) in enumerate(list(places(tree))):
+        change = flip(node)
+        seen[function, change] += 1
+        count = seen[function, change]
+        yield Mutant(module, function, place, change + (f" ({count})" if count > 1 else ""))
+
+
+def codes(code: CodeType) -> Iterator[CodeType]:
+    """A module's code and that of all functions in it."""
+    yield code
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from codes(constant)
+
+
+# ------------------------------------------------------------------------------------ where to change, and what
 VECTOR_OPERATIONS = ("fma", "mul", "add", "sub")
 STORAGE = ("load", "store", "spread")
 NUMBERS_OF_ELEMENTS = ("range", "len")
@@ -106,58 +152,14 @@ OPPOSITE = {
 }
 
 
-class Mutant(NamedTuple):
-    """One change: the ``place``-th of a function, in the order of the syntax tree."""
-
-    file: str
-    function: str
-    place: int
-    change: str
-
-    def __str__(self) -> str:
-        return f"{self.file}:{self.function}: {self.change}"
-
-    def source(self, package: Path = PACKAGE) -> str:
-        """The file's text with the change in it."""
-        tree = ast.parse((package / self.file).read_text(encoding="utf-8"))
-        node = list(changeable(find(tree, self.file, self.function)))[self.place]
-        assert flip(node), self
-        return ast.unparse(tree) + "\n"
-
-
-def all_mutants() -> list[Mutant]:
-    """Every change of every function, the equivalent ones too."""
-    return [
-        mutant for file, functions in FUNCTIONS.items() for function in functions for mutant in mutants(file, function)
-    ]
-
-
-def mutants(file: str, function: str) -> Iterator[Mutant]:
-    """The changes of a function; equal ones are numbered."""
-    tree = ast.parse((PACKAGE / file).read_text(encoding="utf-8"))
-    seen: Counter[str] = Counter()
-    for place, node in enumerate(list(changeable(find(tree, file, function)))):
-        change = flip(node)
-        seen[change] += 1
-        yield Mutant(file, function, place, change + (f" ({seen[change]})" if seen[change] > 1 else ""))
-
-
-def find(tree: ast.Module, file: str, function: str) -> ast.FunctionDef:
-    """A function, or a method given as Class.method."""
-    node: ast.AST = tree
-    for name in function.split("."):
-        body = getattr(node, "body", [])
-        found = [child for child in body if getattr(child, "name", None) == name]
-        assert len(found) == 1, f"{file} has no function {function}: bring tests/validation/mutants.py up to date"
-        node = found[0]
-    assert isinstance(node, ast.FunctionDef)
-    return node
-
-
-def changeable(function: ast.FunctionDef) -> Iterator[ast.AST]:
-    """Where a function can be changed."""
-    for statement in function.body:
-        yield from _changeable(statement)
+def places(node: ast.AST, inside: str = "") -> Iterator[tuple[str, ast.AST]]:
+    """Function and place of all that can be changed in a module."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.FunctionDef):
+            for statement in child.body:
+                yield from ((inside + child.name, place) for place in _changeable(statement))
+        elif isinstance(child, ast.ClassDef):
+            yield from places(child, f"{inside}{child.name}.")
 
 
 def _changeable(node: ast.AST) -> Iterator[ast.AST]:
@@ -231,3 +233,97 @@ def flip(node: ast.AST) -> str:
             node.args[-1] = ast.UnaryOp(ast.USub(), last)
             return f"{ast.unparse(function)}(..., {ast.unparse(last)}) -> -"
     return f"{before} -> {ast.unparse(node)}"
+
+
+# ------------------------------------------------------------------------------------ trials
+class Trials:
+    """A plugin of pytest that runs what is collected against each mutant of some modules, each in a fork.
+
+    Attributes
+    ----------
+    survivors, tried : mutants that no test noticed, and all that were tried but those of `EQUIVALENT`
+    """
+
+    def __init__(self, modules: Iterable[str]) -> None:
+        self.modules, self.survivors, self.tried = tuple(modules), list[str](), list[str]()
+        self._noticed: defaultdict[str, list[str]] = defaultdict(list)
+        self._spent: Counter[str] = Counter()
+        self._pipe = 0
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """A failure ends the fork."""
+        self._spent[report.nodeid] += report.duration
+        if report.failed:
+            os.write(self._pipe, report.nodeid.encode())
+            os._exit(1)
+
+    def pytest_runtestloop(self, session: pytest.Session) -> bool:
+        functions, caches = {}, []
+        for found in gc.get_objects():
+            if isinstance(found, FunctionType) and (found.__module__ or "").startswith("disc_model."):
+                functions[f"{found.__module__}.{found.__qualname__}"] = found
+            elif isinstance(found, functools._lru_cache_wrapper):
+                caches.append(found)
+        gc.freeze()
+        code, said = self._fork(session.items, lambda: None)
+        assert code == 0, f"fails without any change: {said}"
+        spent = json.loads(said)
+        session.items.sort(key=lambda item: spent[item.nodeid])
+        for module in self.modules:
+            items = {item.nodeid: item for item in session.items if item.nodeid.split("::")[0] in MODULES[module]}
+            for mutant in mutants(module):
+                if str(mutant) not in EQUIVALENT:
+                    self._try(mutant, items, functions[mutant.name], caches)
+        return True
+
+    def _try(self, mutant: Mutant, items: dict[str, pytest.Item], function: FunctionType, caches: list[Any]) -> None:
+        def change() -> None:
+            function.__code__ = mutant.code()
+            for cache in caches:
+                cache.cache_clear()
+
+        first = self._noticed[mutant.name] + self._noticed[mutant.module]
+        code, killer = self._fork([items[name] for name in dict.fromkeys([*first, *items])], change)
+        self.tried.append(str(mutant))
+        if code == 0:
+            self.survivors.append(str(mutant))
+        elif killer:
+            self._noticed[mutant.name].insert(0, killer)
+            self._noticed[mutant.module].insert(0, killer)
+        print(f"survives: {mutant}" if code == 0 else f"{mutant}, by {killer}", file=sys.__stderr__, flush=True)
+
+    def _fork(self, items: list[pytest.Item], prepare: Callable[[], None]) -> tuple[int, str]:
+        """Exit code or the signal that ended it, and what it said: which test failed, or how long each took."""
+        read, self._pipe = os.pipe()
+        child = os.fork()
+        if child == 0:
+            # an endless loop is ended by a signal
+            resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 1))
+            prepare()
+            for item, following in zip(items, [*items[1:], None], strict=True):
+                item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)
+            with os.fdopen(self._pipe, "w") as pipe:
+                json.dump(self._spent, pipe)
+            os._exit(0)
+        os.close(self._pipe)
+        with os.fdopen(read) as pipe:
+            said = pipe.read()
+        return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), said
+
+
+def try_all(modules: Iterable[str]) -> Trials:
+    """Try all mutants of some modules; in a process that has numba's compilation switched off."""
+    trials = Trials(modules)
+    tests = sorted({file for module in trials.modules for file in MODULES[module]})
+    options = ("-qq", "-p", "no:cacheprovider", "-m", "not slow and not compiled")
+    with contextlib.redirect_stdout(io.StringIO()):
+        pytest.main([*options, *tests], plugins=[trials])
+    return trials
+
+
+if __name__ == "__main__":
+    trials = try_all(sys.argv[1:] or MODULES)
+    used = [resource.getrusage(whose) for whose in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    print(f"{len(trials.tried)} tried in {sum(each.ru_utime + each.ru_stime for each in used):.0f} s")
+    print(*trials.survivors, sep="\n")
+    sys.exit(len(trials.survivors) > 0 or not trials.tried)
