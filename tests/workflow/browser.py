@@ -53,16 +53,6 @@ class Page:
             time.sleep(0.05)
         return found
 
-    def click(self, text: str) -> None:
-        """Click the element with exactly this text."""
-        self.wait_for(
-            """const found = [...document.querySelectorAll("a, button, li, span")]
-                 .filter(x => x.innerText && x.innerText.trim() === arguments[0]);
-               if (found.length) found[found.length - 1].click();
-               return found.length;""",
-            text,
-        )
-
     def resize(self, width: int, height: int) -> None:
         """Show the page as a window, or a telephone, of that size would (CSS pixels)."""
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
@@ -96,7 +86,7 @@ class Page:
 
 
 @contextlib.contextmanager
-def browser(profile: Path, *, dark: bool = False) -> Iterator[Page]:
+def browser(profile: Path) -> Iterator[Page]:
     """A headless Chromium with an empty profile."""
     assert needs.BROWSER.met, needs.BROWSER.reason
     with socket.socket() as free:
@@ -107,8 +97,6 @@ def browser(profile: Path, *, dark: bool = False) -> Iterator[Page]:
         root = Page(f"http://127.0.0.1:{port}")
         _wait(root)
         arguments = [*OPTIONS, "--window-size=1400,1000", f"--user-data-dir={profile}"]
-        if dark:
-            arguments.append("--force-dark-mode")
         wanted = {
             "browserName": "chrome",
             "goog:chromeOptions": {"args": arguments, "binary": BROWSER},

@@ -8,7 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Self
@@ -18,9 +18,11 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "src")
 
-TINY = "config/tiny.yaml"
-STUDY = """\
-study: tiny
+SMALL = "config/small.yaml"
+MAP = "config/small_map.yaml"
+STUDIES = {
+    SMALL: """\
+study: small
 claims: true
 record:
   windows:
@@ -30,7 +32,32 @@ cases:
   F13: {title: growing, parameters: {N: 385, Omega: 15.1}, t_end: 2}
   X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}
 figures: [fig11, fig13]
-"""
+studies: [config/small_*.yaml]
+""",
+    MAP: """\
+study: small_map
+title: outcome
+quantity: outcome
+options: {horizon: 1, late: 0.2, after_separation: 0.2}
+axes:
+  N: [100, 200.0, 300]
+  Omega: [10, 15, 20, 25]
+  normalization: [as_published, orthonormal]
+batch: {over: [Omega, normalization], size: 8}
+figures:
+  chart: {kind: stability_map, x: Omega, y: N, others: {growth: small_growth}}
+""",
+    "config/small_growth.yaml": """\
+study: small_growth
+quantity: floquet
+axes:
+  N: [100, 200, 300]
+  Omega: {start: 10, stop: 25, count: 3}
+  normalization: [as_published, orthonormal]
+batch: {over: [Omega, normalization], size: 6}
+""",
+}
+PRODUCTS = {".nc", ".csv", ".md", ".html", ".pdf", ".png"}
 
 
 @dataclass(frozen=True)
@@ -48,11 +75,8 @@ class Project:
     config: str | None = None
     variables: Mapping[str, str] = field(default_factory=dict)
 
-    def snakemake(self, *options: str, prepare: Callable[[], object] | None = None) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake as a user would, with the copy's own sources; its process does what ``prepare`` says first.
-
-        All that it says is in ``stdout``.
-        """
+    def snakemake(self, *options: str) -> subprocess.CompletedProcess[str]:
+        """Run Snakemake as a user would, with the copy's own sources; all that it says is in ``stdout``."""
         return subprocess.run(
             self.command(*options),
             cwd=self.folder,
@@ -62,7 +86,6 @@ class Project:
             text=True,
             check=False,
             timeout=900,
-            preexec_fn=prepare,
         )
 
     def complete(self, *options: str) -> str:
@@ -92,7 +115,6 @@ class Project:
         self,
         *options: str,
         log: str = "run.log",
-        wrapper: Sequence[str] = (),
         prepare: Callable[[], object] | None = None,
     ) -> subprocess.Popen[bytes]:
         """Run Snakemake in the background, in a session of its own; what it says is added to a file.
@@ -108,7 +130,7 @@ class Project:
 
         with (self.folder / log).open("ab") as file:
             return subprocess.Popen(
-                [*wrapper, *self.command(*options)],
+                self.command(*options),
                 cwd=self.folder,
                 env=self.environment,
                 stdout=file,
@@ -124,19 +146,10 @@ class Project:
             command, cwd=self.folder, env=self.environment, capture_output=True, text=True, check=True
         ).stdout
 
-    def processes(self) -> dict[int, list[str]]:
-        """Commands of the processes that work in the project's folder."""
-        found = {}
-        for entry in Path("/proc").iterdir():
-            if not entry.name.isdigit():
-                continue
-            try:
-                words = (entry / "cmdline").read_bytes().split(b"\0")
-                if words[1:] and (entry / "cwd").resolve() == self.folder.resolve():  # none while it ends
-                    found[int(entry.name)] = [os.fsdecode(word) for word in words]
-            except OSError:  # gone, or another user's
-                continue
-        return dict(sorted(found.items()))
+    def products(self) -> dict[str, bytes]:
+        """Content of every file that the study is about; no logs."""
+        files = [path for path in sorted((self.folder / "results").rglob("*")) if path.suffix in PRODUCTS]
+        return {str(path.relative_to(self.folder)): path.read_bytes() for path in files if path.name[0] != "."}
 
     def jobs(self, *options: str) -> Iterator[tuple[str, dict[str, str]]]:
         """Jobs that a run would do: rule and wildcards."""
@@ -190,8 +203,8 @@ def copy_repository(folder: Path, studies: Mapping[str, str] | None = None, **va
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """The small study, computed."""
-    project = copy_repository(tmp_path_factory.mktemp("project"), {TINY: STUDY})
+    """The small study of cases and grids, computed."""
+    project = copy_repository(tmp_path_factory.mktemp("project"), STUDIES)
     project.complete("-j2")
     return project
 

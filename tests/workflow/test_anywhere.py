@@ -102,17 +102,16 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
     (tmp_path / "mine.yaml").write_text(STUDY)
     for place in (ROOT / "Snakefile", SNAKEFILE):
         assert re.search(r"^draw_plot +1$", snakemake(tmp_path, "-n", "-s", place, "--configfile", "mine.yaml"), re.M)
-    laid_out = tmp_path / "own"
-    command = [sys.executable, "-m", "disc_model", "init", str(laid_out)]
-    subprocess.run(command, check=True, capture_output=True, timeout=300)
-    assert re.search(r"^compute_batch +1$", snakemake(laid_out, "-n"), re.M)
+    disc_model(tmp_path, "init", "own")
+    assert re.search(r"^compute_batch +1$", snakemake(tmp_path / "own", "-n"), re.M)
+    said = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
+    assert re.search(r"^simulate_case +1$", said, re.M), "the paper's study, if none is given"
 
 
 def test_what_is_stale_is_listed(elsewhere: Path) -> None:
     def listed(text: str) -> str:
         (elsewhere / "asked.yaml").write_text(text)
-        command = [sys.executable, "-m", "disc_model", "list", "stale", "asked.yaml"]
-        return subprocess.run(command, cwd=elsewhere, capture_output=True, text=True, check=True, timeout=300).stdout
+        return disc_model(elsewhere, "list", "stale", "asked.yaml").stdout
 
     assert re.fullmatch(r"0 of \d\d files are missing or out of date\n", listed(STUDY))
     another = listed(STUDY.replace("[0.3, 0.4]", "[0.3, 0.45]"))
@@ -120,11 +119,6 @@ def test_what_is_stale_is_listed(elsewhere: Path) -> None:
     assert re.search(r"^results/mine/batches/\w+\.nc: missing$", another, re.MULTILINE), another
     assert "results/mine/figures/growth.png: " in another
     assert "cases/A.nc" not in another
-
-
-def test_the_paper_is_the_study_if_none_is_given(tmp_path: Path) -> None:
-    said = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
-    assert re.search(r"^simulate_case +1$", said, re.M)
 
 
 def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> None:

@@ -12,32 +12,19 @@ from tests.workflow.conftest import Project
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow, needs.BROWSER.mark]
 
-CATEGORIES = {"Claims of the paper", "Figures of the paper", "Provenance"}
 
-
-@pytest.fixture(scope="module")
-def report(finished: Project) -> Path:
-    """The report of the small study."""
-    finished.complete("--report", "results/tiny/report.html")
-    return finished.folder / "results" / "tiny" / "report.html"
-
-
-def test_the_report_holds_every_result_without_errors(report: Path, tmp_path: Path) -> None:
+def test_the_report_holds_every_result_and_needs_no_network(finished: Project, tmp_path: Path) -> None:
+    finished.complete("--report", "results/small/report.html")
     with browser(tmp_path / "profile") as page:
-        page.open(report)
+        page.open(finished.folder / "results" / "small" / "report.html")
         found = page.wait_for("return typeof categories === 'undefined' ? null : categories")
-        assert not [message for message in page.messages() if message["level"] == "SEVERE"]
-    assert found.keys() >= CATEGORIES
-    files = {Path(file).name for parts in found.values() for inside in parts.values() for file in inside}
-    assert files == {"fig11.png", "fig13.png", "claims.html", "provenance.html"}
-
-
-def test_the_report_needs_no_network(report: Path, tmp_path: Path) -> None:
-    with browser(tmp_path / "profile") as page:
-        page.open(report)
         page.wait_for("return document.body.innerText.includes('An elastic disc')")
         loaded = page.run("return performance.getEntriesByType('resource').map(x => x.name)")
+        assert not [message for message in page.messages() if message["level"] == "SEVERE"]
     assert [name for name in loaded if not name.startswith(("data:", "file:", "blob:"))] == []
+    assert found.keys() >= {"Claims of the paper", "Figures of the paper", "Maps and curves", "Provenance"}
+    files = {Path(file).name for parts in found.values() for inside in parts.values() for file in inside}
+    assert files == {"fig11.png", "fig13.png", "chart.png", "claims.html", "provenance.html"}
 
 
 def test_pages_are_readable_on_light_and_dark(finished: Project, tmp_path: Path) -> None:
@@ -54,5 +41,5 @@ def test_pages_are_readable_on_light_and_dark(finished: Project, tmp_path: Path)
         for scheme in ("light", "dark"):
             page.prefer(scheme)
             for name in ("claims.html", "provenance.html"):
-                page.open(finished.folder / "results" / "tiny" / name)
+                page.open(finished.folder / "results" / "small" / name)
                 assert page.run(contrast) >= 4.5, (scheme, name)

@@ -3,143 +3,200 @@
 from __future__ import annotations
 
 import os
+import re
+from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 import xarray as xr
 
-from tests.workflow.conftest import STUDY, TINY, Project
+from tests.workflow.conftest import MAP, SMALL, STUDIES, Project
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
-SIMULATIONS = {"simulate_case:F11", "simulate_case:F13", "simulate_case:X"}
+SIMULATIONS = {f"simulate_case:{case}" for case in ("F11", "F13", "X")}
 FIGURES = {"draw_figure:fig11", "draw_figure:fig13"}
 TABLES = {"merge_cases", "check_claims", "describe_study"}
-KERNELS = {"warm:simulate-rigid_vertical", "warm:floquet-rigid_vertical"}
-EVERYTHING = SIMULATIONS | FIGURES | TABLES
+PLOT = {"draw_plot:small_map:chart"}
+MAP_TAIL = {"merge_batches:small_map"} | PLOT
+GROWTH_TAIL = {"merge_batches:small_growth"} | PLOT
+Jobs = Callable[[Project], set[str]]
 
 
-def test_the_study_is_complete(finished: Project) -> None:
-    results = finished.folder / "results" / "tiny"
-    for name in ("fig11", "fig13"):
-        assert (results / "figures" / f"{name}.pdf").read_bytes().startswith(b"%PDF")
-        assert (results / "figures" / f"{name}.png").stat().st_size > 10_000
-    assert (results / "claims.csv").read_text().startswith("id,location,claim,paper_value,ours")
-    assert (results / "claims.md").read_text().startswith("# ")
-    with xr.open_dataset(results / "cases.nc") as table:
-        assert list(table["case"].values) == ["F11", "F13", "X"]
-        assert list(table["Omega"].values) == [15, 15.1, 20]
-    assert not list(results.rglob("*.tmp"))
+def batches(project: Project, name: str) -> set[str]:
+    """The jobs of all batches that a study now has, its sources hashed as in the project."""
+    code = f"from disc_model.studies.study import load_study; print(*load_study('config/{name}.yaml').grid.batches)"
+    return {f"compute_batch:{name}:{batch}" for batch in project.python(code).split()}
 
 
-def test_second_run_does_nothing(project: Project) -> None:
+def whole_map(project: Project) -> set[str]:
+    return batches(project, "small_map") | MAP_TAIL
+
+
+def whole_growth(project: Project) -> set[str]:
+    return batches(project, "small_growth") | GROWTH_TAIL
+
+
+def everything(project: Project) -> set[str]:
+    return SIMULATIONS | FIGURES | TABLES | whole_map(project) | whole_growth(project)
+
+
+def dataset(project: Project, name: str) -> xr.Dataset:
+    with xr.open_dataset(project.folder / "results" / name) as found:
+        return found.load()
+
+
+def test_a_second_run_does_nothing(project: Project) -> None:
     before = {path: path.stat().st_mtime_ns for path in (project.folder / "results").rglob("*")}
+    assert not [path for path in before if path.suffix == ".tmp"]
     assert "Nothing to be done" in project.complete("-j2")
     assert before == {path: path.stat().st_mtime_ns for path in (project.folder / "results").rglob("*")}
 
 
-def test_the_default_is_the_paper_with_the_fast_scheduler(project: Project) -> None:
-    usual = replace(project, config=None)
-    jobs = usual.planned()
+def test_the_default_is_the_paper_and_another_study_inherits_no_cases(project: Project) -> None:
+    jobs = replace(project, config=None).planned()
     assert {"simulate_case:F02", "simulate_case:F13", "draw_figure:fig02"} <= jobs
     assert "simulate_case:X" not in jobs
-    assert "profiles/default" in usual.complete("-n")
-
-
-def test_another_study_does_not_inherit_the_papers_cases(project: Project) -> None:
     jobs = replace(project, config="config/test.yaml").planned()
-    cases = {job for job in jobs if job.startswith("simulate_case")}
-    assert cases == {f"simulate_case:{name}" for name in ("F02", "F04", "F11", "F13")}
+    assert {job for job in jobs if job.startswith("simulate_case")} == {
+        f"simulate_case:{name}" for name in ("F02", "F04", "F11", "F13")
+    }
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "jobs"),
+    ("file", "old", "new", "jobs"),
     [
-        ("Omega: 15.1", "Omega: 15.2", {"simulate_case:F13", "draw_figure:fig13"}),
-        ("title: quiet", "title: calm", set()),
-        ("figures:", "  Y: {title: new, parameters: {N: 100, Omega: 20}, t_end: 2}\nfigures:", {"simulate_case:Y"}),
+        (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: {"simulate_case:F13", "draw_figure:fig13"} | TABLES),
+        (SMALL, "title: quiet", "title: calm", lambda _: TABLES),
+        (SMALL, "  X: {title: another,", "  Y: {title: new,", lambda _: {"simulate_case:Y"} | TABLES),
+        (MAP, "axes:\n", "base: {c: 0.1}\naxes:\n", whole_map),
+        (MAP, "horizon: 1,", "horizon: 1.5,", whole_map),
+        (MAP, "axes:\n", "base: {mu_k: 2.4e-1}\naxes:\n", lambda _: set()),  # the default as it was
+        (MAP, "title: outcome", "title: what becomes of it", lambda _: MAP_TAIL),
     ],
-    ids=["value", "title", "case"],
+)  # fmt: skip
+def test_a_change_runs_what_depends_on_it(project: Project, file: str, old: str, new: str, jobs: Jobs) -> None:
+    project.edit(file, old, new)
+    assert project.planned() == jobs(project)
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "count"),
+    [
+        (MAP, "N: [100, 200.0, 300]", "N: [250, 100, 200, 300]", 1),
+        (MAP, "Omega: [10, 15, 20, 25]", "Omega: {blocks: [[10, 15, 20, 25], [30]]}", 3),
+        (SMALL, "studies:", "overrides: {small_map: {axes: {N: [100, 200, 300, 400]}}}\nstudies:", 1),
+    ],
+    ids=["a value", "a block", "a value laid over"],
 )
-def test_a_change_of_a_case_runs_that_case_and_what_shows_it(project: Project, old: str, new: str, jobs: set) -> None:
-    project.edit(TINY, old, new)
-    assert project.planned() == jobs | TABLES
+def test_what_is_added_runs_its_own_batches(project: Project, file: str, old: str, new: str, count: int) -> None:
+    before = batches(project, "small_map")
+    project.edit(file, old, new)
+    jobs = project.planned()
+    assert jobs > MAP_TAIL
+    assert len(jobs - MAP_TAIL) == count
+    assert not jobs & before
 
 
-def test_other_spelling_and_order_run_nothing(project: Project) -> None:
-    lines = STUDY.replace("N: 385, Omega: 15}", "Omega: 1.50e+1, N: 385.0}").splitlines()
-    cases = lines.index("cases:")
-    lines[cases + 1 : cases + 4] = reversed(lines[cases + 1 : cases + 4])
-    (project.folder / TINY).write_text("\n".join(lines))
-    assert project.planned() == set()
+def test_finer_resolution_keeps_what_is_there(project: Project) -> None:
+    jobs = project.planned("--config", "resolution=2")
+    assert jobs > GROWTH_TAIL
+    assert len(jobs - GROWTH_TAIL) == 3
+    assert not jobs & batches(project, "small_growth")
 
 
-def test_a_removed_case_leaves_the_merged_file(project: Project) -> None:
-    project.edit(TINY, "  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}\n", "")
-    assert project.planned() == TABLES
+def test_what_is_removed_computes_nothing_and_is_gone(project: Project) -> None:
+    project.edit(SMALL, "  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}\n", "")
+    project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 300]")
+    assert project.planned() == TABLES | MAP_TAIL
     project.complete("-j2")
-    with xr.open_dataset(project.folder / "results" / "tiny" / "cases.nc") as table:
-        assert list(table["case"].values) == ["F11", "F13"]
+    assert list(dataset(project, "small/cases.nc")["case"].values) == ["F11", "F13"]
+    assert list(dataset(project, "small_map/small_map.nc")["N"].values) == [100, 300]
+    project.edit(MAP, "N: [100, 300]", "N: [100, 200, 300]")
+    assert project.planned() == MAP_TAIL
 
 
-def test_what_is_said_of_sources_runs_nothing(project: Project) -> None:
-    """Neither their times nor comments nor docstrings."""
-    for folder in ("src", "workflow/scripts"):
-        for path in (project.folder / folder).rglob("*.py"):
-            path.write_text(path.read_text() + "\n# a comment\n")
+def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None:
+    cases = STUDIES[SMALL].replace("N: 385, Omega: 15}", "Omega: 1.50e+1, N: 385.0}")
+    listed = re.findall(r"  [FX]\w*: .*\n", cases)
+    (project.folder / SMALL).write_text(cases.replace("".join(listed), "".join(listed[::-1])))
+    project.edit(MAP, "[100, 200.0, 300]", "[3.0e+2, 100, '200', 100.00]")
+    project.edit(MAP, "[10, 15, 20, 25]", "[25, 20, 15, 10]")
+    for path in [*(project.folder / "src").rglob("*.py"), *(project.folder / "workflow/scripts").glob("*.py")]:
+        path.write_text(path.read_text() + "\n# a comment\n")
     api = "src/disc_model/simulation/api.py"
     project.edit(api, "def simulate(", '"""Of what follows."""\n\n\ndef simulate(')
-    os.utime(project.folder / TINY)
+    for path in (project.folder / "config").glob("*"):
+        os.utime(path)
     assert project.planned() == set()
 
 
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
-        ("src/disc_model/engine/machine.py", KERNELS | EVERYTHING),
-        ("src/disc_model/plate.py", EVERYTHING),
-        ("src/disc_model/simulation/api.py", EVERYTHING),
-        ("src/disc_model/parameters.py", EVERYTHING),
-        ("src/disc_model/figures/paper/histories.py", FIGURES),
-        ("src/disc_model/figures/disc_model.mplstyle", FIGURES),
-        ("src/disc_model/figures/parts.py", FIGURES),
-        ("workflow/scripts/draw_figure.py", FIGURES),
+        (
+            "src/disc_model/engine/machine.py",
+            lambda project: everything(project) | {"warm:simulate-rigid_vertical", "warm:floquet-rigid_vertical"},
+        ),
+        ("src/disc_model/plate.py", everything),
+        ("src/disc_model/simulation/api.py", everything),
+        ("src/disc_model/stability/attractor/course.py", whole_map),
+        ("src/disc_model/studies/grids/quantities/floquet.py", whole_growth),
+        ("src/disc_model/studies/grids/quantities/hysteresis.py", lambda _: set()),
+        ("src/disc_model/studies/grids/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
+        ("src/disc_model/studies/cases.py", lambda _: TABLES),
+        ("src/disc_model/studies/study.py", lambda _: set()),
+        ("src/disc_model/figures/paper/histories.py", lambda _: FIGURES),
+        ("src/disc_model/figures/grids/stability_map.py", lambda _: FIGURES | PLOT),
+        ("src/disc_model/figures/disc_model.mplstyle", lambda _: FIGURES | PLOT),
+        ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),
+        ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | TABLES),
         # the provenance page and the ledger are laid out alike
-        ("src/disc_model/claims/section42.py", {"check_claims", "describe_study"}),
-        ("src/disc_model/claims/section42.yaml", {"check_claims", "describe_study"}),
-        ("src/disc_model/studies/cases.py", TABLES),
-        ("workflow/scripts/simulate_case.py", SIMULATIONS | FIGURES | TABLES),
-        ("src/disc_model/cli/run.py", set()),
-        ("src/disc_model/studies/study.py", set()),
+        ("src/disc_model/claims/section42.py", lambda _: {"check_claims", "describe_study"}),
+        ("src/disc_model/claims/section42.yaml", lambda _: {"check_claims", "describe_study"}),
+        ("src/disc_model/cli/run.py", lambda _: set()),
     ],
 )
-def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: set[str]) -> None:
+def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: Jobs) -> None:
     project.change(source)
-    assert project.planned() == jobs
+    assert project.planned() == jobs(project)
 
 
 def test_deleted_intermediate_is_not_missed_but_a_deleted_figure_is(project: Project) -> None:
-    (project.folder / "results" / "tiny" / "cases" / "X.nc").unlink()
+    (project.folder / "results" / "small" / "cases" / "X.nc").unlink()
     assert project.planned() == set()
-    (project.folder / "results" / "tiny" / "figures" / "fig11.png").unlink()
+    (project.folder / "results" / "small" / "figures" / "fig11.png").unlink()
     assert project.planned() == {"draw_figure:fig11"}
 
 
-def test_equal_sources_give_equal_results(project: Project) -> None:
-    case = project.folder / "results" / "tiny" / "cases" / "F13.nc"
-    before = case.read_bytes()
-    project.complete("-j2", "--force", str(case.relative_to(project.folder)))
-    assert case.read_bytes() == before
+def test_the_explorer_computes_motions_of_what_changed(project: Project) -> None:
+    def explored() -> list[str]:
+        return sorted(rule for rule, _ in project.jobs("explorer") if rule in ("compute_motions", "build_explorer"))
+
+    project.complete("-j2", "explorer")
+    assert "small_growth" in (project.folder / "results" / "small" / "explorer.html").read_text()
+    assert explored() == []
+    project.edit(MAP, "title: outcome", "title: what becomes of it")
+    assert explored() == ["build_explorer"]
+    # another point of which a motion is kept, of one study of two
+    project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 200, 400]")
+    assert explored() == ["build_explorer", "compute_motions"]
+    project.change("src/disc_model/studies/grids/motions.py")
+    assert explored() == ["build_explorer", "compute_motions", "compute_motions"]
+    # and a plain run knows nothing of it
+    assert "compute_motions" not in project.complete("-n")
 
 
-def test_an_interrupted_run_goes_on(project: Project, tmp_path: Path) -> None:
-    """A job that dies in the middle of writing leaves nothing that is taken for a result."""
-    project.edit(TINY, "t_end: 2}\nfigures", "t_end: 3}\nfigures")
-    source, lives, dies = "src/disc_model/data/dataset.py", "os.replace(temporary, path)", "os.kill(os.getpid(), 9)"
-    project.edit(source, lives, dies)
-    project.refused("-j2")
-    assert not (project.folder / "results" / "tiny" / "cases" / "X.nc").exists()
-    project.edit(source, dies, lives)
-    project.complete("-j2")
-    assert project.planned() == set()
+def test_a_point_that_fails_is_reported_and_what_no_study_needs_is_removed(project: Project) -> None:
+    project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 200, 1.0e+6]")
+    project.edit(MAP, "axes:\n", "base: {k_p: 2.0e+6, mu_s: 3, mu_k: 2.9, E: 1.0e+9}\naxes:\n")
+    kept = set(project.folder.glob("results/small_growth/**/*.nc"))
+    project.complete("-j2", "--until", "draw_plot")
+    bad = int((dataset(project, "small_map/small_map.nc")["status"] != 0).sum())
+    lines = (project.folder / "results/small_map/small_map.failed.txt").read_text().splitlines()
+    assert len(lines) == bad > 0
+    assert lines[-2].startswith("N = 1000000.0, Omega = 25.0, normalization = as_published: paradox: at t = ")
+    project.complete("-j1", "gc")
+    left = {f"compute_batch:small_map:{path.stem}" for path in project.folder.glob("results/small_map/batches/*")}
+    assert left == batches(project, "small_map")
+    assert set(project.folder.glob("results/small_growth/**/*.nc")) == kept

@@ -31,13 +31,6 @@ def test_what_takes_the_whole_machine_takes_one_thread_of_a_node_of_its_own() ->
     assert all("--exclusive" in profile["set-resources"][name]["slurm_extra"] for name in whole)
 
 
-def test_a_script_has_the_name_of_its_rule() -> None:
-    said = {name: re.findall(r'"\(?(?:\w+=1 )*job (\w+)', text) for name, text in rules().items()}
-    drawn = {name: ["draw_figure"] for name in ("draw_plot", "draw_benchmark")}  # by one script
-    assert {name: scripts for name, scripts in said.items() if scripts not in ([], [name])} == drawn
-    assert sum(map(len, said.values())) >= 15
-
-
 COUNTS = """
 import atexit, gc, sys
 

@@ -72,7 +72,7 @@ def run(
 
     record = Record(windows=tuple(windows.values())) if windows else None
     if plot is not None and record is None:
-        record = _plot_record(end)
+        record = plot_record(end)
     if checkpoint is not None:  # where a run goes on, or why it does not
         logging.basicConfig(format="%(message)s")
         logging.getLogger("disc_model").setLevel(logging.INFO)
@@ -90,7 +90,7 @@ def run(
     if plot is not None:
         reached = float(result.final_state.time)
         if 0 < reached < end and not windows:  # the end to be shown is elsewhere than was thought
-            result = simulate(p, reached, tol=how["tol"], record=_plot_record(reached), ramps=ramps)
+            result = simulate(p, reached, tol=how["tol"], record=plot_record(reached), ramps=ramps)
         _save_plot(result, plot)
     if not complete:
         raise typer.Exit(1)
@@ -176,7 +176,7 @@ def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) 
         yield from faults(checkpoint, 0)
 
 
-def _plot_record(t_end: float) -> Record:
+def plot_record(t_end: float) -> Record:
     """The whole run, as an envelope if long, and its end in detail; the size does not grow with `t_end`."""
     from disc_model.simulation.case import Record, Window
 
