@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
@@ -15,28 +14,6 @@ pytest_plugins = "pytester"
 
 def test_contributing_has_the_table() -> None:
     assert needs.table() in (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-
-
-@pytest.mark.parametrize("need", needs.ALL, ids=lambda need: need.name)
-def test_every_need_says_what_brings_it(need: needs.Need) -> None:
-    assert need.debian or need.pip
-    # a need of no tests would stand in the table for nothing
-    name = next((name for name, value in vars(needs).items() if value is need), "PYTHONS")
-    users = [path for path in ROOT.glob("tests/**/*.py") if f"needs.{name}" in path.read_text(encoding="utf-8")]
-    assert users
-
-
-def test_no_test_looks_for_an_optional_package_by_itself() -> None:
-    alone = re.compile(r"importorskip\(|skipif\((shutil\.which|not shutil\.which)")
-    own = Path(__file__)
-    assert [p for p in ROOT.glob("tests/**/*.py") if p != own and alone.search(p.read_text(encoding="utf-8"))] == []
-
-
-def test_packages_of_the_long_mode_are_locked() -> None:
-    """What pip is told to install brings the modules."""
-    lock = (ROOT / "requirements-bench.lock").read_text(encoding="utf-8")
-    for name in ("heyoka", "mpmath", "scikit-sundae"):
-        assert re.search(rf"^{name}==", lock, re.MULTILINE), name
 
 
 def test_a_run_says_what_it_did_not_try(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> None:

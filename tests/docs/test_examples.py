@@ -63,11 +63,5 @@ def test_study_files_on_pages_are_right(text, tmp_path):
     assert load_study(path).name in text
 
 
-def test_pages_show_studies():
-    assert {name for name, _ in STUDIES} == {"README.md", "own_disc.md", "studies.md"}
-    assert len(STUDIES) >= 4
 
 
-@pytest.mark.parametrize("page", sorted((ROOT / "docs" / "notebooks").glob("*.md")), ids=lambda page: page.stem)
-def test_each_notebook_is_offered_as_a_file(page):
-    assert f"{{nb-download}}`{page.stem}.ipynb`" in page.read_text(encoding="utf-8")
