@@ -61,7 +61,3 @@ def test_study_files_on_pages_are_right(text, tmp_path):
     path = tmp_path / "study.yaml"
     path.write_text(text, encoding="utf-8")
     assert load_study(path).name in text
-
-
-
-
