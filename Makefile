@@ -54,7 +54,7 @@ orthonormal: reproduce
 survival: env
 	$(BIN)/snakemake -j$(CORES) --configfile config/survival.yaml
 	$(BIN)/snakemake -j$(CORES) results/paper/survival.html
-	cp results/paper/survival.md docs/survival.md
+	cp results/paper/survival.md docs/model_sensitivity.md
 
 # The small pictures of docs/ and of the README, from finished figures.
 gallery: env

@@ -14,23 +14,24 @@ SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25"
 OTHERS = {
     "critical_speed/figures/fig15.png": (
         "Fig. 15. Critical speed for separation against preload.",
-        "(a) First separation from the published start, by scans: a line within 2000 s, marks where 500 or 1000 s give "
-        "another speed. Areas: the refined map. Black: where the cycle loses its stability, or ends. (b) Sweeps of the "
-        "speed up and down; the bar: both motions reached from random kicks.",
+        "(a) First separation from the static start, by scans: the line is for 2000 s, marks show where 500 or 1000 s "
+        "give another speed. Areas: long-term behaviour. Black: the cycle loses stability, or ends. (b) Sweeps of the "
+        "speed up and down. The bar marks coexistence, by random perturbations.",
     ),
     "basins/figures/basins.png": (
-        "What many starts come to at N = 385 N.",
-        "(a) Shares of random kicks of the energies dotted in (c); (b) the attractors, marks as large as their shares; "
-        "(c) the least kick found that leads to lasting separation.",
+        "Basins of attraction at N = 385 N.",
+        "(a) Shares of the outcomes of random perturbations, with the energies dotted in (c). (b) The attractors, "
+        "with marks as large as their shares. (c) Critical energy.",
     ),
     "map_N/figures/map_N.png": (
         "Stability over speed and preload.",
-        "Above: what the published start comes to within 1000 s. Below: growth rate of the cycle that it follows.",
+        "Above: long-term behaviour from the static start within 1000 s. Below: growth rate of the cycle that it "
+        "follows.",
     ),
     "critical_speed/figures/thresholds.png": (
-        "Where the cycle becomes unstable, and where separation follows.",
-        "Neutral curves and folds by continuation, named after their resonances n f_s = f ± l Ω / 2π. Areas: what "
-        "the published start comes to within 1000 s.",
+        "Stability limits of the cycle, and separation.",
+        "Neutral curves and folds by continuation, named after their resonances n f_s = f ± l f_Ω. Areas: long-term "
+        "behaviour from the static start within 1000 s.",
     ),
     "survival_growth/figures/survival_growth.png": (
         "Growth rate under four models.",
@@ -38,33 +39,33 @@ OTHERS = {
         "normal force.",
     ),
     "sensitivity/figures/sensitivity.png": (
-        "How sure is it that a case is stable.",
-        "(a) Probabilities at the three points, with intervals of 95 %; (b) to (d) Sobol indices of "
-        "instability, (e) to (g) of the growth rate, published modes; arrows: on beyond the panel.",
+        "Probability of instability and Sobol indices.",
+        "(a) Probabilities at the three points, with intervals of 95 %. (b) to (d) Sobol indices of instability, as "
+        "published. (e) to (g) Those of the growth rate. Arrows continue beyond the panel.",
     ),
     "campbell/figures/campbell.png": (
-        "Frequencies over speed.",
-        "(a) Frequencies of steady sliding and of the stick-slip cycle at N = 385 N, and multiples of the stick-slip "
-        "frequency; numbered are peaks of the cycle's growth rate, and gaps without a cycle. (b) Growth rates of the "
-        "cycle's modes.",
+        "Campbell diagram at N = 385 N.",
+        "(a) Frequencies of steady sliding and of the stick-slip cycle, and multiples of the stick-slip frequency. "
+        "Numbers mark peaks of the cycle's growth rate, and gaps without a cycle. (b) Growth rates of the cycle's "
+        "modes.",
     ),
     "ramps/figures/ramps.png": (
         "Separation on ramps of the speed.",
-        "Onset as the speed rises steadily, and end as it falls, at N = 385 N. Dotted: where the stable cycle ends.",
+        "Onset on a rising ramp, and end on a falling one, at N = 385 N. Dotted: end of the stable cycle.",
     ),
     "bench/figures/overview.png": (
         "Speed against accuracy.",
-        "Wall time of a simulated second against the error of event times, one core, medians of repeats.",
+        "Computing time of a simulated second against the error of event times, one core, medians of repeats.",
     ),
     "bench/figures/failure_maps.png": (
-        "Where methods fail.",
-        "Over step or tolerance and number of modes, in the separating second but for (a).",
+        "Failures of methods.",
+        "Over step or tolerance and number of modes: (a) in stick-slip, the others in the second with separations.",
     ),
 }
 """Figures of other studies; where they are not there, the pictures of an earlier run stay."""
 FILM = (
-    "The stretch of Fig. 2b, 35 ms, slowed down about 170 times. Left: deflection of the disc from above, colours as "
-    "in Fig. B1. Right: the disc along the circle of radius r_0, and the slider; vermilion where it has left the disc."
+    "The 35 ms of Fig. 2b, slowed down about 170 times. Left: deflection of the disc from above, colours as "
+    "in Fig. B1. Right: the disc along the circle of radius r_0, and the slider. It is vermilion during separation."
 )
 WIDTH = 900
 """Pixels of a figure as wide as a page; narrower ones are as much smaller."""

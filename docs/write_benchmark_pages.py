@@ -16,7 +16,7 @@ from disc_model.errors import DiscModelError, script
 
 PAGES = ("README.md", "docs/method.md")
 """Those that hold passages on speed."""
-MODES_PAGE = "docs/contact.md"
+MODES_PAGE = "docs/truncation.md"
 """The one that holds those on the number of modes."""
 
 

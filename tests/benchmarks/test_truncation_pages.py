@@ -37,7 +37,7 @@ def study() -> xr.Dataset:
 @pytest.mark.skipif(not STORED.is_file(), reason="no run yet: make bench bench-pages")
 def test_every_number_on_modes_is_of_the_one_stored_run() -> None:
     known = passages(json.loads(STORED.read_text(encoding="utf-8")))
-    page = (ROOT / "docs" / "contact.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "truncation.md").read_text(encoding="utf-8")
     assert pages.fill(page, known) == page, "run `make bench-pages`"
     assert set(re.findall(r"<!-- bench (\w+) -->", page)) == known.keys()
 
@@ -67,14 +67,15 @@ def test_a_run_comes_to_words(study: xr.Dataset) -> None:
     rigid, residual, _, counted = known["truncation_settled"].strip().splitlines()[2:]
     assert rigid.startswith("| orthonormal, N=1 | rigid | **not** |")
     assert residual.count("| from 9 ") == len(TABLED)
-    assert counted == "Settled within 165 modes: 0 of 7 with rigid contact, 7 of 7 with residual contact."
-    moving, still = known["truncation_open"].strip().splitlines()
-    assert moving.startswith(
-        "- Orthonormal, N=1, rigid: not settled: the lowest coupled frequency (3, 4, 5 with 17, 34, 165"
+    assert (
+        counted
+        == "Converged within 165 modes: 0 of 7 quantities with rigid contact, 7 of 7 quantities with residual contact."
     )
-    assert "the growth rate (2, 3, 4 with 9, 17, 34 modes)" in moving  # with 165 it was not looked for
-    assert "the range of the slider's height (3000, 4000, 5000 with" in moving  # mm
-    assert still == "- Orthonormal, N=1, residual: all of it has settled."
+    moving = known["truncation_open"]
+    assert "| Orthonormal, N=1 | rigid | lowest coupled frequency | 3, 4, 5 | 17, 34, 165 |" in moving
+    assert "| growth rate | 2, 3, 4 | 9, 17, 34 |" in moving  # with 165 it was not looked for
+    assert "| range of the slider's height | 3000, 4000, 5000 |" in moving  # mm
+    assert "| residual |" not in moving
 
 
 def test_a_motion_that_could_not_be_followed_says_nothing(study: xr.Dataset) -> None:
@@ -82,11 +83,11 @@ def test_a_motion_that_could_not_be_followed_says_nothing(study: xr.Dataset) -> 
     gap = study.copy(deep=True)
     gap["separations"][0, :, 3] = np.nan
     known = passages(summary(gap))
-    assert "the rate of separations (2, 3, 5 with 9, 17, 165 modes)" in known["truncation_open"]
-    assert "all of it has settled" in known["truncation_open"]
+    assert "| rate of separations | 2, 3, 5 | 9, 17, 165 |" in known["truncation_open"]
+    assert "| residual |" not in known["truncation_open"]
     gap["first_separation"][0, :, 3:] = np.nan  # but none is what it is
     gap["separations"][0, :, 3:] = np.nan
-    assert "the rate of separations (3, -, - with 17, 34, 165 modes)" in passages(summary(gap))["truncation_open"]
+    assert "| rate of separations | 3, -, - | 17, 34, 165 |" in passages(summary(gap))["truncation_open"]
 
 
 def test_tables_show_both_contacts_in_a_cell(study: xr.Dataset) -> None:
@@ -101,4 +102,4 @@ def test_the_page_beside_the_figures_holds_all(study: xr.Dataset) -> None:
     found = text(study)
     for passage in passages(summary(study)).values():
         assert passage.strip() in found
-    assert truncation_pages.text(study).endswith("has settled.\n")
+    assert truncation_pages.text(study).endswith("|\n")

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 sys.path.insert(0, str(ROOT / "docs" / "drawings"))
-import floors  # noqa: E402
+import layers  # noqa: E402
 
 PATHS = sorted(set(re.findall(r"`([\w./-]+(?:/|\.(?:py|yaml|smk|toml)))`", PAGE)))
 
@@ -26,17 +26,17 @@ def test_the_page_names_paths():
     assert len(PATHS) > 40
 
 
-def test_every_floor_is_in_the_picture():
+def test_every_layer_is_in_the_picture():
     """In the order in which `lint-imports` holds them; `make drawings` draws it anew."""
     drawn = re.findall(
-        r'class="name"[^>]*>(\w+)<', (ROOT / "docs" / "drawings" / "floors.svg").read_text(encoding="utf-8")
+        r'class="name"[^>]*>(\w+)<', (ROOT / "docs" / "drawings" / "layers.svg").read_text(encoding="utf-8")
     )
-    assert drawn == [part for floor in floors.floors() for part in floor]
-    assert drawn == re.findall(r'class="name"[^>]*>(\w+)<', floors.draw())
+    assert drawn == [part for layer in layers.layers() for part in layer]
+    assert drawn == re.findall(r'class="name"[^>]*>(\w+)<', layers.draw())
 
 
-def test_every_part_of_the_package_is_among_the_rooms():
-    rooms = PAGE.split("## What each room may know")[1].split("\n## ")[0]
+def test_every_part_of_the_package_has_its_responsibility():
+    table = PAGE.split("## Responsibilities")[1].split("\n### ")[0]
     rest = {"flexibility", "errors"}
-    named = set(re.findall(r"`(\w+)(?:/|\.py)`", rooms))
-    assert {part for floor in floors.floors() for part in floor} - rest <= named
+    named = set(re.findall(r"`(\w+)(?:/|\.py)`", table))
+    assert {part for layer in layers.layers() for part in layer} - rest <= named

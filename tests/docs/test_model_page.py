@@ -22,7 +22,7 @@ STEP = 1e-4
 ENERGY_ROUNDING = 1e-12
 """Of energies of some 10 J, with room."""
 POWERS = str.maketrans("⁻¹²³", "-123")
-IN_WORDS = {"Contact and switches"}
+IN_WORDS = {"Contact and events"}
 """Whose condition says what the phases do."""
 FUNCTIONS = [f for _, f in inspect.getmembers(equations, inspect.isfunction) if f.__module__ == equations.__name__]
 

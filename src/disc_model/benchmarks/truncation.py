@@ -4,7 +4,7 @@
 first separation, the range of the contact force and what a plastic impact does, with the cost beside them.
 `contact_study` measures what of that residual flexibility changes, and what comes after the separation.
 
-What they found: docs/method.md and docs/contact.md.
+What they found: docs/truncation.md.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ Line = tuple[list[int], list[float | None]]
 class Asked(NamedTuple):
     """A quantity of the tables.
 
-    title : in sentences; head : of the column
+    title : of a row; head : of a column
     tolerance : relative, within which models agree
     scale, digits : how it is shown
     """
@@ -37,18 +37,20 @@ class Asked(NamedTuple):
 
 
 TABLED = {
-    "lowest_coupled": Asked("the lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
-    "growth_rate": Asked("the growth rate", "growth, 1/s", 1e-2, 1.0, 3),
-    "first_separation": Asked("the first separation", "first separation, s", 1e-2, 1.0, 5),
-    "separations": Asked("the rate of separations", "separations per s", 1e-1, 1.0, 3),
-    "separated_share": Asked("the share of time apart", "share apart", 1e-1, 1.0, 2),
-    "u_range": Asked("the range of the slider's height", "range, mm", 1e-1, 1e3, 3),
-    "force_max_separating": Asked("the largest force", "largest force, N", 1e-1, 1.0, 3),
+    "lowest_coupled": Asked("lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
+    "growth_rate": Asked("growth rate", "growth, 1/s", 1e-2, 1.0, 3),
+    "first_separation": Asked("first separation", "first separation, s", 1e-2, 1.0, 5),
+    "separations": Asked("rate of separations", "separations per s", 1e-1, 1.0, 3),
+    "separated_share": Asked("time in separation", "time in separation", 1e-1, 1.0, 2),
+    "u_range": Asked("range of the slider's height", "range, mm", 1e-1, 1e3, 3),
+    "force_max_separating": Asked("largest force", "largest force, N", 1e-1, 1.0, 3),
 }
 """Tolerances: of the motion in contact 1 % or better, of what ten seconds of an irregular motion give 10 %."""
 COSTS = {"cost": "cost in contact, ms/s", "cost_separating": "cost after it, ms/s"}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """What comes after the first separation."""
+OPEN = ("case", "contact", "quantity", "values", "with so many modes")
+"""Head of the table of what has not converged."""
 FEWEST = 3
 """Models that must agree: one, and two larger ones."""
 
@@ -112,18 +114,17 @@ def passages(run: Summary) -> dict[str, str]:
     start, length = run["late"]
     tables = [{"title": _upper(case), "table": _table(run, contacts)} for case, contacts in run["values"].items()]
     settled_of: dict[str, list[bool]] = {}
-    rows, lines = [], []
+    rows, open_rows = [], []
     for case, contact, values in _each(run):
         found = {name: _known(run, values, name) for name in TABLED}
         places = {name: settled(found[name][1], asked.tolerance) for name, asked in TABLED.items()}
         settled_of.setdefault(contact, []).extend(place is not None for place in places.values())
         rows.append([case, contact, *(_from_where(found[name], place) for name, place in places.items())])
-        moving = [
-            {"quantity": TABLED[name].title, **_moves(found[name], TABLED[name])}
+        open_rows += [
+            [_upper(case), contact, TABLED[name].title, *_moves(found[name], TABLED[name])]
             for name, place in places.items()
             if place is None
         ]
-        lines.append({"title": _upper(case), "contact": contact, "moving": moving})
     columns = [f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %" for asked in TABLED.values()]
     counts = [{"contact": name, "settled": sum(all_), "count": len(all_)} for name, all_ in settled_of.items()]
     return {
@@ -133,7 +134,7 @@ def passages(run: Summary) -> dict[str, str]:
         "truncation_settled": TEXTS["truncation_settled"].fill(
             table="\n".join(markdown_table(["case", "contact", *columns], rows)), most=run["modes"][-1], contacts=counts
         ),
-        "truncation_open": TEXTS["truncation_open"].fill(lines=lines),
+        "truncation_open": TEXTS["truncation_open"].fill(table="\n".join(markdown_table(OPEN, open_rows))),
     }
 
 
@@ -181,11 +182,11 @@ def _from_where(line: Line, place: int | None) -> str:
     return none if place == 0 and none else f"{none} from {modes[place]}".strip()
 
 
-def _moves(line: Line, asked: Asked) -> dict[str, str]:
+def _moves(line: Line, asked: Asked) -> tuple[str, str]:
     """The values of the three largest models, and their numbers of modes."""
     modes, values = line
     listed = ", ".join(_number(value, asked.scale, asked.digits) for value in values[-FEWEST:])
-    return {"values": listed, "modes": ", ".join(map(str, modes[-FEWEST:]))}
+    return listed, ", ".join(map(str, modes[-FEWEST:]))
 
 
 def _number(value: float | None, scale: float, digits: int) -> str:

@@ -1,7 +1,7 @@
 """What becomes of one motion within a horizon: told by multipliers where they prove it, else simulated.
 
 The published start is a point of the section of `disc_model.stability.return_map`, and usually lies near the cycle that
-Newton's method finds from it.  What follows from that, and what is simulated, is said in docs/studies.md, Regions.
+Newton's method finds from it.  What follows from that, and what is simulated, is said in docs/algorithms.md, Regions.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Which attractor of a case each of many motions comes to: the quiet cycle, a known one, or one that is new.
 
-A motion is followed in legs of some seconds.  What these decide is said in docs/studies.md, Many starts.  What stays
-near an unstable cycle has not settled; what is new and not periodic has to stay to the horizon, for it might be on its
-way past an unstable motion.
+A motion is followed in legs of some seconds.  What these decide is said in docs/algorithms.md, Identifying the outcome.
+What stays near an unstable cycle has not settled; what is new and not periodic has to stay to the horizon, for it might
+be on its way past an unstable motion.
 """
 
 from __future__ import annotations
