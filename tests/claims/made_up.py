@@ -118,7 +118,7 @@ def split(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
 
 def cycle_as_told(p: Parameters) -> Any:
     """What a search for the cycle finds: a stiffer disc and a damped one are more stable, and stick grows with load."""
-    rate = 0.2 * (150e9 / p.E - 0.9) - 1e3 * p.D_star
+    rate = 0.2 * (150e9 / p.E - 0.9) - 1e3 * p.D_star - 0.1 * p.c
     return SimpleNamespace(growth_rate=rate, stick_fraction=p.N / 1000, multipliers=(0.5 + 0.9j,))
 
 
@@ -304,10 +304,11 @@ def as_told() -> dict[str, Story]:
         "S43Ninf": Story(stick=1.0, stick_before=1.0),
         "F21": Story(late=0.3, wanders=0.01, chaotic=True, signal=erratic),
         "F17": WILD.but(first=810.0),
-        "F22": GROWING.but(first=220.0, wanders=0.1, chaotic=True, second=0.01),
+        **dict.fromkeys(("F22", "F22k"), GROWING.but(first=220.0, wanders=0.1, chaotic=True, second=0.01)),
+        **dict.fromkeys(("F02k", "F07k"), WILD.but(first=149.45)),
         "F23": GROWING.but(first=240.0, swing=math.pi),
         **_separating(F18=263, F19=51, C4cp1=40, S43kp2e4=100, S43k2e4=100, S43k3e4=200),
-        **_separating(P03l5=54.4, P03l6=54.4, P03l8=54.5, P03l8c2=54.5),
+        **_separating(P03l5=54.4, P03l6=54.4, P03l8=54.5, P03l4c1=54.5),
         **_separating(S43c126=700, S43c14=700, S43c145=700, S43c124=1000, S43c125=900),
         **slow,
     }
@@ -325,7 +326,7 @@ def to_the_contrary() -> dict[str, Story]:
         "F08": WILD.but(stick=0.005),
         "F09": alone.but(first=117.0),
         "F11": WILD.but(first=100.0),
-        "F13": WILD.but(first=55.0, signal=erratic, disc_early=5e-3, second=0.1),
+        "F13": WILD.but(first=55.0, signal=erratic, disc_early=5e-3, early=1.0, second=0.1),
         "F19": WILD.but(first=51.0),
         "F20": WILD,
         "F21": Story(first=500.0, signal=turns),
@@ -333,7 +334,7 @@ def to_the_contrary() -> dict[str, Story]:
         "S43N0": GROWING.but(first=20.0, stick_before=0.5),
         "S43Ninf": Story(),
         **_separating(F23=240, S43k2e4=200, S43k3e4=100, S43k2e5=100, S43kp2e5=100, C4cpN50=100, S43c12=500),
-        **_separating(P03l5=50, P03l6=54.4, P03l8=54.5, P03l8c2=54.5, S43c126=1000),
+        **_separating(P03l5=50, P03l6=54.4, P03l8=54.5, P03l4c1=54.5, S43c126=1000),
     }
 
 
@@ -343,12 +344,18 @@ def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
 
 
 def scans(
-    least: float = 0.2, settled: bool = True, discs: tuple[str, ...] = ("growing", "quiet", "separation")
+    least: float = 0.2,
+    settled: bool = True,
+    discs: tuple[str, ...] = ("growing", "quiet", "separation"),
+    windows: tuple[tuple[float, float], ...] = ((20, np.nan), (10, np.nan), (15, np.nan)),
+    damped: str = "separation",
 ) -> dict[str, xr.Dataset]:
     """Grid studies: stick without separation, and what becomes of the published start on softer and stiffer discs.
 
     least, settled : share of stick where it is least, and whether the motion there has settled
     discs : outcome on the softest, a softer and the usual one
+    windows : rad/s, where separation begins and ends, at three preloads
+    damped : outcome at the largest preload with in-plane damping
     """
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
@@ -360,9 +367,31 @@ def scans(
     map_E = xr.Dataset(
         {"outcome": (("E", "Omega", "normalization"), outcome, flags)},
         {"E": [8e10, 1e11, 1.5e11], "Omega": [10, 50], "normalization": ["as_published", "orthonormal"]},
-        {"base": '{"N": 200}'},
+        {"base": '{"N": 200, "E": 1.5e11}'},
     )
-    return {"bonded": xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]}), "map_E": map_E}
+    kinds = np.where(np.isnan(windows), 0, [1, 2])[:, None, None]
+    crossings = {"flag_values": np.arange(3, dtype=np.int8), "flag_meanings": "none begins ends"}
+    speeds = np.array(windows)[:, None, None]
+    along = ("N", "normalization", "horizon", "crossing_number")
+    loads = {"N": [50.0, 200.0, 385.0], "normalization": ["as_published"]}
+    critical_speed = xr.Dataset(
+        {
+            "status": (along[:2], np.zeros((3, 1), dtype=np.int8), {"flag_values": [0], "flag_meanings": "ok"}),
+            "critical_speed": (along[:3], speeds[..., 0]),
+            "crossing": (along, speeds),
+            "crossing_kind": (along, kinds.astype(np.int8), crossings),
+        },
+        loads | {"horizon": [1000.0]},
+    )
+    pulled = np.ones((3, 2, 1), dtype=np.int8)
+    pulled[-1, 1] = flags["flag_meanings"].split().index(damped)
+    map_c_p = xr.Dataset(
+        {"outcome": (("N", "c_p", "normalization"), pulled, flags)},
+        loads | {"c_p": [0, 0.5]},
+        {"base": '{"Omega": 15}'},
+    )
+    plain = xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]})
+    return {"bonded": plain, "critical_speed": critical_speed, "map_E": map_E, "map_c_p": map_c_p}
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:

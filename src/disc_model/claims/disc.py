@@ -13,16 +13,23 @@ from disc_model.parameters import Parameters
 from disc_model.plate import mode_shapes, plate_modes, slider_at_rest_frequencies
 
 BASE = Parameters(N=200, Omega=20)
+DISC_HZ = (237.45, 241.40, 290.28, 441.53, 697.58)
 DISC = (1491.92, 1516.76, 1823.88, 2774.19, 4383.04)
 ATTACHED = (850.86, 1492.55, 1516.76, 1814.90, 1823.88, 2758.02, 2774.19, 4360.49, 4383.04)
 ATTACHED_HZ = (135.42, 237.55, 241.40, 288.85, 290.28, 441.53, 438.95, 693.99, 697.58)
-"""As printed: of the disc alone and with the slider attached, rad/s; the latter in Hz."""
+"""As printed: of the disc alone, Hz and rad/s; with the slider attached, rad/s and Hz."""
 
 
 @CHECKS("P01")
 def disc_frequencies(*, within: float) -> Answer:
     ours = plate_modes(BASE)["omega"].to_numpy()
     return Answer(np.all(np.abs(ours - DISC) <= within), omega=ours)
+
+
+@CHECKS("P01h")
+def disc_hertz(*, within: float) -> Answer:
+    ours = plate_modes(BASE)["omega"].to_numpy() / (2 * np.pi)
+    return Answer(np.all(np.abs(ours - DISC_HZ) <= within), frequency=ours)
 
 
 @CHECKS("P02")

@@ -36,22 +36,18 @@ CLAIMS: tuple[Claim, ...] = CHECKS.claims(*(f"{section.__name__.rpartition('.')[
 """In the order in which they stand in the files."""
 
 
-def check_claims(
-    tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None, *, robust: bool = True
-) -> pd.DataFrame:
+def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> pd.DataFrame:
     """Check every claim: a row per claim, columns `COLUMNS`.
 
     Parameters
     ----------
     tree : merged cases, see `disc_model.studies.cases`
     scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that look at others are not computed
-    robust : whether to judge each claim with its bounds halved and doubled as well
     """
     cases = views(tree, scans)
     rows = []
     for claim in CLAIMS:
-        found, said = claim.evaluate(cases), claim.said
-        turned = claim.turned_by(cases, found.verdict) if robust else ""
+        (found, turned), said = claim.settle(cases), claim.said
         texts = (claim.id, said.location, claim.text, said.paper, found.ours, claim.tolerance, said.reason)
         rows.append((*texts, found.verdict, found.remark, said.apart, turned))
     return pd.DataFrame(rows, columns=list(COLUMNS))
@@ -139,7 +135,7 @@ def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFr
 
 
 def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
-    old, new = (check_claims(tree, robust=False) for tree in (published, orthonormal))
+    old, new = map(check_claims, (published, orthonormal))
     merged = old.merge(new, on="id", suffixes=("", "_new"))
     kinds = [merged[name].replace(REMARK, HOLDS) for name in ("verdict", "verdict_new")]
     judged = ~(kinds[0] + kinds[1]).str.contains(NOT_COMPUTED)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, motion_of, stick_disappears
@@ -180,6 +181,12 @@ def between_only(cases: Sequence[CaseView]) -> bool:
     return [case.separates for case in cases] == [False, True, False]
 
 
+def dips(speeds: Array, depth: float) -> list[int]:
+    """Places of minima from which the values rise by ``depth`` or more on both sides; nan is above all of them."""
+    filled = np.where(np.isnan(speeds), np.nanmax(speeds, initial=0.0) + 2 * depth, speeds)
+    return [*map(int, find_peaks(-filled, prominence=depth)[0])]
+
+
 def ratio(part: float, whole: float, what: str) -> float:
     """One number over another; raises `Missing` where the other, which is `what`, is nothing."""
     if not whole > 0:
@@ -255,6 +262,13 @@ def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
         for case, other in pairs
         if other.separates and stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
     ]
+
+
+def nearby(motion: Motion, near: CaseView) -> list[dict[str, str]]:
+    """What becomes of a motion that repeats where a spring is 0.1 % stiffer; nothing if its period stays."""
+    other, _ = late_motion(near)
+    said = f"it repeats after {counted(other.period, 'release')}" if other.period else f"it is {other}"
+    return [{"with": said}] if motion.period not in (0, other.period) else []
 
 
 def _by_separations(case: CaseView) -> str:

@@ -28,6 +28,7 @@ HOLDS = "holds"
 REMARK = "holds with a remark"
 FAILS = "does not hold"
 UNDECIDED = "undecided"
+NOT_TESTABLE = "not testable"
 NOT_COMPUTED = "not computed"
 FOLDER = Path(__file__).parent
 PAPER = FOLDER.parent / "config" / "paper.yaml"
@@ -91,7 +92,7 @@ class Text(BaseModel):
     tolerance, reason : what counts as agreement, and why that much
     bounds, given : numbers for the check and for sentences: thresholds of ours, and others
     cases : those of config/paper.yaml that the check is given, each with the time in s to which it must have run
-    separates : those of them that the claim says something of after separation: without one it does not hold; true
+    separates : those of them that the claim says something of after separation: without one it is not testable; true
         stands for all in which contact can be lost
     steady : those whose steady state it is about: one that has not come to it by its end decides nothing
     scans : the grid studies that the check is given besides
@@ -145,7 +146,7 @@ class Claim:
 
     @property
     def separating(self) -> tuple[str, ...]:
-        """The cases without whose separation the claim does not hold."""
+        """The cases without whose separation the claim is not testable."""
         if self.said.separates is True:
             known = paper_cases()
             return tuple(name for name in self.said.cases if known[name]["parameters"].get("contact") != "bonded")
@@ -173,12 +174,21 @@ class Claim:
             quiet = [needed[name] for name in self.separating if not needed[name].separates]
             if quiet:
                 said = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
-                return Finding(said, FAILS)
+                return Finding(said, NOT_TESTABLE)
             scans = [cases[name].node.to_dataset() for name in self.said.scans]
             found = self._found(self.check(*needed.values(), *scans, **self.numbers), needed)
             return _of_steady_state(found, [needed[name] for name in self.steady])
         except Missing as missing:
             return _without(missing)
+
+    def settle(self, cases: Mapping[str, CaseView]) -> tuple[Finding, str]:
+        """What the claim comes to, undecided if a threshold halved or doubled turns it; and what turns it."""
+        found = self.evaluate(cases)
+        turned = self.turned_by(cases, found.verdict)
+        if turned not in ("", "stable") and found.verdict != UNDECIDED:
+            remark = "; ".join(filter(None, (f"it hangs on a threshold: {turned}", found.remark)))
+            found = replace(found, verdict=UNDECIDED, remark=remark)
+        return found, turned
 
     def turned_by(self, cases: Mapping[str, CaseView], verdict: str) -> str:
         """Which of its bounds, halved or doubled, turns this verdict of the claim, and into what; else "stable".

@@ -13,10 +13,11 @@ from typing import Any
 import pandas as pd
 import yaml
 
-from disc_model.claims.model import FAILS, FOLDER, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED
+from disc_model.claims.model import FAILS, FOLDER, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED
 from disc_model.data.dataset import markdown_table
 
-CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad", UNDECIDED: "note", NOT_COMPUTED: "none"}
+CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad", UNDECIDED: "note"}
+CLASSES |= dict.fromkeys((NOT_TESTABLE, NOT_COMPUTED), "none")
 CLAIM_WIDTHS = (5, 11, 18, 13, 30, 9, 14)
 """Of the columns of the ledger, in hundredths."""
 

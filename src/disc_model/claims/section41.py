@@ -12,7 +12,7 @@ from disc_model.analysis import spectra
 from disc_model.analysis.classify import closure, irregularity, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
-from disc_model.claims.measures import CaseView, is_kind, pairs
+from disc_model.claims.measures import Absent, CaseView, is_kind, pairs
 from disc_model.claims.model import CHECKS, Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
@@ -23,6 +23,8 @@ FULL = 1.1
 
 @CHECKS("F02a")
 def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
+    if not case.separates:
+        raise Absent(f"case {case.name}: no separation in {case['time_reached']:g} s")
     before = case["first_separation"]
     late = case.range_of("P", before - 20, before)
     return Answer(late.width > factor * case.early.width, late=late)
@@ -70,8 +72,11 @@ def releases_regularly(case: CaseView, *, within: float) -> Answer:
 
 
 @CHECKS("F05", "F07", "F28")
-def is_quasi_periodic(case: CaseView, other: CaseView, *, shown: float) -> Answer:
-    """Whether the in-plane motion is quasi-periodic; ``other`` has the same parameters and another start."""
+def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown: float) -> Answer:
+    """Whether the in-plane motion is quasi-periodic.
+
+    ``other`` has the same parameters and another start, ``near`` the same start and a spring 0.1 % stiffer.
+    """
     motion, _ = measures.late_motion(case)
     length = measures.release_intervals(case)[: motion.period].sum() if motion.period else 0.0
     return Answer(
@@ -79,6 +84,7 @@ def is_quasi_periodic(case: CaseView, other: CaseView, *, shown: float) -> Answe
         longer=length > shown,
         within=0 < length <= shown,
         irregular=motion.kind is Outcome.IRREGULAR,
+        nearby=measures.nearby(motion, near),
         another=motion.kind is not Outcome.UNDECIDED and measures.another_motion((case, other)),
     )
 
@@ -170,6 +176,24 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
     another = measures.another_motion(*zip(published, cases[len(published) :], strict=False))
     holds = None if all(changes) and controls else all(changes)
     return Answer(holds, "control", changes=found, without=controls, another=another)
+
+
+@CHECKS("C3d")
+def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
+    """One pair in which both the share of stick and the range of the disc differ decides what 'can be'."""
+    rows = _ranges(cases)
+    for row, (case, ignored) in zip(rows, pairs(cases), strict=True):
+        row["stick"], row["without"] = (100 * measures.phase_share(each, "stick") for each in (case, ignored))
+    differ = [max(a, b) >= factor * min(a, b) for row in rows for a, b in [(row["stick"], row["without"])]]
+    return Answer(
+        any(row["ratio"] * factor <= 1 and stick for row, stick in zip(rows, differ, strict=True)), pairs=rows
+    )
+
+
+@CHECKS("C6")
+def should_be_considered(*cases: CaseView) -> Answer:
+    """No computation of one system decides on many."""
+    return Answer(None, "many", ranges=_ranges(cases))
 
 
 @CHECKS("A1")

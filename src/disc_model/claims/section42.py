@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
 from disc_model.claims import measures
 from disc_model.claims.disc import moving_load_speed
-from disc_model.claims.measures import CaseView, between_only, first_separation, rows
+from disc_model.claims.measures import CaseView, Range
 from disc_model.claims.model import CHECKS, Answer
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import flag_names
 
 
 @CHECKS("F11")
@@ -15,8 +22,8 @@ def quiet(case: CaseView, *, part: float, newtons: float) -> Answer:
 
 
 @CHECKS("F13", "F27")
-def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answer:
-    return Answer(abs(case["first_separation"] - printed) <= within)
+def when_it_separates(case: CaseView, *, printed: float, digit: float, within: float) -> Answer:
+    return Answer(abs(case["first_separation"] - printed) <= digit / 2 + within)
 
 
 @CHECKS("F13b")
@@ -42,11 +49,39 @@ def later_periodic(case: CaseView) -> Answer:
 
 
 @CHECKS("F15a")
-def falls_then_rises(*cases: CaseView) -> Answer:
-    """Critical speeds of four preloads against 15 rad/s: above it, below it, above it again."""
-    beyond = cases[3]
-    again = [{"case": beyond, "first": first_separation(*cases[3:])}] if beyond.separates else []
-    return Answer(between_only(cases[:3]), loads=rows(cases[:3]), again=again)
+def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
+    """Whether the lowest speed with separation has a least value between higher ones, however long one waits."""
+    study = _scanned(study)
+    loads, lowest = study["N"].values, study["critical_speed"].transpose("horizon", "N").values
+    falls = [measures.dips(speeds, depth) for speeds in lowest]
+    rows = [{"N": N, "speed": measures.or_none(v, ".1f")} for N, v in zip(loads, lowest[-1], strict=True)]
+    return Answer(
+        all(map(len, falls)),
+        speeds=rows,
+        horizon=float(study["horizon"][-1]),
+        again=[f"{loads[i]:g} N" for i in falls[-1][1:]],
+    )
+
+
+@CHECKS("S42w")
+def one_speed_divides(study: xr.Dataset, *, within: float) -> Answer:
+    """Whether no window of separation wider than ``within`` has speeds above it at which contact is kept."""
+    study = _scanned(study).isel(horizon=-1)
+    rows: list[dict[str, Any]] = []
+    for N in study["N"].values:
+        kinds, speeds = (study.sel(N=N)[name] for name in ("crossing_kind", "crossing"))
+        ends = np.flatnonzero(flag_names(kinds) == "ends")
+        windows = [Range(*speeds.values[[i - 1, i]]) for i in ends if speeds[i] - speeds[i - 1] > within]
+        rows += [{"N": N, "windows": windows}] if windows else []
+    return Answer(not rows, loads=rows, again=bool(rows), count=study.sizes["N"], horizon=float(study["horizon"]))
+
+
+def _scanned(study: xr.Dataset) -> xr.Dataset:
+    """Of the published modes; raises `Missing` if a point failed."""
+    study = study.sel(normalization="as_published")
+    if np.any(flag_names(study["status"]) != "ok"):
+        raise Missing("study critical_speed has points that failed")
+    return study
 
 
 @CHECKS("F15b")

@@ -155,7 +155,7 @@ def disc_damping(*cases: CaseView) -> Answer:
 @CHECKS("F19")
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
     periodic = measures.late_motion(case)[0].period > 0
-    return Answer(not without.separates and case.separates and periodic, **_where_damping_helps(case))
+    return Answer(not without.separates and case.separates and periodic, **_effect_of(case, "c_p"))
 
 
 @CHECKS("F19d")
@@ -182,8 +182,12 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
     return Answer(
         *is_kind(Outcome.IRREGULAR, motion, not case.separates and last.width > factor * case.early.width and within),
         last=last,
-        irregular=motion.kind is Outcome.IRREGULAR,
     )
+
+
+@CHECKS("F21q")
+def seems_quasi_periodic(case: CaseView) -> Answer:
+    return Answer(*is_kind(Outcome.QUASI_PERIODIC, measures.late_motion(case)[0]))
 
 
 @CHECKS("S43k")
@@ -195,9 +199,10 @@ def normal_stiffness(*cases: CaseView) -> Answer:
 
 
 @CHECKS("F22")
-def soft_inplane(case: CaseView) -> Answer:
+def soft_inplane(case: CaseView, near: CaseView) -> Answer:
     motion, _ = measures.late_motion(case)
-    return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates), repeats=motion.period > 0)
+    repeats, nearby = motion.period > 0, measures.nearby(motion, near)
+    return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates), repeats=repeats, nearby=nearby)
 
 
 @CHECKS("S43kp")
@@ -251,6 +256,25 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
     return Answer(min(shares.values(), default=0.0) >= share, shares=said or ["none that separates"])
 
 
+@CHECKS("C4N")
+def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
+    """Whether from some preload on all separate with the damper that do not without."""
+    study = study.sel(normalization="as_published").sortby("N")
+    outcome = flag_names(study["outcome"].sel(c_p=[0.0, c_p]).transpose("c_p", "N"))
+    if np.any(outcome == "failed"):
+        raise Missing("study map_c_p has points that failed")
+    without, damped = outcome == "separation"
+    loads, newly, spared = study["N"].values, damped & ~without, without & ~damped
+    said = {name: [f"{N:g}" for N in loads[at]] or ["none"] for name, at in (("newly", newly), ("spared", spared))}
+    return Answer(bool(newly[-1]), N=measures.extent(loads), Omega=json.loads(study.attrs["base"])["Omega"], **said)
+
+
+@CHECKS("C4c")
+def vertical_damping(case: CaseView) -> Answer:
+    effect = _effect_of(case, "c")
+    return Answer(effect["lowered"] == effect["points"] - effect["without"] > 0, **effect)
+
+
 @CHECKS("C4")
 def inplane_damping_alone(*cases: CaseView) -> Answer:
     without, shown, weak, strong, small = cases
@@ -259,7 +283,7 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
         not without.separates and any(damped) and not small.separates,
         large=rows((without, weak, shown, strong)),
         not_all=not all(damped),
-        **_where_damping_helps(shown),
+        **_effect_of(shown, "c_p"),
     )
 
 
@@ -279,12 +303,13 @@ def elasticity(*cases: CaseView) -> Answer:
 
 
 @CHECKS("C4E")
-def soft_enough(study: xr.Dataset) -> Answer:
+def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     study = study.sel(normalization="as_published").sortby(["E", "Omega"])
     outcome = flag_names(study["outcome"].transpose("E", "Omega"))
     if np.any(outcome == "failed"):
         raise Missing("study map_E has points that failed")
     E, Omega = study["E"].values / 1e9, study["Omega"].values
+    base, at = json.loads(study.attrs["base"]), Omega == slow
     apart = outcome == "separation"
     some = apart.any(axis=1)
     quiet = int(np.argmin(some))  # the softest that does not separate, if one does and one does not
@@ -293,10 +318,11 @@ def soft_enough(study: xr.Dataset) -> Answer:
     return Answer(
         mixed if some.any() else None,
         "nowhere",
-        N=json.loads(study.attrs["base"])["N"],
+        N=base["N"],
         Omega=measures.extent(Omega),
         E=measures.extent(E),
         none_for=[{"quiet": list(E[~some])}] if mixed else [],
+        base_too=at.any() and not apart[base["E"] / 1e9 >= E][:, at].any(),
         alike=[] if mixed else [{"all": "every" if some.any() else "no"}],
         softer=softer,
     )
@@ -344,24 +370,34 @@ def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     return Answer(min(shares) <= share, shares="; ".join(said), another=another)
 
 
-def _where_damping_helps(case: CaseView) -> dict[str, Any]:
-    """At how many loads and speeds in-plane damping lowers the growth of the cycle, raises it, or ends the cycle."""
+def _effect_of(case: CaseView, damper: str) -> dict[str, Any]:
+    """At how many loads and speeds a damper lowers growth, raises it, or ends a stable cycle.
+
+    Where it leaves no stick-slip cycle near the start, the motion is steady sliding, whose growth is compared.
+    """
+    from disc_model.stability.sliding import steady_sliding
+
     loads_and_speeds = product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))
-    points = [case.parameters.replace(N=N, Omega=speed) for N, speed in loads_and_speeds]
-    rates = [(p, growth_or_nan(p.replace(c_p=0.0)), growth_or_nan(p)) for p in points]
-    raised = [
-        f"{measures.place(p.N, p.Omega)}: {without:+.4f} to {damped:+.4f}/s"
-        for p, without, damped in rates
-        if damped > without
-    ]
-    ended = [p for p, without, damped in rates if math.isfinite(without) and math.isnan(damped)]
-    among = ", the paper's case among them" if case.parameters in ended else ""
+    lowered, slides, ended, lost, raised = 0, 0, 0, 0, []
+    for N, speed in loads_and_speeds:
+        p = case.parameters.replace(N=N, Omega=speed)
+        without, damped = growth_or_nan(p.replace(**{damper: 0.0})), growth_or_nan(p)
+        gone = math.isnan(damped)
+        rate = steady_sliding(p).growth_rate if gone and damper == "c_p" else damped
+        lowered += rate < without
+        slides += gone and rate < without
+        ended += gone and without < 0 and not rate < without
+        lost += math.isnan(rate)
+        if not gone and rate > without:
+            raised.append(f"{measures.place(N, speed)}: {without:+.4f} to {rate:+.4f}/s")
     return {
-        "points": len(points),
-        "c_p": case["c_p"],
-        "lowered": sum(damped < without for _, without, damped in rates),
+        "points": 30,
+        "value": case[damper],
+        "lowered": lowered,
+        "slides": [{"count": slides}] if slides else [],
         "raised": [{"count": len(raised), "where": "; ".join(raised)}] if raised else [],
-        "ended": [{"count": len(ended), "among": among}] if ended else [],
+        "ended": [{"count": ended}] if ended else [],
+        "without": lost,
     }
 
 

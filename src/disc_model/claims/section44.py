@@ -19,6 +19,8 @@ EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("sp
 """Windows of N = 385 N, 15.1 rad/s, and the stretches of them that are compared, s."""
 LOW, HIGH = 20.0, 700.0
 """Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
+STILL = 3e-4
+"""1/s, the rate at which a motion that passes for steady may grow, see `disc_model.claims.measures.STRETCH`."""
 
 
 @CHECKS("T2a")
@@ -134,8 +136,10 @@ def three_kinds(case: CaseView, *, factor: float) -> Answer:
     ranges = [float(np.ptp(measures.stretch(case, *span)["w_point"].values)) for span in spans]
     filled = [_fuzziness(case, *span) for span in spans]
     rates = [measures.slope(case, "P", max(start, 1), stop) for _, start, stop in spans]
+    grown = [max(rate, STILL) for rate in rates]
     differ = [
-        any(max(x[i], x[j]) >= factor * min(x[i], x[j]) for x in (ranges, filled)) for i, j in ((0, 1), (1, 2), (0, 2))
+        any(max(x[i], x[j]) >= factor * min(x[i], x[j]) for x in (ranges, filled, grown))
+        for i, j in ((0, 1), (1, 2), (0, 2))
     ]
     rows = [
         {"start": start, "stop": stop, "mm": 1e3 * width, "percent": 100 * share, "rate": rate}
@@ -145,9 +149,17 @@ def three_kinds(case: CaseView, *, factor: float) -> Answer:
 
 
 @CHECKS("F25b")
-def new_lines(case: CaseView, *, factor: float) -> Answer:
-    early, later = _fuzziness(case, *EARLY), _fuzziness(case, *LATER)
-    return Answer(later > factor * early, early=100 * early, later=100 * later)
+def new_lines(case: CaseView, *, factor: float, floor: float) -> Answer:
+    """Lines that are no combinations of the stick-slip rate and the drive's, as all main ones are."""
+    rate = stick_slip_rate(case)
+    early, later = (
+        sum(
+            _from_combination(case, line, rate) > COMBINED
+            for line in measures.lines(case, *span, above=LOW, below=300.0, floor=floor)
+        )
+        for span in (EARLY, LATER)
+    )
+    return Answer(later > factor * max(early, 1), early=early, later=later)
 
 
 @CHECKS("F25c")

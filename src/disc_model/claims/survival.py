@@ -196,10 +196,8 @@ def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
     study = found.grid("survival_speed").isel(horizon=0)
     _require_ok(study, "survival_speed")
     speed, load = study["critical_speed"].values, study["N"].values
-    height = np.where(np.isnan(speed), np.inf, speed)
-    dips = [min(height[:i].max(), height[i + 1 :].max()) >= height[i] + depth for i in range(1, len(height) - 1)]
     rows = [{"N": N, "speed": or_none(v, ".1f")} for N, v in zip(load, speed, strict=True)]
-    return Answer(any(dips) if np.isfinite(height).sum() >= 3 else None, "few", speeds=rows)
+    return Answer(bool(measures.dips(speed, depth)) if np.isfinite(speed).sum() >= 3 else None, "few", speeds=rows)
 
 
 @CHECKS("Smaller vibration")

@@ -85,6 +85,7 @@ KINDS = {
     "stability_curves": Kind(
         "point continuation stability.curves stability.resonances studies.grids.quantities.stability_curves"
     ),
+    "branches": Kind("point settled continuation studies.grids.quantities.branches"),
     "sensitivity": Kind("point settled studies.grids.quantities.sensitivity"),
     "campbell": Kind("floquet stability.campbell studies.grids.quantities.campbell"),
     # pictures and pages; a figure's own module is named beside its kind

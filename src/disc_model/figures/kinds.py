@@ -268,6 +268,19 @@ class Bifurcation(Plot):
     paper: dict[str, Number] = Field({})
 
 
+class Branches(Plot):
+    """Range of motion of all cycles found against one parameter, stable and unstable, and where a sweep jumps.
+
+    paper : cases of the paper by name, each with its value of the parameter
+    """
+
+    drawn_by = "grids.branches.draw"
+    quantities = ("branches",)
+
+    kind: Literal["branches"] = "branches"
+    paper: dict[str, Number] = Field({})
+
+
 class BasinShares(Plot):
     """Shares of what many starts come to, the attractors, and the least kick that separates, against a parameter."""
 
@@ -562,7 +575,7 @@ def _by_kind(*classes: type[Kind]) -> dict[str, Any]:
 
 PLOTS: dict[str, type[Plot]] = _by_kind(
     HeatMap, CurvePlot, StabilityMap, RegionMap, CriticalSpeed, Thresholds, GrowthMap, Bifurcation, RampedSpeeds,
-    BasinShares, Sensitivity, Campbell,
+    BasinShares, Branches, Sensitivity, Campbell,
 )  # fmt: skip
 CASE_PLOTS: dict[str, type[CasePlot]] = _by_kind(History, Section, Spectrogram, Portrait)
 KINDS: dict[str, type[Plot | CasePlot | OwnFigure]] = {**PLOTS, **CASE_PLOTS, "own": OwnFigure}

@@ -562,6 +562,38 @@ class StabilityCurvesOptions(Options):
     )
 
 
+class BranchesOptions(Options):
+    """Branches of cycles against one parameter, beside a sweep up and down that carries the motion on.
+
+    parameter : the one that varies
+    scan : its values in the sweep; each cycle that is met there is followed between the first and the last
+    dwell : s at each value
+    late : s, the last stretch of it, over which the range is taken
+    releases : of a cycle that is followed, at most
+    longest : arclength of the longest step along a branch
+    max_points : of a branch, each way from where it was met
+    max_branches : room for that many
+    """
+
+    parameter: Free = "Omega"
+    scan: Range
+    dwell: Seconds
+    late: Seconds = 2.0
+    releases: Annotated[Count, Field(ge=1, le=100)] = 4
+    longest: Positive = 0.05
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
+    max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
+    tol: Tolerance = 1e-10
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_units(cls, said: Any) -> Any:
+        name = said.get("parameter", "Omega") if isinstance(said, dict) else "Omega"
+        return each_in_si(said, {"scan": Parameters.unit(str(name))})
+
+    _rules = ((lambda o: o.late <= o.dwell, "late must be <= dwell"),)
+
+
 class SensitivityOptions(Options):
     """The stick-slip cycle at samples of distributed parameters, and what becomes of the published start.
 
@@ -701,6 +733,7 @@ QUANTITIES = {
         motion="After the transient.",
     ),
     "stability_curves": Quantity(StabilityCurvesOptions, lambda o: WORK, scans=("x", "y")),
+    "branches": Quantity(BranchesOptions, lambda o: WORK, scans=("parameter",)),
     "sensitivity": Quantity(
         SensitivityOptions,
         # the same for more samples, whose batches are to stay

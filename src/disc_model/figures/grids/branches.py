@@ -1,0 +1,77 @@
+"""Continuation diagrams: the range of motion on all cycles against one parameter, and where a sweep jumps."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.figures import parts
+from disc_model.figures.kinds import Branches
+from disc_model.figures.parts import BLACK, GREY, PAGE, SEPARATED, new_figure
+
+JUMP = 3.0
+"""By so much the range changes from one value of a sweep to the next where it jumps."""
+LOWEST = 1e-3
+"""mm: what vibrates less is not told from rest."""
+
+
+def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
+    """One point: a line for each branch, thick where it is stable; triangles for the sweep up and down."""
+    norm, study, _ = parts.of_one(study, others)
+    study = study.squeeze()
+    name = str(json.loads(study.attrs["options"])["parameter"])
+    label, factor = parts.axis_of(name)
+    figure = new_figure(PAGE, 3.6)
+    ax = figure.subplots()
+    ax.set_yscale("log")
+    for i in range(int(study["n_branches"])):
+        one = study.isel(branch=i)
+        _branch(ax, one["value"].values * factor, 1e3 * one["range"].values, one["growth_rate"].values < 0,
+                SEPARATED if one["separations"] > 0 else BLACK)  # fmt: skip
+    along = study["sweep_value"].values * factor
+    for way, mark in enumerate("^v"):
+        _sweep(ax, along, 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0, mark)
+    unstable = study["sliding_growth_rate"].values > 0
+    said = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
+    ax.plot(along, np.full(along.size, LOWEST), color=GREY, linewidth=0.8, linestyle="--" if unstable.all() else "-")
+    parts.say(ax, f"steady sliding: {said}", (along[0], LOWEST), (4, 3), fontsize=7, color=GREY)
+    for case, value in plot.paper.items():
+        ax.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
+        side = -1 if value == min(plot.paper.values()) else 1
+        parts.say(ax, case, (value * factor, 1), (2 * side, -8), xycoords=("data", "axes fraction"), fontsize=7)
+    ax.set(
+        xlabel=label, ylabel="Range of the slider's height (mm)", xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None)
+    )
+    for color, text in ((BLACK, "in contact"), (SEPARATED, "separates")):
+        ax.plot([], [], color=color, linewidth=2, label=f"cycle, {text}, stable")
+        ax.plot([], [], color=color, linewidth=0.7, linestyle="--", label="unstable")
+    for mark, text in zip("^v", ("rising", "falling"), strict=True):
+        ax.plot([], [], mark, color=GREY, markersize=3, label=f"simulated, {text}")
+    figure.legend(loc="outside lower center", ncols=6)
+    parts.entitle(figure, plot.title, f"{parts.fixed(study, modes_said=True)}, {parts.MODES[norm]}")
+    return figure
+
+
+def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: str) -> None:
+    there = np.isfinite(x)
+    x, y, stable = x[there], y[there], stable[there]
+    ax.plot(x, y, color=color, linewidth=0.7, linestyle="--")
+    # a segment is stable where both its ends are
+    for first, last in parts.stretches(stable[:-1] & stable[1:]):
+        ax.plot(x[first : last + 1], y[first : last + 1], color=color, linewidth=2.0, solid_capstyle="butt")
+
+
+def _sweep(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: str) -> None:
+    """Marks of a sweep, and an arrow at each jump."""
+    shown = np.maximum(y, LOWEST)
+    for at, color in ((~separates, BLACK), (separates, SEPARATED)):
+        ax.plot(x[at], shown[at], mark, color=color, markersize=2.5, markerfacecolor="white", markeredgewidth=0.5)
+    order = slice(None) if mark == "^" else slice(None, None, -1)
+    x, y, separates = x[order], shown[order], separates[order]
+    for i in np.flatnonzero((separates[1:] != separates[:-1]) & (np.abs(np.log(y[1:] / y[:-1])) > np.log(JUMP))):
+        ax.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops={"arrowstyle": "->", "color": GREY, "lw": 1.0})

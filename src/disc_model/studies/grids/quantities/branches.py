@@ -1,0 +1,135 @@
+"""Branches of cycles against one parameter: stable and unstable, in contact and separating, beside a sweep.
+
+A sweep up and down carries the motion on. Each cycle that it comes to, and the cycle near the published start, is
+followed by continuation both ways, unless a branch found before passes there.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disc_model.data.variables import Column, Variable
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Record
+from disc_model.simulation.result import State
+from disc_model.stability.attractor.course import FIRST_LEG, late_stretch
+from disc_model.stability.attractor.many import cycle_reached
+from disc_model.stability.branch import Steps
+from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.cycle import FloquetResult, find_cycle
+from disc_model.stability.return_map import ReturnMap
+from disc_model.stability.sliding import steady_sliding
+from disc_model.studies.grids.points import NUMERICAL, STATUS, Point, listed
+
+if TYPE_CHECKING:
+    from disc_model.studies.document import BranchesOptions
+
+DIRECTIONS = ("up", "down")
+_ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
+COLUMNS = {
+    "status": Column(*STATUS),
+    "n_branches": Column("1", "number of branches found", whole=True),
+    "n_unfollowed": Column("1", "number of cycles that could not be followed", whole=True),
+    "releases": Column("1", "releases of stick in a period of the branch", dims=_ONE, whole=True),
+    "separations": Column("1", "separations in a period of the branch", dims=_ONE, whole=True),
+    "value": Column("", "parameter along the branch, SI units", dims=_EACH),
+    "range": Column("m", "range of the slider's height over a period", dims=_EACH),
+    "growth_rate": Column("s-1", "growth rate of disturbances of the cycle", dims=_EACH),
+    "sweep_range": Column("m", "range of the slider's height at the end of the stay at a value", dims=_SWEEP),
+    "sweep_separation_rate": Column("s-1", "separations per second at the end of the stay at a value", dims=_SWEEP),
+    "sliding_growth_rate": Column("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
+}
+SAME = 0.1
+"""Two motions at one value are of one branch if their ranges differ by no more, relative: branches are steep."""
+
+
+def coordinates(options: BranchesOptions) -> dict[str, tuple[Any, Variable]]:
+    return {
+        "direction": (np.array(DIRECTIONS), Variable("", "direction of the sweep")),
+        "sweep_value": (np.array(options.scan.values), Variable("", f"{options.parameter} in the sweep, SI units")),
+        "branch": (np.arange(options.max_branches), Variable("1", "number of the branch")),
+        "branch_point": (np.arange(2 * options.max_points), Variable("1", "number of the point along the branch")),
+    }
+
+
+def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
+    """Sweep and branches; the point's own value of the parameter is not used."""
+    values, rows, unfollowed = options.scan.values, [], []
+    swept = {name: np.full((2, len(values)), math.nan) for name, column in COLUMNS.items() if column.dims == _SWEEP}
+    state: State | None = None
+    message = ""
+
+    def follow(cycle: FloquetResult, separates: bool) -> None:
+        assert cycle.state is not None
+        value = getattr(cycle.parameters, options.parameter)
+        size = _range(cycle.parameters, cycle.state, cycle.period)
+        if len(rows) < options.max_branches and not any(_passes(row, value, size) for row in rows):
+            try:
+                rows.append(_branch(cycle, separates, options))
+            except NUMERICAL as error:
+                unfollowed.append(str(error))
+
+    for way, order in enumerate((range(len(values)), reversed(range(len(values))))):
+        for i in order:
+            p = point.parameters.replace(**{options.parameter: values[i]})
+            result, late = late_stretch(p, state, options.dwell, options.late, options.tol)
+            if late is None:
+                message = f"{options.parameter}={values[i]:g}: {result.message}"
+                break
+            state = result.final_state
+            swept["sweep_range"][way, i], swept["sweep_separation_rate"][way, i] = late.range, late.separation_rate
+            if way == 0 and (own := find_cycle(p)).state is not None:
+                follow(own, False)
+            leg = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state, record=Record())
+            reached = cycle_reached(p, leg, options.releases) if leg.status.complete else None
+            if reached is not None and reached.own and reached.cycle.state is not None:
+                follow(reached.cycle, reached.cycle.separations > 0)
+    sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
+    known = {"status": "failed" if message else "ok", "n_branches": len(rows), "n_unfollowed": len(unfollowed)}
+    return listed(rows) | swept | known | {"sliding_growth_rate": sliding}, message
+
+
+def _branch(cycle: FloquetResult, separates: bool, options: BranchesOptions) -> dict[str, Any]:
+    """Both ways from a cycle, by ascending arclength."""
+    p, name = cycle.parameters, options.parameter
+    bounds, near = (options.scan.values[0], options.scan.values[-1]), {}
+    if separates or cycle.releases > 1:
+        near = {"near": cycle.state, "releases": cycle.releases}
+    steps = Steps(longest=options.longest, max_points=options.max_points)
+    down, up = (continue_cycle(p, name, bounds, direction=way, steps=steps, **near) for way in (-1, 1))
+    value = np.concatenate([down.values[::-1, 0], up.values[1:, 0]])
+    points = np.concatenate([down.points[::-1], up.points[1:]])
+    period = np.concatenate([down.period[::-1], up.period[1:]])
+    own = ReturnMap(p)
+    ranges = []
+    for one, x, time in zip(value, points, period, strict=True):
+        case = p.replace(**{name: float(one)})
+        map_ = ReturnMap(case)
+        ranges.append(_range(case, map_.state(x / own.scale * map_.scale), time))
+    return {
+        "releases": cycle.releases,
+        "separations": cycle.separations,
+        "value": value,
+        "range": np.array(ranges),
+        "growth_rate": np.concatenate([down.growth_rate[::-1], up.growth_rate[1:]]),
+    }
+
+
+def _range(p: Parameters, state: State, period: float) -> float:
+    """Of the slider's height over a period, m; nan if it cannot be simulated."""
+    _, stretch = late_stretch(p, state, period, period, 1e-10)
+    return math.nan if stretch is None else stretch.range
+
+
+def _passes(row: dict[str, Any], value: float, size: float) -> bool:
+    """Whether a branch passes a value with such a range of the slider's height."""
+    x, y = row["value"], row["range"]
+    for i in np.flatnonzero((x[:-1] - value) * (x[1:] - value) <= 0):
+        share = (value - x[i]) / (x[i + 1] - x[i]) if x[i + 1] != x[i] else 0.0
+        if abs(y[i] ** (1 - share) * y[i + 1] ** share / size - 1) <= SAME:
+            return True
+    return False
