@@ -14,7 +14,7 @@ from disc_model.figures import parts
 from disc_model.figures.kinds import Branches
 from disc_model.figures.parts import BLACK, GREY, PAGE, SEPARATED, new_figure
 
-JUMP = 3.0
+JUMP = 10.0
 """By so much the range changes from one value of a sweep to the next where it jumps."""
 LOWEST = 1e-3
 """mm: what vibrates less is not told from rest."""
@@ -43,7 +43,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Branches) ->
     for case, value in plot.paper.items():
         ax.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
         side = -1 if value == min(plot.paper.values()) else 1
-        parts.say(ax, case, (value * factor, 1), (2 * side, -8), xycoords=("data", "axes fraction"), fontsize=7)
+        parts.say(ax, case, (value * factor, 0.02), (3 * side, 0), xycoords=("data", "axes fraction"), fontsize=7)
     ax.set(
         xlabel=label, ylabel="Range of the slider's height (mm)", xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None)
     )
@@ -72,6 +72,6 @@ def _sweep(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: 
     for at, color in ((~separates, BLACK), (separates, SEPARATED)):
         ax.plot(x[at], shown[at], mark, color=color, markersize=2.5, markerfacecolor="white", markeredgewidth=0.5)
     order = slice(None) if mark == "^" else slice(None, None, -1)
-    x, y, separates = x[order], shown[order], separates[order]
-    for i in np.flatnonzero((separates[1:] != separates[:-1]) & (np.abs(np.log(y[1:] / y[:-1])) > np.log(JUMP))):
+    x, y = x[order], shown[order]
+    for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(JUMP)):
         ax.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops={"arrowstyle": "->", "color": GREY, "lw": 1.0})

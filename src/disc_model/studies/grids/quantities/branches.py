@@ -37,14 +37,16 @@ COLUMNS = {
     "releases": Column("1", "releases of stick in a period of the branch", dims=_ONE, whole=True),
     "separations": Column("1", "separations in a period of the branch", dims=_ONE, whole=True),
     "value": Column("", "parameter along the branch, SI units", dims=_EACH),
+    "period": Column("s", "period of the cycle", dims=_EACH),
     "range": Column("m", "range of the slider's height over a period", dims=_EACH),
     "growth_rate": Column("s-1", "growth rate of disturbances of the cycle", dims=_EACH),
     "sweep_range": Column("m", "range of the slider's height at the end of the stay at a value", dims=_SWEEP),
     "sweep_separation_rate": Column("s-1", "separations per second at the end of the stay at a value", dims=_SWEEP),
     "sliding_growth_rate": Column("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
 }
-SAME = 0.1
-"""Two motions at one value are of one branch if their ranges differ by no more, relative: branches are steep."""
+SAME = np.array([2e-4, 0.4])
+"""Two cycles at one value are of one branch if the logarithms of their periods and ranges differ by no more. Ranges
+between points of a branch are known roughly where it is steep; periods tell branches apart."""
 
 
 def coordinates(options: BranchesOptions) -> dict[str, tuple[Any, Variable]]:
@@ -58,7 +60,8 @@ def coordinates(options: BranchesOptions) -> dict[str, tuple[Any, Variable]]:
 
 def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
     """Sweep and branches; the point's own value of the parameter is not used."""
-    values, rows, unfollowed = options.scan.values, [], []
+    values, unfollowed = options.scan.values, []
+    rows: list[dict[str, Any]] = []
     swept = {name: np.full((2, len(values)), math.nan) for name, column in COLUMNS.items() if column.dims == _SWEEP}
     state: State | None = None
     message = ""
@@ -67,7 +70,7 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
         assert cycle.state is not None
         value = getattr(cycle.parameters, options.parameter)
         size = _range(cycle.parameters, cycle.state, cycle.period)
-        if len(rows) < options.max_branches and not any(_passes(row, value, size) for row in rows):
+        if len(rows) < options.max_branches and not any(_passes(row, value, cycle.period, size) for row in rows):
             try:
                 rows.append(_branch(cycle, separates, options))
             except NUMERICAL as error:
@@ -86,7 +89,7 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
                 follow(own, False)
             leg = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state, record=Record())
             reached = cycle_reached(p, leg, options.releases) if leg.status.complete else None
-            if reached is not None and reached.own and reached.cycle.state is not None:
+            if reached is not None and reached.own and reached.cycle.growth_rate < 0:
                 follow(reached.cycle, reached.cycle.separations > 0)
     sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
     known = {"status": "failed" if message else "ok", "n_branches": len(rows), "n_unfollowed": len(unfollowed)}
@@ -96,11 +99,13 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
 def _branch(cycle: FloquetResult, separates: bool, options: BranchesOptions) -> dict[str, Any]:
     """Both ways from a cycle, by ascending arclength."""
     p, name = cycle.parameters, options.parameter
-    bounds, near = (options.scan.values[0], options.scan.values[-1]), {}
-    if separates or cycle.releases > 1:
-        near = {"near": cycle.state, "releases": cycle.releases}
+    bounds = options.scan.values[0], options.scan.values[-1]
+    near = cycle.state if separates or cycle.releases > 1 else None
     steps = Steps(longest=options.longest, max_points=options.max_points)
-    down, up = (continue_cycle(p, name, bounds, direction=way, steps=steps, **near) for way in (-1, 1))
+    down, up = (
+        continue_cycle(p, name, bounds, direction=way, steps=steps, near=near, releases=cycle.releases if near else 1)
+        for way in (-1, 1)
+    )
     value = np.concatenate([down.values[::-1, 0], up.values[1:, 0]])
     points = np.concatenate([down.points[::-1], up.points[1:]])
     period = np.concatenate([down.period[::-1], up.period[1:]])
@@ -114,6 +119,7 @@ def _branch(cycle: FloquetResult, separates: bool, options: BranchesOptions) -> 
         "releases": cycle.releases,
         "separations": cycle.separations,
         "value": value,
+        "period": period,
         "range": np.array(ranges),
         "growth_rate": np.concatenate([down.growth_rate[::-1], up.growth_rate[1:]]),
     }
@@ -125,11 +131,11 @@ def _range(p: Parameters, state: State, period: float) -> float:
     return math.nan if stretch is None else stretch.range
 
 
-def _passes(row: dict[str, Any], value: float, size: float) -> bool:
-    """Whether a branch passes a value with such a range of the slider's height."""
-    x, y = row["value"], row["range"]
+def _passes(row: dict[str, Any], value: float, *of: float) -> bool:
+    """Whether a branch passes a value with about this period and this range of the slider's height."""
+    x, y = row["value"], np.log([row["period"], row["range"]])
     for i in np.flatnonzero((x[:-1] - value) * (x[1:] - value) <= 0):
         share = (value - x[i]) / (x[i + 1] - x[i]) if x[i + 1] != x[i] else 0.0
-        if abs(y[i] ** (1 - share) * y[i + 1] ** share / size - 1) <= SAME:
+        if np.all(np.abs(y[:, i] + share * (y[:, i + 1] - y[:, i]) - np.log(of)) <= SAME):
             return True
     return False
