@@ -273,7 +273,19 @@ def test_captions_say_times_and_angles_of_the_windows() -> None:
     assert "r_0 and θ = 0.5 and 1, with" in said("fig10")
     assert "drive point, 7.5 to 9 s, by phase" in said("figA2")
     # without a section, as if nothing had been said of it
-    assert "r_0 and a fixed θ." in caption("fig05", {"F02": p}, {"F02": {"poincare": None}})
+    assert "r_0 and a fixed θ." in caption("fig05", {"F02": p, "F04": p}, {"F02": {"poincare": None}})
+
+
+def test_sections_of_a_pair_share_the_axes_of_the_slider() -> None:
+    """Figs. 4 to 9 are compared, and each had axes of its own."""
+    small, large = made_up_case(), made_up_case()
+    for name in ("psi", "psi_velocity", "w_point"):
+        large["poincare"][name] = 3 * large["poincare"][name]
+    (first, second), (slider, disc) = (
+        drawn("fig05", dict(zip(("F02", "F04"), pair, strict=True))).axes for pair in ((small, large), (large, small))
+    )
+    assert (first.get_xlim(), first.get_ylim()) == (slider.get_xlim(), slider.get_ylim())
+    assert second.get_xlim() != disc.get_xlim()
 
 
 # ---- the whole disc

@@ -77,6 +77,10 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
         shared=len(shared), before=len(lost + both), after=len(both + gained),
         lost=_listed(lost), both=_listed(both), gained=_listed(gained),
     )  # fmt: skip
+    rates = {name: [measures.growth_or_nan(each[name].parameters) for each in (old, new)] for name in whole}
+    known = {name: pair for name, pair in rates.items() if not any(map(math.isnan, pair))}
+    higher = [name for name, (before, after) in known.items() if after > before]
+    text += texts["growth"].format(known=len(known), lower=len(known) - len(higher), higher=_listed(higher))
     if failed:
         text += texts["failed"].format(failed=_listed(failed))
     only = [case for name, case in new.items() if name not in old]

@@ -251,6 +251,7 @@ def inplane_damping(found: Evidence, *, large: float, fewest: float) -> Answer:
         above=above,
         ended=measures.counted(ended, "stable cycle"),
         below=below,
+        few=0 < 10 * (above["higher"] + ended) <= above["of"],
     )
 
 

@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.collections import PathCollection
-from matplotlib.colors import to_hex
 
 from disc_model.figures.grids import sensitivity
 from disc_model.figures.grids.campbell import gaps, noted, spread
-from disc_model.figures.parts import GREY, SKY
+from disc_model.studies.grids.points import STABLE
 from disc_model.studies.grids.summaries.campbell import EFFECTS
 from disc_model.studies.study import StudyError
 from tests.figures.grids.reading import draw
@@ -21,26 +19,29 @@ from tests.studies.grids.quantities import test_sensitivity as uncertain
 from tests.studies.refused import parse_grid
 
 
-def test_bars_are_those_of_the_study_grey_where_not_known_and_marked_where_beyond_the_panel() -> None:
+def test_instability_against_each_parameter() -> None:
+    """Made up so that a sample is unstable where mu_s is above its middle: k does not matter."""
     study = uncertain.made_up()
+    drawn = study["drawn"].transpose("N", "sample", "draw", "parameter").values
+    middle = np.median(drawn[..., 1])
+    pick = [0, 1, 0, 1]  # of A, B, A with k from B, A with mu_s from B
+    words = study["cycle"].attrs["flag_meanings"].split()
+    states = np.where(drawn[..., pick, 1] > middle, words.index("unstable"), words.index("stable"))
+    study["cycle"] = (("N", "sample", "variant"), states.astype(np.int8), study["cycle"].attrs)
+    for N in range(study.sizes["N"]):
+        _, share, error = sensitivity.probabilities(study.isel(N=N), "mu_s")
+        np.testing.assert_allclose([share[0], share[-1], error[0], error[-1]], [0, 1, 0, 0], atol=1e-12)
+        _, share, error = sensitivity.probabilities(study.isel(N=N), "k")
+        assert np.all(np.abs(share - 0.5) < 5 * error)
     figure = draw("sensitivity", study)
-    assert len(figure.axes) == 1 + 2 * study.sizes["N"]
-    first, cell = figure.axes[1], study.isel(N=0).sel(output="instability")
-    widths = [bar.get_width() for bar in first.patches]
-    np.testing.assert_allclose(widths, [*cell["first_index"].values, *cell["total_index"].values])
-    assert [label.get_text() for label in first.get_yticklabels()] == ["k", "$μ_s$"]
-    assert "N = 200 N" in first.get_title(loc="left")
+    assert len(figure.axes) == 2 * study.sizes["N"]
+    assert figure.subfigs[0].get_suptitle().startswith("Preload N = 200 N, unstable ")
+    assert [ax.get_xlabel() for ax in figure.axes[-2:]] == ["k", "$μ_s$"]
     assert "k, $μ_s$ ± 10 %" in figure.get_suptitle()
-    for name, value in (("total_index", 1.91), ("total_index_low", 0.5), ("total_index_high", 4.0)):
-        study[name][:] = value
-    for name in ("first_index", "first_index_low", "first_index_high"):
-        study[name][:] = 0.2
-    panel = draw("sensitivity", study).axes[1]
-    assert [text.get_text() for text in panel.texts] == ["1.9", "1.9"]
-    arrows = [len(one.get_offsets()) for one in panel.collections if isinstance(one, PathCollection)]
-    assert arrows == [0, 0, 0, 2]
-    known, unknown = (to_hex(panel.patches[place].get_facecolor()) for place in (0, 2))
-    assert (known, unknown) == (to_hex(SKY), to_hex(GREY))
+
+
+def test_stable_words_are_those_of_the_study() -> None:
+    assert sensitivity.STABLE == STABLE
 
 
 @pytest.mark.parametrize(

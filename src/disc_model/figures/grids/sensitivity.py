@@ -1,4 +1,4 @@
-"""How probable instability and separation are at uncertain parameters, and which of these decide it."""
+"""How probable instability is against each uncertain parameter."""
 
 from __future__ import annotations
 
@@ -11,52 +11,73 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
-from disc_model.data.variables import SAMPLE, SHOWN, symbol_of, typeset
+from disc_model.data.variables import SAMPLE, SHOWN, flag_names, symbol_of, typeset
 from disc_model.figures import parts
 from disc_model.figures.kinds import Sensitivity
-from disc_model.figures.parts import BLACK, BLUE, GREY, PAGE, SEPARATED, SKY, new_figure
+from disc_model.figures.parts import BLUE, GREY, PAGE, new_figure
 
-OUTPUTS = {"instability": "Instability, index", "growth_rate": "Growth rate, index"}
-PROBABILITIES = {
-    "probability_unstable": ("unstable", BLUE, "o"),
-    "probability_separation": ("separation", SEPARATED, "s"),
-}
-INDICES = {"first": ("first-order index", SKY, "#d5d5d5"), "total": ("total index", BLUE, GREY)}
-"""By kind: what it is called, its colour, and that of one of which nothing is known."""
-LETTERS = "bcdefghi"
-"""Of the panels of indices; the probabilities are (a)."""
-SPAN = (-0.25, 1.3)
-"""Indices that are shown; true ones lie from 0 to 1."""
-WIDEST = 1.0
-"""Width of an interval beyond which nothing is known of an index."""
+STABLE = ("stable", "slides", "sticks")
+"""What counts as stable of the cycles at samples: a stable cycle, stable sliding, rest."""
+BINS = 3
+"""Parts, of as many draws each, of what a parameter is drawn from."""
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
-    """(a) probabilities with 95 % intervals; beside it indices with theirs, a column a point and a row an output.
+    """A row for each point, a panel for each parameter: how probable instability is in each third of its values.
 
-    Indices of which nothing is known are grey. Arrows show where an interval goes on beyond the panel, and numbers the
-    indices that lie there.
+    Bars are intervals of 95 %; the line is the probability at all values.
     """
-    cells = list(cells_of(study))
-    figure = new_figure(PAGE, 5.1)
-    grid = figure.add_gridspec(len(OUTPUTS), 1 + len(cells), width_ratios=[0.8, *[1] * len(cells)])
-    first = figure.add_subplot(grid[:, 0])
-    _probabilities(first, cells)
-    for column, (title, cell) in enumerate(cells):
-        for row, output in enumerate(OUTPUTS):
-            ax = figure.add_subplot(grid[row, 1 + column])
-            _bars(ax, cell.sel(output=output), labelled=column == 0)
-            parts.letter(ax, LETTERS[row * len(cells) + column], "" if row else title)
-            ax.set_xlabel(_said(cell, output))
-    handles = first.get_legend_handles_labels()[0]
-    handles += [Patch(color=color, label=label) for label, color, _ in INDICES.values()]
-    handles.append(Patch(color=GREY, label=f"of either, interval wider than {WIDEST:g}"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.4)
+    cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
+    figure = new_figure(PAGE, 0.6 + 1.3 * len(cells))
+    for part, (title, cell) in zip(figure.subfigures(len(cells), 1, squeeze=False)[:, 0], cells, strict=True):
+        axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]
+        for ax, name in zip(axes, names, strict=True):
+            _panel(ax, cell, name)
+        said = "; ".join(
+            f"{what} {float(cell[key]):.2f} ({float(cell[f'{key}_low']):.2f} to {float(cell[f'{key}_high']):.2f})"
+            for what, key in (("unstable", "probability_unstable"), ("separates", "probability_separation"))
+            if np.isfinite(cell[key])
+        )
+        part.suptitle(", ".join((title.replace("\n", ", "), said)), x=0.01, ha="left", fontsize=8)
+        axes[0].set_ylabel("P(unstable)")
     title = plot.title or study.attrs.get("title", "")
     parts.head(figure, study, f"{title}: {spreads(json.loads(study.attrs['options'])['distributions'])}")
     return figure
+
+
+def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
+    """Of instability in each part of a parameter's values: its middle, the probability, the standard error; (3, parts).
+
+    All variants of a sample count; since they share values, errors are those of samples, not of variants.
+    """
+    variants = [str(one) for one in cell["variant"].values]
+    draws = cell["drawn"].sel(parameter=name).transpose(SAMPLE, "draw").values
+    x = np.stack([draws[:, int(one in ("B", name))] for one in variants], axis=1)
+    words = flag_names(cell["cycle"].transpose(SAMPLE, "variant"))
+    known = words != "failed"
+    unstable = ~np.isin(words, STABLE)
+    edges = np.quantile(draws, np.linspace(0, 1, BINS + 1))
+    part = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, BINS - 1)
+    found = []
+    for i in range(BINS):
+        here = known & (part == i)
+        count, hits = here.sum(axis=1), (here & unstable).sum(axis=1)
+        share = hits.sum() / count.sum()
+        found.append((edges[i : i + 2].mean(), share, np.sqrt(np.sum((hits - share * count) ** 2)) / count.sum()))
+    return np.transpose(found)
+
+
+def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
+    middle, share, error = probabilities(cell, name)
+    ax.axhline(float(cell["probability_unstable"]), color=GREY, linewidth=0.7)
+    ax.errorbar(middle, share, 1.96 * error, color=BLUE, marker="o", markersize=2.5, linewidth=0.8, capsize=1.5)
+    ends = np.quantile(cell["drawn"].sel(parameter=name), [0, 1])
+    factor = SHOWN[name][3] if name in SHOWN else 1.0
+    ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
+    ax.minorticks_off()
+    ax.set_xlabel(symbol(name))
+    ax.set(ylim=(-0.03, 1.03))
 
 
 def spreads(distributions: Mapping[str, Mapping[str, Any]]) -> str:
@@ -85,52 +106,6 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
         cell = study.isel(dict(zip(dims, place, strict=True)))
         names = [str(name) for name in study.coords if study[name].dims and set(study[name].dims) <= set(dims)]
         yield "\n".join(parts.value_said(cell[name], name) for name in names), cell
-
-
-def _said(cell: xr.Dataset, output: str) -> str:
-    """The axis of the indices, and what they leave out."""
-    left_out = float(cell["left_out"].sel(output=output))
-    return OUTPUTS[output] + (f"\n({left_out:.0%} of samples: no cycle)" if left_out > 0 else "")
-
-
-def _probabilities(ax: Axes, cells: list[tuple[str, xr.Dataset]]) -> None:
-    for i, (name, (label, color, marker)) in enumerate(PROBABILITIES.items()):
-        value, low, high = (
-            np.array([float(cell[f"{name}{end}"]) for _, cell in cells]) for end in ("", "_low", "_high")
-        )
-        known = np.isfinite(value)
-        place = np.arange(len(cells))[known] + 0.2 * (i - 0.5)
-        spans = np.maximum([(value - low)[known], (high - value)[known]], 0)  # an end may be the value, to rounding
-        style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 4, "linestyle": "", "capsize": 2}
-        ax.errorbar(place, value[known], spans, label=label, linewidth=1, **style)
-    letters = [", ".join(LETTERS[row * len(cells) + i] for row in range(len(OUTPUTS))) for i in range(len(cells))]
-    ax.set_xticks(range(len(cells)), labels=[f"({each})" for each in letters])
-    ax.minorticks_off()
-    ax.set(ylabel="Probability", ylim=(-0.03, 1.03), xlim=(-0.5, len(cells) - 0.5))
-    parts.letter(ax, "a")
-
-
-def _bars(ax: Axes, cell: xr.Dataset, labelled: bool) -> None:
-    """First-order and total indices, a pair of bars for each parameter."""
-    names = [str(name) for name in cell["parameter"].values]
-    place = np.arange(len(names))
-    for i, (kind, (_, color, unknown)) in enumerate(INDICES.items()):
-        value, low, high = (cell[f"{kind}_index{end}"].values for end in ("", "_low", "_high"))
-        at = place + 0.36 * (i - 0.5)
-        ax.barh(at, np.nan_to_num(value), 0.34, color=np.where(high - low > WIDEST, unknown, color))
-        ax.hlines(at, low, high, color=BLACK, linewidth=0.7)
-        for marker, edge, beyond in (("<", SPAN[0], low < SPAN[0]), (">", SPAN[1], high > SPAN[1])):
-            ax.scatter(np.full(beyond.sum(), edge), at[beyond], 6, BLACK, marker=marker, linewidth=0, clip_on=False)
-        for where, index in zip(at, value, strict=True):
-            if not SPAN[0] <= np.nan_to_num(index) <= SPAN[1]:
-                edge, aside = (SPAN[1], 3) if index > 0 else (SPAN[0], -3)
-                said = f"{index:.1f}".replace("-", "−")
-                parts.say(ax, said, (edge, where), (aside, 0), fontsize=6, annotation_clip=False)
-    ax.axvline(0, color=BLACK, linewidth=0.5)
-    ax.set_yticks(place, labels=[symbol(name) for name in names] if labelled else [""] * len(names))
-    ax.minorticks_off()
-    ax.patch.set_visible(False)  # it would cover the numbers beside the panel to its left
-    ax.set(ylim=(len(names) - 0.4, -0.6), xlim=SPAN)
 
 
 def symbol(name: str) -> str:

@@ -31,8 +31,11 @@ BY_HALVES = {"early": "first half", "later": "second half", "separated": "separa
 
 
 def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> Figure:
-    """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle."""
-    (case,) = cases.values()
+    """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle.
+
+    Of several cases the first is shown; (a) has room for the others, so that figures of a pair can be compared.
+    """
+    case, *others = cases.values()
     figure = new_figure(PAGE, 2.75)
     slider, disc = figure.subplots(1, 2)
     with parts.or_say_why(slider, disc):
@@ -42,7 +45,10 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
         for ax, name, letter in ((slider, "psi", "a"), (disc, "w_point", "b")):
             pair = (name, f"{name}_velocity")
             (across, in_x, _), (up, in_y, _) = (parts.sampled(one, samples) for one in pair)
+            room = [dataset.samples(other, window, at_least=1) for other in others] if ax is slider else []
             _scatter(ax, samples[pair[0]].values * in_x, samples[pair[1]].values * in_y, found)
+            _limit(ax, *(np.concatenate([each[one] for each in (samples, *room)]) * by
+                         for one, by in zip(pair, (in_x, in_y), strict=True)))  # fmt: skip
             ax.set(xlabel=across, ylabel=up)
             parts.letter(ax, letter)
         bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
@@ -54,6 +60,9 @@ def _scatter(ax: Axes, x: np.ndarray, y: np.ndarray, found: Stages) -> None:
     for order, name in enumerate(("early", "later", "separated")):  # the old stage never over the new
         shown = getattr(found, name)
         ax.scatter(x[shown], y[shown], **MARKS[name], zorder=2 + 0.1 * order, rasterized=bool(shown.sum() > 2000))
+
+
+def _limit(ax: Axes, x: np.ndarray, y: np.ndarray) -> None:
     for set_limits, values in ((ax.set_xlim, x), (ax.set_ylim, y)):
         low, high = float(values.min()), float(values.max())
         margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)

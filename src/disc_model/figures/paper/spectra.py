@@ -113,12 +113,12 @@ CLOSE = 300.0
 """Highest frequency of the closer view, Hz."""
 TABLE_2 = {
     r"$f_\Omega$": (2.4,),
-    "$f_{h1}$, $f_{h2}$": (65.5, 70.0),
-    "$f_1$, $f_2$": (133.0, 138.0),
-    "$f_3$, $f_4$": (200.0, 206.0),
-    "$f_5$, $f_6$": (269.0, 273.0),
+    "$f_{h1}$, $f_{h2}$:\n$f_s ∓ f_\\Omega$": (65.5, 70.0),
+    "$f_1$, $f_2$:\n$2f_s ∓ f_\\Omega$": (133.0, 138.0),
+    "$f_3$, $f_4$:\n$3f_s ∓ f_\\Omega$": (200.0, 206.0),
+    "$f_5$, $f_6$:\n$4f_s ∓ f_\\Omega$": (269.0, 273.0),
 }
-"""Lines that the paper lists, Hz; pairs are too near to be named apart."""
+"""Lines that the paper lists, Hz, and what they are made of; pairs are too near to be named apart."""
 
 
 def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
@@ -202,6 +202,7 @@ def response(
     for i, (name, start) in enumerate(zooms):
         with parts.or_say_why(panels[f"zoom{i}"]):
             _closer(panels[f"zoom{i}"], dataset.samples(case, name), variable, start, first=i == 0)
+            parts.letter(panels[f"zoom{i}"], "cd"[i])
     return figure
 
 
