@@ -272,6 +272,8 @@ def value_said(one: xr.DataArray, by: str) -> str:
     if isinstance(value, str):
         return SAID.get(value, value)
     label, factor = label_of(one[by])
+    if by == "contact_compliance":
+        return f"compliance {value * factor:.3g} µm/N" if value else "rigid contact"
     name, _, unit = label.rpartition(" (")
     return f"{name} = {value * factor:g} {unit.rstrip(')')}" if name else f"{label} = {value * factor:g}"
 

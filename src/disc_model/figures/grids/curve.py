@@ -16,7 +16,12 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import parts
 from disc_model.figures.kinds import CurvePlot
-from disc_model.figures.parts import BLACK, COLUMN, new_figure
+from disc_model.figures.parts import BLACK, COLUMN, GREY, new_figure
+
+WIDEST = 25
+"""Letters of a name that has room beside the panel."""
+LINEAR = 0.1
+"""1/s, growth rate up to which its scale is linear."""
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:
@@ -39,6 +44,9 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -
         ax.plot(along, line.values, mark, color=colour, markersize=3, linewidth=0.8, label=name or None)
     if plot.log:
         ax.set_yscale("log")
+    elif plot.variable == "growth_rate":  # peaks of tens beside hundredths
+        ax.set_yscale("symlog", linthresh=LINEAR)
+        ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
     if parts.spaced_by_factor(along):
         ax.set_xscale("log")
     ax.margins(0.03)
@@ -51,8 +59,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -
     if numbers is not None:
         _scale(figure, ax, numbers, colours)
     if ax.get_legend_handles_labels()[0]:
-        beside = by is not None and numbers is None
-        figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if beside else 2)
+        beside = by is not None and numbers is None and max(len(said) for said, _ in lines) < WIDEST
+        figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if beside or by else 2)
     parts.head(figure, study, plot.title, found)
     return figure
 
