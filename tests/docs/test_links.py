@@ -35,6 +35,8 @@ def test_links_lead_somewhere(page):
         file, _, place = target.partition("#")
         found = (page.parent / file).resolve() if file else page
         assert found.exists(), target
+        if ROOT / "docs" in page.parents and found.suffix == ".md":
+            assert ROOT / "docs" in found.parents, f"{target}: the site has no such page"
         if place:
             headings = re.findall(r"^#+ (.*)$", found.read_text(encoding="utf-8"), re.M)
             assert place in map(anchor, headings), target
