@@ -12,6 +12,12 @@ from disc_model.studies.study import load_study
 
 SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1"))
 OTHERS = {
+    "branches/figures/branches.png": (
+        "All cycles at N = 385 N.",
+        "Range of the slider's height on cycles found by continuation: solid if stable, dashed if unstable. Triangles: "
+        "simulations that stay 40 s at each speed, rising and falling, with arrows at jumps. F11 and F13: the paper's "
+        "15 and 15.1 rad/s, on both sides of the fold at which the quiet cycle ends.",
+    ),
     "critical_speed/figures/fig15.png": (
         "Fig. 15. Critical speed for separation against preload.",
         "(a) First separation from the static start, by scans: the line is for 2000 s, marks show where 500 or 1000 s "
@@ -39,9 +45,8 @@ OTHERS = {
         "normal force.",
     ),
     "sensitivity/figures/sensitivity.png": (
-        "Probability of instability and Sobol indices.",
-        "(a) Probabilities at the three points, with intervals of 95 %. (b) to (d) Sobol indices of instability, as "
-        "published. (e) to (g) Those of the growth rate. Arrows continue beyond the panel.",
+        "Probability of instability against each uncertain parameter.",
+        "As published, in each third of a parameter's range, with intervals of 95 %. Grey: over the whole range.",
     ),
     "campbell/figures/campbell.png": (
         "Campbell diagram at N = 385 N.",

@@ -246,9 +246,13 @@ def _samples(spec: CaseSpec, story: Story, t: np.ndarray) -> dict[str, np.ndarra
     psi = (0.05 + 0.05 * lost) * waves(t, (story.rate, 1.0), ((1 - turn) * story.rate, story.second))
     if story.signal is turns:
         psi += np.where(t < story.first, fuzz(t, 1e-3), 0.0)
+    force = np.where(phase == SEPARATION, float(story.contrary), p.N)
+    if p.contact == "bonded":
+        force = p.N * np.cos(2 * np.pi * cycle)
     return {
         "time": t,
-        "P": np.where(phase == SEPARATION, float(story.contrary), p.N),
+        "P": force,
+        "u_velocity": np.gradient(signal, t) + (-1 if story.contrary else 1) * force / p.N,
         "u": -p.N * 1e-5 + 1e-2 * np.cos(2 * np.pi * (cycle - 0.2) + story.swing),
         "w_point": 0.5 * story.disc_range(t, spec.t_end) * signal,
         "w_point_velocity": np.gradient(signal, t),
@@ -319,7 +323,7 @@ def to_the_contrary() -> dict[str, Story]:
     alone = Story(late=0.02, disc_early=5e-2, disc_late=5e-2, contrary=True, rate=FIVE_POINTS)
     return {
         **dict.fromkeys(SPECS, GROWING),
-        **dict.fromkeys(("F04", "F06"), WILD.but(stick=0.005, rate=FIVE_POINTS)),
+        **dict.fromkeys(("F04", "F06"), WILD.but(stick=0.005, rate=FIVE_POINTS, contrary=True)),
         **dict.fromkeys(("T2kp18", "T2kp22", "T2Om12"), STILL.but(signal=erratic)),
         "F02": alone.but(first=480.0),
         "F07": alone.but(first=147.0),

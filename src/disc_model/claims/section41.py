@@ -12,7 +12,7 @@ from disc_model.analysis import spectra
 from disc_model.analysis.classify import closure, irregularity, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
-from disc_model.claims.measures import Absent, CaseView, is_kind, pairs
+from disc_model.claims.measures import Absent, Array, CaseView, is_kind, pairs
 from disc_model.claims.model import CHECKS, Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
@@ -108,6 +108,35 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     first, others = rows[: int(shown)], rows[int(shown) :]
     exceeds = max((row["ratio"] for row in others), default=0.0) >= ratio
     return Answer(max(row["ratio"] for row in first) < ratio, ranges=first, others=others if exceeds else [])
+
+
+@CHECKS("F10m")
+def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
+    """Whether the contact force still feeds the disc where it is negative: there separation would end it."""
+    parts = [_slope_power(case) for case in (bonded, free)]
+    (pushes, pulls), (gained, _) = parts
+    return Answer(pulls > 0, pushes=pushes, pulls=pulls, gained=gained, takes=pulls <= 0)
+
+
+def _slope_power(case: CaseView) -> tuple[float, float]:
+    """Mean power P f B that the contact force feeds into transverse motion, while it is positive and negative, W.
+
+    f B is the velocity of the contact point less that of the disc's material under it, which is known from as many
+    angles as the disc has modes.
+    """
+    p = case.parameters
+    windows = [case.samples(f"field{i}") for i in range(2 * p.n_diameters + 1)]
+
+    def waves(angle: Array) -> Array:
+        orders = np.arange(1, p.n_diameters + 1)[:, None] * angle
+        return np.concatenate([np.ones((1, angle.size)), np.cos(orders), np.sin(orders)])
+
+    theta = np.array([window.attrs["theta"] for window in windows])
+    shares = np.linalg.solve(waves(theta).T, np.stack([window["w_point_velocity"] for window in windows]))
+    one = windows[0]
+    force, angle = one["P"].values, p.Omega * one["time"].values - one["psi"].values
+    power = force * (one["u_velocity"].values - np.sum(shares * waves(angle), axis=0))
+    return float(np.mean(power * (force > 0))), float(np.mean(power * (force < 0)))
 
 
 def _ranges(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
