@@ -14,7 +14,7 @@ SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25"
 OTHERS = {
     "branches/figures/branches.png": (
         "All cycles at N = 385 N.",
-        "Range of the slider's height on cycles found by continuation: solid if stable, dashed if unstable. Triangles: "
+        "Range of the slider's height on cycles found by continuation: thick if stable, dashed if unstable. Triangles: "
         "simulations that stay 40 s at each speed, rising and falling, with arrows at jumps. F11 and F13: the paper's "
         "15 and 15.1 rad/s, on both sides of the fold at which the quiet cycle ends.",
     ),

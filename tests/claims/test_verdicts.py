@@ -282,6 +282,12 @@ def test_a_verdict_by_what_happened(claim: str, stories: dict[str, Story], verdi
     assert verdict_of(claim, stories) == verdict
 
 
+def test_one_further_frequency_is_judged_with_half_the_bound_as_well() -> None:
+    """The second was looked for where only one was asked for: an IndexError ended the table."""
+    cases = views(made_up.made_up(some("F21", signal=made_up.one_more)))
+    assert "with several = 1" in BY_NAME["F29b"].settle(cases)[1]
+
+
 def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.MonkeyPatch) -> None:
     """Motions that repeat after 45 and 180 releases used to be called irregular."""
     cases = views(made_up.made_up(some("F02", "F07", "F22", "F02free", "F07free", "F02k", "F07k", "F22k")))

@@ -277,7 +277,7 @@ def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Ans
     every, coarse = (_further(found, rate, case["Omega"] / (2 * np.pi), width) for width in (apart, 2 * apart))
     further, fewer = ([line for line in lines if line.amplitude >= part * strongest] for lines in (every, coarse))
     motion, _ = measures.late_motion(case)
-    second = further[1].amplitude / further[0].amplitude if len(further) >= several else 1.0
+    second = further[1].amplitude / further[0].amplitude if len(further) > 1 else 1.0
     holds, why = is_kind(Outcome.IRREGULAR, motion, len(further) >= several)
     depends = holds and len(fewer) < several
     return Answer(

@@ -43,7 +43,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Branches) ->
     for case, value in plot.paper.items():
         ax.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
         side = -1 if value == min(plot.paper.values()) else 1
-        parts.say(ax, case, (value * factor, 0.02), (3 * side, 0), xycoords=("data", "axes fraction"), fontsize=7)
+        parts.say(ax, case, (value * factor, 0.06), (3 * side, 0), xycoords=("data", "axes fraction"), fontsize=7)
     ax.set(
         xlabel=label, ylabel="Range of the slider's height (mm)", xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None)
     )

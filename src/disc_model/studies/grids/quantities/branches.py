@@ -66,13 +66,13 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
     state: State | None = None
     message = ""
 
-    def follow(cycle: FloquetResult, separates: bool) -> None:
+    def follow(cycle: FloquetResult, reached: bool) -> None:
         assert cycle.state is not None
         value = getattr(cycle.parameters, options.parameter)
         size = _range(cycle.parameters, cycle.state, cycle.period)
         if len(rows) < options.max_branches and not any(_passes(row, value, cycle.period, size) for row in rows):
             try:
-                rows.append(_branch(cycle, separates, options))
+                rows.append(_branch(cycle, reached, options))
             except NUMERICAL as error:
                 unfollowed.append(str(error))
 
@@ -90,17 +90,17 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
             leg = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state, record=Record())
             reached = cycle_reached(p, leg, options.releases) if leg.status.complete else None
             if reached is not None and reached.own and reached.cycle.growth_rate < 0:
-                follow(reached.cycle, reached.cycle.separations > 0)
+                follow(reached.cycle, True)
     sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
     known = {"status": "failed" if message else "ok", "n_branches": len(rows), "n_unfollowed": len(unfollowed)}
     return listed(rows) | swept | known | {"sliding_growth_rate": sliding}, message
 
 
-def _branch(cycle: FloquetResult, separates: bool, options: BranchesOptions) -> dict[str, Any]:
-    """Both ways from a cycle, by ascending arclength."""
+def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> dict[str, Any]:
+    """Both ways from a cycle, that near the published start or one that a motion has reached, by arclength."""
     p, name = cycle.parameters, options.parameter
     bounds = options.scan.values[0], options.scan.values[-1]
-    near = cycle.state if separates or cycle.releases > 1 else None
+    near = cycle.state if reached else None
     steps = Steps(longest=options.longest, max_points=options.max_points)
     down, up = (
         continue_cycle(p, name, bounds, direction=way, steps=steps, near=near, releases=cycle.releases if near else 1)
