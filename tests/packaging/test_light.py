@@ -85,10 +85,6 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     )
 
 
-def test_there_are_the_extras_that_the_readme_names() -> None:
-    named = set(re.findall(r"disc_model\[([\w,]+)\]", (ROOT / "README.md").read_text(encoding="utf-8")))
-    assert {extra for text in named for extra in text.split(",")} <= EXTRAS.keys()
-    assert {"workflow", "slurm", "bench", "docs"} <= EXTRAS.keys()
 
 
 def test_snakemake_is_the_version_that_the_workflow_asks_for() -> None:
@@ -129,10 +125,3 @@ def test_the_container_has_what_the_packages_links_lead_to(target: str) -> None:
     assert re.search(rf"^COPY {link.resolve().relative_to(ROOT)} ", CONTAINER, re.MULTILINE)
 
 
-def test_the_containers_commands_are_those_of_the_readme() -> None:
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert re.findall(r"^RUN (make.*)$", CONTAINER, re.MULTILINE) == ["make env"]
-    assert "make env" in readme
-    assert "Containerfile" in readme
-    for command in re.findall(r"^#   docker run .*disc_model (disc-model .*)$", CONTAINER, re.MULTILINE):
-        assert command in readme
