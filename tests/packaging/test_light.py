@@ -85,8 +85,6 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     )
 
 
-
-
 def test_snakemake_is_the_version_that_the_workflow_asks_for() -> None:
     (least,) = re.findall(r'^min_version\("([\d.]+)"\)', (ROOT / "workflow/Snakefile").read_text(), re.MULTILINE)
     assert f"snakemake>={least}" in EXTRAS["workflow"]
@@ -123,5 +121,3 @@ def test_the_container_has_what_the_packages_links_lead_to(target: str) -> None:
     link = ROOT / target
     assert link.is_symlink()
     assert re.search(rf"^COPY {link.resolve().relative_to(ROOT)} ", CONTAINER, re.MULTILINE)
-
-
