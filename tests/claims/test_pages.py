@@ -13,8 +13,8 @@ from disc_model import Parameters
 from disc_model.claims.ledger import COLUMNS
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
-from disc_model.claims.pages import ledger, table_page
-from disc_model.claims.paper_tables import LISTED, TABLE_1, UNNAMED, stick_slip_rate, table_1, table_2, table_2_or_why
+from disc_model.claims.pages import ledger
+from disc_model.claims.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2, table_2_or_why
 
 F_S, OMEGA = 67.63, 15.1
 DRIVE = OMEGA / (2 * np.pi)
@@ -57,10 +57,6 @@ def test_table_2_of_a_case_without_its_window_says_why(f13: CaseView) -> None:
     assert table_2_or_why(f13)[1] == ""
 
 
-def test_the_stick_slip_rate_is_that_of_the_slider(f13: CaseView) -> None:
-    assert stick_slip_rate(f13) == pytest.approx(F_S, abs=0.005)
-
-
 def test_table_1_is_what_is_computed_with() -> None:
     table = table_1(Parameters(N=200, Omega=20)).set_index("symbol")
     assert list(table["paper"]) == list(table["ours"])
@@ -84,9 +80,3 @@ def test_the_ledger_counts_and_escapes() -> None:
     assert not re.search(r"<\d>", text)
     assert text.count("<tr>") == 7
     assert not re.search(r"(src|href)=", text), "self-contained"
-
-
-def test_a_table_page_leaves_unknown_numbers_empty() -> None:
-    text = table_page("T", "", pd.DataFrame({"x": [1.5, np.nan]}))
-    assert '<td class="number">1.5</td>' in text
-    assert '<td class="number"></td>' in text

@@ -14,14 +14,14 @@ import xarray as xr
 from disc_model import Parameters
 from disc_model.analysis import classify
 from disc_model.claims import disc, ledger, measures, section44
-from disc_model.claims.ledger import CLAIMS, check_claims, views
+from disc_model.claims.ledger import CLAIMS, views
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED, Claim, Finding
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS
 from disc_model.plate import plate_modes
 from tests.claims import made_up
-from tests.claims.made_up import DAMAGES, GROWING, STILL, Groups, Story, damaged, root_with
+from tests.claims.made_up import DAMAGES, EACH_DAMAGE, GROWING, STILL, Groups, Story, damaged, root_with
 
 pytestmark = pytest.mark.usefixtures("cycles_as_told")
 BY_NAME = {claim.id: claim for claim in CLAIMS}
@@ -158,7 +158,7 @@ def verdicts_of(cases: Mapping[str, CaseView], claims: Iterable[Claim] = CLAIMS)
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("damage", EACH_DAMAGE)
 def test_damage_ends_no_claim(damage: str, told: xr.DataTree) -> None:
     """This used to end the whole table with a KeyError, IndexError, ValueError or ZeroDivisionError."""
     cases = {name: CaseView(name, damaged(node, DAMAGES[damage])) for name, node in told.children.items()}
@@ -416,8 +416,9 @@ def test_the_two_normalisations_side_by_side(
 
 def test_the_same_motions_are_judged_alike_under_both(told: xr.DataTree) -> None:
     """But for what looks at natural frequencies with the slider attached, which are others."""
-    found = ledger.compare(told, made_up.orthonormal(told).drop_nodes("X30"))
+    few = xr.DataTree.from_dict({name: told[name] for name in ("F02", "F04", "F07", "F13", "F17")})
+    found = ledger.compare(few, made_up.orthonormal(few).drop_nodes("X30"))
     assert len(found.sections) == 3
     assert [text.partition(":")[0] for text in found.sections[2][2]["Statement"]] == ["F27b"]
-    table = check_claims(told, made_up.scans()).set_index("id")
-    assert table["ours"].str.len().min() > 0
+    judged = [claim.evaluate(views(told, made_up.scans())) for claim in CLAIMS]
+    assert all(finding.ours for finding in judged)

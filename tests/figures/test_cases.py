@@ -20,7 +20,7 @@ from disc_model.figures.kinds import CASE_PLOTS, OwnFigure
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, label, number_of, said_parameters
 from disc_model.figures.paper.disc import film, motion_of
 from disc_model.figures.parts import COLUMN, PAGE, save
-from tests.claims.made_up import DAMAGES, damaged
+from tests.claims.made_up import DAMAGES, EACH_DAMAGE, damaged
 from tests.figures.grids.reading import labels
 
 
@@ -112,7 +112,6 @@ def said_in(figure: Figure) -> list[str]:
 
 ONE_OF_EACH = list({entry.drawn_by: name for name, entry in CATALOGUE.items()}.values())
 """A figure for each function that draws some."""
-QUICK = {"nothing recorded", "no envelopes", "single samples", "nothing moves"}
 
 
 @pytest.mark.parametrize(
@@ -134,9 +133,7 @@ def test_figures_name_their_quantities_and_units_legibly_at_print_size(name: str
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize(
-    "damage", [pytest.param(one, marks=() if one in QUICK else pytest.mark.slow) for one in DAMAGES]
-)
+@pytest.mark.parametrize("damage", EACH_DAMAGE)
 @pytest.mark.parametrize("name", ONE_OF_EACH)
 def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
     """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""

@@ -14,9 +14,9 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow, needs.BROWSER.mark]
 
 
 def test_the_report_holds_every_result_and_needs_no_network(finished: Project, tmp_path: Path) -> None:
-    finished.complete("--report", "results/small/report.html")
+    finished.complete("--report", "report.html")
     with browser(tmp_path / "profile") as page:
-        page.open(finished.folder / "results" / "small" / "report.html")
+        page.open(finished.folder / "report.html")
         found = page.wait_for("return typeof categories === 'undefined' ? null : categories")
         page.wait_for("return document.body.innerText.includes('An elastic disc')")
         loaded = page.run("return performance.getEntriesByType('resource').map(x => x.name)")
