@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 
 import pytest
 import xarray as xr
@@ -13,14 +12,6 @@ from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.methods.base import Method, MethodResult
 from disc_model.benchmarks.scenes import answer
 
-
-def available() -> set[int]:
-    """Cores that this process may use."""
-    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
-
-
-CORES = available()
-"""Before anything was measured."""
 SET_UP = 1e-4
 """s that every run of a `Known` method takes, however long the motion."""
 

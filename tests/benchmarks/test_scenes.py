@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -112,7 +111,3 @@ def test_a_result_without_events_has_no_event_time_error():
     right, problem = scenes.answer("rigid"), scenes.problem("rigid")
     nothing = METHODS["series"].solve(Problem(LIVELY, lively("slip", 1), 1e-5), 1e-9)
     assert math.isnan(scenes.event_time_error(right, nothing, problem.t_end))
-    off = SimpleNamespace(
-        final=right.final.replace(f=1e9), times=right.times.astype(float), kinds=right.kinds, outcome=Outcome.FINISHED
-    )
-    assert errors(problem, right, off).verdict is Verdict.UNSTABLE

@@ -12,7 +12,7 @@ import xarray as xr
 from disc_model.benchmarks import work_precision
 from disc_model.data.dataset import load, save
 from disc_model.data.variables import flag_names
-from tests.benchmarks.conftest import CORES, SET_UP, SETTINGS, Known, available
+from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
 
 
 def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict[str, Known]) -> None:
@@ -37,11 +37,6 @@ def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict
         "gave_up",
         "not_run",
     ]
-
-
-def test_the_process_has_its_cores_back(dataset: xr.Dataset) -> None:
-    """It stayed on one of them."""
-    assert available() == CORES
 
 
 def test_every_point_is_reported_and_slow_ones_are_not_repeated(known: dict[str, Known]) -> None:
