@@ -71,7 +71,7 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
         time.sleep(chance.uniform(0.0, 4.0))
         os.killpg(run.pid, signal.SIGINT)
         said = run.communicate(timeout=300)[1]
-        assert run.returncode == 130, said
+        assert run.returncode in (130, -signal.SIGINT), said  # both are 130 to a shell
         assert not locks(tmp_path), said
 
 
