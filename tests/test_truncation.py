@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import ParameterError, Parameters, choose_modes, truncation
+from disc_model import ParameterError, Parameters, choose_modes
 from disc_model.cli.case import parameters_of
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import run_case
@@ -138,10 +138,8 @@ def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
     assert "truncation" not in given.canonical
 
 
-def test_a_case_for_which_no_number_of_modes_does_is_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(truncation, "real_modes", lambda diameters, circles: diameters)
-    monkeypatch.setattr(truncation, "_worst", lambda *_: 1.0)
-    raw = {"study": "s", "base": {"Omega": 15.1, "n_diameters": "auto"}}
+def test_a_case_for_which_modes_cannot_be_chosen_is_a_fault() -> None:
+    raw = {"study": "s", "base": {"Omega": 15.1, "n_diameters": "auto", "k": 1e50}}
     raw["cases"] = {"A": {"title": "A", "t_end": 0.01, "parameters": {"N": 385}}}
-    with pytest.raises(StudyError, match=r"base\.n_diameters = 'auto': tolerance=0\.001: no model up to"):
+    with pytest.raises(StudyError, match=r"base\.n_diameters = 'auto': disc and slider at rest: m=0\.1, k=1e\+50"):
         parse_study(raw)
