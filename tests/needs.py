@@ -79,7 +79,7 @@ MPMATH = Need(
 )
 RIVALS = Need(
     "heyoka and scikit-sundae",
-    "rival integrators of the benchmarks",
+    "other integrators of the benchmarks",
     pip="-r requirements-bench.lock",
     modules=("heyoka", "sksundae"),
 )
