@@ -81,7 +81,7 @@ def symbols(text: str) -> set[str]:
     found = set()
     for formula in re.findall(r"\$\$?([^$]+)\$\$?", re.sub(r"`[^`]+`", " ", text)):
         formula = re.sub(r"\\(text|mathrm|mathsf)\{[^}]*\}|_\\text\{?\w+\}?", " ", formula)
-        formula = re.sub(r"\\(?:mathcal|mathbf|boldsymbol)\{\\?(\w+)\}", r" \1", formula)
+        formula = re.sub(r"\\(?:mathcal|mathbf)\{\\?(\w+)\}", r" \1", formula)
         formula = re.sub(r"\\([A-Za-z]+)", lambda m: GREEK.get(m[1], " "), formula)
         found |= set(re.findall(r"(?<![A-Za-z_])[A-Za-zΑ-ω](?:_\{?[A-Za-zΑ-ω0-9])?", formula))
     running = re.sub(r"\$\$?[^$]+\$\$?|`[^`]+`", " ", text)
