@@ -23,13 +23,7 @@ if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
 try:
     from disc_model.figures.kinds import OwnFigure
-    from disc_model.figures.paper.catalogue import (
-        CATALOGUE,
-        SECTIONS,
-        caption,
-        label,
-        said_parameters,
-    )
+    from disc_model.figures.paper.catalogue import SECTIONS
     from disc_model.kernels import KINDS, kinds_of_case
     from disc_model.data.provenance import source_hash
     from disc_model.studies.study import StudyError, read_file, study_from_config
@@ -256,29 +250,6 @@ def shown_by(wildcards):
     return {role: grid_file(name) for role, name in sorted(others.items())}
 
 
-def cases_of(figure):
-    plot = STUDY.plots.get(figure)
-    return list(CATALOGUE[figure].cases) if plot is None else [plot.case]
-
-
-def figure_of(name):
-    """A figure of cases as its kind describes it."""
-    return STUDY.plots[name] if name in STUDY.plots else CATALOGUE[name].plot
-
-
-def caption_of(name):
-    """What a figure of cases says of itself."""
-    if name in STUDY.plots:
-        plot = STUDY.plots[name]
-        said = said_parameters(STUDY.specs[plot.case].parameters)
-        return f"{plot.title or name}: {plot.case}, {said}"
-    return caption(
-        name,
-        {case: spec.parameters for case, spec in STUDY.specs.items()},
-        {case: spec.sections for case, spec in STUDY.specs.items()},
-    )
-
-
 def motion_file(study, key):
     return f"results/{study}/motions/{key}.nc"
 
@@ -291,13 +262,11 @@ def motions_of(study):
 def explorer_pictures():
     """The report's figures, in its order."""
     for name in [*STUDY.figures, *STUDY.plots]:
-        own = name in STUDY.plots
+        figure = STUDY.figure(name)
         yield {
-            "heading": (
-                "Figures of cases" if own else SECTIONS[CATALOGUE[name].section]
-            ),
-            "title": name if own else label(name),
-            "caption": caption_of(name),
+            "heading": figure.category if name in STUDY.plots else figure.section,
+            "title": figure.label,
+            "caption": figure.caption,
             "file": f"{RESULTS}/figures/{name}.png",
         }
     for name in ASKED:

@@ -4,30 +4,16 @@ import json
 
 rule draw_figure:
     input:
-        lambda wildcards: map(case_file, cases_of(wildcards.figure)),
+        lambda wildcards: map(case_file, STUDY.figure(wildcards.figure).cases),
     output:
         pdf=f"{RESULTS}/figures/{{figure}}.pdf",
         png=report(
             f"{RESULTS}/figures/{{figure}}.png",
             caption="../report/figure.rst",
-            category=lambda wildcards: (
-                "Figures of cases"
-                if wildcards.figure in STUDY.plots
-                else "Figures of the paper"
-            ),
-            subcategory=lambda wildcards: (
-                STUDY.plots[wildcards.figure].case
-                if wildcards.figure in STUDY.plots
-                else SECTIONS[CATALOGUE[wildcards.figure].section]
-            ),
+            category=lambda wildcards: STUDY.figure(wildcards.figure).category,
+            subcategory=lambda wildcards: STUDY.figure(wildcards.figure).section,
             # One label only: Snakemake 9.27's report breaks on two results that differ in two labels.
-            labels=lambda wildcards: {
-                "figure": (
-                    wildcards.figure
-                    if wildcards.figure in STUDY.plots
-                    else label(wildcards.figure)
-                )
-            },
+            labels=lambda wildcards: {"figure": STUDY.figure(wildcards.figure).label},
         ),
     log:
         f"{RESULTS}/logs/draw_figure/{{figure}}.log",
@@ -36,15 +22,16 @@ rule draw_figure:
     conda:
         "../envs/disc_model.yaml"
     params:
-        plot=lambda wildcards: figure_of(wildcards.figure).model_dump_json(),
+        plot=lambda wildcards: STUDY.figure(wildcards.figure).plot.model_dump_json(),
         cases=lambda wildcards: [
-            f"{case}={case_file(case)}" for case in cases_of(wildcards.figure)
+            f"{case}={case_file(case)}"
+            for case in STUDY.figure(wildcards.figure).cases
         ],
-        caption=lambda wildcards: caption_of(wildcards.figure),
+        caption=lambda wildcards: STUDY.figure(wildcards.figure).caption,
         made_of=lambda wildcards: made_of(
             "draw_figure",
-            figure_of(wildcards.figure).module,
-            of=[case_made_of(case) for case in cases_of(wildcards.figure)],
+            STUDY.figure(wildcards.figure).plot.module,
+            of=list(map(case_made_of, STUDY.figure(wildcards.figure).cases)),
         ),
     shell:
         "job draw_figure {params.plot:q} {params.caption:q} {output} {params.cases:q} > {log} 2>&1"

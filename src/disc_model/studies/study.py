@@ -20,7 +20,7 @@ from functools import cached_property, partial
 from glob import glob
 from itertools import chain, pairwise, product
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 from pydantic import ValidationError, create_model
@@ -28,8 +28,8 @@ from pydantic import ValidationError, create_model
 from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.disc import read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, faults_of, shown, suggestion
-from disc_model.figures.kinds import CasePlot, General, Plot, RegionMap, Values
-from disc_model.figures.paper.catalogue import CATALOGUE, lacking
+from disc_model.figures.kinds import CasePlot, General, OwnFigure, Plot, RegionMap, Values
+from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, lacking, said_parameters
 from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import (
     AUTO,
@@ -189,6 +189,17 @@ def inherit(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 # Studies
 
 
+class CaseFigure(NamedTuple):
+    """A figure of cases: what draws it, whose cases it shows, and where and by which words it is listed."""
+
+    plot: CasePlot | OwnFigure
+    cases: tuple[str, ...]
+    category: str
+    section: str
+    label: str
+    caption: str
+
+
 @dataclass(frozen=True)
 class Study:
     """A checked study. `cases` and `specs` have the same keys, in the order of the file.
@@ -223,6 +234,15 @@ class Study:
     def drawable(self) -> tuple[str, ...]:
         """Figures that these cases have all that is needed for: of the paper, and of cases."""
         return (*(name for name in CATALOGUE if not list(lacking(name, self.specs))), *self.plots)
+
+    def figure(self, name: str) -> CaseFigure:
+        """One of its figures of cases, or of the paper's."""
+        if (plot := self.plots.get(name)) is not None:
+            said = f"{plot.title or name}: {plot.case}, {said_parameters(self.specs[plot.case].parameters)}"
+            return CaseFigure(plot, (plot.case,), "Figures of cases", plot.case, name, said)
+        entry, specs = CATALOGUE[name], self.specs.items()
+        said = caption(name, {case: x.parameters for case, x in specs}, {case: x.sections for case, x in specs})
+        return CaseFigure(entry.plot, entry.cases, "Figures of the paper", SECTIONS[entry.section], label(name), said)
 
     @property
     def doubts(self) -> Iterator[str]:
