@@ -219,14 +219,3 @@ def test_the_lock_is_complete_for_every_python(version: str, index: None, tmp_pa
     run(UV, "pip", "install", "--python-version", version, *options, cwd=tmp_path)
 
 
-@pytest.mark.skipif(not needs.program("make"), reason="make is not installed")
-@needs_uv
-def test_make_lock(tree: Path, index: None, tmp_path: Path) -> None:
-    """The target works and writes files of the same form."""
-    project = tmp_path / "project"
-    shutil.copytree(tree, project, symlinks=True)
-    # the environment that runs the tests stands for the one that `make env` would make
-    run("make", f"--old-file={sys.prefix}/.installed", "lock", f"VENV={sys.prefix}", cwd=project)
-    for name in LOCKS:
-        file = project / name
-        check_lock(file.read_text(), file.with_suffix(".in").read_text())

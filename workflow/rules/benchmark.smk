@@ -3,16 +3,16 @@
 from disc_model.benchmarks.register import RIVALS, SCENES
 
 BENCH = "results/bench"
-FAILURE_MAPS = [
-    f"{rival.name}_{scene}"
-    for rival in sorted(RIVALS, key=lambda rival: "stick_slip" not in rival.maps)
-    for scene in rival.maps
-    if not rival.requires or not (CONDA or rival.missing())
-]
-QUESTIONED = [
-    rival.name
+MEASURED = [
+    rival
     for rival in RIVALS
     if rival.maps and (not rival.requires or not (CONDA or rival.missing()))
+]
+QUESTIONED = [rival.name for rival in MEASURED]
+FAILURE_MAPS = [
+    f"{rival.name}_{scene}"
+    for rival in sorted(MEASURED, key=lambda rival: "stick_slip" not in rival.maps)
+    for scene in rival.maps
 ]
 BENCH_FIGURES = [
     "overview",
