@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import warnings
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from disc_model import ImplausibleValue, Parameters, plausibility, simulate
 from disc_model.plausibility import doubts
-from disc_model.studies.study import load_study, parse_study
+from disc_model.studies.study import parse_study
 from tests.studies.refused import parse_grid
 
-CONFIG = Path(__file__).parents[1] / "config"
 BASE = {"N": 200, "Omega": 20}
 
 
@@ -63,9 +61,3 @@ def test_a_study_tells_of_how_many_points() -> None:
     cases = {"A": one, "B": one | {"parameters": {"rho": 7.2}}}
     study = parse_study({"study": "some", "base": BASE, "cases": cases})
     assert [text[-14:] for text in study.doubts] == ["(1 of 2 cases)"] * 2
-
-
-@pytest.mark.parametrize("path", sorted(CONFIG.rglob("*.yaml")), ids=lambda path: path.stem)
-def test_nothing_of_the_paper_is_doubted(path: Path) -> None:
-    study = load_study(path)
-    assert not [*study.doubts, *(study.grid.doubts if study.grid else ())]

@@ -217,5 +217,3 @@ def test_the_lock_is_complete_for_every_python(version: str, index: None, tmp_pa
     """Each pin has a file for that version, and nothing that a pin then requires is missing."""
     options = ("--quiet", "--dry-run", "--require-hashes", "--target", tmp_path, "-r", ROOT / "requirements.lock")
     run(UV, "pip", "install", "--python-version", version, *options, cwd=tmp_path)
-
-

@@ -15,12 +15,11 @@ import pytest
 import yaml
 
 from disc_model.studies.document import json_schema, schema_text
-from disc_model.studies.study import StudyError, parse_study, read_yaml
+from disc_model.studies.study import StudyError, load_study, parse_study, read_yaml
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = ROOT / "workflow" / "schemas" / "study.schema.json"
-FILES = sorted((ROOT / "config").rglob("*.yaml"))
 SCHEMA = json.loads(SHIPPED.read_text(encoding="utf-8"))
 PLANE = {"N": [1, 2], "Omega": [2, 3]}
 CHECK = jsonschema.Draft202012Validator(SCHEMA)
@@ -32,13 +31,21 @@ def test_what_is_shipped_is_made_from_the_models() -> None:
     jsonschema.Draft202012Validator.check_schema(json_schema())
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_every_shipped_file_fits_and_names_the_schema(path: Path) -> None:
+@pytest.mark.parametrize("path", sorted((ROOT / "config").rglob("*.yaml")), ids=lambda path: path.stem)
+def test_a_shipped_file_is_right(path: Path) -> None:
+    """It fits the schema that it names, bears the name of its study, and says nothing implausible."""
     said = path.read_text(encoding="utf-8")
     assert [error.message for error in CHECK.iter_errors(yaml.safe_load(said))] == []
     named = re.match(r"# yaml-language-server: \$schema=(\S+)\n", said)
     assert named
     assert (path.parent / named[1]).resolve() == SHIPPED
+    study = load_study(path)
+    assert study.name == path.stem
+    assert not [*study.doubts, *(study.grid.doubts if study.grid else ())]
+    if study.grid and not study.cases:  # what its figures show besides is found beside it
+        grids, names = study.grids([Path(), path.parent])
+        assert names == (study.name,)
+        assert {other for plot in study.grid.plots.values() for other in plot.others.values()} <= grids.keys()
 
 
 def test_editors_show_meanings_and_units() -> None:
