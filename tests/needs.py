@@ -86,6 +86,7 @@ RIVALS = Need(
 FINITE_ELEMENTS = Need(
     "scikit-fem", "modes of a disc by finite elements", pip="-r requirements-bench.lock", modules=("skfem",)
 )
+UNIVERSAL_FILES = Need("pyuff", "modes of a disc from a universal file", pip="pyuff", modules=("pyuff",))
 PYTHONS = {
     version: Need(
         f"Python {version}",
@@ -95,7 +96,7 @@ PYTHONS = {
     )
     for version in ("3.11", "3.12", "3.13")
 }
-ALL = (SLURM, BROWSER, ACTIONLINT, MPMATH, RIVALS, FINITE_ELEMENTS, *PYTHONS.values())
+ALL = (SLURM, BROWSER, ACTIONLINT, MPMATH, RIVALS, FINITE_ELEMENTS, UNIVERSAL_FILES, *PYTHONS.values())
 
 
 def table() -> str:

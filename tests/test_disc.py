@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import disc_model as dm
 from disc_model import cli, mode_choice
 from disc_model.disc import disc_table
-from disc_model.plate import modal_damping, mode_arrays
+from disc_model.plate import modal_damping, mode_arrays, mode_shapes
 from disc_model.stability.return_map import ReturnMap
+from disc_model.studies.grids.merge import merge_batches
+from disc_model.studies.grids.run import run_batch
 from disc_model.studies.study import StudyError, load_study
+from tests import needs
 
 P = dm.Parameters(N=385, Omega=15.1)
 THREE = {"diameters": [0, 1, 2], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]}
@@ -85,7 +91,8 @@ def test_content_decides_the_key(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"omega": [1490.0, 0.0, 1820.0]}, "omega.1=0: must be > 0"),
+        ({"omega": [1490.0, 0.0, 1820.0]}, "omega.1=0: must be within 0.001 and 1e+07"),
+        ({"amplitude": [1.0, -1e7, 0.0]}, "largest amplitude=10000000: must be within 1e-06 and 1e+06"),
         ({"omega": [1490.0, 1515.0]}, "omega=2 values: must be as many as diameters, 3"),
         ({"diameters": [0, 1, 1.5]}, "diameters.2=1.5: must be a whole number"),
         ({"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1515.0]}, "one frequency: each mode"),
@@ -95,6 +102,11 @@ def test_content_decides_the_key(tmp_path: Path) -> None:
         ({"damping_ratio": [0.0, 1.0, 0.0]}, "damping_ratio.1=1: must be < 1"),
         ({"static_compliance": -1}, "static_compliance=-1: must be > 0"),
         ({"amplitude": [1.0, 2.0, float("nan")]}, "amplitude.2=nan: must be finite"),
+        ({"radii": [0.05, 0.1]}, "radii=2 radii: must be two or more, with a value of the shape of every mode at each"),
+        ({"radii": [0.1], "shapes": [[1.0]] * 3}, "radii=1 radii: must be two or more"),
+        ({"radii": [0.1, 0.05], "shapes": [[1.0, 2.0]] * 3}, "radii=[0.1, 0.05]: must ascend"),
+        ({"radii": [0.05, 0.1], "shapes": [[1.0, 2.0]]}, "shapes=1 values: must be as many as diameters, 3"),
+        ({"radii": [0.05, 0.1], "shapes": [1.0, 2.0, 3.0]}, "shapes.0=1: must be a list"),
     ],
 )
 def test_what_is_no_disc_is_refused(change: dict[str, object], said: str) -> None:
@@ -127,12 +139,43 @@ def test_the_residual_compliance_needs_a_static_one() -> None:
     assert dm.simulate(given.replace(disc=dm.Disc(**THREE, static_compliance=1e-5)), 0.01).status == "ok"
 
 
+def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> None:
+    """Splines through shapes each 4 mm: the error of the fourth order is some 1e-5 of the deflection."""
+    plate, r, theta = P.replace(normalization="orthonormal"), np.linspace(P.a, P.b, 41), np.linspace(0, 6, 13)
+    given, radii = mode_arrays(plate), np.linspace(P.a, P.b, 20)
+    disc = dm.Disc(
+        diameters=given.diameters.tolist(), omega=given.omega.tolist(), amplitude=given.psi.tolist(),
+        radii=radii.tolist(), shapes=mode_shapes(plate, radii).tolist(),
+    )  # fmt: skip
+    (tmp_path / "disc.csv").write_text(disc_table(P.replace(disc=disc)))
+    table = P.replace(disc=dm.read_disc(tmp_path / "disc.csv"))
+    assert table.disc == disc
+    state = dm.snapshots(plate, [0.3])
+    right, found = (dm.deflection(p, state, r, theta) for p in (plate, table))
+    np.testing.assert_allclose(found, right, rtol=0, atol=1e-4 * np.abs(right).max())
+    under = [dm.deflection(p, state, P.r_0, theta) for p in (plate, table)]
+    np.testing.assert_allclose(under[1], under[0], rtol=1e-12)  # there they are the amplitudes themselves
+    with pytest.raises(dm.ParameterError, match=r"r=0\.13: must be within 0\.044 and 0\.12"):
+        dm.deflection(table, state, 0.13, 0.0)
+
+
+def test_without_shapes_a_deflection_is_refused() -> None:
+    p = P.replace(disc=dm.Disc(**THREE))
+    with pytest.raises(dm.ParameterError, match=r"^disc: must have shapes, in columns such as shape_at_0\.08_m: only"):
+        dm.deflection(p, dm.snapshots(p, [0.0]), 0.1, 0.0)
+
+
 def test_a_damping_ratio_is_that_of_every_mode() -> None:
     p = P.replace(damping_ratio=1e-3)
     np.testing.assert_array_equal(modal_damping(p), 2e-3 * mode_arrays(p).omega)
 
 
-FIRST_LINES = ("diameters,omega_rad_per_s,amplitude_per_sqrt_kg", "diameters,frequency_Hz,omega_rad_per_s", "E,h", "")
+FIRST_LINES = (
+    "diameters,omega_rad_per_s,amplitude_per_sqrt_kg",
+    "diameters,frequency_Hz,amplitude_per_sqrt_kg,shape_at_0.05_m,shape_at_.1_m",
+    "diameters,frequency_Hz,omega_rad_per_s,shape_at_1e999_m",
+    "",
+)
 CELLS = ("1", "-1", "0", "1e400", "nan", "inf", "", " 2 ", "x", "1,2", '"', "\0", "1e-300", "é", "#", "0.5", "99999999")
 
 
@@ -140,11 +183,13 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
     """A thousand of them."""
     path, draw = tmp_path / "disc.csv", np.random.default_rng(0)
     for i, first in itertools.product(range(250), FIRST_LINES):
-        rows = [",".join(draw.choice(CELLS, draw.integers(1, 5))) for _ in range(draw.integers(0, 4))]
+        rows = [",".join(draw.choice(CELLS, draw.integers(1, 6))) for _ in range(draw.integers(0, 4))]
         comment = [f"# static_compliance_m_per_N: {draw.choice(CELLS)}"] if i % 3 == 0 else []
         path.write_bytes("\n".join([*comment, first, *rows]).encode("utf-8" if i % 5 else "utf-16"))
-        with contextlib.suppress(dm.ParameterError):
-            assert isinstance(dm.read_disc(path), dm.Disc)
+        with contextlib.suppress(dm.DiscModelError):
+            p = P.replace(disc=dm.read_disc(path))
+            dm.simulate(p, 1e-3)
+            dm.slider_at_rest_frequencies(p)
 
 
 @pytest.mark.parametrize("path", ["nowhere.csv", ".", "a\0b", 5, None])
@@ -208,7 +253,7 @@ def test_a_study_that_is_named_by_another_has_its_tables_beside_it(tmp_path: Pat
     ("disc", "said"),
     [
         ("nowhere.csv", "must be a text file that can be read (No such file or directory)"),
-        ("{diameters: [1], omega: [0], amplitude: [1]}", "base.disc.omega.0 = 0: must be > 0"),
+        ("{diameters: [1], omega: [0], amplitude: [1]}", "base.disc.omega.0 = 0: must be within 0.001 and 1e+07"),
         ("5", "base.disc = 5: must be a mapping"),
     ],
 )
@@ -216,6 +261,130 @@ def test_a_study_with_no_disc_says_so(disc: str, said: str, tmp_path: Path) -> N
     with pytest.raises(StudyError) as error:
         load_study(study(tmp_path, disc))
     assert said in str(error.value)
+
+
+def computed(folder: Path, text: str) -> xr.Dataset:
+    """A study of a disc from its file, as the workflow computes it."""
+    (folder / "study.yaml").write_text(text)
+    grid = load_study(folder / "study.yaml").grid
+    assert grid is not None
+    return merge_batches([run_batch(batch) for batch in grid.batches.values()], grid.grid, grid.attrs)
+
+
+def test_discs_are_an_axis(tmp_path: Path) -> None:
+    """By the names of their tables, or by names of the file; the dataset holds the tables."""
+    cases = {"a.csv": P.replace(Omega=15), "b.csv": P.replace(Omega=15, h=0.0021)}
+    for name, p in cases.items():
+        (tmp_path / name).write_text(disc_table(p))
+    text = "study: own\nquantity: floquet\nbase: {Omega: 15, N: 385}\n"
+    study = computed(tmp_path, text + "axes: {disc: [a.csv, b.csv]}\n")
+    for name, p in cases.items():
+        assert study["growth_rate"].sel(disc=name) == pytest.approx(dm.floquet(p).growth_rate, abs=1e-9)
+    assert json.loads(study.attrs["discs"])["b.csv"]["omega"] == mode_arrays(cases["b.csv"]).omega.tolist()
+    zipped = computed(
+        tmp_path, text + "discs: {thin: a.csv, thick: b.csv}\nzip: {disc: [thick, thin], r_0: [0.1, 0.11]}\n"
+    )
+    assert zipped["disc"].values.tolist() == ["thick", "thin"]
+    assert zipped["growth_rate"].values[0] == study["growth_rate"].sel(disc="b.csv")
+
+
+@pytest.mark.parametrize(
+    ("said", "fault"),
+    [
+        ("axes: {disc: [a.csv, no.csv]}", "axes.disc = 'no.csv': must be the table of a disc"),
+        ("axes: {disc: {start: 1, stop: 2, count: 2}}", "axes.disc = 1: must be the table of a disc"),
+        ("axes: {disc: [a.csv], h: [0.002, 0.003]}", "axes.h: must be left out where a disc is given"),
+        ("axes: {disc: [a.csv], a_over_b: [0.3]}", "axes.a_over_b: must be left out where a disc is given"),
+        ("axes: {disc: [a.csv]}\nbase: {E: 1.0e+11}", "base.E = 100000000000: must be left out where a disc is given"),
+    ],
+)
+def test_an_axis_of_discs_with_faults_says_so(said: str, fault: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(disc_table(P))
+    path = tmp_path / "study.yaml"
+    path.write_text(f"study: own\nquantity: floquet\nzip: {{N: [385], Omega: [15]}}\n{said}\n")
+    with pytest.raises(StudyError) as error:
+        load_study(path)
+    assert fault in str(error.value)
+
+
+UNCERTAIN = """study: own
+quantity: sensitivity
+base: {disc: a.csv, Omega: 15}
+axes: {N: [385]}
+options:
+  samples: 2
+  distributions:
+    omega_1_0: {distribution: uniform, low: 0.99, high: 1.01, relative: true}
+    amplitude_2_0: {distribution: normal, mean: 1, deviation: 0.01, relative: true}
+    damping_ratio_0_0: {distribution: uniform, low: 1.0e-4, high: 1.0e-3}
+"""
+
+
+def test_numbers_of_single_modes_can_be_uncertain(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(disc_table(P))
+    study = computed(tmp_path, UNCERTAIN)
+    own = dm.read_disc(tmp_path / "a.csv")
+    drawn = study["drawn"].isel(N=0, sample=0).sel(draw="A")
+    numbers = {str(name): float(drawn.sel(parameter=name)) for name in drawn["parameter"].values}
+    changed = dm.Parameters(N=385, Omega=15, disc=own).replace(**numbers)
+    expected = {"omega": {1: "omega_1_0"}, "amplitude": {2: "amplitude_2_0"}, "damping_ratio": {0: "damping_ratio_0_0"}}
+    for column, modes in expected.items():
+        for i, (before, after) in enumerate(zip(getattr(own, column), getattr(changed.disc, column), strict=True)):
+            assert after == (numbers[modes[i]] if i in modes else before) != (before if i in modes else None)
+    found = dm.floquet(changed)
+    assert float(study["growth_rate"].isel(N=0, sample=0).sel(variant="A")) == found.growth_rate
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "fault"),
+    [
+        ("omega_1_0: {", "omega_9_0: {", "distributions.omega_9_0: must be of a parameter that is a number (known: N"),
+        ("omega_1_0: {", "E: {", "distributions.E: must be of a parameter that is a number"),
+        ("low: 0.99", "low: -9", "distributions.omega_1_0 = -1365"),
+        ("high: 1.0e-3", "high: 2", "distributions.damping_ratio_0_0 = 2: must be < 1; distributions reach that far"),
+    ],
+)
+def test_distributions_that_modes_cannot_have_are_refused(old: str, new: str, fault: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(disc_table(P))
+    (tmp_path / "study.yaml").write_text(UNCERTAIN.replace(old, new))
+    with pytest.raises(StudyError) as error:
+        load_study(tmp_path / "study.yaml")
+    assert fault in str(error.value)
+
+
+def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(tmp_path: Path) -> None:
+    """Rates to 1e-9/s and times to 1e-13 of themselves: only the damping, a ratio in the table, is rounded anew."""
+    (tmp_path / "disc.csv").write_text(disc_table(P.replace(normalization="orthonormal")))
+    text = "study: own\nquantity: floquet\nbase: {%s}\naxes: {N: [300, 385], Omega: [15, 25]}\n"
+    plate, table = (computed(tmp_path, text % disc) for disc in ("normalization: orthonormal", "disc: disc.csv"))
+    np.testing.assert_allclose(table["growth_rate"], plate["growth_rate"], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(table["period"], plate["period"], rtol=1e-12)
+
+
+@needs.UNIVERSAL_FILES.mark
+def test_the_page_reads_a_universal_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pairs turned by any angle, any scale of the shapes: a table of the modes that the file was made of."""
+    import pyuff
+
+    monkeypatch.chdir(tmp_path)
+    angles, nothing = np.linspace(0, 2 * np.pi, 24, endpoint=False), np.zeros(24)
+    for i, (l, omega, amplitude) in enumerate(zip(*THREE.values(), strict=True)):
+        scale = 10.0**i
+        kind = {"model_type": 1, "analysis_type": 2, "data_ch": 2, "spec_data_type": 8, "data_type": 2, "load_case": 1}
+        kind |= {f"id{line}": "NONE" for line in range(1, 6)}
+        mode = pyuff.prepare_55(
+            **kind, r1=nothing, r2=nothing, r3=scale * amplitude * np.cos(l * (angles - 0.3)), n_data_per_node=3,
+            node_nums=list(range(1, 25)), mode_n=i + 1, freq=omega / (2 * np.pi), modal_m=scale**2,
+            modal_damp_vis=1e-3, modal_damp_his=0.0,
+        )  # fmt: skip
+        pyuff.UFF("modes.uff")._write_set(mode, "add")
+    page = (Path(__file__).parents[1] / "docs" / "own_disc.md").read_text(encoding="utf-8")
+    (code,) = (text for text in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "pyuff" in text)
+    exec(code, {})
+    found = dm.read_disc("disc.csv")
+    assert found.diameters == (0, 1, 2)
+    np.testing.assert_allclose(found.omega, THREE["omega"], rtol=1e-5)  # six digits are in the file
+    np.testing.assert_allclose(found.amplitude, THREE["amplitude"], rtol=1e-5)
 
 
 def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

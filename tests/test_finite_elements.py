@@ -10,6 +10,7 @@ import pytest
 
 import disc_model as dm
 from disc_model.finite_elements import disc_of_section, section
+from disc_model.plate import mode_shapes
 from tests import needs
 
 pytestmark = needs.FINITE_ELEMENTS.mark
@@ -28,6 +29,8 @@ def test_the_plate_is_confirmed() -> None:
     assert list(disc.diameters) == plate["diameters"].tolist()
     np.testing.assert_allclose(disc.omega, plate["omega"], rtol=5e-3)
     np.testing.assert_allclose(disc.amplitude, plate["psi"], rtol=5e-3)
+    shapes = mode_shapes(P, np.array(disc.radii))
+    assert np.all(np.abs(disc.shapes - shapes) < 5e-3 * np.abs(shapes).max(axis=1, keepdims=True))
 
 
 def test_finer_meshes_agree() -> None:
@@ -92,7 +95,7 @@ def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: o
 def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The table, the section and the case of the page, as they stand there."""
     text = PAGE.read_text(encoding="utf-8")
-    table, first, drawing = re.findall(r"```(?:text|python)\n(.*?)```", text, re.DOTALL)
+    table, first, drawing, _ = re.findall(r"```(?:text|python)\n(.*?)```", text, re.DOTALL)
     monkeypatch.chdir(tmp_path)
     Path("disc.csv").write_text(table)
     said: dict[str, object] = {}

@@ -25,7 +25,9 @@ COLUMNS = {
     "damping_ratio": ("damping_ratio", 1.0),
     "circles": ("circles", 1.0),
 }
-"""What each column of a table says of a `Disc`, and by what it is multiplied."""
+"""What each column of a table says of a `Disc`, and by what it is multiplied; besides, there may be shapes."""
+SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")
+"""The column of the shapes at a radius."""
 STATIC_COMPLIANCE = "static_compliance_m_per_N"
 """What a commented line may give, as ``# static_compliance_m_per_N: 1.2e-7``."""
 LARGEST = 10_000_000
@@ -38,8 +40,8 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
     Parameters
     ----------
     path : CSV file; columns, in any order, are ``diameters``, ``frequency_Hz`` or ``omega_rad_per_s``,
-        ``amplitude_per_sqrt_kg``, and perhaps ``damping_ratio`` and ``circles``. Lines that begin with # are comments;
-        one may give ``static_compliance_m_per_N: ...``
+        ``amplitude_per_sqrt_kg``, and perhaps ``damping_ratio``, ``circles``, and shapes at some radii, such as
+        ``shape_at_0.08_m``. Lines that begin with # are comments; one may give ``static_compliance_m_per_N: ...``
 
     Returns
     -------
@@ -64,9 +66,17 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
     if faults:
         raise ParameterError(*(fault.inside((Path(path).name,)) for fault in faults))
     values: dict[str, Any] = {"static_compliance": compliance}
+    shapes: dict[float, list[float]] = {}
     for name, column in table.items():
-        target, factor = COLUMNS[str(name)]
-        values[target] = [_value(path, str(name), i, cell, factor) for i, cell in enumerate(column)]
+        target, factor = COLUMNS.get(str(name), ("", 1.0))
+        numbers = [_value(path, str(name), i, cell, factor) for i, cell in enumerate(column)]
+        if target:
+            values[target] = numbers
+        else:
+            shapes[float(SHAPE.fullmatch(str(name))[1])] = numbers  # type: ignore[index]
+    if shapes:
+        values["radii"] = sorted(shapes)
+        values["shapes"] = list(zip(*(shapes[radius] for radius in sorted(shapes)), strict=True))
     try:
         return Disc(**values)
     except ParameterError as error:
@@ -81,10 +91,15 @@ def disc_table(p: Parameters) -> str:
     static = residual_flexibility(p).total if p.disc is None else p.disc.static_compliance
     if static is not None:
         lines.append(f"# {STATIC_COMPLIANCE}: {static:.17g}")
-    lines.append("diameters,circles,omega_rad_per_s,amplitude_per_sqrt_kg,damping_ratio")
+    radii, shapes = ((), ()) if p.disc is None else (p.disc.radii, p.disc.shapes)
+    shape_columns = [f"shape_at_{radius:.17g}_m" for radius in radii]
+    names = ("diameters", "circles", "omega_rad_per_s", "amplitude_per_sqrt_kg", "damping_ratio", *shape_columns)
+    lines.append(",".join(names))
     with np.errstate(invalid="ignore"):
         ratios = modal_damping(p) / (2 * modes.omega)
-    for row in zip(modes.diameters, modes.circles, modes.omega, modes.psi, ratios, strict=True):
+    for row in zip(
+        modes.diameters, modes.circles, modes.omega, modes.psi, ratios, *zip(*shapes, strict=True), strict=True
+    ):
         lines.append(",".join(f"{value:.17g}" for value in row))
     return "\n".join(lines) + "\n"
 
@@ -117,7 +132,7 @@ def _column_faults(names: list[str]) -> list[Fault]:
     """What is wrong with the names of the columns."""
     faults = []
     for name in names:
-        if name not in COLUMNS:
+        if name not in COLUMNS and not SHAPE.fullmatch(name):
             faults.append(Fault(("columns",), shown(name), f"unknown column{suggestion(name, list(COLUMNS))}"))
     given = [COLUMNS[name][0] for name in names if name in COLUMNS]
     for target in ("diameters", "omega", "amplitude"):

@@ -89,7 +89,8 @@ def disc_of_section(
     Returns
     -------
     Disc
-        Modes ordered by frequency; ``circles`` counts those of as many nodal diameters.
+        Modes ordered by frequency; ``circles`` counts those of as many nodal diameters. Shapes are those at the height
+        of the slider.
 
     Raises
     ------
@@ -109,40 +110,42 @@ def disc_of_section(
     basis = skfem.Basis(mesh, element, intorder=6)
     vertical = basis.split_indices()[1]
     apart = np.hypot(*(basis.doflocs[:, vertical] - np.array(slider)[:, None]))
-    at = vertical[int(np.argmin(apart))]
+    level = np.flatnonzero(np.abs(basis.doflocs[1, vertical] - slider[1]) < SAME_PLACE)
+    radii, first = np.unique(basis.doflocs[0, vertical[level]], return_index=True)
+    places = vertical[[int(np.argmin(apart)), *level[first]]]
     refuse(broken((apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh")))
     held, highest = basis.get_dofs(clamped).all(), math.tau * highest_Hz
-    found: list[tuple[float, int, int, float]] = []
+    found: list[tuple[float, int, int, float, list[float]]] = []
     for l in range(61):
-        omega, amplitude = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, at, highest)
+        omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, places, highest)
         if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
             break
-        found += [(w, l, i, a) for i, (w, a) in enumerate(zip(omega, amplitude, strict=True))]
-    largest = max((abs(a) for *_, a in found), default=0.0)
-    kept = sorted(row for row in found if abs(row[3]) > SEEN * largest)
+        found += [(w, l, i, a, shape) for i, (w, (a, *shape)) in enumerate(zip(omega, moves, strict=True))]
+    largest = max((a for *_, a, _ in found), default=0.0)
+    kept = sorted(row for row in found if row[3] > SEEN * largest)
     if not kept:
         raise ParameterError(
             Fault(("highest_Hz",), shown(highest_Hz), "must be above a mode that moves under the slider")
         )
-    names = ("omega", "diameters", "circles", "amplitude")
+    names = ("omega", "diameters", "circles", "amplitude", "shapes")
     columns = dict(zip(names, map(list, zip(*kept, strict=True)), strict=True))
-    return Disc(**columns, damping_ratio=[iron.damping_ratio] * len(kept))
+    return Disc(**columns, radii=radii.tolist(), damping_ratio=[iron.damping_ratio] * len(kept))
 
 
 def _harmonic(
-    basis: Any, l: int, material: tuple[float, float, float], held: Any, at: int, highest: float
-) -> tuple[Array, Array]:
-    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their amplitudes at an unknown."""
+    basis: Any, l: int, material: tuple[float, float, float], held: Any, places: NDArray[np.intp], highest: float
+) -> tuple[list[float], list[list[float]]]:
+    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and how some unknowns move in each.
+
+    The first of these moves upwards.
+    """
     from scipy.sparse.linalg import eigsh
 
     stiffness, mass = _matrices(basis, l, *material)
     if l == 0:  # what turns about the axis moves nothing else
         held = np.union1d(held, basis.split_indices()[2])
-    free = basis.complement_dofs(held)
+    free, count = basis.complement_dofs(held), 4
     K, M = stiffness[free][:, free].tocsc(), mass[free][:, free].tocsc()
-    count, place = 4, int(np.searchsorted(free, at))
-    if place == len(free) or free[place] != at:
-        return np.zeros(0), np.zeros(0)
     while True:
         squares, shapes = eigsh(K, min(count, len(free) - 1), M, sigma=0.0, v0=np.ones(len(free)))
         if squares.max() > highest**2 or count >= len(free) - 1:
@@ -150,8 +153,10 @@ def _harmonic(
         count *= 2
     order = np.argsort(squares)
     order = order[squares[order] <= highest**2]
-    amplitude = shapes[place, order]
-    return np.sqrt(squares[order]), np.abs(amplitude)
+    whole = np.zeros((basis.N, len(order)))
+    whole[free] = shapes[:, order]
+    moves = whole[places].T
+    return np.sqrt(squares[order]).tolist(), (np.where(moves[:, :1] < 0, -moves, moves)).tolist()
 
 
 def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any, Any]:

@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
+from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_args, get_type_hints
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
@@ -368,8 +369,17 @@ RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu")
 
 PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
 """Parameters of the plate, which mean nothing for a disc that is given by its modes."""
+RATIOS = {
+    f"{one}_over_{other}": (one, other)
+    for one, other in (("mu_k", "mu_s"), ("k_p", "k"), ("c_p", "c"), ("a", "b"), ("r_0", "b"), ("h", "b"))
+}
+"""What a grid may vary in the place of a parameter: its ratio to another one."""
 MOST_MODES = 1000
 """Modes in the table of a disc."""
+FREQUENCIES = (1e-3, 1e7)
+"""rad/s; above, a cycle would take minutes to compute."""
+AMPLITUDES = (1e-6, 1e6)
+"""kg^-1/2, of the mode that moves most: it has between a picogram and a million tons."""
 SPLIT = 0.05
 """Modes of as many nodal diameters whose frequencies are closer than this share are the halves of one pair."""
 
@@ -437,12 +447,14 @@ class Disc(Checked):
     Parameters
     ----------
     diameters : number of nodal diameters of each mode (whole numbers, 0 to 60)
-    omega : natural frequencies (rad/s, > 0)
+    omega : natural frequencies (rad/s, 1e-3 to 1e7)
     amplitude : mass-normalised displacement under the slider, at an antinode of the pair (kg^-1/2)
     damping_ratio : of each mode (0 to 1; 0 if left out)
     circles : number of nodal circles of each mode; if left out, modes of as many diameters are counted by frequency
     static_compliance : of the whole disc at the slider (m/N, > 0), from which the compliance of the modes that are left
         out follows; None if it is not known
+    radii : where shapes are known (m, ascending, two or more); none if they are not
+    shapes : of each mode, its displacement at these radii, in sign and scale that of the amplitude (kg^-1/2)
 
     Raises
     ------
@@ -451,13 +463,15 @@ class Disc(Checked):
     """
 
     diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
-    omega: tuple[Positive, ...]
+    omega: tuple[Annotated[Finite, _within(FREQUENCIES)], ...]
     amplitude: tuple[Finite, ...]
     damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = ()
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = ()
     static_compliance: Positive | None = None
+    radii: tuple[Positive, ...] = ()
+    shapes: tuple[tuple[Finite, ...], ...] = ()
 
-    _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles")
+    _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "shapes")
 
     @model_validator(mode="before")
     @classmethod
@@ -486,6 +500,7 @@ class Disc(Checked):
         for name, column in given.items():
             if len(column) != count and (column or name in ("omega", "amplitude")):
                 faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
+        faults += _shape_faults(data.get("radii", ()), data.get("shapes", ()))
         if faults or not {"diameters", "omega", "amplitude"} <= given.keys():
             return faults
         try:
@@ -494,13 +509,46 @@ class Disc(Checked):
             circles = [whole(x) for x in given.get("circles", ())]
         except ValueError:
             return []
-        if not any(amplitude):
+        largest = max(map(abs, amplitude))
+        if not largest:
             faults.append(Fault(("amplitude",), "", "must not be 0 for all modes: the slider would not feel the disc"))
+        elif math.isfinite(largest):
+            faults += limits_faults("largest amplitude", largest, AMPLITUDES)
         return faults + _repeated(diameters, omega, circles)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """What can be uncertain, by names such as omega_2_0 and damping_ratio_2_0: two nodal diameters, no circle."""
+        modes = list(zip(self.diameters, self.circles, strict=True))
+        return {
+            f"{column}_{l}_{c}": value
+            for column in ("omega", "amplitude", "damping_ratio")
+            for (l, c), value in zip(modes, getattr(self, column), strict=True)
+        }
+
+    def with_numbers(self, **changes: float) -> Disc:
+        """The disc with some of its `numbers` changed."""
+        values, count = [*(self.numbers | changes).values()], len(self.omega)
+        return self.replace(
+            omega=values[:count], amplitude=values[count : 2 * count], damping_ratio=values[2 * count : 3 * count]
+        )
 
     def first(self, count: int) -> Disc:
         """The disc with the first modes of its table alone."""
         return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
+
+
+def _shape_faults(radii: Any, shapes: Any) -> list[str]:
+    """What is wrong with shapes as a whole."""
+    if not all(isinstance(column, tuple | list) for column in (radii, shapes, *shapes)):
+        return []  # told by their types
+    faults: list[str] = []
+    if any(len(shape) != len(radii) for shape in shapes) or bool(radii) != bool(shapes) or len(radii) == 1:
+        rule = "must be two or more, with a value of the shape of every mode at each"
+        faults.append(Fault(("radii",), f"{len(radii)} radii", rule))
+    elif all(map(is_number, radii)) and any(a >= b for a, b in pairwise(radii)):
+        faults.append(Fault(("radii",), shown(list(radii)), "must ascend"))
+    return faults
 
 
 def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> list[str]:
@@ -612,6 +660,13 @@ class Parameters(Checked):
     def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
         return cross_faults(cls, data) + _disc_faults(cls, data)
 
+    def replace(self, **changes: Any) -> Self:
+        """A validated copy with some values changed; of a disc given by its modes also its `Disc.numbers`."""
+        if self.disc is not None and "disc" not in changes:
+            numbers = {name: changes.pop(name) for name in self.disc.numbers.keys() & changes.keys()}
+            changes |= {"disc": self.disc.with_numbers(**numbers)} if numbers else {}
+        return super().replace(**changes)
+
     @property
     def D(self) -> float:
         """Flexural rigidity E h^3/12/(1 - nu^2), N m."""
@@ -638,6 +693,22 @@ class Parameters(Checked):
     def unit(cls, name: str) -> str:
         """SI unit of a parameter; "1" if it has no dimension, "" if it is a choice, or no parameter."""
         return _units_of(cls).get(name, "")
+
+
+def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of a case, and the parameters that `RATIOS` among them stand for."""
+    found = dict(values)
+    for ratio in values.keys() & RATIOS.keys():
+        one, other = RATIOS[ratio]
+        found[one] = values[ratio] * values.get(other, Parameters.model_fields[other].default)
+    return found
+
+
+def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, Any]:
+    """What values of a point say of its case: without starts and samples, with the table of a disc for its name."""
+    known = (*Parameters.model_fields, *CHOOSING)
+    case = {name: value for name, value in with_ratios(values).items() if name in known}
+    return case | ({"disc": discs[case["disc"]]} if isinstance(case.get("disc"), str) else {})
 
 
 def foreign_case(p: object) -> list[str]:

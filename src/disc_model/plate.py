@@ -95,15 +95,41 @@ def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
-    """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`."""
+    """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`.
+
+    Those of a table are splines through its shapes and its amplitudes.  Raises ParameterError where it has no shapes.
+    """
     if p.disc is not None:
-        rule = "must be left out: the shapes of its modes are not known, only amplitudes under the slider"
-        raise ParameterError(Fault(("disc",), "", rule))
+        from scipy.interpolate import make_interp_spline  # few need it
+
+        radii, known = _given_shapes(p.disc, p.r_0)
+        spline: Array = make_interp_spline(radii, known, k=min(3, len(radii) - 1), axis=1)(r)
+        return spline
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
     radial = np.column_stack([shapes.at(float(x), p.normalization == "orthonormal") for x in r / p.b])
     return np.where(shapes.l > 0, np.sqrt(2), 1.0)[:, None] * radial / np.sqrt(p.rho * p.h * p.b**2)
+
+
+def radial_range(p: Parameters) -> tuple[float, float]:
+    """Radii (m) from and to which shapes are known; raises ParameterError where the table of a disc has none."""
+    if p.disc is None:
+        return p.a, p.b
+    radii, _ = _given_shapes(p.disc, p.r_0)
+    return float(radii[0]), float(radii[-1])
+
+
+def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
+    """Radii, and there the shapes of a table; at the slider they are the amplitudes, whatever else is said."""
+    if not disc.radii:
+        rule = "must have shapes, in columns such as shape_at_0.08_m: only amplitudes under the slider are known"
+        raise ParameterError(Fault(("disc",), "", rule))
+    radii = np.array(disc.radii)
+    others = radii[~np.isclose(radii, r_0, rtol=1e-9, atol=0)]
+    place = int(np.searchsorted(others, r_0))
+    kept = np.array(disc.shapes)[:, np.isin(radii, others)]
+    return np.insert(others, place, r_0), np.insert(kept, place, disc.amplitude, axis=1)
 
 
 def slider_at_rest_frequencies(p: Parameters) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import Status
-from disc_model.parameters import Parameters
+from disc_model.parameters import RATIOS, Parameters
 
 PHASES = ("stick", "slip", "separation")
 EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
@@ -151,6 +151,7 @@ KICKS = {
     "kick_f": Variable("rad s-1", "kick of the slider's angular velocity"),
 }
 """What grids may add to a coordinate where motions start; coordinates of their datasets."""
+_OF_RATIOS = {name: Variable("1", f"{one} relative to {other}") for name, (one, other) in RATIOS.items()}
 WITHOUT_CYCLE = {
     "no_cycle": "no cycle found",
     "separates": "separates at once",
@@ -179,7 +180,7 @@ def attributes(name: str) -> dict[str, Any]:
         which = "least" if bound == "min" else "greatest"
         variable = SERIES[stem]._replace(long_name=f"{SERIES[stem].long_name}, {which} within the bin")
     else:
-        variable = (SERIES | SCALARS | KICKS).get(name) or _parameter_variable(name)
+        variable = (SERIES | SCALARS | KICKS | _OF_RATIOS).get(name) or _parameter_variable(name)
     return variable.attributes
 
 
@@ -243,7 +244,18 @@ SHOWN = {
     "psi": Shown("Angle", "ψ", "rad"),
     "psi_velocity": Shown("dψ/dt", "", "rad/s"),
 }
-"""Parameters that are numbers, kicks, and what is sampled of a motion."""
+"""Parameters that are numbers, their ratios, kicks, and what is sampled of a motion."""
+SHOWN |= {name: Shown("Ratio", "/".join(SHOWN[one].symbol for one in pair), "") for name, pair in RATIOS.items()}
+_OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
+
+
+def shown_number(name: str) -> Shown:
+    """How a distributed parameter is shown: one of `SHOWN`, or of a single mode of a table, such as omega_2_0."""
+    if name in SHOWN:
+        return SHOWN[name]
+    column, diameters, circles = name.rsplit("_", 2)
+    symbol, unit = _OF_A_MODE[column]
+    return Shown("", f"{symbol}({diameters}, {circles})", unit)
 
 
 def symbol_of(name: str) -> str:

@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.parameters import Parameters, Positive, Real, Strict, Title
+from disc_model.parameters import RATIOS, Parameters, Positive, Real, Strict, Title
 from disc_model.simulation.case import Poincare, Window
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
@@ -114,7 +114,7 @@ class Plot(Kind):
         for axis, name in self.axes.items():
             if name not in values:
                 yield Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
-            elif name not in KICKS and (name not in Parameters.model_fields or not Parameters.unit(name)):
+            elif name not in (*KICKS, *RATIOS) and (name not in Parameters.model_fields or not Parameters.unit(name)):
                 yield Fault.of((axis,), name, "must be one parameter, and a number")
         if len({*self.axes.values()}) < len(self.axes):
             yield Fault.of(("y",), self.axes["y"], "must differ from x")

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import Parameters, foreign_case, is_number
-from disc_model.plate import mode_arrays, mode_shapes
+from disc_model.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.simulation.api import published_start, simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State, amplitude_faults, is_finite_array
@@ -71,7 +71,7 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     ----------
     p : the case
     states : one, or one a time, such as `snapshots` returns
-    r : m, radii from a to b, shape (n_r,)
+    r : m, radii from a to b, or among those at which a table gives shapes, shape (n_r,)
     theta : rad, angles fixed to the disc, shape (n_theta,); the slider starts at 0
 
     Returns
@@ -82,7 +82,7 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     Raises
     ------
     ParameterError
-        Radii off the disc, angles that are no finite numbers, states of other modes.
+        Radii off the disc, angles that are no finite numbers, states of other modes; a disc given without shapes.
     """
     import xarray as xr
 
@@ -107,11 +107,12 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
     """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
     refuse(_foreign(p, None))
     given: list[Any] = list(states) if isinstance(states, Iterable) else [states]
-    psi = mode_arrays(p).psi
+    psi, (low, high) = mode_arrays(p).psi, radial_range(p)
     radii, angles = _numbers(r), _numbers(theta)
-    within = radii is not None and np.all((radii >= p.a) & (radii <= p.b))
+    within = radii is not None and np.all((radii >= low) & (radii <= high))
+    limits = f"a={shown(low)} and b={shown(high)}" if p.disc is None else f"{shown(low)} and {shown(high)}"
     faults = broken(
-        (within, "r", r, f"must be within a={shown(p.a)} and b={shown(p.b)}"),
+        (within, "r", r, f"must be within {limits}"),
         (angles is not None, "theta", theta, "must be finite"),
     )
     for i, state in enumerate(given):

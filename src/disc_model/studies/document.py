@@ -33,14 +33,16 @@ from pydantic import (
 )
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
-from disc_model.data.variables import BESIDE_WINDOWS, KICKS, SAMPLE, SCALARS
+from disc_model.data.variables import BESIDE_WINDOWS, KICKS, SAMPLE, SCALARS, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.figures.kinds import CASE_PLOTS, PLOTS, CasePlot, Plot
 from disc_model.figures.paper.catalogue import CATALOGUE
 from disc_model.parameters import (
     AUTO,
+    RATIOS,
     Count,
     CycleTolerance,
+    Disc,
     Finite,
     Parameters,
     Positive,
@@ -222,8 +224,8 @@ def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Bl
     return axis.blocks(resolution) if isinstance(axis, AxisRange) else (tuple(axis),)
 
 
-VARIED = (*(name for name in Parameters.model_fields if name != "disc"), START, *KICKS)
-"""What a grid may vary, in the order of its dimensions: every parameter but the table of a disc, and the start."""
+VARIED = (*Parameters.model_fields, *RATIOS, START, *KICKS)
+"""What a grid may vary, in the order of its dimensions: parameters, ratios in their place, and the start."""
 
 
 class _Columns(Strict):
@@ -240,8 +242,11 @@ class _Columns(Strict):
 def _described(name: str) -> dict[str, Any]:
     if name == START:
         return {"description": "where the motion starts: names of starts"}
-    if name in KICKS:
-        return {"description": KICKS[name].long_name, "json_schema_extra": {"unit": KICKS[name].units}}
+    if name == "disc":
+        return {"description": "discs: tables of modes, or names of `discs`"}
+    if name in (*KICKS, *RATIOS):
+        said = attributes(name)
+        return {"description": said["long_name"], "json_schema_extra": {"unit": said["units"]}}
     field = Parameters.model_fields[name]
     return {"description": field.description, "json_schema_extra": field.json_schema_extra}
 
@@ -597,7 +602,8 @@ class BranchesOptions(Options):
 class SensitivityOptions(Options):
     """The stick-slip cycle at samples of distributed parameters, and what becomes of the published start.
 
-    distributions : by parameter
+    distributions : by parameter; of a disc given by its modes also by mode, such as omega_2_0, amplitude_2_0 and
+        damping_ratio_2_0 with two nodal diameters and no circle
     samples : number of them, a power of two; more of them leave those that there are
     seed : whole number; a sample hangs on it and on the sample's own number alone
     outcomes : of so many samples, the first ones, the motion is followed as well
@@ -619,7 +625,9 @@ class SensitivityOptions(Options):
     @field_validator("distributions", mode="before")
     @classmethod
     def _in_units(cls, given: Any) -> Any:
-        return each_in_si(given, {name: Parameters.unit(name) for name in NUMBERS})
+        named = given if isinstance(given, Mapping) else ()
+        of_modes = {name: "rad/s" for name in named if str(name).startswith("omega_")}
+        return each_in_si(given, {name: Parameters.unit(name) for name in NUMBERS} | of_modes)
 
     @model_validator(mode="after")
     def _balanced(self) -> Self:
@@ -963,6 +971,7 @@ class Document(Strict):
     claims : whether the paper's statements and tables are to be checked against the cases
     quantity, options : of a grid, what is computed at each point
     axes, zip, starts : what varies, and how motions may start
+    discs : tables of modes by the names that an axis of discs has for them
     where : rules between values, such as mu_k <= mu_s; points that break one are left out
     batch : how points are gathered into jobs
     studies : further files of grid studies, * stands for any part of a name
@@ -990,6 +999,7 @@ class Document(Strict):
     zip: Zip = Columns()
     batch: BatchSpec = BatchSpec()
     starts: dict[StartName, Start] = Field({})
+    discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()
     overrides: dict[str, dict[str, Any]] = Field({})
     resolution: Annotated[int, PlainValidator(_resolution, json_schema_input_type=Annotated[int, Field(ge=1)])] = 1

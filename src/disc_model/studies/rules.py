@@ -8,7 +8,7 @@ from functools import cache
 from types import CodeType
 from typing import Any
 
-from disc_model.parameters import Parameters, number
+from disc_model.parameters import Parameters, number, with_ratios
 
 _MADE_OF = (
     *(ast.Name, ast.Load, ast.Constant, ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp),
@@ -48,7 +48,7 @@ def _compiled(rule: str) -> CodeType:
 
 def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
     """Whether all rules hold for a point; one that cannot be evaluated, such as a division by zero, does not."""
-    here = {name: float(x) if isinstance(x, int) else x for name, x in {**_DEFAULTS, **values}.items()}
+    here = {name: float(x) if isinstance(x, int) else x for name, x in {**_DEFAULTS, **with_ratios(values)}.items()}
     try:
         return all(eval(_compiled(rule), {"__builtins__": {}}, here) for rule in rules)
     except (ArithmeticError, TypeError):

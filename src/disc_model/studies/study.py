@@ -34,17 +34,23 @@ from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import (
     AUTO,
     CHOOSING,
+    PLATE,
+    RATIOS,
     RELATED,
     RESIDUAL,
+    Disc,
     Finite,
     Parameters,
+    Positive,
     Strict,
     canonical_json,
+    case_of,
     content_key,
     cross_faults,
     faults_of_names,
     is_number,
     leaves_modes,
+    with_ratios,
 )
 from disc_model.plausibility import RULES
 from disc_model.simulation.case import START, CaseSpec, SomeParameters, Start
@@ -69,7 +75,7 @@ from disc_model.truncation import FREQUENCIES, asked_modes
 
 TAKEN = ("compiled", "bench")
 """Folders of results that no study may have."""
-GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts"})
+GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
 """What a study file says of a grid alone."""
 REQUIRED = ("N", "Omega")
 """Parameters without a base value."""
@@ -357,16 +363,27 @@ def _with_discs(raw: Any, folder: Path, faults: list[str], place: tuple[str, ...
     """
     if not isinstance(raw, Mapping):
         return raw
+    if not place and (varied := _varied_discs(raw)):
+        raw = {**raw, "discs": {name: name for name in varied} | {**mapping(raw.get("discs"))}}
     made = {}
     for key, value in raw.items():
-        if key == "disc" and isinstance(value, str) and place[-1:] in (("base",), ("parameters",)):
+        in_case = key == "disc" and place[-1:] in (("base",), ("parameters",))
+        if isinstance(value, str) and (in_case or place == ("discs",)):
             try:
                 made[key] = read_disc(folder / value).model_dump(mode="json", exclude_none=True)
             except ParameterError as error:
-                faults += [Fault((*place, "disc"), "", str(fault)).in_file for fault in error.faults]
+                faults += [Fault((*place, str(key)), "", str(fault)).in_file for fault in error.faults]
         else:
             made[key] = _with_discs(value, folder, faults, (*place, str(key)))
     return made
+
+
+def _varied_discs(raw: Mapping[Any, Any]) -> list[str]:
+    """Names along an axis of discs."""
+    zips = raw.get("zip")
+    groups = [raw.get("axes"), *(zips if isinstance(zips, list) else [zips])]
+    given = [mapping(group).get("disc") for group in groups]
+    return [name for axis in given if isinstance(axis, list) for name in axis if isinstance(name, str)]
 
 
 def _shown_path(path: Path) -> str:
@@ -591,8 +608,8 @@ FIRST_SAMPLES = 64
 """In the first block of samples."""
 MOST_POINTS = 1_000_000
 """Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
-_KICKS: dict[str, Any] = dict.fromkeys(KICKS, (Finite, 0.0))
-_Varied = create_model("_Varied", __base__=SomeParameters, **_KICKS)
+_OTHERS: dict[str, Any] = dict.fromkeys(KICKS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
+_Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
 
 @dataclass(frozen=True)
@@ -664,8 +681,10 @@ class GridStudy:
         for part in parts:
             every = [dict(zip(names, point, strict=True)) for point in part["points"]]
             kept = [point for point in every if not self.where or holds(self.where, {**self.base, **point})]
-            starts = {str(point[START]) for point in kept if START in names}
-            said = {"starts": {name: self.starts[name].model_dump() for name in starts}} if starts else {}
+            said = {}
+            for key, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.document.discs)):
+                if key in names:
+                    said[kind] = {name: known[name].model_dump() for name in {str(point[key]) for point in kept}}
             if kept:
                 texts.append(canonical_json(shared | said | part | {"points": [[*point.values()] for point in kept]}))
         return {content_key(text): text for text in texts}
@@ -690,7 +709,7 @@ class GridStudy:
     def kernels(self) -> list[str]:
         """Kinds of kernels that its points need, as `disc_model.kernels` names them."""
         deciding = [dim for dim in self.dims if not DECIDING.isdisjoint(dim.names)]
-        cases = [{**self.base, **point} for point in points(deciding)]
+        cases = [case_of({**self.base, **point}, self.document.discs) for point in points(deciding)]
         return kinds_of(cases, QUANTITIES[self.quantity].tasks)
 
     @property
@@ -713,11 +732,8 @@ class GridStudy:
             looked_at = [dim.thinned(round(LOOKED_AT ** (1 / len(dims)))) for dim in dims]
             first = next(points(self.dims, self.where, base))
             cases = [base | first | point for point in points(looked_at, self.where, base | first)] or [base | first]
-            found = [
-                text
-                for case in cases
-                if (text := rule.doubt(Parameters(**{x: case[x] for x in case if x in Parameters.model_fields})))
-            ]
+            discs = self.document.discs
+            found = [text for case in cases if (text := rule.doubt(Parameters(**case_of(case, discs))))]
             if found:
                 about = "about " * (n_points(looked_at) < n_points(dims))
                 yield f"{found[0]} ({about}{len(found) * self.n_points // len(cases)} of {self.n_points} points)"
@@ -770,10 +786,14 @@ class _Grid:
         if self.faults or self.quantity is None or self.options is None:
             return None
         point = next(points(self.dims, self.document.where, self.base))
-        first = {name: value for name, value in point.items() if name in Parameters.model_fields}
+        first = case_of({**self.base, **point}, self.document.discs)
         unused = {name: 0.0 for name in self.quantity.scanned(self.options) if name in REQUIRED}
-        base = Parameters(**{**unused, **self.base, **first}).canonical | self.automatic
-        dropped = {*first, *["n_circles"] * bool(self.automatic)}
+        try:
+            base = Parameters(**{**unused, **first}).canonical | self.automatic
+        except ParameterError as error:  # of what varies and what does not, together
+            self.faults += [fault.inside(("base",)) for fault in error.faults]
+            return None
+        dropped = {*point, *(RATIOS[name][0] for name in point.keys() & RATIOS), *["n_circles"] * bool(self.automatic)}
         base = {name: value for name, value in base.items() if name not in dropped}
         return GridStudy(self.document, self.options, base, self.dims, self.starts, self.plots)
 
@@ -828,11 +848,13 @@ class _Grid:
         known = {**self.starts, **mapping(self.raw.get("starts"))}
         if name == START and not (isinstance(value, str) and value in known):
             self.add(place, f"no such start{suggestion(value, known)}", value)
+        elif name == "disc" and not (isinstance(value, str) and value in mapping(self.raw.get("discs"))):
+            self.add(place, "must be the table of a disc", value)
         elif name == "n_diameters" and value == AUTO:
             self.add(place, "cannot be varied: give it in base, for all points", value)
         elif name == "contact_compliance" and value == RESIDUAL:
             self.add(place, "must be a number along an axis: give it in base, for all points", value)
-        elif name != START:
+        elif name not in (START, "disc"):
             try:
                 return getattr(_Varied(**{name: value}), name)  # type: ignore[no-any-return]
             except ParameterError as error:
@@ -862,6 +884,17 @@ class _Grid:
         for name in scanned:
             if name in wanted or name in base:
                 self.add(("axes" if name in wanted else "base", name), f"is varied by the quantity {asked}")
+        if "disc" in {*wanted, *base}:
+            for name in sorted(wanted):
+                if not {name, *RATIOS.get(name, ())}.isdisjoint((*PLATE, "damping_ratio")):
+                    self.add(("axes", name), "must be left out where a disc is given: it is a parameter of the plate")
+        for name in sorted(wanted & RATIOS.keys()):
+            stands_for, other = RATIOS[name]
+            others = [RATIOS.get(one, (one,))[0] for one in (*wanted - {name}, *base, *scanned)]
+            if stands_for in others:
+                self.add(("axes", name), f"stands for {stands_for}, which is given as well")
+            elif other in scanned:
+                self.add(("axes", name), f"needs {other}, which the quantity {asked} varies")
         for name in sorted(wanted & base.keys()):
             self.add(("base", name), "varies as well: give it in base or as an axis, not both", base[name])
         if quantity is None:
@@ -919,6 +952,8 @@ class _Grid:
     def _needed(self, names: Iterable[str]) -> list[Dimension]:
         """Dimensions of some names, and of those that the file's rules compare."""
         wanted = {*names, *chain(*map(names_in, self.document.where))}
+        ratios = [(name, *RATIOS[name]) for name in self.wanted & RATIOS.keys()]
+        wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
         return [dim for dim in self.dims if not wanted.isdisjoint(dim.names)]
 
     def _check_points(self) -> None:
@@ -926,22 +961,26 @@ class _Grid:
         related = self._needed(RELATED)
         varied = [name for dim in related for name in dim.names]
         every = points(related, self.document.where, self.base)
-        found = (fault for point in every for fault in cross_faults(Parameters, {**self.base, **point}))
-        self.faults += [
-            fault.inside(("axes" if fault.path[0] in varied else "base",)) for fault in first_of_each(found)
-        ]
+        found = (fault for point in every for fault in cross_faults(Parameters, with_ratios({**self.base, **point})))
+        ratios = {RATIOS[name][0]: name for name in varied if name in RATIOS}
+        for fault in first_of_each(found):
+            if (name := fault.path[0]) in ratios:
+                self.add(("axes", ratios[name]), str(fault))
+            else:
+                self.faults.append(fault.inside(("axes" if name in varied else "base",)))
 
     def _check_distributions(self, options: SensitivityOptions) -> None:
         """Distributions of no number, of what varies besides, or reaching what a parameter may not be.
 
         Each rule is shown where it is broken first.
         """
-        place, dims = ("options", "distributions"), self.dims[:-1]
+        place, dims, numbers = ("options", "distributions"), self.dims[:-1], self._numbers()
         varied = {name for dim in dims for name in dim.names}
+        varied |= {*numbers}.difference(NUMBERS) if "disc" in varied else set()
         for name, given in options.distributions.items():
             own = _own(name, self.base)
-            if name not in NUMBERS:
-                known = ", ".join(NUMBERS)
+            if name not in numbers:
+                known = ", ".join(numbers)
                 self.add((*place, name), f"must be of a parameter that is a number (known: {known})")
             elif not given.relative and name in varied:
                 self.add((*place, name), "must be relative, since it varies along an axis as well")
@@ -953,21 +992,33 @@ class _Grid:
             at = place if fault.path[0] in options.distributions else ("base",)
             self.faults.append(Fault((*at, *fault.path), fault.value, f"{fault.rule}; distributions reach that far"))
 
+    def _numbers(self) -> list[str]:
+        """What can be distributed: parameters that are numbers, and those of the modes that all discs have."""
+        discs: list[Disc] = [*self.document.discs.values()] if "disc" in self.wanted else []
+        discs += [disc] if (disc := self.base.get("disc")) is not None else []
+        if not discs:
+            return [*NUMBERS]
+        common = [name for name in discs[0].numbers if all(name in disc.numbers for disc in discs)]
+        return [*(name for name in NUMBERS if name not in (*PLATE, "damping_ratio")), *common]
+
     def _out_of_reach(self, options: SensitivityOptions, dims: Sequence[Dimension]) -> Iterator[str]:
         """Rules that ends of the distributions break at any point; those between parameters hold if all corners do."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
-        wanted = [dim for dim in self._needed([*options.distributions, *RELATED]) if dim in dims]
+        wanted = [dim for dim in self._needed([*options.distributions, *RELATED, "disc"]) if dim in dims]
         for point in points(wanted, self.document.where, self.base):
-            here = {**self.base, **point}
+            here = case_of({**self.base, **point}, self.document.discs)
             ends: dict[str, list[float]] = {}
             for name, given in options.distributions.items():
                 scale = _own(name, here) if given.relative else 1.0
                 ends[name] = [scale * end for end in given.ends]
                 for end in ends[name]:
                     try:
-                        SomeParameters(**{name: end})
+                        if name in NUMBERS:
+                            SomeParameters(**{name: end})
+                        else:
+                            here["disc"].with_numbers(**{name: end})
                     except ParameterError as error:
-                        yield from error.faults
+                        yield from (Fault((name,), fault.value, fault.rule) for fault in error.faults)
             for corner in product(*(ends[name] for name in related)):
                 yield from cross_faults(Parameters, {**here, **dict(zip(related, corner, strict=True))})
 
@@ -990,6 +1041,8 @@ class _Grid:
 
 def _own(name: str, values: Mapping[str, Any]) -> Any:
     """A point's value of a parameter, as far as it has one."""
+    if isinstance(disc := values.get("disc"), Disc) and name in disc.numbers:
+        return disc.numbers[name]
     return values[name] if name in values else getattr(Parameters.model_fields.get(name), "default", None)
 
 

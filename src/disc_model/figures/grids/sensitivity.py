@@ -12,7 +12,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data.variables import SAMPLE, SHOWN, flag_names, symbol_of, typeset
+from disc_model.data.variables import SAMPLE, flag_names, shown_number, typeset
 from disc_model.figures import parts
 from disc_model.figures.kinds import Sensitivity
 from disc_model.figures.parts import BLUE, GREY, PAGE, new_figure
@@ -42,7 +42,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity)
         part.suptitle(", ".join((title.replace("\n", ", "), said)), x=0.01, ha="left", fontsize=8)
         axes[0].set_ylabel("P(unstable)")
     title = plot.title or study.attrs.get("title", "")
-    parts.head(figure, study, f"{title}: {spreads(json.loads(study.attrs['options'])['distributions'])}")
+    said = spreads(json.loads(study.attrs["options"])["distributions"])
+    parts.head(figure, study, ": ".join(filter(None, [title, said])))
     return figure
 
 
@@ -73,7 +74,7 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     ax.axhline(float(cell["probability_unstable"]), color=GREY, linewidth=0.7)
     ax.errorbar(middle, share, 1.96 * error, color=BLUE, marker="o", markersize=2.5, linewidth=0.8, capsize=1.5)
     ends = np.quantile(cell["drawn"].sel(parameter=name), [0, 1])
-    factor = SHOWN[name][3] if name in SHOWN else 1.0
+    factor = shown_number(name).factor
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
     ax.minorticks_off()
     ax.set_xlabel(symbol(name))
@@ -92,7 +93,7 @@ def _spread(name: str, how: Mapping[str, Any]) -> str:
     """How one is, in words."""
     if how["distribution"] == "uniform" and how["relative"] and np.isclose(how["low"] + how["high"], 2):
         return f"± {50 * (how['high'] - how['low']):g} %"
-    unit, factor = ("times its value", 1.0) if how["relative"] else SHOWN[name][2:]
+    unit, factor = ("times its value", 1.0) if how["relative"] else shown_number(name)[2:]
     said = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
     texts = [f"{said['low']} to {said['high']} {unit}"] if "low" in said else []
     texts += [f"normal, {said['mean']} ± {said['deviation']} {unit}"] if "mean" in said else []
@@ -110,4 +111,4 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 
 def symbol(name: str) -> str:
     """A parameter's symbol."""
-    return typeset(symbol_of(name)) if name in SHOWN else name.replace("_", " ")
+    return typeset(shown_number(name).symbol) or name.replace("_", " ")

@@ -130,9 +130,9 @@ def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, st
     specification = json.loads(batches[0].attrs["specification"])
     for name in ("points", "names", "tile"):
         specification.pop(name, None)
-    if "starts" in specification:
-        every = [json.loads(batch.attrs["specification"])["starts"] for batch in batches]
-        specification["starts"] = {name: start for starts in every for name, start in sorted(starts.items())}
+    for key in specification.keys() & {"starts", "discs"}:
+        every = [json.loads(batch.attrs["specification"])[key] for batch in batches]
+        specification[key] = {name: one for named in every for name, one in sorted(named.items())}
     common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
     for name in ("source_hash", "git_commit", "versions"):
         common[name] = agreed(str(batch.attrs[name]) for batch in batches)

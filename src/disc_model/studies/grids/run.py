@@ -17,7 +17,7 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Column, attributes
 from disc_model.errors import DiscModelError
-from disc_model.parameters import AUTO, Parameters, leaves_modes
+from disc_model.parameters import AUTO, Parameters, case_of, leaves_modes
 from disc_model.simulation.case import START, Start
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row
@@ -51,7 +51,7 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     entry = QUANTITIES[data["quantity"]]
     options, start = entry.parted(entry.said.model_validate(data["options"]))
     varied = [dict(zip(names, point, strict=True)) for point in points]
-    parameters = [_made(data["base"], values) for values in varied]
+    parameters = [_made(data, values) for values in varied]
     began = time.process_time()
     if "tile" in data:
         found = list(_over_tile(cast("Tiled", quantity), data, options))
@@ -95,7 +95,7 @@ def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Iterat
         i, j = rows.index(others.pop(first)), columns.index(others.pop(second))
         key = tuple(others.values())
         if key not in tiles:
-            made = [[_made(data["base"], others | {first: y, second: x}) for x in columns] for y in rows]
+            made = [[_made(data, others | {first: y, second: x}) for x in columns] for y in rows]
             tiles[key] = quantity.over(made, options, [(a, b) for a, b in data["tile"]["sampled"]])
         yield tiles[key][i][j]
 
@@ -113,9 +113,9 @@ def _point(p: Made, varied: Mapping[str, Any], start: Start, starts: Mapping[str
     return Point(p, start, varied.get(SAMPLE, 0))
 
 
-def _made(base: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
+def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
     """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
-    values = {**base, **{name: value for name, value in varied.items() if name in Parameters.model_fields}}
+    values = case_of({**data["base"], **varied}, data.get("discs", {}))
     try:
         if not leaves_modes(values):
             return Parameters.model_validate(values)
@@ -132,7 +132,7 @@ def describe(name: str) -> dict[str, Any]:
     if name == SAMPLE:
         return {"units": "1", "long_name": "number of the sample"}
     described = attributes(name)
-    return {"long_name": described["long_name"]} if name in CHOICES else described
+    return {"long_name": described["long_name"]} if name in (*CHOICES, "disc") else described
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -55,7 +55,8 @@ def at(point: Point, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
     """The sample of this number about the point's own parameters."""
     p, names = point.parameters, sorted(options.distributions)
     shares = unit_draws(options.seed, len(names), point.sample)
-    given = [(options.distributions[name], float(getattr(p, name))) for name in names]
+    own = dict(p) | ({} if p.disc is None else p.disc.numbers)
+    given = [(options.distributions[name], float(own[name])) for name in names]
     drawn = np.array([[quantile(*one, part) for one, part in zip(given, row, strict=True)] for row in shares])
     rows = [dict(zip(names, row, strict=True)) for row in variants(drawn).tolist()]
     found = [_evaluated(p, row, options.tol) for row in rows]
