@@ -177,6 +177,7 @@ FAILED = f"{NOT_COMPUTED}: study survival_{{}} has points that failed"
         ),
         (CRITICAL, critical(NAN, 20.0, 12.0, 15.0), HOLDS),
         (CRITICAL, critical(30.0, 20.0, 12.0, NAN), HOLDS),
+        (CRITICAL, critical(30.0, 12.0, 20.0, 14.0), REMARK),  # at the end of the scan it falls again
         (CRITICAL, critical(30.0, 20.0, 12.0, 12.2), FAILS),  # no more than speeds are known to
         (CRITICAL, critical(NAN, 20.0, 12.0, 11.0), FAILS),
         (CRITICAL, critical(10.0, 11.0, 12.0, 13.0), FAILS),

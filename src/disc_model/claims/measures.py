@@ -187,6 +187,12 @@ def dips(speeds: Array, depth: float) -> list[int]:
     return [*map(int, find_peaks(-filled, prominence=depth)[0])]
 
 
+def later_falls(speeds: Array, depth: float) -> list[int]:
+    """Places to which the values fall by ``depth`` or more after the first of `dips`; the last place may be one."""
+    first = min(dips(speeds, depth), default=len(speeds))
+    return [i for i in dips(np.append(speeds, np.nan), depth) if i > first]
+
+
 def ratio(part: float, whole: float, what: str) -> float:
     """One number over another; raises `Missing` where the other, which is `what`, is nothing."""
     if not whole > 0:

@@ -59,7 +59,7 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
         all(map(len, falls)),
         speeds=rows,
         horizon=float(study["horizon"][-1]),
-        again=[f"{loads[i]:g} N" for i in falls[-1][1:]],
+        again=[f"{loads[i]:g} N" for i in measures.later_falls(lowest[-1], depth)],
     )
 
 

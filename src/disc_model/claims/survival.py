@@ -197,9 +197,9 @@ def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
     _require_ok(study, "survival_speed")
     speed, load = study["critical_speed"].values, study["N"].values
     rows = [{"N": N, "speed": or_none(v, ".1f")} for N, v in zip(load, speed, strict=True)]
-    dips = measures.dips(speed, depth)
-    again = [f"{load[i]:g} N" for i in dips[1:]]
-    return Answer(bool(dips) if np.isfinite(speed).sum() >= 3 else None, "few", speeds=rows, again=again)
+    again = [f"{load[i]:g} N" for i in measures.later_falls(speed, depth)]
+    falls = bool(measures.dips(speed, depth)) if np.isfinite(speed).sum() >= 3 else None
+    return Answer(falls, "few", speeds=rows, again=again)
 
 
 @CHECKS("Smaller vibration")
