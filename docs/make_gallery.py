@@ -10,7 +10,7 @@ from disc_model.figures.paper import disc
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
 from disc_model.studies.study import load_study
 
-SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1"))
+SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1", "B2"))
 OTHERS = {
     "branches/figures/branches.png": (
         "All cycles at N = 385 N.",
@@ -26,8 +26,8 @@ OTHERS = {
     ),
     "basins/figures/basins.png": (
         "Basins of attraction at N = 385 N.",
-        "(a) Shares of the outcomes of random perturbations, with the energies dotted in (c). (b) The attractors, "
-        "with marks as large as their shares. (c) Critical energy.",
+        "(a) to (d) Shares of the outcomes of random perturbations of stated energies. (e) The attractors, with marks "
+        "as large as their shares of all starts. (f) Critical energy.",
     ),
     "map_N/figures/map_N.png": (
         "Stability over speed and preload.",

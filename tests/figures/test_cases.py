@@ -7,13 +7,14 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 from PIL import Image
 
 from disc_model import Parameters, Poincare, Record, Window, simulate
-from disc_model.data.dataset import Missing
+from disc_model.data.dataset import Missing, events_dataset
 from disc_model.data.variables import KICKS, SHOWN
 from disc_model.figures import parts
 from disc_model.figures.kinds import CASE_PLOTS, OwnFigure
@@ -142,7 +143,15 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
     reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
     if damage in ("failed", "nothing recorded"):
         assert len(reasons) == len([ax for ax in figure.axes if not ax.has_data()])
-        windows = ("history", "zoom", "orbit", "poincare", "around0", *(f"spectrum_{letter}" for letter in "abcd"))
+        windows = (
+            "history",
+            "zoom",
+            "orbit",
+            "poincare",
+            "around0",
+            "events",
+            *(f"spectrum_{letter}" for letter in "abcd"),
+        )
         known = {"failed"} if damage == "failed" else {f"did not record {window}" for window in windows}
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
 
@@ -286,6 +295,17 @@ def test_sections_of_a_pair_share_the_axes_of_the_slider() -> None:
     )
     assert (first.get_xlim(), first.get_ylim()) == (slider.get_xlim(), slider.get_ylim())
     assert second.get_xlim() != disc.get_xlim()
+
+
+def test_closures_fall_to_rounding_at_the_period_only() -> None:
+    """Releases that repeat after three: nothing showed that motions of long periods are periodic."""
+    times = np.cumsum(np.tile([0.01, 0.02, 0.04], 10))
+    frame = pd.DataFrame({"time": times, "kind": "stick_to_slip", "phase": "slip"})
+    events = events_dataset(frame).assign_attrs(kept_from=0.0, kept_until=2.0)
+    case = xr.DataTree.from_dict({"/": xr.Dataset(), "/events": events})
+    (ax,) = drawn("figB2", {"F02": case}).axes
+    counts, differences = ax.lines[0].get_data()
+    np.testing.assert_array_equal(counts[np.asarray(differences) < 1e-9], [3, 6, 9, 12])
 
 
 # ---- the whole disc

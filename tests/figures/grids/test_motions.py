@@ -106,10 +106,12 @@ def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     figure = draw("basins", shares, x="Omega")
     assert labels(figure) == ["quiet", "separating"]
-    kicks = lines(figure.axes[2])["by bisection"].get_ydata()
+    shown = [[bar.get_height() for bar in ax.patches] for ax in figure.axes[:3]]  # quiet, then separating
+    assert shown == [[1, 1, 1, 0, 0, 0, 0, 1], [1, 1, 0, 0, 0, 0, 1, 1], [1, 0, 0, 0, 0, 1, 1, 1]]
+    kicks = lines(figure.axes[-1])["by bisection"].get_ydata()
     np.testing.assert_allclose(kicks, [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
     # what separates without a kick has no place on a logarithmic scale, and is not left out
-    assert [(text.get_position()[0], text.get_text()) for text in figure.axes[2].texts] == [(15, "0")]
+    assert [(text.get_position()[0], text.get_text()) for text in figure.axes[-1].texts] == [(15, "0")]
     assert crosses(draw("basins", with_failed(shares, Omega=13.0), x="Omega").axes[0]) == [[13]]
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
@@ -17,10 +18,10 @@ from disc_model.figures.parts import (
     BLACK,
     BLUE,
     BROWN,
-    COLUMN,
     GREEN,
     GREY,
     ORANGE,
+    PAGE,
     PURPLE,
     SEPARATED,
     SKY,
@@ -41,45 +42,47 @@ COLOURS = {
 SAID = {"other_cycle": "another cycle in contact", "quasi_periodic": "quasi-periodic"}
 LARGEST = 36.0
 """Area of the mark of an attractor that all starts reach, square points."""
-ASIDE = 0.06
-"""Marks of different fates stand beside each other, by this share of the least step."""
+LETTERS = "abcdefghijkl"
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares) -> Figure:
-    """(a) shares of all starts; (b) range of each attractor, its mark as large as its share; (c) kicks."""
+    """Above, shares of the starts of each energy; below, range of each attractor, its mark as large as its share of all
+    starts, and kicks."""
     study = parts.of_one(study, {})[1].transpose(plot.x, ...)
     label, factor = parts.label_of(study[plot.x])
-    along = study[plot.x].values * factor
-    figure = new_figure(COLUMN, 5.6)
-    axes = figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1, 1))
+    along, energies = study[plot.x].values * factor, study["energy"].values
+    figure = new_figure(PAGE, 4.6)
+    above, below = figure.subfigures(2, 1)
+    axes = [*above.subplots(1, len(energies), sharey=True, squeeze=False)[0], *below.subplots(1, 2)]
     fates = [fate for fate in COLOURS if (study["share"].sel(fate=fate) > 0).any()]
-    _shares(axes[0], study, along, fates)
-    _attractors(axes[1], study, along)
-    _kicks(axes[2], study, along)
-    for ax, letter in zip(axes, "abc", strict=True):
+    for ax, energy in zip(axes, energies, strict=False):
+        _shares(ax, study.sel(energy=energy), along, fates)
+        ax.set_xlabel(label)
+    axes[0].set_ylabel(f"Share of {study.sizes['start']} starts")
+    _attractors(axes[-2], study, along)
+    _kicks(axes[-1], study, along)
+    for ax, letter, said in zip(axes, LETTERS, [*(f"{energy:g} J" for energy in energies), "", ""], strict=False):
         ax.margins(x=0.04)
         parts.mark_failed(ax, along[parts.failed(study).values])
-        parts.letter(ax, letter)
-    axes[-1].set_xlabel(label)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+        parts.letter(ax, letter, said)
+    for ax in axes[-2:]:
+        ax.set_xlabel(label)
+    options = json.loads(study.attrs["options"])
+    said = SAID | {"undecided": f"undecided after {options['horizon']:g} s"}
+    patches = [Patch(color=COLOURS[fate], label=said.get(fate, fate)) for fate in fates]
+    figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
     parts.head(figure, study, plot.title)
     return figure
 
 
 def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, fates: list[str]) -> None:
-    options = json.loads(study.attrs["options"])
-    said = SAID | {"undecided": f"undecided after {options['horizon']:g} s"}
-    step = np.diff(along).min() if len(along) > 1 else 0.0
-    for i, fate in enumerate(fates):
-        one = study.sel(fate=fate)
-        share = one["share"].values
-        bounds = np.abs(np.stack([share - one["share_low"].values, one["share_high"].values - share]))
-        aside = ASIDE * step * (i - (len(fates) - 1) / 2)
-        ax.errorbar(
-            along + aside, share, bounds, fmt="o-", color=COLOURS[fate], markersize=2.5, linewidth=0.8, elinewidth=0.6,
-            label=said.get(fate, fate),
-        )  # fmt: skip
-    ax.set(ylim=(-0.03, 1.03), ylabel=f"Share, {100 * options['confidence']:g} % interval")
+    """Bars one upon another."""
+    low = np.zeros(len(along))
+    for fate in fates:
+        share = study["energy_share"].sel(fate=fate).values
+        ax.bar(along, share, 0.9 * np.diff(along).min(initial=1.0), low, color=COLOURS[fate], linewidth=0)
+        low = low + np.nan_to_num(share)
+    ax.set(ylim=(0, 1))
 
 
 def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:

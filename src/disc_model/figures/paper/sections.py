@@ -13,11 +13,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from disc_model.analysis.classify import closure
 from disc_model.analysis.poincare import Stages, stages
 from disc_model.data import dataset
-from disc_model.data.variables import PHASES
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.figures import parts
-from disc_model.figures.parts import AFTER, BEFORE, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, new_figure
+from disc_model.figures.parts import AFTER, BEFORE, BLACK, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, new_figure
 from disc_model.parameters import Parameters
 
 MARKS: dict[str, dict[str, Any]] = {
@@ -92,6 +94,25 @@ def portrait(
         (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
         _orbit(ax, samples["phase"].values, samples[x].values * in_x, samples[y].values * in_y)
         ax.set(xlabel=across, ylabel=up)
+    return figure
+
+
+def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
+    """Differences between intervals of releases and those n later, against n: small where a motion repeats."""
+    figure = new_figure(PAGE, 2.6)
+    axes = figure.subplots(1, len(cases), sharey=True, squeeze=False)[0]
+    for ax, (name, case), letter in zip(axes, cases.items(), "abcd", strict=False):
+        with parts.or_say_why(ax):
+            events = dataset.events(case)
+            released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
+            counts = np.arange(1, (len(released) - 1) // 2 + 1)
+            if not counts.size:
+                raise Missing("keeps no two releases of stick")
+            ax.plot(counts, [closure(np.diff(released), n) for n in counts], ".", color=BLACK, markersize=3)
+            ax.set(xscale="log", yscale="log", xlabel="Releases n")
+            ax.margins(0.04)
+        parts.letter(ax, letter, name)
+    axes[0].set_ylabel("Largest difference (s)")
     return figure
 
 
