@@ -52,7 +52,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares)
     label, factor = parts.label_of(study[plot.x])
     along, energies = study[plot.x].values * factor, study["energy"].values
     figure = new_figure(PAGE, 4.6)
-    above, below = figure.subfigures(2, 1)
+    above, below = np.asarray(figure.subfigures(2, 1))
     axes = [*above.subplots(1, len(energies), sharey=True, squeeze=False)[0], *below.subplots(1, 2)]
     fates = [fate for fate in COLOURS if (study["share"].sel(fate=fate) > 0).any()]
     for ax, energy in zip(axes, energies, strict=False):
@@ -61,10 +61,10 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares)
     axes[0].set_ylabel(f"Share of {study.sizes['start']} starts")
     _attractors(axes[-2], study, along)
     _kicks(axes[-1], study, along)
-    for ax, letter, said in zip(axes, LETTERS, [*(f"{energy:g} J" for energy in energies), "", ""], strict=False):
+    for ax, letter, shown in zip(axes, LETTERS, [*(f"{energy:g} J" for energy in energies), "", ""], strict=False):
         ax.margins(x=0.04)
         parts.mark_failed(ax, along[parts.failed(study).values])
-        parts.letter(ax, letter, said)
+        parts.letter(ax, letter, shown)
     for ax in axes[-2:]:
         ax.set_xlabel(label)
     options = json.loads(study.attrs["options"])

@@ -108,7 +108,7 @@ def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
             counts = np.arange(1, (len(released) - 1) // 2 + 1)
             if not counts.size:
                 raise Missing("keeps no two releases of stick")
-            ax.plot(counts, [closure(np.diff(released), n) for n in counts], ".", color=BLACK, markersize=3)
+            ax.plot(counts, [closure(np.diff(released), int(n)) for n in counts], ".", color=BLACK, markersize=3)
             ax.set(xscale="log", yscale="log", xlabel="Releases n")
             ax.margins(0.04)
         parts.letter(ax, letter, name)
