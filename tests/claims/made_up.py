@@ -372,7 +372,7 @@ def scans(
     map_E = xr.Dataset(
         {"outcome": (("E", "Omega", "normalization"), outcome, flags)},
         {"E": [8e10, 1e11, 1.5e11], "Omega": [10, 50], "normalization": ["as_published", "orthonormal"]},
-        {"base": '{"N": 200, "E": 1.5e11}'},
+        {"base": '{"N": 200}'},
     )
     kinds = np.where(np.isnan(windows), 0, [1, 2])[:, None, None]
     crossings = {"flag_values": np.arange(3, dtype=np.int8), "flag_meanings": "none begins ends"}

@@ -13,7 +13,7 @@ import xarray as xr
 from disc_model.analysis.classify import closure, irregularity, separation_location
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
-from disc_model.claims.disc import moving_load_speed
+from disc_model.claims.disc import BASE, moving_load_speed
 from disc_model.claims.measures import (
     CaseView,
     between_only,
@@ -309,7 +309,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     if np.any(outcome == "failed"):
         raise Missing("study map_E has points that failed")
     E, Omega = study["E"].values / 1e9, study["Omega"].values
-    base, at = json.loads(study.attrs["base"]), Omega == slow
+    at = Omega == slow
     apart = outcome == "separation"
     some = apart.any(axis=1)
     quiet = int(np.argmin(some))  # the softest that does not separate, if one does and one does not
@@ -318,11 +318,11 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     return Answer(
         mixed if some.any() else None,
         "nowhere",
-        N=base["N"],
+        N=json.loads(study.attrs["base"])["N"],
         Omega=measures.extent(Omega),
         E=measures.extent(E),
         none_for=[{"quiet": list(E[~some])}] if mixed else [],
-        base_too=at.any() and not apart[base["E"] / 1e9 >= E][:, at].any(),
+        base_too=at.any() and not apart[E <= BASE.E / 1e9][:, at].any(),
         alike=[] if mixed else [{"all": "every" if some.any() else "no"}],
         softer=softer,
     )
