@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import ParameterError, Parameters, Ramp, Window
+from disc_model import ParameterError, Parameters, Ramp, Window, simulate
 from disc_model.parameters import in_si
 from disc_model.studies.study import parse_study
 from tests.studies.refused import faults_of, parse_grid
@@ -65,6 +65,7 @@ def test_a_unit_that_does_not_fit_is_named_with_the_one_that_does(given: dict[st
 
 def test_python_takes_units_everywhere() -> None:
     assert Parameters(N="0.2 kN", Omega=20, E="150 GPa").key == Parameters(N=200, Omega=20).key
+    assert simulate(Parameters(N=200, Omega=20), "10 ms").t_end == 0.01
     assert Window(last="30 ms", rate="2 kHz") == Window(last=0.03, rate=2000)
     assert Ramp(parameter="N", to="1 kN", start="1 min", end="2 min") == Ramp(parameter="N", to=1e3, start=60, end=120)
 
@@ -99,6 +100,27 @@ def test_spelling_with_units_runs_nothing_anew() -> None:
     curves = {"x_range": ["50 rpm", "100 rpm"], "y_lines": {"start": "0.1 kN", "stop": "0.2 kN", "count": 2}}
     options = parse_grid({"study": "s", "quantity": "stability_curves", "options": curves, "axes": {"c": [0]}}).options
     assert (options.y_lines.stop, round(options.x_range[0], 6)) == (200.0, round(50 * math.pi / 30, 6))  # type: ignore[attr-defined]
+
+
+def test_numbers_of_figures_have_the_units_of_their_axes() -> None:
+    axes = {"Omega": [1, 2], "h": [1e-3, 2e-3]}
+    marks = {"A": {"x": "1 rad/s", "y": "2 mm", "paper": "quiet"}}
+    figures = {
+        "map": {"kind": "stability_map", "x": "Omega", "y": "h", "marks": marks},
+        "cut": {"kind": "curve", "variable": "P_max", "x": "Omega", "at": {"h": "1 mm"}},
+    }
+    said = {"study": "s", "quantity": "outcome", "options": {"horizon": 5}, "base": {"N": 200}, "figures": figures}
+    plots = parse_grid(said | {"axes": axes}).plots
+    assert plots["map"].marks["A"].y == 2e-3  # type: ignore[attr-defined]
+    assert plots["cut"].at == {"h": 1e-3}  # type: ignore[attr-defined]
+    marks["A"]["y"] = "2 s"
+    assert faults_of(parse_study, said | {"axes": axes}) == [
+        "figures.map.marks.A.y = '2 s': must be a number in m, or with a unit of its kind"
+    ]
+    spectrum = {"kind": "spectrogram", "case": "A", "window": "w", "highest": "0.5 kHz"}
+    record = {"windows": {"w": {"last": "2 s", "rate": "4 kHz"}}}
+    cases = {"A": {"title": "A", "t_end": "0.1 min", "parameters": {"N": 1, "Omega": 1}, "record": record}}
+    assert parse_study({"study": "s", "cases": cases, "figures": {"f": spectrum}}).plots["f"].highest == 500  # type: ignore[attr-defined]
 
 
 def test_a_study_names_the_place_of_a_unit_that_does_not_fit() -> None:

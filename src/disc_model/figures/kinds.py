@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
 from disc_model.data.variables import KICKS, SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.parameters import RATIOS, Parameters, Positive, Real, Strict, Title
+from disc_model.parameters import RATIOS, Parameters, Positive, Real, Strict, Title, Unit, each_in_si, in_si
 from disc_model.simulation.case import Poincare, Window
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
@@ -88,6 +88,23 @@ class Plot(Kind):
     roles: ClassVar[Roles] = {}
 
     others: dict[str, str] = Field({})
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_units(cls, said: Any) -> Any:
+        """Places along its dimensions in SI."""
+        if not isinstance(said, dict):
+            return said
+        units = {axis: Parameters.unit(str(said.get(axis))) for axis in ("x", "y")}
+        marks, at = said.get("marks"), said.get("at")
+        places = {
+            "marks": {name: each_in_si(mark, units) for name, mark in marks.items()}
+            if isinstance(marks, dict)
+            else marks,
+            "at": each_in_si(at, {name: Parameters.unit(name) for name in Parameters.model_fields}),
+            "paper": in_si(said.get("paper"), units["x"]),
+        }
+        return said | {name: place for name, place in places.items() if name in said}
 
     @property
     def axes(self) -> dict[str, str]:
@@ -525,7 +542,7 @@ class Spectrogram(CasePlot):
 
     kind: Literal["spectrogram"] = "spectrogram"
     variable: Sampled = "w_point"
-    highest: Positive = HIGHEST
+    highest: Annotated[Positive, Unit("Hz")] = HIGHEST
 
     def _misfits(self, window: Any) -> Iterator[Fault]:
         yield from super()._misfits(window)

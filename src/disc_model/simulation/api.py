@@ -23,6 +23,7 @@ from disc_model.parameters import (
     Parameters,
     content_key,
     foreign_case,
+    in_si,
     is_number,
     is_whole,
     limits_faults,
@@ -76,7 +77,7 @@ _STATUS = {
 
 def simulate(
     p: Parameters,
-    t_end: float,
+    t_end: float | str,
     *,
     tol: float = 1e-10,
     initial_state: State | None = None,
@@ -93,7 +94,7 @@ def simulate(
     Parameters
     ----------
     p : the case
-    t_end : s, greater than the initial state's time
+    t_end : s, greater than the initial state's time; or a text with a unit, such as "2 min"
     tol : relative truncation error of a step, 1e-15 to 1e-2; event times over a second of motion are about as good
     initial_state : where to start; None is the published start (static equilibrium, stick, spring relaxed)
     record : what to keep, or one window to keep; None keeps events and statistics
@@ -119,6 +120,7 @@ def simulate(
     record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     kept_how = checkpoint, checkpoint_every
+    t_end = in_si(t_end, "s")
     _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, progress, kept_how, ramps)
     # numbers of other types would have the engine compiled for them, and be rounded in other ways
     t_end, tol, max_steps = float(t_end), float(tol), None if max_steps is None else int(max_steps)
@@ -312,7 +314,7 @@ def published_start(p: Parameters) -> State:
 
 def _check_arguments(
     p: object,
-    t_end: float,
+    t_end: Any,
     tol: float,
     initial_state: object,
     record: object,
