@@ -296,6 +296,12 @@ def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.M
     found = {claim: BY_NAME[claim].evaluate(cases) for claim in ("F05", "F07", "F22", "F28", "A2")}
     assert [each.verdict for each in found.values()] == [FAILS] * 4 + [REMARK]  # intricate, though it repeats
     assert "repeats after 45 releases = " in found["F07"].ours
+    assert "no property of the system" not in found["F07"].remark
+    shorter = np.tile(repeated[:44], 40)
+    monkeypatch.setattr(measures, "release_intervals", lambda case: shorter if case.name == "F07k" else repeated)
+    said = BY_NAME["F07"].evaluate(cases)
+    assert said.verdict == FAILS
+    assert "with k 0.1 % larger it repeats after 44 releases" in said.remark
 
 
 @pytest.mark.parametrize("claim", ["F05", "F07", "F22", "F28", "F21", "F29b"])
