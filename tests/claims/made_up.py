@@ -355,7 +355,7 @@ def scans(
     windows: tuple[tuple[float, float], ...] = ((20, np.nan), (10, np.nan), (15, np.nan)),
     damped: str = "separation",
 ) -> dict[str, xr.Dataset]:
-    """Grid studies: stick without separation, and what becomes of the published start on softer and stiffer discs.
+    """Grid studies: stick without separation, and what becomes of the static start on softer and stiffer discs.
 
     least, settled : share of stick where it is least, and whether the motion there has settled
     discs : outcome on the softest, a softer and the usual one

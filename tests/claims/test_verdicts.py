@@ -343,7 +343,7 @@ def test_a_time_has_the_digits_that_repeats_agree_in(told: xr.DataTree) -> None:
 
 
 def test_another_start_may_lead_to_another_motion(told: xr.DataTree) -> None:
-    """Stick-free motions beside those of the published start were not spoken of; nor is what is none."""
+    """Stick-free motions beside those of the static start were not spoken of; nor is what is none."""
     assert judged("C3", told).remark.count("it repeats after 1 separation") == 3
     names = ("F02free", "F07free", "F17free")
     sticks = {name: made_up.tell(made_up.SPECS[name], GROWING.but(first=0.01)) for name in names}

@@ -54,7 +54,7 @@ class Problem:
         self.u_0 = self.w_0 - self.C * self.N
 
     def equilibrium(self):
-        """The published start."""
+        """The static start."""
         zero = np.zeros(len(self.s), LONG)
         o = LONG(0)
         return State(o, "stick", 0, o, o, self.u_0, o, -self.N * self.s / self.w2, zero, zero, zero)

@@ -338,7 +338,7 @@ def test_a_kick_of_three_tenths_of_a_millimetre_leads_to_separation_below_the_fo
 
 @pytest.mark.compiled
 def test_starts_are_an_axis() -> None:
-    """A motion that has separated goes on at 15 rad/s, where the published start stays quiet."""
+    """A motion that has separated goes on at 15 rad/s, where the static start stays quiet."""
     starts = {"apart": {"prepare": {"parameters": {"Omega": 15.1}, "time": 56}}, "kicked": {"kick": {"u": 3e-4}}}
     options = {"horizon": 55, "late": 0.1, "after_separation": 0.1}
     found = computed(

@@ -71,7 +71,7 @@ SLOPING = {"n_diameters": 1, "contact_force": "normal", "mu_s": 0.02, "mu_k": 0.
 
 
 def _swinging(p, psi=0.0, **modal):
-    """The published start, but psi, and one of the mode's coordinates across the slider's direction."""
+    """The static start, but psi, and one of the mode's coordinates across the slider's direction."""
     start = published_start(p)
     return start.replace(psi=psi, **{name: np.array([0.0, value]) for name, value in modal.items()})
 

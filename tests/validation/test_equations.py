@@ -155,7 +155,7 @@ def test_energies():
 
 
 def test_static_equilibrium():
-    """The published start: nothing moves, and the contact force is the preload."""
+    """The static start: nothing moves, and the contact force is the preload."""
     model = engine_case(P).model
     start = read_state(engine_case(P), layout.build_state(model))
     assert (start.phase, start.f, start.psi) == ("stick", 0, 0)

@@ -99,7 +99,7 @@ def drawn_ramps(rng, p, span):
 
 
 def drawn_start(rng, p, time):
-    """The published start, or any motion in any phase, in the slider's frame; contact is as its law says."""
+    """The static start, or any motion in any phase, in the slider's frame; contact is as its law says."""
     rest = published_start(p).replace(time=time)
     phase = str(rng.choice(["rest", "stick", "slip", "slip", "separation"]))
     if phase == "rest" or (phase == "separation" and p.contact == "bonded"):

@@ -87,7 +87,7 @@ class Errors:
 
 
 def static_start(p: Parameters) -> State:
-    """The published start: static equilibrium under the preload, in stick, spring relaxed."""
+    """The static start: static equilibrium under the preload, in stick, spring relaxed."""
     physics = Physics(p)
     zero = np.zeros(physics.n)
     a = -p.N * physics.shape / physics.stiffness

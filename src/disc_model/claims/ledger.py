@@ -96,7 +96,7 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
 
 
 def _once(cases: Sequence[CaseView]) -> list[str]:
-    """Names of cases from the published start, without those that repeat an earlier one at another tolerance."""
+    """Names of cases from the static start, without those that repeat an earlier one at another tolerance."""
     names: dict[Parameters, str] = {}
     for case in cases:
         if "start" not in case.node.attrs:

@@ -261,7 +261,7 @@ def is_kind(kind: Outcome, motion: Motion, besides: bool = True) -> tuple[bool |
 def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
     """Where another start leads to a motion that does not stick although the case does, and to which.
 
-    pairs : a case from the published start, and the same parameters begun in a separated motion
+    pairs : a case from the static start, and the same parameters begun in a separated motion
     """
     return [
         f"at {case.place} {_by_separations(other)}"
@@ -410,7 +410,7 @@ def slope(case: CaseView, name: str, start: float, stop: float) -> float:
 
 @lru_cache(maxsize=256)
 def cycle_of(p: Parameters) -> FloquetResult:
-    """The stick-slip cycle near the published start, stable or not, computed once; raises `Missing` without one."""
+    """The stick-slip cycle near the static start, stable or not, computed once; raises `Missing` without one."""
     from disc_model.stability.cycle import CycleStatus, floquet
 
     found = floquet(p)

@@ -311,7 +311,7 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")
     after = paper.get("start", {}).get("prepare", {}).get("parameters")
     if _after(case) != after:
-        start = "published start" if after is None else f"last state of {after}"
+        start = "static start" if after is None else f"last state of {after}"
         raise Missing(f"case {name} does not begin with the {start} in this study")
     if case.status == "ok" and case["time_reached"] < until:
         raise Missing(f"case {name} ends at {case['time_reached']:g} s, {until:g} s are needed")
@@ -319,7 +319,7 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
 
 
 def _after(case: CaseView) -> Mapping[str, Any] | None:
-    """Parameters of the motion that a case begins after, empty if it begins in another way; None: published start."""
+    """Parameters of the motion that a case begins after, empty if it begins in another way; None: static start."""
     if "start" not in case.node.attrs:
         return None
     start = json.loads(case.node.attrs["start"])

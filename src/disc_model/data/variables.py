@@ -24,7 +24,7 @@ class Outcome(enum.StrEnum):
     """What a motion comes to, in the words of all datasets; `disc_model.stability.attractor` says how each is told."""
 
     QUIET = "quiet"
-    """the stable stick-slip cycle of the published start"""
+    """the stable stick-slip cycle of the static start"""
     OTHER_CYCLE = "other_cycle"
     """another stable cycle in contact"""
     SEPARATING = "separating"

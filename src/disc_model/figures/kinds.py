@@ -189,7 +189,7 @@ CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 
 
 class StabilityMap(Plot):
-    """What becomes of the published start over two parameters, one panel for each normalization."""
+    """What becomes of the static start over two parameters, one panel for each normalization."""
 
     drawn_by = "grids.stability_map.draw"
     quantities = ("outcome",)
@@ -255,7 +255,7 @@ class Thresholds(CriticalSpeed):
 class GrowthMap(Plot):
     """Growth rate of the stick-slip cycle over speed and preload, a panel for each normalization.
 
-    Of the quantity `regions` it is that of the cycle that the published start follows.
+    Of the quantity `regions` it is that of the cycle that the static start follows.
     """
 
     drawn_by = "grids.growth_map.draw"

@@ -96,7 +96,7 @@ def simulate(
     p : the case
     t_end : s, greater than the initial state's time; or a text with a unit, such as "2 min"
     tol : relative truncation error of a step, 1e-15 to 1e-2; event times over a second of motion are about as good
-    initial_state : where to start; None is the published start (static equilibrium, stick, spring relaxed)
+    initial_state : where to start; None is the static start (static equilibrium, stick, spring relaxed)
     record : what to keep, or one window to keep; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
     max_steps : bound on the number of steps; None bounds it generously by the highest frequency
@@ -307,7 +307,7 @@ _ENGINES: dict[tuple[int, ...], Callable[..., int]] = {}
 
 
 def published_start(p: Parameters) -> State:
-    """The published start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
+    """The static start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
     case = engine_case(p)
     return read_state(case, case.start)
 
@@ -403,7 +403,7 @@ def _statistics(work: Workspace, energy: bool, wall: float) -> dict[str, float]:
 
 
 def prepared(p: Parameters, start: Start, tol: float) -> State | None:
-    """The state that a motion of case `p` starts from, at time 0; None is the published start.
+    """The state that a motion of case `p` starts from, at time 0; None is the static start.
 
     Raises
     ------

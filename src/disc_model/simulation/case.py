@@ -203,7 +203,7 @@ SomeParameters = create_model("SomeParameters", __base__=Parameters, **_OPTIONAL
 
 
 class Preparation(Strict):
-    """Another case, and how long it is simulated from the published start: its last state is where the motion starts.
+    """Another case, and how long it is simulated from the static start: its last state is where the motion starts.
 
     parameters : those that differ from the motion's own
     time : s
@@ -223,7 +223,7 @@ class Preparation(Strict):
 
 
 class Start(Strict):
-    """Where a motion starts; the published start if nothing is given.
+    """Where a motion starts; the static start if nothing is given.
 
     prepare : after another motion, such as one that has separated
     kick : what is added to a coordinate: ``u`` (m) and ``u_velocity`` (m/s) of the slider and of the disc under it,

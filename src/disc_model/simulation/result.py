@@ -370,7 +370,7 @@ class Workspace(NamedTuple):
 class Case(NamedTuple):
     """What the engine is given of a case.  Shared by all runs of the case, and therefore never written.
 
-    model, start : the engine's constants, and the published start
+    model, start : the engine's constants, and the static start
     key, amplitudes : what states of the case carry as `case_key` and `mode_amplitudes`
     present : of a, b, alpha and beta of all modes, in this order, the numbers of those that there are: modes without
         nodal diameter have no b and beta
@@ -427,7 +427,7 @@ def _point(model: layout.Model) -> np.ndarray:
 
 
 def take_workspace(case: Case, order: int) -> Workspace:
-    """A workspace of the caller's own, at the published start, with nothing counted; for `give_back` in the end.
+    """A workspace of the caller's own, at the static start, with nothing counted; for `give_back` in the end.
 
     To make one takes as long as 30 steps.
     """

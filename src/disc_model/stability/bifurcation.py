@@ -49,7 +49,7 @@ def bifurcation_samples(
     samples : number of turns sampled after it
     follow : start each value where the one before ended (which shows hysteresis: run values up, then down) instead of
         from `initial_state`
-    initial_state : None is the published start
+    initial_state : None is the static start
     theta : rad, where `w_point` is taken
     tol : as in `simulate`
 

@@ -51,7 +51,7 @@ class Frequencies:
 
 @compiling()
 def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
-    """Of steady sliding and of the stick-slip cycle near the published start; arrays are empty without the former."""
+    """Of steady sliding and of the stick-slip cycle near the static start; arrays are empty without the former."""
     cycle = floquet(p, tol=tol)
     frequency, growth_rate, diameters, forward, shapes = _sliding_modes(p, cycle.sliding)
     found = np.full((3, len(frequency)), math.nan)

@@ -74,7 +74,7 @@ def stability_curves(
     longest: float = 0.1,
     tol: float = 1e-12,
 ) -> tuple[list[StabilityCurve], list[str]]:
-    """Neutral curves and folds of the cycles near the published start.
+    """Neutral curves and folds of the cycles near the static start.
 
     Parameters
     ----------

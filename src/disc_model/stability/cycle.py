@@ -36,7 +36,7 @@ from disc_model.stability.sliding import SteadySliding, steady_sliding
 RETURNS_TRIED = (1, 2, 3)
 """Cycles with up to so many releases a period are looked for."""
 TRANSIENT = 60
-"""Returns simulated from the published start before Newton's method is tried again."""
+"""Returns simulated from the static start before Newton's method is tried again."""
 
 
 class CycleStatus(StatusBase):
@@ -45,10 +45,10 @@ class CycleStatus(StatusBase):
     OK = "ok", "A periodic stick-slip cycle was found; its growth rate says whether it is stable."
     NO_CYCLE = (
         "no_cycle",
-        "The slider sticks and slips, but no cycle of up to three releases exists near the published start, "
+        "The slider sticks and slips, but no cycle of up to three releases exists near the static start, "
         "as beyond a fold. From parameters that have one disc_model.stability.continuation.continue_cycle follows it.",
     )
-    SEPARATES = "separates", "Near the published start no cycle keeps contact, and contact is soon lost: simulate."
+    SEPARATES = "separates", "Near the static start no cycle keeps contact, and contact is soon lost: simulate."
     NO_STICK_SLIP = "no_stick_slip", "The slider does not stick again: look at disc_model.stability.sliding."
     AT_REST = "at_rest", "Nothing ever slips: raise Omega, k_p or lower the friction."
     PARADOX = "paradox", "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N."
@@ -129,7 +129,7 @@ class FloquetResult:
 
 @compiling()
 def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, releases: int = 1) -> FloquetResult:
-    """Find the stick-slip cycle near the published start, or near a given state, and its multipliers.
+    """Find the stick-slip cycle near the static start, or near a given state, and its multipliers.
 
     Parameters
     ----------
@@ -238,21 +238,21 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
         found = newton(map_, x, tol=tol, releases=releases)
         if found is not None:
             return cycle_of(map_, tol, run_through_once(map_, tol, found))
-    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the published start, stick-slip goes on without"
+    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip goes on without"
     return _none(p, tol, CycleStatus.NO_CYCLE, tried)
 
 
 def _said(flight: Flight) -> tuple[CycleStatus, str]:
     """What a flight of the transient is called that did not return."""
-    lost = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the published start")
+    lost = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")
     slips = f"the slider slips on for {flight.period:.3g} s without sticking"
     said = {
         "time_over": (CycleStatus.NO_STICK_SLIP, slips),
         "lost_contact": lost,
         "off_section": lost,
-        "non_finite": (CycleStatus.NON_FINITE, "the motion from the published start overflows"),
+        "non_finite": (CycleStatus.NON_FINITE, "the motion from the static start overflows"),
         "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
-        "paradox": (CycleStatus.PARADOX, "the motion from the published start runs into Painleve's paradox"),
+        "paradox": (CycleStatus.PARADOX, "the motion from the static start runs into Painleve's paradox"),
     }
     return said[ENDS[flight.outcome]]
 

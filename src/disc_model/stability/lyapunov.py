@@ -108,7 +108,7 @@ def lyapunov_exponents(
     count : 1 to 8, and no more than the state has coordinates: 4 per pair of modes, 2 per axisymmetric one, and psi, f,
         u, u'; one less if the trivial one is left out
     interval : s, between orthonormalisations; at most `MOST_INTERVALS` of them make the duration
-    initial_state : None is the published start
+    initial_state : None is the static start
     tol : of the series
     leave_out_trivial : leave out the exponent along the motion, which is zero; there is none if no switch occurs, as in
         steady sliding

@@ -140,7 +140,7 @@ class ReturnMap:
         contact two for the slider's u, u'
     scale : shape (n,), coordinates over modal displacements and velocities: omega, or 1; over u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, those of the slider, which come last, left out
-    static : shape (n,), static equilibrium under the preload: the published start, and Newton's
+    static : shape (n,), static equilibrium under the preload: the static start, and Newton's
     patience : by how much longer than usual a return may take; see `PATIENT`
     """
 

@@ -423,7 +423,7 @@ class FloquetOptions(Options):
 
 
 class HysteresisOptions(Options):
-    """Sweep of the speed up from the published start and down again, each speed going on where the last one ended.
+    """Sweep of the speed up from the static start and down again, each speed going on where the last one ended.
 
     scan : rad/s
     dwell : s at each speed
@@ -439,7 +439,7 @@ class HysteresisOptions(Options):
 
 
 class RampsOptions(Options):
-    """The speed goes steadily up from the published start, stays, goes down and stays, once for each rate.
+    """The speed goes steadily up from the static start, stays, goes down and stays, once for each rate.
 
     low, high : rad/s, between which it goes
     rates : rad/s^2
@@ -600,7 +600,7 @@ class BranchesOptions(Options):
 
 
 class SensitivityOptions(Options):
-    """The stick-slip cycle at samples of distributed parameters, and what becomes of the published start.
+    """The stick-slip cycle at samples of distributed parameters, and what becomes of the static start.
 
     distributions : by parameter; of a disc given by its modes also by mode, such as omega_2_0, amplitude_2_0 and
         damping_ratio_2_0 with two nodal diameters and no circle
@@ -657,7 +657,7 @@ class Quantity(NamedTuple):
 
     options : their model
     seconds : about the processor time of a point with given options, s, measured at points of the paper's study
-    starts : whether its motions may start elsewhere than from the published start, which the file says as options
+    starts : whether its motions may start elsewhere than from the static start, which the file says as options
     scans : parameters that the quantity varies by itself, or the options that name them
     motions : how many values of each axis get a motion to be looked at: the fewer, the more one costs. 0: none
     motion : what they show: where the quantity's ``state_at`` lets the motion go on

@@ -118,8 +118,8 @@ def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[f
     named = {"stays quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"}
     named |= {"the paper: stays quiet", "the paper: separation", "no cycle found", "finer than the cells"}
     assert named <= set(labels(figure))
-    contradicted = "b: the paper says “separation”, the published start: undecided."
-    assert f"Within 900 s of the published start.\n{contradicted}" in labels(figure)
+    contradicted = "b: the paper says “separation”, the static start: undecided."
+    assert f"Within 900 s of the static start.\n{contradicted}" in labels(figure)
     save(figure, tmp_path / "map.png")
 
 
@@ -161,7 +161,7 @@ def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> No
     }
     *_, said = labels(draw("region_map", study, x="Omega", y="N", marks=marks))
     assert said.split("\n")[1:] == [
-        "F2: the paper says “separation”, the published start: stays quiet.",
+        "F2: the paper says “separation”, the static start: stays quiet.",
         "F3: separation, beside a cycle that is stable (-0.2/s): another motion is reached.",
     ]
 

@@ -42,7 +42,7 @@ def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() 
     assert labels(figure.axes[0]) == ["at release of stick"]
     assert figure.get_suptitle() == "Made up\nΩ = 15 rad/s, $c_p$ = 1 N s/m, orthonormal modes"  # k is that of Table 1
     assert "from the state of N = 385 N, Ω = 15.1 rad/s after 70 s" in figure.get_supxlabel()
-    assert "published start" in draw("bifurcation", samples, x="N").get_supxlabel()
+    assert "static start" in draw("bifurcation", samples, x="N").get_supxlabel()
 
 
 def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
@@ -171,7 +171,7 @@ def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: 
     both = draw("critical_speed", lost, {"hysteresis": with_failed(sweep, N=400)})
     assert [crosses(ax) for ax in both.axes] == [[[200]], [[400]]]
     shown = lines(both.axes[0]) | lines(both.axes[1])
-    for label in ("separation begins, within 1000 s", "published start, within 1000 s"):
+    for label in ("separation begins, within 1000 s", "static start, within 1000 s"):
         loads = np.asarray(shown[label].get_ydata())
         assert set(loads[np.isfinite(loads)]) == {400}
     for label in ("sweep up: separation begins", "sweep down: separation ends"):

@@ -1,12 +1,12 @@
 """The questions, their right answers, and what became of an answer.
 
 ``first_separation``
-    N = 385 N, Omega = 15.1 rad/s: when contact is lost for the first time after the published start
+    N = 385 N, Omega = 15.1 rad/s: when contact is lost for the first time after the static start
 ``separation_rate``, ``disc_range``, ``period``
     N = 300 N, Omega = 20 rad/s, long after contact was first lost: separations per second, how far the disc moves under
     the slider, and after how many releases from stick the motion repeats
 ``onset``
-    N = 385 N: lowest speed from which the published start leads to a separation within `ONSET_HORIZON` s; by
+    N = 385 N: lowest speed from which the static start leads to a separation within `ONSET_HORIZON` s; by
     continuation of the cycle, the fold in which the quiet cycle ends
 ``growth_rate``
     N = 200 N, Omega = 20 rad/s: how fast a small deviation from the stick-slip cycle grows

@@ -66,7 +66,7 @@ def first_separation(
     p: Parameters = questions.SEPARATING,
     horizon: float = questions.SEPARATION_HORIZON,
 ) -> Answers:
-    """When contact is first lost after the published start."""
+    """When contact is first lost after the static start."""
     problem = Problem(p, published_start(p), horizon, stop=True)
     result, seconds = _timed(solve, problem, budget)
     try:

@@ -105,7 +105,7 @@ def _start(options: Mapping[str, Any]) -> str:
     """Where the motions of all points start."""
     prepare = options.get("prepare")
     if not prepare:
-        return "Each point from the published start; other motions may exist beside."
+        return "Each point from the static start; other motions may exist beside."
     said = said_values(prepare.get("parameters", {}))
     return f"Each point from the state of {said} after {prepare['time']:g} s; other motions may exist beside."
 

@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 PALER = {"other_cycle": 0.35, "growing": 0.35, "separation": 0.75}
 BEHIND = OUTCOME_LOOKS | {name: paler(OUTCOME_LOOKS[name], share) for name, share in PALER.items()}
-"""What becomes of the published start, behind curves and marks."""
+"""What becomes of the static start, behind curves and marks."""
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stick-slip cycle stable; white: none is")
 LOOKS = ((ONSET, "o"), (BLUE, "^"), (SKY, "s"), (GREEN, "D"), (PURPLE, "v"))
 """Colour and marker of each horizon, the longest first."""
@@ -36,7 +36,7 @@ WIDTH = 20.0
 
 
 def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
-    """(a) where separation begins and ends from the published start, and what lies behind; (b) a sweep of the speed."""
+    """(a) where separation begins and ends from the static start, and what lies behind; (b) a sweep of the speed."""
     norm, study, others = parts.of_one(study, others)
     lost = parts.failed(study).values
     sweep, cycle = others.get("hysteresis"), others.get("cycle")
@@ -65,7 +65,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
         axes[0].plot(
             speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, clip_on=False, label="what the paper says"
         )
-    said = ["from the published start"]
+    said = ["from the static start"]
     if sweep is not None:
         said.append(_sweep(axes[1], sweep, study, horizons[0]))
         if "basins" in others:
@@ -171,7 +171,7 @@ def _map_horizon(regions: xr.Dataset) -> float:
 
 
 def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
-    """Fill what becomes of the published start, or at least where the cycle is stable; handles of the legend.
+    """Fill what becomes of the static start, or at least where the cycle is stable; handles of the legend.
 
     cycle : over N and Omega, of the quantity `regions` or `floquet`
     """
@@ -196,7 +196,7 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
         speeds = np.where(lost, np.nan, sweep[name].values)
         ax.plot(speeds, N, color=color, marker=marker, markersize=3.5, label=said, clip_on=False)
     dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 3, "linestyle": (0, (2, 1.5))}
-    _onsets(ax, study, horizon, label=f"published start, within {horizon:g} s", **dashed)
+    _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)
     parts.mark_failed(ax, N[lost], on="y")
     options = json.loads(sweep.attrs.get("options", "{}"))
     if not options:

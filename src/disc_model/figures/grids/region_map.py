@@ -1,4 +1,4 @@
-"""Maps of regions: what becomes of the published start over two parameters, and the growth of the cycle it follows."""
+"""Maps of regions: what becomes of the static start over two parameters, and the growth of the cycle it follows."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Artist]:
 
 def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
     """Within which time, and where the paper, the start and the cycle do not agree."""
-    yield f"Within {json.loads(study.attrs['options'])['horizon']:g} s of the published start."
+    yield f"Within {json.loads(study.attrs['options'])['horizon']:g} s of the static start."
     if "as_published" not in parts.normalizations(study):
         return
     data = parts.of(study, "as_published")
@@ -117,7 +117,7 @@ def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
         outcome, rate = str(flag_names(here["outcome"])), float(here["growth_rate"])
         found = cells.OUTCOME_LOOKS[outcome].label
         if outcome != mark.paper:
-            yield f"{name}: the paper says “{cells.OUTCOME_LOOKS[mark.paper].label}”, the published start: {found}."
+            yield f"{name}: the paper says “{cells.OUTCOME_LOOKS[mark.paper].label}”, the static start: {found}."
         if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"

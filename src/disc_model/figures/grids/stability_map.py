@@ -1,4 +1,4 @@
-"""Stability maps: outcome of the published start over two parameters, and the growth rate of the stick-slip cycle.
+"""Stability maps: outcome of the static start over two parameters, and the growth rate of the stick-slip cycle.
 
 Studies of the quantity `outcome` are drawn here, as marks over the growth rate; for `regions` see `region_map`.
 """

@@ -4,7 +4,7 @@ The words are those of `disc_model.data.variables.Outcome`. Each is decided by o
 
 - `quiet`, `other_cycle`, `separating`: the motion is near a stable cycle of the return map, and nears it over seconds
   as the cycle's multipliers say (`near.cycle_near`). It is separating if the cycle loses contact; quiet if the cycle is
-  that of the published start, or within a tenth of the static deflection of that start.
+  that of the static start, or within a tenth of the static deflection of that start.
 - `sliding`: it slides near stable steady sliding, and nears it as the eigenvalues there say (`near.nears_sliding`).
 - `resting`: it has stuck for a whole leg, and nothing will ever pull the slider off the disc (`course.at_rest`).
 - `quasi_periodic`, `irregular`: it has settled (`many.Basins`), is near no stable cycle, and its largest Lyapunov

@@ -1,6 +1,6 @@
 """What becomes of one motion within a horizon: told by multipliers where they prove it, else simulated.
 
-The published start is a point of the section of `disc_model.stability.return_map`, and usually lies near the cycle that
+The static start is a point of the section of `disc_model.stability.return_map`, and usually lies near the cycle that
 Newton's method finds from it.  What follows from that, and what is simulated, is said in docs/algorithms.md, Regions.
 """
 
@@ -164,7 +164,7 @@ def come_to(
     near : what `published_start_near` says, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may tell of a departure: the
         shorter, the better is the time of the first separation known; 0: all of it is simulated
-    start : where to start, at time 0; None is the published start
+    start : where to start, at time 0; None is the static start
     early : whether a motion is left once its outcome is shown; else it is followed to the horizon
     late : s, length of the stretch before the horizon that is to be described
     """
@@ -311,7 +311,7 @@ def growing(changes: Sequence[float]) -> bool:
 def late_stretch(
     p: Parameters, state: State | None, duration: float, late: float, tol: float
 ) -> tuple[Result, Stretch | None]:
-    """Go on from a state (None: the published start) for a duration (s) and describe the last stretch of it.
+    """Go on from a state (None: the static start) for a duration (s) and describe the last stretch of it.
 
     There is no stretch if the simulation did not get there.
     """

@@ -51,7 +51,7 @@ SMALLEST = 1e-3
 """Ranges, over the static deflection, below which they are alike: the slider rests in height. And changes over a period
 of a motion that is as good as periodic."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
-"""Downward kicks of the published start from which attractors are looked for, over the static deflection."""
+"""Downward kicks of the static start from which attractors are looked for, over the static deflection."""
 
 
 class Basins:

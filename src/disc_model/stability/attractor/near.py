@@ -82,7 +82,7 @@ class Near:
 
     @property
     def kind(self) -> Outcome:
-        """What a motion on the cycle is: quiet if it is that of the published start, or near it."""
+        """What a motion on the cycle is: quiet if it is that of the static start, or near it."""
         if self.cycle.separations:
             return Outcome.SEPARATING
         if np.linalg.norm(self.x - self.map.static) <= NEAR * self.size:
@@ -104,7 +104,7 @@ class Near:
 
 
 def published_start_near(p: Parameters) -> Near | FloquetResult:
-    """The cycle near the published start, and whether it is the start's own; without one, what was found instead."""
+    """The cycle near the static start, and whether it is the start's own; without one, what was found instead."""
     cycle = find_cycle(p, CYCLE_TOL)
     if cycle.status is not CycleStatus.OK:
         return cycle
@@ -153,7 +153,7 @@ def follows(near: Near, at: Array) -> bool:
 
 
 def departs_after(near: Near, horizon: float) -> bool:
-    """Whether the published start, near an unstable cycle, follows the linear map until the horizon (s)."""
+    """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
     begun = first_release(near.cycle.parameters) + near.waited
     room = max(0, math.ceil((horizon - begun) / near.cycle.period))
     # the leading part alone: most do not, and this says so at once
@@ -165,7 +165,7 @@ def departs_after(near: Near, horizon: float) -> bool:
 
 
 def first_release(p: Parameters) -> float:
-    """Time at which the published start first slips, s: then it is on the section."""
+    """Time at which the static start first slips, s: then it is on the section."""
     return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
 
 

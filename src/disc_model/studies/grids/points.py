@@ -50,7 +50,7 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
 STABLE = ("stable", "slides", "sticks")
 UNSTABLE = ("unstable", "no_cycle", "separates", "slips")
 SAMPLE_CYCLES = ("failed", *STABLE, *UNSTABLE)
-"""What there is near the published start: a stable cycle, stable steady sliding, or rest on the disc; or an unstable
+"""What there is near the static start: a stable cycle, stable steady sliding, or rest on the disc; or an unstable
 cycle, none though the slider sticks and slips, loss of contact at once, or unstable sliding."""
 SAMPLE_OUTCOMES = ("not_followed", *COURSES)
 DRAWS = ("A", "B")

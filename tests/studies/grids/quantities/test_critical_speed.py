@@ -66,7 +66,7 @@ def test_lowest_separating_speed_at_200_N_depends_on_the_horizon() -> None:
 
 @pytest.mark.compiled
 def test_385_N_turns_between_15_08_and_15_09() -> None:
-    """Below the fold of the quiet cycle at 15.0949: from the published start the separating motion is reached earlier.
+    """Below the fold of the quiet cycle at 15.0949: from the static start the separating motion is reached earlier.
 
     At 15.085 rad/s contact is lost at 59.6101202 s, at 15.09 at 56.4006380 s, by the engine, by a long-order Taylor
     integrator and by fixed-step Runge-Kutta alike; at 15.08 not within 300 s.

@@ -226,7 +226,7 @@ where the outcome hangs on the last per cent of a long growth."""
 @pytest.mark.slow
 @pytest.mark.compiled
 def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cells() -> None:
-    """Points drawn of a map in which all outcomes and a fold occur, simulated from the published start throughout."""
+    """Points drawn of a map in which all outcomes and a fold occur, simulated from the static start throughout."""
     horizon = 400
     axes = {"N": {"start": 100, "stop": 500, "count": 17}, "Omega": {"start": 8, "stop": 24, "count": 17}}
     options = {"horizon": horizon, "coarse": 4}

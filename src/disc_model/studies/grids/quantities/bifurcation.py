@@ -49,7 +49,7 @@ def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def at(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
-    """From the published start or the prepared one."""
+    """From the static start or the prepared one."""
     if options.section == "switch":
         return _at_switches(point, options)
     p = point.parameters

@@ -1,6 +1,6 @@
 """Branches of cycles against one parameter: stable and unstable, in contact and separating, beside a sweep.
 
-A sweep up and down carries the motion on. Each cycle that it comes to, and the cycle near the published start, is
+A sweep up and down carries the motion on. Each cycle that it comes to, and the cycle near the static start, is
 followed by continuation both ways, unless a branch found before passes there.
 """
 
@@ -97,7 +97,7 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
 
 
 def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> dict[str, Any]:
-    """Both ways from a cycle, that near the published start or one that a motion has reached, by arclength."""
+    """Both ways from a cycle, that near the static start or one that a motion has reached, by arclength."""
     p, name = cycle.parameters, options.parameter
     bounds = options.scan.values[0], options.scan.values[-1]
     near = cycle.state if reached else None

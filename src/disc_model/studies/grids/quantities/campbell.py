@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 KINDS = ("none", "disc", "slider")
 _EACH = ("mode",)
 COLUMNS = {
-    "status": Column("1", "what was found near the published start", STATUSES),
+    "status": Column("1", "what was found near the static start", STATUSES),
     "growth_rate": Column("s-1", "growth rate of disturbances of the stick-slip cycle"),
     "stick_slip_frequency": Column("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
     "rotation_frequency": Column("Hz", "turns of the drive per second, f_Omega"),

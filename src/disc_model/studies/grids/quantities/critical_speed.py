@@ -110,7 +110,7 @@ class Motion(NamedTuple):
 
 
 def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
-    """The motion from the published start, up to the longest horizon."""
+    """The motion from the static start, up to the longest horizon."""
     horizon, early = options.horizons[-1], bool(options.settled or options.near)
     found = come_to(case, horizon, tol=options.tol, furthest=FURTHEST, early=early)
     simulated = found.simulated

@@ -1,4 +1,4 @@
-"""The stick-slip cycle near the published start and its stability, by multipliers instead of simulation."""
+"""The stick-slip cycle near the static start and its stability, by multipliers instead of simulation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 STATUSES = (*(status.value for status in CycleStatus), "failed")
 COLUMNS = {
-    "status": Column("1", "what was found near the published start", STATUSES),
+    "status": Column("1", "what was found near the static start", STATUSES),
     "growth_rate": Column("s-1", "growth rate of disturbances of the stick-slip cycle"),
     "period": Column("s", "period of the stick-slip cycle"),
     "stick_fraction": Column("1", "share of the period spent sticking"),

@@ -37,7 +37,7 @@ def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def at(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
-    """From the published start or the prepared one."""
+    """From the static start or the prepared one."""
     found = lyapunov_exponents(
         point.parameters,
         options.duration,

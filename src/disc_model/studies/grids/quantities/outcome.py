@@ -1,4 +1,4 @@
-"""What becomes of the published start within a horizon: it stays quiet, it grows, or contact is lost."""
+"""What becomes of the static start within a horizon: it stays quiet, it grows, or contact is lost."""
 
 from __future__ import annotations
 

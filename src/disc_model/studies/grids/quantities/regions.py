@@ -1,4 +1,4 @@
-"""What becomes of the published start over two parameters, refined where it changes; and the cycle at every point.
+"""What becomes of the static start over two parameters, refined where it changes; and the cycle at every point.
 
 A batch is a tile of the plane. The cycle is found at each of its points, which is cheap. What becomes of the published
 start (`disc_model.stability.attractor`) follows from the cycle's multipliers where it is quiet, or grows so slowly that
@@ -44,12 +44,12 @@ JOINED = ("no", "yes")
 CYCLES = ("none_found", "followed", "only_near", "slides", "sticks")
 COLUMNS = {
     "status": Column(*STATUS),
-    "outcome": Column("1", "what the published start comes to, or whether it separates", COURSES),
+    "outcome": Column("1", "what the static start comes to, or whether it separates", COURSES),
     "origin": Column("1", "how the outcome is known; undivided_cell: like that cell's corners", ORIGINS),
     "first_separation": Column(*SCALARS["first_separation"]),
     "simulated": Column("s", "simulated time"),
-    "cycle": Column("1", "whether the published start follows the cycle found; without one, what it does", CYCLES),
-    "growth_rate": Column("s-1", "growth rate of disturbances of the cycle that the published start follows"),
+    "cycle": Column("1", "whether the static start follows the cycle found; without one, what it does", CYCLES),
+    "growth_rate": Column("s-1", "growth rate of disturbances of the cycle that the static start follows"),
     "period": Column("s", "period of the cycle"),
     "releases": Column("1", "number of stick releases in its period", whole=True),
     "oscillations": Column("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
@@ -135,7 +135,7 @@ class _Tile:
         return point if isinstance(point, Exception) else _tried(lambda: published_start_near(point))
 
     def _own(self, place: Place) -> Near | None:
-        """The cycle that the published start follows from its beginning."""
+        """The cycle that the static start follows from its beginning."""
         start = self.starts[place]
         return start if isinstance(start, Near) and start.own else None
 
@@ -154,7 +154,7 @@ class _Tile:
                 self.outcome((i, j))
 
     def outcome(self, place: Place) -> str:
-        """Of the published start at a point, worked out once."""
+        """Of the static start at a point, worked out once."""
         if place not in self.fates:
             self.fates[place] = self._fate(place)
         found = self.fates[place]
@@ -222,7 +222,7 @@ class _Tile:
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
     def _follow(self, place: Place) -> _Followed | Near | None:
-        """The cycle that the published start follows at a point, if that is known.
+        """The cycle that the static start follows at a point, if that is known.
 
         Its own as long as it departs from that: where it has grown to is known at simulated points alone, and would
         stand out among their neighbours.

@@ -31,11 +31,11 @@ Array = NDArray[np.float64]
 COLUMNS = {
     "status": Column(*STATUS),
     "drawn": Column("", "values of the distributed parameters, SI units", dims=("draw", "parameter")),
-    "cycle": Column("1", "what there is near the published start", SAMPLE_CYCLES, dims=("variant",)),
+    "cycle": Column("1", "what there is near the static start", SAMPLE_CYCLES, dims=("variant",)),
     "growth_rate": Column(
         "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one", dims=("variant",)
     ),
-    "outcome": Column("1", "what becomes of the published start of A within the horizon", SAMPLE_OUTCOMES),
+    "outcome": Column("1", "what becomes of the static start of A within the horizon", SAMPLE_OUTCOMES),
     "first_separation": Column(*SCALARS["first_separation"]),
 }
 
@@ -155,7 +155,7 @@ def cycle_word(found: FloquetResult) -> str:
 
 
 def _followed(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
-    """What becomes of the published start."""
+    """What becomes of the static start."""
     try:
         found = come_to(p, options.horizon, tol=options.motion_tol)
     except NUMERICAL as error:

@@ -41,9 +41,9 @@ def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[st
 COLUMNS: Mapping[str, Column] = {
     "n_draws": Column("1", "number of draws, A and B, whose cycle is known", whole=True),
     "n_followed": Column("1", "number of draws whose outcome is known", whole=True),
-    **_with_interval("probability_unstable", "probability that the published start is near no stable motion"),
+    **_with_interval("probability_unstable", "probability that the static start is near no stable motion"),
     **_with_interval("probability_separation", "probability of separation within the horizon"),
-    **_with_interval("cycle_share", "share of the draws near whose published start there is this", ("cycle_class",)),
+    **_with_interval("cycle_share", "share of the draws near whose static start there is this", ("cycle_class",)),
     **_with_interval("outcome_share", "share of the followed draws that have this outcome", ("outcome_class",)),
     **_with_interval("first_index", "first-order Sobol index", _INDEX),
     **_with_interval("total_index", "total Sobol index", _INDEX),
@@ -53,8 +53,8 @@ COLUMNS: Mapping[str, Column] = {
 
 def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
     return {
-        "cycle_class": (np.array(KNOWN), Variable("", "what there is near the published start")),
-        "outcome_class": (np.array(FOLLOWED), Variable("", "what becomes of the published start")),
+        "cycle_class": (np.array(KNOWN), Variable("", "what there is near the static start")),
+        "outcome_class": (np.array(FOLLOWED), Variable("", "what becomes of the static start")),
         "output": (np.array(OUTPUTS), Variable("", "of what the indices are")),
         "parameter": (np.array(sorted(options.distributions)), Variable("", "distributed parameter")),
     }
