@@ -15,6 +15,7 @@ import xarray as xr
 
 import disc_model as dm
 from disc_model import cli, mode_choice
+from disc_model.cli.case import parameters_of
 from disc_model.disc import disc_table
 from disc_model.plate import modal_damping, mode_arrays, mode_shapes
 from disc_model.stability.return_map import ReturnMap
@@ -190,6 +191,26 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
             p = P.replace(disc=dm.read_disc(path))
             dm.simulate(p, 1e-3)
             dm.slider_at_rest_frequencies(p)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("diameters;frequency_Hz\n1;2,5\n", "must be separated by commas, with points in numbers"),
+        (
+            "diameters,frequency_Hz,amplitude\n1,2,3\n",
+            "'amplitude': unknown column, did you mean amplitude_per_sqrt_kg",
+        ),
+    ],
+)
+def test_a_table_of_other_columns_is_told_apart(text: str, said: str, tmp_path: Path) -> None:
+    (tmp_path / "disc.csv").write_text(text)
+    with pytest.raises(dm.ParameterError) as error:
+        dm.read_disc(tmp_path / "disc.csv")
+    assert said in str(error.value)
+    faults: list[str] = []
+    parameters_of({"N": "1", "Omega": "1", "disc": str(tmp_path / "disc.csv")}, faults)
+    assert said in faults[0]  # the command line dropped which column it is
 
 
 @pytest.mark.parametrize("path", ["nowhere.csv", ".", "a\0b", 5, None])

@@ -101,7 +101,7 @@ def test_a_window_may_be_called_like_the_class_of_a_span() -> None:
     assert "cases.here.record.windows.Span.rate = -1: must be > 0" in faults
     assert "cases.here.record.events.start = -1: must be >= 0" in faults
     assert said_of_case(record={"windows": {"1st": {"rate": 1}}}) == [
-        "cases.here.record.windows.1st = '1st': must match ^[A-Za-z][A-Za-z0-9_]*$"
+        "cases.here.record.windows.1st = '1st': must be letters, digits and _, starting with a letter"
     ]
 
 

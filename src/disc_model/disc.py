@@ -133,6 +133,8 @@ def _column_faults(names: list[str]) -> list[Fault]:
     faults = []
     for name in names:
         if name not in COLUMNS and not SHAPE.fullmatch(name):
+            if ";" in name or "\t" in name:
+                return [Fault(("columns",), shown(name), "must be separated by commas, with points in numbers")]
             faults.append(Fault(("columns",), shown(name), f"unknown column{suggestion(name, list(COLUMNS))}"))
     given = [COLUMNS[name][0] for name in names if name in COLUMNS]
     for target in ("diameters", "omega", "amplitude"):

@@ -175,7 +175,7 @@ _BOUNDS = {
 _RULES = _BOUNDS | {
     "literal_error": "must be {expected}",
     "value_error": "{error}",
-    "string_pattern_mismatch": "must match {pattern}",
+    "string_pattern_mismatch": "must be letters, digits and _, starting with a letter",  # of names, the only pattern
     "too_short": "must have {min_length} or more",
     **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
     **dict.fromkeys(("dict_type", "mapping_type", "model_type", "model_attributes_type"), "must be a mapping"),

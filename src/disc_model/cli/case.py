@@ -105,7 +105,9 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
             given["disc"] = read_disc(case["disc"])
     except ParameterError as error:
         del given["disc"]
-        faults += (Fault(("disc",), shown(case["disc"]), fault.rule) for fault in error.faults)
+        for fault in error.faults:
+            rule = ": ".join(filter(None, (fault.value, fault.rule)))
+            faults.append(Fault(("disc",), shown(case["disc"]), rule))
     try:
         p, asked = read_asked(given)
         tell_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))

@@ -338,6 +338,7 @@ def _check_arguments(
         found.append(Fault(("initial_state",), shown(initial_state), "must be a State"))
     if not is_number(t_end) or not start < t_end < math.inf:
         rule = f"must be finite and > {shown(start)} (the time of the initial state)"
+        rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
         found.append(Fault(("t_end",), shown(t_end), rule))
     found += limits_faults("tol", tol, TOLERANCES)
     if stop_at is not None and not (isinstance(stop_at, str) and stop_at == "first_separation"):

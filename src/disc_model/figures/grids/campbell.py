@@ -52,7 +52,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Campbell) ->
     said = "\n".join([_SAID if met else _NOTHING, *(f"{i}  {one.said}" for i, one in enumerate(met, 1))])
     below.text(0, 1, said, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
     figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
-    parts.head(figure, study, f"{plot.title or study.attrs.get('title', '')}, {parts.MODES[norm]}", modes_said=True)
+    title = plot.title or study.attrs.get("title", "")
+    parts.head(figure, study, ", ".join(filter(None, [title, parts.MODES[norm]])), modes_said=True)
     return figure
 
 
