@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
@@ -24,20 +22,6 @@ settings.register_profile("long", settings.get_profile("quick"), max_examples=30
 settings.load_profile("quick")
 # Hypothesis also draws constants of the modules that are loaded. A test by itself would draw other values.
 providers._get_local_constants = lambda: providers._local_constants
-
-
-@pytest.fixture
-def follow_stick_by_series(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[], None]]:
-    """From its call on, stick is followed by its series and not in closed form; constants kept before are forgotten."""
-    from disc_model.engine import layout, stick_modes
-    from disc_model.simulation.result import engine_case
-
-    def change() -> None:
-        monkeypatch.setattr(layout, "build_stick_modes", lambda *_, **__: stick_modes.no_modes())
-        engine_case.cache_clear()
-
-    yield change
-    engine_case.cache_clear()
 
 
 @pytest.fixture

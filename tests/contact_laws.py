@@ -9,7 +9,7 @@ import numba
 import numpy as np
 import pytest
 
-from disc_model import Parameters
+from disc_model import Parameters, Ramp
 from disc_model.engine import laws, layout, machine, switches
 from disc_model.flexibility import contact_give
 from disc_model.simulation.result import engine_case, write_state
@@ -37,6 +37,11 @@ def classical_events(p, count):
     stick = 2 * (static - kinetic) / p.Omega
     first = static / p.Omega
     return np.array([first + i // 2 * (slip + stick) + (slip if i % 2 else 0) for i in range(count)])
+
+
+def by_series(p):
+    """A ramp of one unit in the last place of N: on ramps stick is followed by its series, and not in closed form."""
+    return Ramp(parameter="N", to=math.nextafter(p.N, math.inf), start=0.0, end=1e3)
 
 
 def compare_series(law, phase, direction, n_diameters, rates=None):

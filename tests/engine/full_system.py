@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from disc_model import Parameters
-from disc_model.engine import layout, saltation, switches, tangent, variational
+from disc_model.engine import layout, saltation, tangent, variational
 from disc_model.simulation.result import State, engine_case, series_order, write_state
 
 
@@ -49,15 +49,6 @@ class Full:
         saltation.rates(self.model, self.state, out)
         return out[::8][self.rows]
 
-    def release(self):
-        switches.change_phase(self.model, self.state, switches.RELEASE_FORWARD, False)
-
     def fly(self, duration, tangent=True):
         course = variational.Course(self.order, self.tol, 2.0, duration, 0, may_separate=True, tangent=tangent)
         return variational.fly(self.model, self.series, self.state, self.tangent, course)
-
-    def release_change(self, vector):
-        """Gradient of the release condition times a vector of coordinates, f's left out."""
-        self.set_columns(np.where(np.arange(len(vector)) < len(vector) - 1, vector, 0)[:, None])
-        saltation.switch_times(self.model, self.state, self.tangent, switches.RELEASE_FORWARD)
-        return -self.tangent.tau[0]

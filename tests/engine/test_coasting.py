@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -12,6 +10,7 @@ from disc_model.engine import coasting, contact_series, dense_output, layout, ou
 from disc_model.engine.switches import stick_force
 from disc_model.simulation.api import _Run
 from disc_model.simulation.result import engine_case
+from tests.contact_laws import by_series
 
 ORDER = 40
 VARIANTS = {
@@ -130,12 +129,11 @@ def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
     assert _coast(model, s, state, 0.0) == pytest.approx(0.1 * stick_modes.LONGEST_COAST, rel=1e-12)
 
 
-def test_events_are_those_of_the_series(follow_stick_by_series: Callable[[], None]) -> None:
+def test_events_are_those_of_the_series() -> None:
     """Slow drive: stick is nearly all of the motion and coasts are long."""
     p = Parameters(N=385, Omega=1.0)
     closed = simulate(p, 2.0, tol=1e-14)
-    follow_stick_by_series()
-    stepped = simulate(p, 2.0, tol=1e-14)
+    stepped = simulate(p, 2.0, tol=1e-14, ramps=by_series(p))
     assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
     assert list(closed.events["kind"]) == list(stepped.events["kind"])
     # rounding of a clock that reads 2 s, and of the forces at a release that the slow spring reaches at a flat angle
@@ -143,13 +141,12 @@ def test_events_are_those_of_the_series(follow_stick_by_series: Callable[[], Non
 
 
 @pytest.mark.compiled
-def test_samples_and_audit_within_a_coast(follow_stick_by_series: Callable[[], None]) -> None:
+def test_samples_and_audit_within_a_coast() -> None:
     """Samples that fall into a coast, and its energy balance, are as good as those of steps."""
     p = Parameters(N=385, Omega=1.0, c=1.0, D_star=1e-3)
     record = Record(windows=(Window(start=0.0, stop=0.3, rate=2000.0),), energy=True)
     closed = simulate(p, 0.3, tol=1e-14, record=record)
-    follow_stick_by_series()
-    stepped = simulate(p, 0.3, tol=1e-14, record=record)
+    stepped = simulate(p, 0.3, tol=1e-14, record=record, ramps=by_series(p))
     assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
     for name, values in stepped.samples[0].items():
         # the series leave 1e-14 of the static deflection at each step, which a small velocity feels

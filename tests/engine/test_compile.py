@@ -5,24 +5,14 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import llvmlite.binding as llvm
+import numba
 import numpy as np
 import pytest
 
-from disc_model.engine import stepping
+from disc_model.engine import lanes
 from disc_model.engine.packing import packed
 from tests.engine.compiled import kernel
-
-
-@kernel
-def _share(error: float, scale: float) -> float:
-    return stepping._relative(error, scale)  # type: ignore[no-any-return]
-
-
-def test_a_helper_can_be_called_from_python() -> None:
-    """It has no wrapper for that: without a kernel of its own the process would crash."""
-    assert stepping._relative(1.0, 2.0) == 0.5
-    assert _share(1.0, 2.0) == 0.5
-    assert stepping._relative(1.0, 4.0) == 0.25
 
 
 @packed
@@ -76,3 +66,12 @@ def test_an_array_with_gaps_is_not_packed() -> None:
     """Its address and lengths would not say where its numbers are."""
     with pytest.raises(ValueError, match="contiguous"):
         _first(Inner(np.zeros(4)[::2], 1.0))
+
+
+@pytest.mark.skipif("x86" not in llvm.get_default_triple(), reason="the names are of such processors")
+@pytest.mark.parametrize(("cpu", "features", "expected"), [("haswell", "", False), ("x86-64-v4", "", True),
+                                                          ("haswell", "+avx512f", True)])  # fmt: skip
+def test_what_fits_into_one_register_is_asked_of_the_compiler(cpu, features, expected, monkeypatch) -> None:  # type: ignore[no-untyped-def]
+    monkeypatch.setattr(numba.core.config, "CPU_NAME", cpu)
+    monkeypatch.setattr(numba.core.config, "CPU_FEATURES", features)
+    assert lanes.in_one_register() is expected

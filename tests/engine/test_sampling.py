@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, simulate
 from disc_model.engine import sampling
 from disc_model.simulation.result import EVENT_KINDS, PHASES
-from tests.contact_laws import COMPILES
+from tests.contact_laws import COMPILES, by_series
 from tests.references import printed
 
 ULP = 2.0**-52
@@ -53,21 +51,17 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
     [{}, {"c": 1.0, "D_star": 1e-3}, pytest.param({"n_diameters": 7, "n_circles": 1}, marks=COMPILES)],
     ids=str,
 )
-def test_both_ways_through_stick_agree_on_the_release(
-    variant: dict[str, float], Omega: float, tol: float, follow_stick_by_series: Callable[[], None]
-) -> None:
+def test_both_ways_through_stick_agree_on_the_release(variant: dict[str, float], Omega: float, tol: float) -> None:
     """From rest stick ends at mu_s N / (r_0 k_p Omega), 0.077 s at 1 rad/s, whatever the disc; both ways round it."""
     p = Parameters(N=385, Omega=Omega, **variant)
     release = p.mu_s * p.N / (p.r_0 * p.k_p * Omega)
     record = Record(windows=(_window(release), _window(release * (1 + 1e-9))))
-    for way in ("coast", "series"):
-        if way == "series":
-            follow_stick_by_series()
-        result = simulate(p, release + 2e-3, tol=tol, record=record)
+    for ramps in ((), by_series(p)):
+        result = simulate(p, release + 2e-3, tol=tol, record=record, ramps=ramps)
         # or the samples would show nothing
         assert abs(result.events["time"].iloc[0] - release) < sampling.SAME_INSTANT * release
         on, behind = (PHASES[int(samples["phase"][0])] for samples in result.samples)
-        assert (on, behind) == ("stick", "slip"), way
+        assert (on, behind) == ("stick", "slip"), ramps
 
 
 def test_a_later_start_is_a_start_at_another_angle() -> None:

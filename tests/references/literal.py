@@ -4,10 +4,7 @@ State: q_l and q_l' for l = -n..n (each complex, conjugate symmetry Eq. (23) not
 of the slider. The accelerations come from the coupled linear system, assembled as printed and solved
 numerically. Slow and readable on purpose; the one change to the print is the ">=" that belongs into Eq. (24).
 
-Integrated by scipy's DOP853. Switch functions are sampled densely inside every step; a bracketed root is
-refined by integrating afresh from the step's start, so that the order of the dense output does not enter.
-
-Omega and N may change at constant rates from the local time 0 on: Omega t in Eq. (4) is then the integral of Omega.
+One phase at a time, integrated by scipy's DOP853.
 """
 
 from __future__ import annotations
@@ -15,8 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import DOP853
-from scipy.optimize import brentq
+from scipy.integrate import solve_ivp
 
 from disc_model import plate_modes
 
@@ -49,20 +45,16 @@ def signed_diameters(diameters):
 class Literal:
     """A case of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive).
 
-    `drive` is the drive point's angle at the local time 0; the preload's u_0 = w_0 is that of the static
-    equilibrium. In bonded contact separation is ignored: P may be negative. `rates` are those of Omega (rad/s^2) and
-    N (N/s).
+    The drive point is at the angle 0 at the local time 0; the preload's u_0 = w_0 is that of the static equilibrium.
     """
 
-    SAMPLES = 16
-
-    def __init__(self, p, drive=0.0, rates=(0.0, 0.0)):
+    def __init__(self, p):
         modes = plate_modes(p)
         self.l, rows = signed_diameters(modes["diameters"])
         self.omega = modes["omega"].to_numpy()[rows]
         self.Psi = modes["psi"].abs().to_numpy()[rows] / np.where(self.l == 0, 1.0, np.sqrt(2.0))
         self.damping = p.D_star / p.D * self.omega**2  # 2 xi omega
-        self.p, self.drive, self.rates, self.bonded = p.model_dump(), drive, rates, p.contact == "bonded"
+        self.p = p.model_dump()
         self.w_0 = -p.N * float((self.Psi**2 / self.omega**2).sum())
 
     # ---- pieces of the equations
@@ -72,13 +64,7 @@ class Literal:
         return z[:n], z[n:], y[4 * n], y[4 * n + 1], y[4 * n + 2], y[4 * n + 3]
 
     def psi(self, t, phi):
-        return self.drive + self.p["Omega"] * t + self.rates[0] * t**2 / 2 - phi  # Eq. (4)
-
-    def Omega(self, t):
-        return self.p["Omega"] + self.rates[0] * t
-
-    def N(self, t):
-        return self.p["N"] + self.rates[1] * t
+        return self.p["Omega"] * t - phi  # Eq. (4)
 
     def disc(self, q, q_rate, phi, phi_rate):
         """w, w_theta and the velocity (Eq. 34) of the disc under the slider."""
@@ -90,11 +76,11 @@ class Literal:
         """q'' and phi'', u'' of `phase` ("stick", "slip+", "slip-", "separation") and the contact force P."""
         p, l = self.p, self.l
         q, v, phi, rate, u, u_rate = self.unpack(y)
-        psi, psi_rate = self.psi(t, phi), self.Omega(t) - rate
+        psi, psi_rate = self.psi(t, phi), p["Omega"] - rate
         free = -self.damping * v - self.omega**2 * q
         if phase == "separation":  # Eqs. (25)-(27)
             phi_acc = (p["c_p"] * psi_rate + p["k_p"] * psi) / p["m"]
-            u_acc = -(p["c"] * u_rate + p["k"] * (u - self.w_0) + self.N(t)) / p["m"]
+            u_acc = -(p["c"] * u_rate + p["k"] * (u - self.w_0) + p["N"]) / p["m"]
             return free, phi_acc, u_acc, 0.0
         e = self.Psi * np.exp(1j * l * phi)  # multiplies q_rs in the sums
         test = self.Psi * np.exp(-1j * l * phi)  # multiplies the projected load
@@ -104,7 +90,7 @@ class Literal:
         known = (
             e * (p["m"] * (2j * l * rate * v - l**2 * rate**2 * q) + p["c"] * (v + 1j * l * rate * q) + p["k"] * q)
         ).sum()
-        preload = self.N(t) - p["k"] * self.w_0
+        preload = p["N"] - p["k"] * self.w_0
         # Eq. (18) / (21): q'' + test * sum e m (q'' + i s phi'' q) = free - test * (preload + known)
         matrix[:n, :n] = np.eye(n) + p["m"] * np.outer(test, e)
         matrix[:n, n] = test * p["m"] * (e * 1j * l * q).sum()
@@ -134,106 +120,19 @@ class Literal:
 
         return rhs
 
-    # ---- conditions for staying in a phase: each positive inside it
+    # ---- forces
     def pull(self, t, y):
         _, _, phi, rate, _, _ = self.unpack(y)
-        return self.p["c_p"] * (self.Omega(t) - rate) + self.p["k_p"] * self.psi(t, phi)
+        return self.p["c_p"] * (self.p["Omega"] - rate) + self.p["k_p"] * self.psi(t, phi)
 
     def contact(self, t, y, phase):
         return self.accelerations(t, y, phase)[3]
 
-    def stick_margin(self, t, y):  # Eq. (20)
-        return self.p["mu_s"] * self.contact(t, y, "stick") - self.p["r_0"] * abs(self.pull(t, y))
-
-    def gap(self, order):
-        """u - w (Eq. 28) or its first or second time derivative, the latter from the equations of motion."""
-
-        def function(t, y):
-            q, v, phi, rate, u, u_rate = self.unpack(y)
-            w, slope, velocity = self.disc(q, v, phi, rate)
-            if order == 0:
-                return u - w
-            if order == 1:
-                return u_rate - velocity
-            q_acc, phi_acc, u_acc, _ = self.accelerations(t, y, "separation")
-            e = self.Psi * np.exp(1j * self.l * phi)
-            return u_acc - phi_acc * slope - (e * (q_acc + 2j * self.l * rate * v - self.l**2 * rate**2 * q)).sum().real
-
-        return function
-
-    def watched(self, phase):
-        functions = {} if self.bonded else {"separation": lambda t, y: self.contact(t, y, phase)}
-        if phase == "stick":
-            return functions | {"stick_to_slip": self.stick_margin}
-        sign = 1 if phase == "slip+" else -1
-        return functions | {"rest": lambda t, y: sign * self.unpack(y)[3]}
-
     # ---- integration of one phase
-    def solver(self, phase, t, y, t_end):
-        return DOP853(self.derivative(phase), t, y, t_end, rtol=1e-13, atol=1e-19, max_step=1e-4)
-
     def fresh(self, phase, t0, y0, t):
-        """y(t) integrated from (t0, y0), to the end of one accepted step or more: no dense output."""
-        if t == t0:
-            return y0
-        solver = self.solver(phase, t0, y0, t)
-        while solver.status == "running":
-            solver.step()
-        return solver.y
-
-    def crossing(self, functions, phase, solver, t0, y0, positive):
-        """Earliest (t, name) where a function falls from positive to negative in the step just made."""
-        dense, found = solver.dense_output(), []
-        times = np.linspace(t0, solver.t, self.SAMPLES + 1)[1:]
-        for name, function in functions.items():
-            previous = t0
-            for t in times:
-                value = function(t, dense(t))
-                if value < 0 and positive[name]:
-
-                    def exact(s, g=function):
-                        return g(s, self.fresh(phase, t0, y0, s))
-
-                    root = brentq(exact, previous, t, xtol=1e-16, rtol=1e-15)
-                    found.append((root, name))
-                    break
-                positive[name] = positive[name] or value > 0
-                previous = t
-        return min(found) if found else None
-
-    def contact_phase(self, phase, t, y, t_end):
-        """Integrate stick or slip to its first switch; a function that begins at zero has to rise first."""
-        functions = self.watched(phase)
-        positive = {name: name != "rest" or self.unpack(y)[3] != 0 for name in functions}
-        solver = self.solver(phase, t, y, t_end)
-        while solver.status == "running":
-            t0, y0 = solver.t, solver.y.copy()
-            solver.step()
-            hit = self.crossing(functions, phase, solver, t0, y0, positive)
-            if hit:
-                return hit[1], hit[0], self.fresh(phase, t0, y0, hit[0])
-        return None, solver.t, solver.y
-
-    def separated_phase(self, t, y, t_end):
-        """Integrate Eqs. (25)-(27) until the gap closes.
-
-        The gap begins with value, velocity and (at P = 0) acceleration zero. By Rolle's theorem it cannot
-        close before its acceleration and after that its velocity have fallen through zero, so the three are
-        awaited in turn: the first begins at a simple zero and rises, the others are far from theirs when
-        their turn comes.
-        """
-        phase, order, positive = "separation", 2, {"gap": False}
-        solver = self.solver(phase, t, y, t_end)
-        while solver.status == "running":
-            t0, y0 = solver.t, solver.y.copy()
-            solver.step()
-            if hit := self.crossing({"gap": self.gap(order)}, phase, solver, t0, y0, positive):
-                root, reached = hit[0], self.fresh(phase, t0, y0, hit[0])
-                if order == 0:
-                    return "reattachment", root, reached
-                order, positive = order - 1, {"gap": True}
-                solver = self.solver(phase, root, reached, t_end)
-        return None, solver.t, solver.y
+        """y(t) integrated from (t0, y0)."""
+        how = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-19, "max_step": 1e-4}
+        return solve_ivp(self.derivative(phase), (t0, t), y0, **how).y[:, -1]
 
     # ---- switching
     def impact(self, y):
@@ -247,38 +146,6 @@ class Literal:
         after[: 4 * len(self.l)].view(complex)[len(self.l) :] = v - m * (moving - u_rate) / below * conjugate
         after[-1] = ((m * u_rate * shape * conjugate).sum() + moving).real / below.real
         return after
-
-    def run(self, start, t_end):
-        """Events as a list of (local time, kind)."""
-        y, phase, t, events = start.vector, start.phase, 0.0, []
-        while True:
-            if phase == "separation":
-                kind, t, y = self.separated_phase(t, y, t_end)
-            else:
-                kind, t, y = self.contact_phase(phase, t, y, t_end)
-            if kind is None:
-                return events
-            y = y.copy()
-            phase, kind, y = self.after(kind, t, y)
-            events.append((t, kind))
-            if kind == "reattachment" and self.contact(t, y, phase) < 0:
-                phase, _, y = self.after("separation", t, y)
-                events.append((t, "separation"))
-
-    def after(self, kind, t, y):
-        """Phase, kind and state after a switch."""
-        n = 4 * len(self.l)
-        if kind == "separation":
-            w, _, velocity = self.disc(*self.unpack(y)[:4])
-            y[n + 2 :] = w, velocity
-            return "separation", kind, y
-        if kind == "reattachment":
-            return ("slip+" if y[n + 1] > 0 else "slip-"), kind, self.impact(y)
-        y[n + 1] = 0.0
-        sliding = "slip+" if self.pull(t, y) > 0 else "slip-"
-        if kind == "rest":
-            return ("stick", "slip_to_stick", y) if self.stick_margin(t, y) > 0 else (sliding, "slip_reversal", y)
-        return sliding, kind, y
 
 
 def from_slider_frame(state, drive, diameters):

@@ -1,4 +1,4 @@
-"""Compute the benchmark's high-precision references (needs mpmath); run from the repository's root::
+"""Compute the benchmark's high-precision references; run from the repository's root::
 
     python -m tests.references.make_benchmark_reference src/disc_model/benchmarks/data/benchmark_reference.json
 

@@ -26,12 +26,6 @@ THETA = 0.7
 MOTIONS = [("stick", 0), ("slip", 1), ("slip", -1), ("separation", 0)]
 
 
-def literal_events(p, start, span, drive=0.0, **options):
-    """Events of the paper's equations from a `State` on: (local time, kind); `options` are those of `Literal`."""
-    start = from_slider_frame(stored.reference_state(start, p), drive, plate_modes(p)["diameters"].to_numpy())
-    return Literal(p, drive, **options).run(start, span)
-
-
 def lively(phase, direction=0, p=P):
     """A state in which every term of the equations counts; no phase ends within `SPAN`."""
     modes, rng = plate_modes(p), np.random.default_rng(5)

@@ -3,37 +3,18 @@
 from __future__ import annotations
 
 import math
-import sys
 from fractions import Fraction
 
-import numba
 import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Record, Window, simulate
-from disc_model.engine import machine, outcomes
 from disc_model.errors import StepLimit
 from disc_model.plate import mode_arrays
-from disc_model.simulation.api import _Run
-from tests.contact_laws import COMPILES, LAWS
 from tests.simulation.equal import same
 
-api = sys.modules["disc_model.simulation.api"]
 P = Parameters(N=200, Omega=50, n_diameters=1)
 RECORD = Record(windows=(Window(stop=0.01, rate=1000.0),), poincare=Poincare(), energy=True)
-
-
-def test_small_buffers_and_many_pauses_change_nothing(monkeypatch):
-    record = Record(windows=(Window(start=0, stop=0.05, rate=20_000),))
-    whole = simulate(P, 0.05, tol=1e-9, record=record)
-    monkeypatch.setattr("disc_model.simulation.kept.BUFFER", 16)
-    monkeypatch.setattr(api, "STEPS_PER_PAUSE", 3)
-    seen = []
-    again = simulate(P, 0.05, tol=1e-9, record=record, progress=seen.append)
-    same(again, whole)
-    assert seen == sorted(seen)
-    assert seen[-1] == 0.05
-    assert len(seen) > 3
 
 
 def test_a_window_alone_is_a_record_of_it():
@@ -56,26 +37,6 @@ def test_more_steps_than_the_engine_counts_are_no_bound():
     assert simulate(P, 1e-3, max_steps=2**64).status == "ok"
 
 
-@pytest.mark.compiled
-@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
-@pytest.mark.parametrize(
-    "changes", [{"n_circles": 3}, *(pytest.param(law, marks=COMPILES) for law in LAWS.values())], ids=str
-)
-@pytest.mark.parametrize("record", [None, RECORD], ids=["events", "samples"])
-def test_machine_code_is_given_the_types_it_was_compiled_for(changes, record):
-    """It takes its arguments at their word: it is chosen by the kind of the model, which must decide all types."""
-    p = P.replace(**changes)
-    start = simulate(p, 1e-3).final_state
-    given = []
-    for state in (None, start):
-        run = _Run(p, 0.01, 1e-10, state, record or Record(), None, 10**6 if state else None, ())
-        given.append(tuple(map(numba.typeof, run._arguments())))
-        while run.advance() == outcomes.PAUSED:
-            given.append(tuple(map(numba.typeof, run._arguments())))
-    assert len(set(given)) == 1
-    assert run.engine is machine.run.overloads[given[0]].entry_point
-
-
 NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
 
 
@@ -89,11 +50,10 @@ NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
     ],
     ids=str,
 )
-def test_no_call_decides_how_later_ones_are_computed(given, monkeypatch):
+def test_no_call_decides_how_later_ones_are_computed(given):
     """The engine was compiled for the types of the first call, and given others after it."""
     plain = {name: (int if name == "max_steps" else float)(value) for name, value in given.items()}
     usual, expected = simulate(P, 0.25), simulate(P, **{"t_end": 0.25, **plain})
-    monkeypatch.setattr(api, "_ENGINES", {})
     same(simulate(P, **{"t_end": 0.25, **given}), expected)
     same(simulate(P, 0.25), usual)
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Ramp, simulate
+from disc_model import Parameters, simulate
 from disc_model.engine import layout
 from disc_model.plate import mode_arrays
-from disc_model.simulation.result import Workspace, engine_case, read_state, series_order, write_state
-from tests.contact_laws import COMPILES, LAWS
+from disc_model.simulation.result import engine_case, read_state, write_state
 from tests.simulation.equal import same
 
 P = Parameters(N=385, Omega=15.1)
@@ -31,38 +30,6 @@ def test_two_runs_of_a_case_at_a_time_do_not_meet() -> None:
     assert inner
     for result in (outer, *inner):
         same(result, alone)
-
-
-def soil(workspace: Workspace) -> None:
-    """Fill a workspace with what no run leaves there, but for the constants among its series."""
-    series = workspace.series
-    constants = series.up.copy(), series.down.copy()
-    for array in (*series, *workspace.state, *workspace.probe, workspace.phase_times, workspace.sums):
-        array[:] = np.nan
-    workspace.counters[:] = -1
-    series.up[:], series.down[:] = constants
-
-
-@pytest.mark.parametrize(
-    ("changes", "ramps"),
-    [
-        ({}, ()),
-        ({}, Ramp(parameter="Omega", to=16.0, start=0.01, end=0.2)),
-        pytest.param({"n_circles": 2}, (), marks=COMPILES),
-        pytest.param(LAWS["compliant"], (), marks=COMPILES),
-    ],
-    ids=["paper", "ramp", "more_modes", "compliant"],
-)
-def test_a_run_finds_nothing_of_the_runs_before_it(changes: dict[str, float], ramps: tuple[Ramp, ...] | Ramp) -> None:
-    """Runs of a case, one after the other, write to the same arrays."""
-    p = P.replace(**changes)
-    engine_case.cache_clear()
-    one = simulate(p, 0.03, ramps=ramps)
-    (workspace,) = engine_case(p).idle[series_order(one.tol)]
-    soil(workspace)
-    other = simulate(p, 0.03, ramps=ramps)
-    assert len(one.event_rows) > 2
-    same(one, other)
 
 
 def test_a_result_stays_what_it_is_in_later_runs() -> None:

@@ -14,7 +14,7 @@ from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import kicked, published_start, simulate
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.course import Reached, Stretch, come_to, growing, late_stretch
+from disc_model.stability.attractor.course import Reached, come_to, growing, late_stretch
 from disc_model.stability.attractor.many import Basins, random_kick
 from disc_model.stability.attractor.near import Near, follows, published_start_near
 
@@ -71,30 +71,6 @@ def test_each_outcome_is_told(which: str) -> None:
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("N", "Omega", "rate"), [(50, 15, -0.0083), (100, 20, 0.0008)])
-def test_where_multipliers_tell_nothing_is_simulated(N: float, Omega: float, rate: float) -> None:
-    """Rates of docs/model.md."""
-    found = come_to(Parameters(N=N, Omega=Omega), 1000)
-    assert found.simulated == 0.0
-    assert found.cycle is not None
-    assert found.cycle.growth_rate == pytest.approx(rate, abs=3e-4)
-
-
-@pytest.mark.compiled
-def test_a_motion_on_another_cycle_was_called_quiet() -> None:
-    """The contact force of the quiet cycle there stays within 0.5 N of 200 N; this one's is there after 1000 s."""
-    p = Parameters(N=200, Omega=11.25, E=1.9375e11, normalization="orthonormal")
-    found = come_to(p, 1000)
-    assert found.cycle is not None
-    _, on_it = late_stretch(p, found.cycle.state, 2.0, 2.0, 1e-10)
-    _, brute = late_stretch(p, None, 1000.0, 2.0, 1e-10)
-    assert on_it is not None
-    assert brute is not None
-    assert brute.P_max > 220
-    assert (on_it.P_min, on_it.P_max) == pytest.approx((brute.P_min, brute.P_max), rel=1e-4)
-
-
-@pytest.mark.compiled
 def test_a_departure_by_multipliers_ends_as_the_simulated_one() -> None:
     p = Parameters(N=300, Omega=20)
     found, whole = come_to(p, 400), come_to(p, 400, furthest=0.0)
@@ -103,17 +79,6 @@ def test_a_departure_by_multipliers_ends_as_the_simulated_one() -> None:
     assert found.first_separation == pytest.approx(whole.first_separation, abs=2)
     assert whole.first_separation == pytest.approx(149.41, abs=0.5)  # docs/model.md
     assert found.simulated < 0.6 * whole.simulated
-
-
-@pytest.mark.compiled
-def test_a_departure_is_followed_where_its_phase_drifts() -> None:
-    """Long before growth changes, the frequency does: the amplitude of the leading part alone is asked for."""
-    p = Parameters(N=200, Omega=13.4375)
-    found, early = come_to(p, 1000), come_to(p, 1000, furthest=0.005)
-    assert found.departed is not None
-    assert found.simulated < 0.7 * early.simulated
-    # the rate is taken to within a quarter (DEPARTS), and the cubic term of that is corrected for
-    assert found.first_separation == pytest.approx(early.first_separation, abs=0.25 / found.departed.growth_rate)
 
 
 REST = {
@@ -212,16 +177,6 @@ def test_a_simulation_that_fails_says_so() -> None:
 )
 def test_growth_is_seen_and_noise_is_not(changes: list[float], grows: bool) -> None:
     assert growing(changes) is grows
-
-
-def test_a_late_stretch_goes_on_from_a_state() -> None:
-    start = simulate(SMALL, 0.1, tol=1e-8).final_state
-    result, late = late_stretch(SMALL, start, 0.1, 0.05, 1e-8)
-    whole = simulate(SMALL, 0.2, tol=1e-8)
-    assert result.final_state.time == pytest.approx(0.2)
-    assert result.final_state.psi == pytest.approx(whole.final_state.psi, abs=1e-6)
-    assert late is not None
-    assert late.share_stick + late.share_slip + late.share_separation == pytest.approx(1)
 
 
 PLANES: tuple[dict[str, Any], ...] = (
@@ -357,18 +312,3 @@ def test_what_stays_near_an_unstable_cycle_has_not_settled() -> None:
 def test_a_motion_that_comes_to_steady_sliding_is_told() -> None:
     p = Parameters(N=50, Omega=15, c_p=0.5)
     assert Basins(p, 100.0).reached(published_start(p)).outcome is Outcome.SLIDING
-
-
-def stretch(**changes: float) -> Stretch:
-    shares = {"share_stick": 0.25, "share_slip": 0.65, "share_separation": 0.10, "separation_rate": 135.0}
-    return Stretch(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)
-
-
-@pytest.mark.compiled
-def test_stretches_differ_by_their_largest_relative_difference() -> None:
-    difference, one = Basins(P14, 10.0)._difference, stretch()
-    assert difference(one, one) == 0
-    assert difference(one, stretch(u_max=0.009)) == pytest.approx(0.05)
-    assert difference(one, stretch(separation_rate=0.0)) == 1
-    # ranges that are no motion at all are alike
-    assert difference(stretch(u_min=0, u_max=1e-12), stretch(u_min=0, u_max=0)) == 0

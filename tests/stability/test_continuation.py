@@ -121,14 +121,6 @@ def test_the_neutral_curve_is_the_ellipse():
     assert (curve.values[1] - curve.values[0]) @ (other.values[1] - curve.values[0]) < 0
 
 
-def test_the_curve_of_folds_is_the_line():
-    at = P.replace(Omega=15.9)
-    curve = continue_border("fold", at, ("Omega", "N"), BOX, near=cycle_at(15.9, 300))
-    assert curve.ended == "Omega or N has left the bounds"
-    assert curve.values[:, 0] == pytest.approx(fold_at(curve.values[:, 1]), abs=1e-7)
-    assert np.min(np.abs(curve.multipliers - 1), axis=1) == pytest.approx(np.zeros(len(curve)), abs=1e-8)
-
-
 def test_without_a_curve_nearby_the_input_is_refused():
     with pytest.raises(ParameterError, match="must have a cycle to start from"):
         continue_border("neutral", P.replace(Omega=17), ("Omega", "N"), BOX)

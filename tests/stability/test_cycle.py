@@ -10,7 +10,6 @@ import pytest
 
 from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import Outcome
-from disc_model.engine import layout, saltation
 from disc_model.errors import DiscModelError
 from disc_model.stability import return_map as return_map_module
 from disc_model.stability.attractor.near import cycle_near
@@ -23,8 +22,6 @@ from disc_model.stability.cycle import (
     kind_of,
 )
 from disc_model.stability.return_map import Counts, Flight, ReturnMap
-from tests.engine.full_system import Full
-from tests.references.divergence import divergence
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.tally import tried
 from tests.validation.test_random_cases import drawn_case
@@ -206,52 +203,6 @@ def test_from_a_given_point_no_other_cycle_is_taken():
 def test_a_multiplier_tells_the_bifurcation():
     assert [kind_of(mu) for mu in (1.1 + 0j, -1.1 + 0j, 0.8 + 0.8j)] == ["fold", "period_doubling", "neimark_sacker"]
     assert growth_rate(0j, 0.01) == -math.inf
-
-
-@COMPILED
-def test_product_of_multipliers_is_that_of_divergence_and_saltation():
-    """det of the return map from Liouville's formula.
-
-    In slip the flow's determinant is exp(integral of the divergence), in stick likewise on f = 0.  The release
-    multiplies volumes by (h' after) / (h' before).  At rest f is lost: what remains of the determinant is the f
-    component of the jump of the rates there, carried backwards through the cycle, over f' before.
-    """
-    map_, start = ReturnMap(DAMPED, 1e-14), find_cycle(DAMPED, 1e-14).state
-    x = map_.point(start)
-    flight = map_.evaluate(x)[0]
-    nodes, weights = np.polynomial.legendre.leggauss(24)
-    trace = 0.0
-    for begin, length in ((0.0, flight.slip_time), (flight.slip_time, flight.stick_time)):
-        for node, weight in zip(nodes, weights, strict=True):
-            run = Full(DAMPED, start)
-            run.release()
-            run.fly(begin + length * (node + 1) / 2, tangent=False)
-            trace += weight * length / 2 * divergence(run.model, run.state)
-    run = Full(DAMPED, start)
-    before = run.rates
-    run.release()
-    after = run.rates
-    run.fly(flight.slip_time * (1 - 1e-13))
-    assert run.state.x[layout.PHASE] == layout.SLIP
-    at_rest = run.rates
-    jump = at_rest.copy()
-    run.state.x[layout.PHASE], run.state.x[layout.SPEED] = layout.STICK, 0.0
-    jump -= run.rates
-    carried = np.linalg.solve(run.columns, jump)
-    section = Full(DAMPED, start)
-    section.tangent.before[:] = 0.0
-    saltation.rates(section.model, section.state, section.tangent.before)
-
-    def h(vector):
-        return section.release_change(vector)
-
-    # tau is the change over the rate before, so that h(before) is one
-    assert h(before) == pytest.approx(1, rel=1e-12)
-    rest = (carried[-1] - after[-1] * h(carried) / h(after)) / at_rest[-1]
-    expected = math.exp(trace) * h(after) * rest
-    product = np.prod(floquet(DAMPED, tol=1e-14).multipliers)
-    assert product.imag == pytest.approx(0, abs=1e-12)
-    assert product.real == pytest.approx(expected, rel=1e-8)
 
 
 def test_attractors_are_those_that_are_stable():

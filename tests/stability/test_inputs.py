@@ -75,3 +75,11 @@ def test_the_return_map_is_compiled_for_doubles_alone() -> None:
     np.testing.assert_array_equal(again[1], end)
     np.testing.assert_array_equal(again[2], jacobian)
     assert floquet(P, releases=np.int64(1)).period == floquet(P).period
+
+
+@pytest.mark.parametrize("law", [{}, {"contact_compliance": 1e-7}])
+def test_a_rigid_disc_has_nothing_to_lose(law):
+    p = Parameters(N=385.0, Omega=15.1, n_diameters=-1, **law)
+    for analysis in (floquet, steady_sliding, lambda p: lyapunov_exponents(p, 1.0)):
+        with pytest.raises(ParameterError, match=r"n_diameters=-1: must be >= 0: .* needs modes of the disc"):
+            analysis(p)

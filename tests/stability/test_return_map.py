@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from disc_model import Parameters, simulate
-from disc_model.stability.return_map import RETURNED, Counts, Flight, ReturnMap, newton
+from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
 from tests.contact_laws import COMPILES, LAWS
-from tests.engine.test_variational import check_derivatives, differences
+from tests.engine.test_variational import differences
 from tests.references.printed import Printed
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
@@ -97,6 +99,23 @@ def test_columns_of_stiff_springs_took_steps_too_long_for_them(stiff):
     # differences over 1e-7 of the state are known to 5e-4; the columns were wrong by 0.02 and 7
     expected = central_differences(map_, x, 1e-7 * np.linalg.norm(x))
     np.testing.assert_allclose(jacobian, expected, rtol=0, atol=2e-3)
+
+
+def check_derivatives(map_: ReturnMap, x: np.ndarray, step: Callable[[str], float]) -> None:
+    """Derivatives of where a flight ends by all parameters, against differences of steps relative to their values."""
+    p, how = map_.parameters, {"may_separate": True}
+    _, _, _, by = ReturnMap(p, parameters=PARAMETERS).evaluate(x, **how)
+    for i, name in enumerate(PARAMETERS):
+        value = getattr(p, name)
+
+        def end(change: float, name: str = name, value: float = value) -> np.ndarray:
+            other = ReturnMap(p.replace(**{name: value + change}))
+            # the same displacements and velocities, whatever the frequencies
+            reached = other.evaluate(x / map_.scale * other.scale, tangent=False, **how)[1]
+            return reached / other.scale * map_.scale
+
+        expected = differences(end, step(name) * value)
+        assert np.linalg.norm(by[:, i] - expected) < 1e-5 * np.linalg.norm(expected), name
 
 
 @pytest.mark.parametrize("where", ["cycle", "separation"])

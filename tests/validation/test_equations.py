@@ -7,17 +7,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
-from disc_model import Record, Window, plate_modes, simulate, steady_sliding
+from disc_model import Record, Window, plate_modes, simulate
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, switches
-from disc_model.plate import mode_arrays
-from disc_model.simulation.result import State, engine_case, read_state, write_state
-from disc_model.stability.sliding import _jacobian, _Law
+from disc_model.simulation.result import engine_case, read_state, write_state
 from tests.references.literal import Literal
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
 
@@ -62,14 +59,6 @@ def test_motion_of_each_phase(phase, direction, tol):
         assert result.statistics[name] < accuracy
 
 
-def test_motion_of_stick_step_by_step(follow_stick_by_series):
-    """By its series; otherwise stick is followed in closed form."""
-    follow_stick_by_series()
-    test_motion_of_each_phase("stick", 0, 1e-13)
-    test_motion_of_each_phase("stick", 0, 1e-6)
-    test_release_conditions_of_stick()
-
-
 @pytest.mark.parametrize(("phase", "direction"), [("stick", 0), ("slip", 1), ("slip", -1)])
 def test_contact_force_at_a_switch(phase, direction):
     start = lively(phase, direction)
@@ -83,11 +72,6 @@ def test_contact_force_at_a_switch(phase, direction):
     modes = plate_modes(P)
     slope = float(modes["psi"] @ (modes["diameters"] * start.b))
     assert denominator == pytest.approx(1 + P.m * modes["psi"] @ modes["psi"] + direction * P.mu_k * slope / P.r_0)
-
-
-def test_spring_force():
-    model, state = engine_state(P, lively("slip", -1))
-    assert switches.spring_force(model, state) == pytest.approx(3e4 * 0.004 + 0.5 * (15.1 + 40.0), rel=1e-14)
 
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
@@ -118,27 +102,6 @@ def test_impact():
     after = audit.transverse_energy(model, state, layout.SEPARATION)
     lost = -0.5 * impulse**2 * (model.compliance + 1 / P.m) + impulse * start.f * slope
     assert after - before == pytest.approx(lost, rel=1e-9)
-
-
-def test_reattachment_in_a_run():
-    """A slider that falls onto the disc: when, with what outcome, and at what price."""
-    start = lively("separation")
-    start = start.replace(u=start.u - 1e-3 + 1e-5, u_velocity=start.u_velocity - 0.5)
-    result = simulate(P, SPAN, tol=1e-13, initial_state=start, record=Record(energy=True))
-    printed = Printed(P, start)
-    literal, gap = printed.literal, printed.literal.gap(0)
-
-    def falling(t):
-        return literal.fresh("separation", 0.0, printed.y, t)
-
-    touch = brentq(lambda t: gap(t, falling(t)), 1e-6, SPAN, xtol=1e-16)
-    printed.phase = "slip+"
-    expected = printed.described(SPAN, literal.fresh("slip+", touch, literal.impact(falling(touch)), SPAN))
-    assert list(result.events["kind"]) == ["reattachment"]
-    assert result.events["time"][0] == pytest.approx(touch, abs=1e-13)
-    assert result.events["phase"][0] == result.final_state.phase == "slip"
-    close(vars(result.final_state), expected, ACCURACY, ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity"))
-    assert result.statistics["energy_transverse"] < 1e-10
 
 
 def test_energies():
@@ -233,65 +196,3 @@ def test_impact_of_the_rival_methods():
 
 
 # ------------------------------------------------------------------------------------------------ steady sliding
-def moving_coordinates(p):
-    """What a `State` in slip consists of: (name, row of `plate_modes` or None for psi and f)."""
-    l = plate_modes(p)["diameters"].to_numpy()
-    return [
-        *((name, i) for name in ("a", "alpha") for i in range(len(l))),
-        *((name, i) for name in ("b", "beta") for i in np.flatnonzero(l)),
-        ("psi", None),
-        ("f", None),
-    ]
-
-
-def jacobian(p, state):
-    """Of the printed equations of slip, by central differences, and what rounding makes of each entry.
-
-    Rows and columns as in `moving_coordinates`.
-    """
-    places = moving_coordinates(p)
-
-    def rates(name, row, change):
-        moved = getattr(state, name) + (change if row is None else change * np.eye(len(state.a))[row])
-        found = Printed(p, state.replace(**{name: moved})).rates()
-        return np.array([found[n] if i is None else found[n][i] for n, i in places])
-
-    # steps small beside those for which the product of slope and spring force is no longer linear
-    steps = np.array([{"psi": 1e-5, "f": 1e-2, "alpha": 1e-3, "beta": 1e-3}.get(name, 1e-6) for name, _ in places])
-
-    def column(name, row, h):
-        near, far = (rates(name, row, k * h) - rates(name, row, -k * h) for k in (1, 2))
-        return (8 * near - far) / (12 * h)
-
-    matrix = np.array([column(*place, h) for place, h in zip(places, steps, strict=True)]).T
-    terms = np.abs(matrix) @ steps + np.array([abs(rates(*place, 0.0)).max() for place in places])
-    return matrix, 1e-13 * terms[:, None] / steps[None, :]
-
-
-def nearest(got, expected):
-    """Largest distance of an eigenvalue from the nearest expected one, relative to the largest."""
-    return np.max(np.min(np.abs(got[:, None] - expected[None, :]), axis=1)) / np.max(np.abs(expected))
-
-
-def test_steady_sliding_solves_the_printed_equations():
-    p = P.replace(Omega=120.0)
-    sliding = steady_sliding(p)
-    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
-    start = State(0.0, "slip", 1, sliding.psi, p.Omega, 0.0, 0.0, **modal)
-    printed = Printed(p, start)
-    assert printed.force() == pytest.approx(sliding.contact_force, rel=1e-10)
-    rates = printed.rates()
-    for name, scale in {"a": "alpha", "b": "beta", "alpha": "a", "beta": "b"}.items():
-        size = np.max(np.abs(modal[scale])) * (1 if scale in ("alpha", "beta") else 1500.0**2)
-        assert np.max(np.abs(rates[name])) < 1e-9 * size, name
-    assert rates["psi"] == 0
-    assert abs(rates["f"]) < 1e-9 * p.k_p / p.m * sliding.psi
-    expected, noise = jacobian(p, start)
-    assert nearest(sliding.eigenvalues, np.linalg.eigvals(expected)) < 1e-7
-    modes = mode_arrays(p)
-    slope = float(np.sum(modes.diameters * modes.psi * start.b))
-    law = _Law(p, float(np.sum(modes.psi**2)), slope / p.r_0, sliding.contact_force)
-    assert law.denominator == pytest.approx(1 + p.m * float(np.sum(modes.psi**2)) + p.mu_k * slope / p.r_0, rel=1e-14)
-    damping = p.D_star / p.D * modes.omega**2
-    got = _jacobian(p, modes, damping, start.a, start.b, start.beta, slope, law)
-    np.testing.assert_array_less(np.abs(got - expected), 1e-6 * np.abs(expected) + noise)

@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disc_model import Parameters, floquet, simulate
+from disc_model import Parameters, floquet
 from disc_model.stability.continuation import BORDER, continue_border, continue_cycle
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.resonances import nearest_tongue
-from disc_model.stability.return_map import RETURNED, ReturnMap
 
 pytestmark = pytest.mark.compiled
 
@@ -53,59 +52,6 @@ def test_the_quiet_cases_rate_and_the_wandering_ones_multiplier():
     assert result.multipliers[0].imag == pytest.approx(0.881, abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    "case",
-    [
-        {"N": 300, "Omega": 20},
-        {"N": 385, "Omega": 15},
-        {"N": 200, "Omega": 20, "c": 0.5},
-        {"N": 300, "Omega": 50, "k_p": 2e3},
-        {"N": 600, "Omega": 30, "normalization": "orthonormal"},
-    ],
-    ids=str,
-)
-def test_growth_measured_in_a_simulation(case):
-    """log of the distance to the cycle against time, at returns, through the simulator; along the leading vector."""
-    p = Parameters(**case)
-    result, reader = floquet(p), ReturnMap(p)
-    x = reader.point(result.state)
-    values, vectors = np.linalg.eig(reader.evaluate(x)[2])
-    leading = np.argmax(np.abs(values))
-    vector = vectors[:, leading].real
-    left = np.linalg.inv(vectors)[leading]
-    state = reader.state(x + 1e-5 * np.linalg.norm(x) * vector / np.linalg.norm(vector))
-    # run away a little from the release, to the section again, many times
-    time, distance = [], []
-    now = 0.0
-    turns = max(4, round(0.25 / abs(result.growth_rate) / result.period / 10))
-    for _ in range(10):
-        run = simulate(p, now + turns * result.period + 0.3 * result.period, initial_state=state, tol=1e-13)
-        state = run.final_state
-        outcome, point = reader.next_release(state)
-        assert outcome == RETURNED
-        releases = run.events[(run.events["kind"] == "stick_to_slip")]["time"].to_numpy()
-        time.append(releases[-1])
-        now = state.time
-        # the point after the last release of the run, i.e. one period later: the offset is the same every time
-        distance.append(abs(left @ (point - x)))
-    slope = np.polyfit(time, np.log(distance), 1)[0]
-    assert slope == pytest.approx(result.growth_rate, rel=0.01)
-
-
-@pytest.mark.slow
-def test_rigid_disc_cycle_in_closed_form():
-    """E -> infinity: P = N, slip is a free oscillation, stick a straight line."""
-    p = Parameters(N=200, Omega=20, E=1e20, n_diameters=1)
-    result = floquet(p, tol=1e-10)
-    rate = math.sqrt(p.k_p / p.m)
-    extension = (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p)
-    slip = 2 / rate * (math.pi - math.atan(extension * rate / p.Omega))
-    stick = 2 * extension / p.Omega
-    assert result.period == pytest.approx(slip + stick, rel=1e-7)
-    assert result.stick_fraction == pytest.approx(stick / (slip + stick), rel=1e-7)
-    assert result.state.psi == pytest.approx(p.mu_s * p.N / (p.r_0 * p.k_p), rel=1e-7)
-
-
 def test_the_fold_near_15_0949():
     p = Parameters(N=385, Omega=14.8)
     branch = continue_cycle(p, "Omega", (14.5, 16.0))
@@ -126,37 +72,6 @@ def test_the_fold_near_15_0949():
     assert before.status is CycleStatus.OK
     tongue = nearest_tongue(p, branch.period[-1], branch.multipliers[-1, 0], int(branch.diameters[-1]))
     assert tongue.label == "2 f_s = 135.42 Hz"
-
-
-def test_the_fold_in_two_parameters():
-    branch = continue_cycle(Parameters(N=385, Omega=15), "Omega", (14.9, 16.0))
-    near = int(np.argmin(np.abs(branch.values[:, 0] - branch.folds[0, 0])))
-    start = Parameters(N=385, Omega=float(branch.values[near, 0]))
-    curve = continue_border(
-        "fold", start, ("Omega", "N"), {"Omega": (12, 20), "N": (300, 450)}, near=branch.points[near], direction=1
-    )
-    assert curve.ended.startswith("Omega or N")
-    at = float(np.interp(385.0, *np.sort(curve.values[:2], axis=0)[:, ::-1].T))
-    assert at == pytest.approx(branch.folds[0, 0], abs=2e-4)
-    assert np.max(np.abs(np.min(np.abs(curve.multipliers - 1), axis=1))) < 1e-8
-    # a second one-parameter run meets the curve where it says
-    N = float(curve.values[-2, 1])
-    again = continue_cycle(Parameters(N=N, Omega=float(curve.values[-2, 0]) - 0.4), "Omega", (14.0, 25.0))
-    assert again.folds[0, 0] == pytest.approx(curve.values[-2, 0], abs=1e-6)
-
-
-def test_the_neutral_curve_turns_at_its_top():
-    """Branch of max|mu| = 1 from low load and high speed: the load rises to a turning point, then falls."""
-    curve = continue_border(
-        "neutral", Parameters(N=50, Omega=40), ("Omega", "N"), {"Omega": (5.5, 50), "N": (20, 700)}, direction=-1
-    )
-    assert np.max(np.abs(curve.growth_rate)) < 1e-7
-    top = int(np.argmax(curve.values[:, 1]))
-    assert 0 < top < len(curve) - 1
-    assert 142 < curve.values[top, 1] < 145
-    middle = curve.values[len(curve) // 2]
-    sides = [floquet(Parameters(N=float(middle[1]) + d, Omega=float(middle[0]))).growth_rate for d in (-3, 3)]
-    assert sides[0] < 0 < sides[1]
 
 
 @pytest.mark.parametrize(

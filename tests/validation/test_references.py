@@ -2,7 +2,7 @@
 
 tests/references/data holds event times of long-double runs (two of different order and step size agree to 4e-18 s, a
 53-bit run to 3e-15 s), found by heyoka's series; tests/references/taylor.py gives them again and has other laws of
-contact; tests/references/literal.py is the paper's Eqs. (18)-(37) as printed.
+contact.  Phases and switches by themselves are compared with the paper's equations in test_equations.py.
 """
 
 from __future__ import annotations
@@ -15,10 +15,8 @@ import sys
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Record, Window, plate_modes, simulate
-from tests import needs
+from disc_model import Parameters, plate_modes, simulate
 from tests.references import stored, taylor
-from tests.references.printed import literal_events
 
 #: Largest event-time error over the stored second divided by tol: about 0.05 s in all the cases, with a
 #: margin of 20.
@@ -122,52 +120,7 @@ def test_same_events_without_numba():
     np.testing.assert_allclose([float(t) for t, _ in rows], times, atol=1e-11, rtol=0)
 
 
-# ----------------------------------------------------------------- the paper's equations, literally
-#: The literal run (DOP853, rtol 1e-13) agrees with the stored references to 1e-14 s; chaotic growth over the
-#: longest span here leaves two more digits, and a wrong term of any size would cost far more than 1e-11 s.
-LITERAL = 1e-11
-VARIANTS = {
-    "published": {},
-    "dampers, orthonormal": {"c": 5.0, "c_p": 0.5, "D_star": 5e-5, "normalization": "orthonormal"},
-    "two circles, other mass and springs": {"n_circles": 1, "n_diameters": 2, "m": 0.3, "k": 8e4, "k_p": 3e4}
-    | {"mu_s": 0.5, "mu_k": 0.1},
-    "bonded": {"contact": "bonded"},
-}
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize("variant", VARIANTS)
-def test_motion_is_that_of_the_papers_equations(variant):
-    """From a state of strong vibration, so that contact is lost, unless it is kept by force."""
-    p = Parameters(N=60.0, Omega=15.1, **VARIANTS[variant])
-    modes = plate_modes(p)
-    psi, omega, l = (modes[name].to_numpy() for name in ("psi", "omega", "diameters"))
-    size, pair = np.sign(psi) / omega, l > 0
-    start = simulate(p, 1e-9).final_state.replace(
-        time=0.0, phase="slip", direction=1, f=2.0, psi=0.0, a=-p.N * psi / omega**2 - 0.6 * size, b=0.2 * size * pair,
-        alpha=0 * size, beta=-0.2 * pair, known=0,
-    )  # fmt: skip
-    start = start.replace(u=float(psi @ start.a), u_velocity=float(psi @ (l * start.f * start.b)))
-    wanted = literal_events(p, start, 0.03, drive=2.0)
-    record = Record(windows=(Window(rate=1e4),))
-    result = simulate(p, 0.03, tol=1e-14, initial_state=start, record=record)
-    assert list(result.events["kind"]) == [kind for _, kind in wanted]
-    np.testing.assert_allclose(result.events["time"], [t for t, _ in wanted], atol=LITERAL, rtol=0)
-    if p.contact == "bonded":
-        assert set(result.events["kind"]) <= {"slip_to_stick", "stick_to_slip", "slip_reversal"}
-        assert result.samples[0]["P"].min() < 0
-    else:
-        assert {"separation", "reattachment"} <= set(result.events["kind"])
-
-
 # ------------------------------------------------------------------------ the references themselves
-@needs.MPMATH.mark
-def test_stored_modes_can_be_computed_again():
-    from tests.references.make_stored_references import published
-
-    assert published() == {name: stored.load("C")[name] for name in ("parameters", "modes")}
-
-
 @pytest.mark.parametrize("name", ["A", "B", "C", *taylor.LAWS])
 def test_stored_runs_can_be_computed_again(name):
     """Those of the default law by an integrator that shares no code with the one that found them."""

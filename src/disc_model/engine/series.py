@@ -1,6 +1,6 @@
 """Taylor coefficients of the three phases (docs/model.md: Slip, Stick, Separation), eight lanes at a time.
 
-The tests hold them against the same equations written mode by mode, tests/references/plain.py.
+The tests hold them against a reference written mode by mode, tests/references/taylor.py.
 
 The contact force of order k needs a sum over all modes, and everything of order k + 1 needs the contact force: a chain
 that would leave the arithmetic units idle.  It is broken in two ways.  The sum is taken over what is known before
