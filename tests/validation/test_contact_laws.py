@@ -1,4 +1,4 @@
-"""`simulate` under every law of contact: compliant or rigid, force vertical or normal."""
+"""`simulate` and its series under every law of contact: compliant or rigid, force vertical or normal."""
 
 from __future__ import annotations
 
@@ -111,12 +111,13 @@ def test_a_compliant_contact_does_not_pull_where_friction_holds_on_a_steep_slope
 
 
 # ------------------------------------------------------------------------ the series, coefficient by coefficient
-@pytest.mark.parametrize("name", EACH_LAW)
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS[:3])
-@pytest.mark.parametrize("n_diameters", [2, 5])
-def test_series_against_the_reference(name, phase, direction, n_diameters):
-    """Both directions, one block of lanes and two."""
-    compare_series(LAWS[name], phase, direction, n_diameters)
+@pytest.mark.parametrize("name", ["default", *LAWS])
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+@pytest.mark.parametrize("n_diameters", [pytest.param(n, marks=COMPILES) for n in (2, 5)])
+@pytest.mark.parametrize("rates", [None, (-9e3, 7e5)], ids=["constant", "ramps"])
+def test_series_against_the_reference(name, phase, direction, n_diameters, rates):
+    """One block of lanes and two."""
+    compare_series(LAWS.get(name, {}), phase, direction, n_diameters, rates)
 
 
 # ------------------------------------------------------------------------ energy
@@ -157,6 +158,3 @@ def test_a_stiff_contact_does_not_shorten_the_steps_of_a_flight():
         steps.append(result.statistics["steps"])
     # a radian of the disc a step, and more; 5 and 6 were found
     assert max(steps) <= 8
-
-
-# ------------------------------------------------------------------------ what a run gives
