@@ -54,6 +54,7 @@ def test_a_state_survives_the_way_there_and_back(p: Parameters) -> None:
         back.a[0] = 1
 
 
+@pytest.mark.compiled
 def test_events_beyond_the_first_small_buffer_are_all_kept() -> None:
     result = simulate(P, 10.0)
     assert len(result.event_rows) == result.statistics["events"] > 600

@@ -118,7 +118,7 @@ def check_derivatives(map_: ReturnMap, x: np.ndarray, step: Callable[[str], floa
         assert np.linalg.norm(by[:, i] - expected) < 1e-5 * np.linalg.norm(expected), name
 
 
-@pytest.mark.parametrize("where", ["cycle", "separation"])
+@pytest.mark.parametrize("where", ["cycle", pytest.param("separation", marks=pytest.mark.compiled)])
 def test_derivatives_by_parameters_agree_with_central_differences(where):
     if where == "cycle":
         map_ = ReturnMap(DAMPED)
