@@ -79,7 +79,7 @@ def test_coasts_compose() -> None:
     "variant",
     [pytest.param(name, marks=[pytest.mark.compiled] if name == "more blocks" else []) for name in VARIANTS],
 )
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed: int) -> None:
     p = Parameters(N=385, Omega=5.0, **VARIANTS[variant])
     model = engine_case(p).model
@@ -87,7 +87,7 @@ def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed:
     length = _coast(model, s, state, 0.0)
     assert coasting.SHORTEST_COAST <= length < stick_modes.LONGEST_COAST
     swing, lowest = 0.0, np.inf
-    for x in np.linspace(0.0, length, 2000):
+    for x in np.linspace(0.0, length, 500):
         coasting.coast_to(model, s, x, state)
         P = stick_force(model, state)
         pull = p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega)
@@ -132,11 +132,11 @@ def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
 def test_events_are_those_of_the_series() -> None:
     """Slow drive: stick is nearly all of the motion and coasts are long."""
     p = Parameters(N=385, Omega=1.0)
-    closed = simulate(p, 2.0, tol=1e-14)
-    stepped = simulate(p, 2.0, tol=1e-14, ramps=by_series(p))
+    closed = simulate(p, 0.6, tol=1e-14)
+    stepped = simulate(p, 0.6, tol=1e-14, ramps=by_series(p))
     assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
     assert list(closed.events["kind"]) == list(stepped.events["kind"])
-    # rounding of a clock that reads 2 s, and of the forces at a release that the slow spring reaches at a flat angle
+    # rounding of a clock that reads 0.6 s, and of the forces at a release that the slow spring reaches at a flat angle
     np.testing.assert_allclose(closed.events["time"], stepped.events["time"], atol=1e-12, rtol=0)
 
 

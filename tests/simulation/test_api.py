@@ -43,7 +43,7 @@ NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
 @pytest.mark.parametrize(
     "given",
     [
-        *({"t_end": number(0.25)} for number in NUMBERS),
+        *({"t_end": number(0.0625)} for number in NUMBERS),
         *({"tol": number(2.0**-30)} for number in NUMBERS if number is not np.float16),
         *({"max_steps": whole(100)} for whole in (np.int8, np.uint64)),
         {"checkpoint_every": np.float32(1)},
@@ -53,9 +53,9 @@ NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
 def test_no_call_decides_how_later_ones_are_computed(given):
     """The engine was compiled for the types of the first call, and given others after it."""
     plain = {name: (int if name == "max_steps" else float)(value) for name, value in given.items()}
-    usual, expected = simulate(P, 0.25), simulate(P, **{"t_end": 0.25, **plain})
-    same(simulate(P, **{"t_end": 0.25, **given}), expected)
-    same(simulate(P, 0.25), usual)
+    usual, expected = simulate(P, 0.0625), simulate(P, **{"t_end": 0.0625, **plain})
+    same(simulate(P, **{"t_end": 0.0625, **given}), expected)
+    same(simulate(P, 0.0625), usual)
 
 
 @pytest.mark.parametrize(

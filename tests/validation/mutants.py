@@ -1,6 +1,6 @@
 """Wrong signs, factors and comparisons in the modules that hold the equations, one at a time; and which tests notice.
 
-    python -m tests.validation.mutants engine/laws.py ...    # tries all changes of these modules, of all without any
+    NUMBA_DISABLE_JIT=1 python -m tests.validation.mutants engine/laws.py ...    # of these modules; without any, of all
 
 What is changed is read from the syntax tree, so that no formatting and no new function needs attention here:
 
@@ -29,6 +29,7 @@ import resource
 import sys
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator
+from itertools import accumulate
 from pathlib import Path
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple
@@ -75,8 +76,17 @@ MODULES = {
     "benchmarks/methods/taylor_heyoka.py": METHODS,
     "benchmarks/scenes.py": (*EQUATIONS, "tests/benchmarks/test_scenes.py"),
 }
-#: By the name of a mutant (as `Mutant` prints it): why it makes no difference.
+#: By the name of a mutant (as `Mutant` prints it), or of a function for all of its mutants: why it makes no difference.
 EQUIVALENT: dict[str, str] = {
+    "engine/layout.py:_time_unit": "the unit of time: any gives the same motion",
+    "engine/stepping.py:_scale": "how long a step is: any that is short enough gives the same motion",
+    "engine/stepping.py:_relative": "the same",
+    "engine/stepping.py:step_size": "the same",
+    "engine/tangent.py:longest_step": "the same",
+    "stability/return_map.py:longest_step": "the same",
+    "stability/return_map.py:ReturnMap.longest": "how long a return is waited for",
+    "stability/return_map.py:newton": "how Newton's method goes on, not where it ends",
+    "simulation/result.py:series_order": "degree of the series, which sizes the steps",
     "engine/audit.py:_powers_in: + lost -> -": "a size, without abs() as it is never negative",
     "engine/audit.py:_powers_in: + damped -> -": "a size, without abs() as it is never negative",
     "engine/stick_modes.py:_compliant_eigenmodes: + k -> -": "the scale of u is free",
@@ -90,6 +100,8 @@ EQUIVALENT: dict[str, str] = {
 }
 PATIENCE = 300
 """s of the processor; all that is tried takes a fraction of that."""
+BUDGET = 10.0
+"""s; as many of a module's tests as take this together are tried, the quickest."""
 
 
 class Mutant(NamedTuple):
@@ -270,9 +282,11 @@ class Trials:
         spent = json.loads(said)
         session.items.sort(key=lambda item: spent[item.nodeid])
         for module in self.modules:
-            items = {item.nodeid: item for item in session.items if item.nodeid.split("::")[0] in MODULES[module]}
+            here = [item for item in session.items if item.nodeid.split("::")[0] in MODULES[module]]
+            all_of_it = accumulate(spent[item.nodeid] for item in here)
+            items = {item.nodeid: item for item, so_far in zip(here, all_of_it, strict=True) if so_far < BUDGET}
             for mutant in mutants(module):
-                if str(mutant) not in EQUIVALENT:
+                if not {str(mutant), f"{module}:{mutant.function}"} & EQUIVALENT.keys():
                     self._try(mutant, items, functions[mutant.name], caches)
         return True
 
