@@ -120,6 +120,7 @@ test-long: $(VENV)/.bench
 coverage: kernels
 	$(BIN)/pytest -m "not slow and not workflow" --cov --cov-report=
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -m "not slow and not workflow and not compiled" tests/engine tests/validation \
+	  tests/stability/test_return_map.py \
 	  --cov --cov-append --cov-fail-under=95 --durations=5
 
 # The whole pipeline on a study of a few seconds.

@@ -9,7 +9,7 @@ import numba
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Ramp
+from disc_model import Parameters, Ramp, plate_modes
 from disc_model.engine import laws, layout, machine, switches
 from disc_model.flexibility import contact_give
 from disc_model.simulation.result import engine_case, write_state
@@ -65,19 +65,35 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
     if rates:
         machine.set_course(model, state)
     machine.expand(model, s, state, order)
-    powers = np.array([float(model.unit) ** k for k in range(order)])
+    powers = np.array([float(model.unit) ** k for k in range(order + 1)])
 
-    def compare(own, wanted, rtol=1e-10):
-        wanted = np.array(wanted[:order], float) * powers
-        np.testing.assert_allclose(own[:order], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=rtol)
+    def compare(own, wanted, rtol=1e-10, degree=order):
+        wanted = np.array(wanted[:degree], float) * powers[:degree]
+        np.testing.assert_allclose(own[:degree], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=rtol)
 
-    compare(s.f, step.f)
-    compare(s.psi, step.psi)
+    case, sign, width, n0 = (
+        engine_case(p),
+        np.sign(plate_modes(p)["psi"].to_numpy()),
+        len(model.force),
+        len(model.force0),
+    )
+    rows = [x[: (order + 1) * n].reshape(-1, n) for x, n in ((s.z, width), (s.e, width), (s.y, n0), (s.g, n0)) if n]
+    own = np.concatenate(rows, axis=1)[:, case.places]
+    for i, name in enumerate(("a", "b", "alpha", "beta")):
+        here = case.present // len(sign) == i
+        wanted = np.array(sign * getattr(step, name)[: order + 1], float)[:, case.present[here] % len(sign)]
+        wanted *= powers[:, None]
+        sizes = np.abs(wanted).max(axis=1, keepdims=True)
+        assert np.all(np.abs(own[:, here] - wanted) <= 1e-10 * sizes), name
+    compare(s.f, step.f, degree=order + 1)
+    compare(s.psi, step.psi, degree=order + 1)
     if phase != "separation":
         compare(s.P, step.V if phase == "stick" else step.R)
+    if phase != "stick":
+        compare(s.switch, direction * step.f if direction else step.u - step.a @ step.q.s, 1e-9, order + 1)
     if p.contact_compliance or phase == "separation":
-        compare(s.u, step.u)
-        compare(s.v, step.v)
+        compare(s.u, step.u, degree=order + 1)
+        compare(s.v, step.v, degree=order + 1)
     if phase == "stick":
         press, pull = step.V[:order], p.r_0 * step.F[:order]
         if p.contact_force == "normal":  # over the denominator that both have

@@ -42,7 +42,10 @@ PACKAGE = Path(disc_model.__file__).parent
 LAWS = "tests/validation/test_contact_laws.py"
 RAMPS = ("tests/simulation/test_ramps.py", "tests/validation/test_ramps.py")
 EQUATIONS = ("tests/validation/test_equations.py", LAWS)
-STICK = (*EQUATIONS, *RAMPS, "tests/engine/test_coasting.py", "tests/engine/test_sampling.py")
+STICK = (
+    "tests/validation/test_equations.py",
+    *(f"tests/engine/test_{name}.py" for name in ("stick_modes", "coasting")),
+)
 DERIVATIVES = ("tests/engine/test_variational.py",)
 SECTION = ("tests/stability/test_return_map.py", *DERIVATIVES)
 METHODS = (
@@ -51,7 +54,7 @@ METHODS = (
 )
 #: The modules, and the tests that have to notice.
 MODULES = {
-    "engine/layout.py": (*STICK, "tests/engine/test_layout.py"),
+    "engine/layout.py": (*STICK, LAWS, *RAMPS, "tests/engine/test_layout.py"),
     "engine/dense_output.py": (*EQUATIONS, *RAMPS),
     "engine/stepping.py": (*EQUATIONS, *RAMPS),
     "engine/sampling.py": (*EQUATIONS, *RAMPS),
@@ -82,8 +85,10 @@ EQUIVALENT: dict[str, str] = {
     "engine/stepping.py:_scale": "how long a step is: any that is short enough gives the same motion",
     "engine/stepping.py:_relative": "the same",
     "engine/stepping.py:step_size": "the same",
-    "engine/tangent.py:longest_step": "the same",
-    "stability/return_map.py:longest_step": "the same",
+    "engine/series.py:_products": "a processor has this one or the next, as its registers are",
+    "engine/series.py:_products_apart": "the same",
+    "engine/tangent.py:longest_step": "how long a step is",
+    "stability/return_map.py:longest_step": "how long a step is",
     "stability/return_map.py:ReturnMap.longest": "how long a return is waited for",
     "stability/return_map.py:newton": "how Newton's method goes on, not where it ends",
     "simulation/result.py:series_order": "degree of the series, which sizes the steps",

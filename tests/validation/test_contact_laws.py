@@ -134,14 +134,16 @@ def test_energy_balances_over_ten_thousand_switches(name):
 
 
 # ------------------------------------------------------------------------ limits
-@pytest.mark.compiled
-@pytest.mark.parametrize("name", [*EACH_LAW, pytest.param("bonded", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", ["default", *EACH_LAW, pytest.param("bonded", marks=pytest.mark.slow)])
 def test_a_rigid_disc_gives_the_classical_cycle(name):
-    p = Parameters(N=385.0, Omega=15.1, n_diameters=-1, **(LAWS | {"bonded": {"contact": "bonded"}})[name])
-    events = simulate(p, 1.0, tol=1e-13).events
+    """More events than the engine keeps room for at first."""
+    law = {"default": {}, "bonded": {"contact": "bonded"}} | LAWS
+    p = Parameters(N=385.0, Omega=15.1, n_diameters=-1, **law[name])
+    events = simulate(p, 2.0, tol=1e-13).events
     assert set(events["kind"]) == {"stick_to_slip", "slip_to_stick"}
-    assert len(events) > 100
-    np.testing.assert_allclose(events["time"], classical_events(p, len(events)), rtol=0, atol=1e-13)
+    assert len(events) > 256
+    # the clock reads up to 2 s
+    np.testing.assert_allclose(events["time"], classical_events(p, len(events)), rtol=0, atol=2e-13)
     np.testing.assert_allclose(events["P"], p.N, rtol=1e-12)
 
 
