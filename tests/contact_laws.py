@@ -104,3 +104,5 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
         held = np.array([pull[0], press[0]], float)
         i, _ = switches.instant(model, state)
         np.testing.assert_allclose(laws.grip(model, i, laws.vertical_in_stick(model, i)), held, rtol=1e-10)
+        force = switches.force_in_stick(model, state, switches.stick_force(model, state))
+        assert force == pytest.approx(float(step.R[0]), rel=1e-10)

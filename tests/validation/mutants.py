@@ -97,6 +97,8 @@ EQUIVALENT: dict[str, str] = {
     "engine/stick_modes.py:_compliant_eigenmodes: + k -> -": "the scale of u is free",
     "engine/stick_modes.py:_compliant_eigenmodes: 1.0 -> 2.0": "the scale of u is free",
     "engine/switches.py:_rounding: + i.m * size -> -": "a size, without abs() as it is never negative",
+    "engine/switches.py:_rounding: - model.u_0 -> +": "a size",
+    "engine/switches.py:_deflection_size: mul(..., load(state.z, b)) -> -": "a size",
     "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
     "stability/sliding.py:_jacobian: + p.m * weight * (2 * l * beta - 2 * l ** 2 * p.Omega * a) -> -": (
         "zero at the equilibrium, where beta = l Omega a"
