@@ -14,7 +14,7 @@ from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import kicked, published_start, simulate
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.course import Reached, come_to, growing, late_stretch
+from disc_model.stability.attractor.course import Reached, Stretch, come_to, growing, late_stretch
 from disc_model.stability.attractor.many import Basins, random_kick
 from disc_model.stability.attractor.near import Near, follows, published_start_near
 
@@ -312,3 +312,9 @@ def test_what_stays_near_an_unstable_cycle_has_not_settled() -> None:
 def test_a_motion_that_comes_to_steady_sliding_is_told() -> None:
     p = Parameters(N=50, Omega=15, c_p=0.5)
     assert Basins(p, 100.0).reached(published_start(p)).outcome is Outcome.SLIDING
+
+
+def stretch(**changes: float) -> Stretch:
+    """Of a separating motion, for tests of what is said of one."""
+    shares = {"share_stick": 0.25, "share_slip": 0.65, "share_separation": 0.10, "separation_rate": 135.0}
+    return Stretch(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)
