@@ -95,7 +95,10 @@ NO_EQUATION = {
         "engine/stepping.py": ("_expand_slip", "_expand_stick", "expand", "_sooner", "first_switch", "advance_time"),
         "engine/variational.py": ("_step", "_count", "fly"),
     },
-    "sizes by which a balance is judged": {"engine/audit.py": ("audit_step", "book")},
+    "sizes by which balances and distances are judged": {
+        "engine/audit.py": ("audit_step", "book"),
+        "benchmarks/methods/physics.py": ("Physics.distance", "Physics._energy"),
+    },
     "a processor has one of these, as its registers are": {"engine/series.py": ("_products", "_products_apart")},
     "where numbers are kept, how roots are sought, what is refused: these have tests of their own": {
         "engine/layout.py": ("build_series",),
@@ -131,7 +134,7 @@ NO_EQUATION = {
                 "_gauss",
             ),
         ),
-        "benchmarks/methods/physics.py": ("Physics.unpack", "Physics.distance"),
+        "benchmarks/methods/physics.py": ("Physics.unpack",),
         "benchmarks/methods/kernels.py": ("tables", "rk4_run"),
         "benchmarks/methods/taylor_heyoka.py": ("Heyoka._solve", "_places", "_integrators"),
         "benchmarks/scenes.py": ("separating_start", "answer", "rigid_cycle", "errors", "event_time_error"),
