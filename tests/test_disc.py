@@ -408,6 +408,20 @@ def test_the_page_reads_a_universal_file(tmp_path: Path, monkeypatch: pytest.Mon
     np.testing.assert_allclose(found.amplitude, THREE["amplitude"], rtol=1e-5)
 
 
+def test_a_study_chooses_the_first_modes_of_its_table(tmp_path: Path) -> None:
+    """``auto`` was refused there as a parameter of the plate."""
+    plate = P.replace(n_diameters=8, normalization="orthonormal")
+    (tmp_path / "disc.csv").write_text(disc_table(plate))
+    text = (
+        "study: own\nquantity: floquet\nbase: {disc: disc.csv, n_diameters: auto, truncation_tolerance: 0.01, N: 385}\n"
+    )
+    study = computed(tmp_path, text + "axes: {Omega: [15]}\n")
+    choice = dm.choose_modes(P.replace(disc=dm.read_disc(tmp_path / "disc.csv")), 0.01).parameters
+    assert study["growth_rate"].item() == dm.floquet(choice.replace(Omega=15)).growth_rate
+    assert (study["n_diameters"].item(), study["n_circles"].item()) == (max(choice.disc.diameters), 0)
+    assert 0 < study["n_diameters"].item() < 8
+
+
 def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     def out(*arguments: str) -> str:
         with pytest.raises(SystemExit) as ended:

@@ -420,7 +420,7 @@ def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     def default(name: str) -> Any:
         return model.model_fields[name].default
 
-    said = {name for name in (*PLATE, "damping_ratio") if data.get(name, default(name)) != default(name)}
+    said = {name for name in (*PLATE, "damping_ratio") if data.get(name, default(name)) not in (default(name), AUTO)}
     if data.get("disc") is not None:
         rule = "must be left out where a disc is given: it is a parameter of the plate"
     elif "damping_ratio" in said:

@@ -18,6 +18,7 @@ from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Column, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import AUTO, Parameters, case_of, leaves_modes
+from disc_model.plate import mode_arrays
 from disc_model.simulation.case import START, Start
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row
@@ -69,8 +70,14 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
         for name, column in quantity.COLUMNS.items()
     }
     if data["base"].get("n_diameters") == AUTO:
-        for name in ("n_diameters", "n_circles"):  # -1 where nothing could be chosen
-            variables[name] = xr.Variable(POINT, [getattr(p, name, -1) for p in parameters], attributes(name))
+        for name, column in (
+            ("n_diameters", "diameters"),
+            ("n_circles", "circles"),
+        ):  # -1 where nothing could be chosen
+            highest = [
+                -1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), column).max() for p in parameters
+            ]
+            variables[name] = xr.Variable(POINT, highest, attributes(name))
     variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
     coords = {name: xr.Variable(POINT, [point[i] for point in points], describe(name)) for i, name in enumerate(names)}
     attrs = {
