@@ -49,7 +49,7 @@ def test_every_point_is_reported_and_slow_ones_are_not_repeated(known: dict[str,
     assert seen.count("series") == 9
 
 
-QUICK = {"stick_slip": {"series": (1e-6, 1e-8, 1e-10), "RK4": (7e-4, 2e-4, 1e-4, 5e-5)}, "separating": {"RK4": (1e-4,)}}
+QUICK = {"stick_slip": {"series": (1e-6, 1e-8, 1e-10), "RK4": (7e-4, 2e-4, 1e-4, 5e-5)}, "separating": {"RK4": (4e-4,)}}
 
 
 @pytest.mark.compiled

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from disc_model import Record, Window, deflection, floquet
+from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.errors import ParameterError
@@ -154,7 +155,9 @@ def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Calla
     p = APART.replace(**change)
     start = carried_over(p, switch())
     physics = Physics(p)
-    force = physics.force(physics.pack(start), 1)  # by formulas that share nothing with the engine
+    force, _ = kernels.contact(
+        *kernels.tables(physics), 1, physics.pack(start)
+    )  # by formulas that share nothing with the engine
     assert abs(force) > 1e-3
     window = Window(start=0, stop=2e-3, rate=1e6)
     run = simulate(p, 2e-3, initial_state=start, record=Record(windows=(window,)))

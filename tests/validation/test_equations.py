@@ -10,11 +10,12 @@ import pytest
 
 from disc_model import Record, Window, plate_modes, simulate
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import kernels
+from disc_model.benchmarks.methods import kernels, taylor_heyoka
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, layout, switches
 from disc_model.simulation.result import engine_case, read_state, write_state
+from tests import needs
 from tests.references.literal import Literal
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
 
@@ -150,19 +151,62 @@ def test_release_conditions_of_stick():
 
 
 # ------------------------------------------------------------------------------------------------ rival methods
+def rival_rate(phase, direction, y):
+    """What `kernels.rate` fills in."""
+    out = np.empty_like(y)
+    kernels.rate(*kernels.tables(Physics(P)), PHASES.index(phase), direction, y, out)
+    return out
+
+
+def close_rates(start, rate):
+    """The rate of a state, as a vector, against the paper's."""
+    physics, wanted = Physics(P), Printed(P, start).rates()
+    places = {name: getattr(physics, name) for name in ("a", "b", "alpha", "beta", "psi", "f", "u")}
+    # u and u' are integrated in separation only
+    names = wanted.keys() - ({"u", "u_velocity"} if start.phase != "separation" else set())
+    places |= {"u_velocity": physics.v}
+    close({name: rate[places[name]] for name in names}, wanted, 1e-12, names)
+
+
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_right_hand_sides_of_the_rival_methods(phase, direction):
     start = lively(phase, direction)
-    physics, wanted = Physics(P), Printed(P, start).rates()
+    close_rates(start, rival_rate(phase, direction, Physics(P).pack(start)))
+
+
+@needs.RIVALS.mark
+@pytest.mark.parametrize("contact", ["separable", "bonded"])
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_heyokas_merged_formulation_is_the_literal_one(phase, direction, contact):
+    """Constants merged, products shared, one division: the paper's rates, and the conditions of the other methods."""
+    import heyoka as hy
+
+    p = P.replace(contact=contact)
+    physics, start = Physics(p), lively(phase, direction, p)
     y = physics.pack(start)
-    compiled = np.empty_like(y)
-    kernels.rate(*kernels.tables(physics), PHASES.index(phase), direction, y, compiled)
-    # u and u' are integrated in separation only
-    names = wanted.keys() - ({"u", "u_velocity"} if phase != "separation" else set())
-    places = {name: getattr(physics, name) for name in ("a", "b", "alpha", "beta", "psi", "f", "u")}
-    for rate in (physics.rate(phase, direction, y), compiled):
-        got = {name: rate[place] for name, place in places.items()} | {"u_velocity": rate[physics.v]}
-        close(got, wanted, 1e-12, names)
+    rows, conditions = taylor_heyoka.system(physics, phase)
+    function = hy.cfunc([rate for _, rate in rows] + conditions, vars=[variable for variable, _ in rows])
+    given = (p.N - p.k * physics.u_0, p.Omega, direction)
+    found = function(y[: len(rows)], pars=given[: function.nparams])
+    close_rates(start, found)
+    wanted = np.empty(3)
+    count = kernels.switch_values(*kernels.tables(physics), PHASES.index(phase), direction, y, wanted)
+    np.testing.assert_allclose(found[len(rows) :], wanted[count - len(conditions) : count], rtol=1e-11)
+
+
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_jacobians_of_the_rival_methods(phase, direction):
+    """Each column is a central difference: rates are all but quadratic over its step, and rounding takes six digits."""
+    physics = Physics(P)
+    y = physics.pack(lively(phase, direction))
+    J = np.empty((len(y), len(y)))
+    kernels.jacobian(*kernels.tables(physics), PHASES.index(phase), direction, y, J)
+    for j, step in enumerate(np.maximum(1e-5 * np.abs(y), 1e-9)):
+        if phase == "stick" and j == physics.f:
+            continue  # f is zero there
+        high, low = (rival_rate(phase, direction, y + sign * step * np.eye(len(y))[j]) for sign in (1, -1))
+        column = (high - low) / (2 * step)
+        np.testing.assert_allclose(J[:, j], column, rtol=1e-5, atol=1e-7 * np.max(np.abs(column)))
 
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
@@ -170,10 +214,10 @@ def test_points_and_forces_of_the_rival_methods(phase, direction):
     start = lively(phase, direction)
     physics, printed = Physics(P), Printed(P, start)
     y, now = physics.pack(start), printed.described(0.0, printed.y)
-    tables = kernels.tables(physics)
-    pull = printed.literal.pull(0.0, printed.y)
-    force, F, w, velocity = kernels.contact(*tables, direction, y)
-    assert (F, w) == pytest.approx((pull, now["w"]), rel=1e-12)
+    modes, c = kernels.tables(physics)
+    force, F = kernels.contact(modes, c, direction, y)
+    w, velocity = kernels.disc_point(modes, y)
+    assert (F, w) == pytest.approx((printed.literal.pull(0.0, printed.y), now["w"]), rel=1e-12)
     assert physics.disc_point(y) == pytest.approx((w, velocity), rel=1e-12)
     assert physics.u_0 == pytest.approx(printed.literal.w_0, rel=1e-12)
     if phase == "separation":
@@ -181,7 +225,6 @@ def test_points_and_forces_of_the_rival_methods(phase, direction):
         return
     assert velocity == pytest.approx(now["u_velocity"], rel=1e-12)
     assert force == pytest.approx(printed.force(), rel=1e-12)
-    assert physics.force(y, direction) == pytest.approx(printed.force(), rel=1e-12)
 
 
 def test_impact_of_the_rival_methods():

@@ -35,12 +35,10 @@ RIVALS = (
     Rival("RK4", "rk4:FixedStep", maps=("stick_slip", "separating")),
     Rival("RK45", "solve_ivp:SolveIvp", ("RK45", 5)),
     Rival("DOP853", "solve_ivp:SolveIvp", ("DOP853", 8)),
-    Rival("DOP853-numpy", "solve_ivp:InNumpy", ("DOP853", 8), maps=()),
     Rival("LSODA", "solve_ivp:SolveIvp", ("LSODA",)),
     Rival("Radau", "solve_ivp:SolveIvp", ("Radau", 5)),
     Rival("regularised", "regularised:Regularised"),
     Rival("heyoka", "taylor_heyoka:Heyoka", requires=("heyoka",)),
-    Rival("heyoka-unguarded", "taylor_heyoka:Unguarded", requires=("heyoka",)),
     Rival("CVODE", "cvode:Cvode", ("Adams",), requires=("sksundae",)),
     Rival("CVODE-BDF", "cvode:Cvode", ("BDF",), requires=("sksundae",), maps=()),
 )

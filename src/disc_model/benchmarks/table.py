@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -17,6 +16,8 @@ from disc_model.data.dataset import markdown_table
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) that the others have to reach as well."""
+FLOOR = 1e-15
+"""s; errors below are alike, zero among them."""
 
 
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
@@ -24,28 +25,43 @@ def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
 
     further : cost of a further simulated second, setting up left out; where that was not measured, that of the whole
         run, which was so long that it has next to no setting up
-    right : whether all events are within ``DEFAULT`` s
     """
     frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
     frame = frame[frame["verdict"] != Verdict.NOT_RUN].reset_index(drop=True)
-    return frame.assign(
-        further=frame["marginal_cost"].fillna(frame["cost"]),
-        right=(frame["verdict"] == Verdict.CONVERGED) & (frame["event_error"] <= DEFAULT),
-    )
+    return frame.assign(further=frame["marginal_cost"].fillna(frame["cost"]))
 
 
 def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
-    """By scene and method: least cost with events right to ``DEFAULT`` s, over the series engine's at its default.
+    """By scene and method: cost with events right to ``DEFAULT`` s, over the series engine's at its default.
 
-    points : `measured_points`; costs are those of a further second
+    Costs are those of a further second, at that error by `cost_at`.  Should the series engine's own error be larger,
+    that is what all are allowed.
+
+    points : `measured_points`
     """
     found: dict[str, dict[str, float]] = {}
-    good = points[points["right"] & points["scene"].isin(JUDGED)]
-    for scene, part in good.groupby("scene", sort=False):
-        own = at_default(part)["further"]
-        if len(own):
-            found[str(scene)] = (part.groupby("solver", sort=False)["further"].min() / own.iloc[0]).to_dict()
+    for scene in JUDGED:
+        part = points[points["scene"] == scene]
+        own = at_default(part)
+        if len(own) and math.isfinite(error := own["event_error"].to_numpy()[0]):
+            costs = {name: cost_at(line, max(DEFAULT, error)) for name, line in part.groupby("solver", sort=False)}
+            costs["series"] = float(own["further"].to_numpy()[0])
+            found[scene] = {str(name): cost / costs["series"] for name, cost in costs.items() if math.isfinite(cost)}
     return found
+
+
+def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
+    """Cost at which a line reaches an event-time error (s): between settings, log-log; nan if none is as accurate.
+
+    A setting counts only where no cheaper one is as accurate; one coarser than all is not made up.
+    """
+    known = line[np.isfinite(line["event_error"])].sort_values(cost)
+    errors = np.maximum(known["event_error"].to_numpy(), FLOOR)
+    best = errors < np.minimum.accumulate(np.concatenate([[np.inf], errors[:-1]])) if len(known) else []
+    errors, costs = errors[best], known[cost].to_numpy()[best]
+    if not len(errors) or not errors[-1] <= max(wanted, FLOOR):
+        return math.nan
+    return float(np.exp(np.interp(-math.log(max(wanted, FLOOR)), -np.log(errors), np.log(costs))))
 
 
 def at_default(points: pd.DataFrame) -> pd.DataFrame:
@@ -56,12 +72,12 @@ def at_default(points: pd.DataFrame) -> pd.DataFrame:
 def table(dataset: xr.Dataset) -> pd.DataFrame:
     """One row per measured point, with the ratio of its cost to the series engine's at the same event-time error.
 
-    ``times_series`` is cost over the cost at which the series engine (interpolated in log-log between its points, or
-    its finest point if it is more accurate than asked) reaches the same or a smaller event-time error.
+    ``times_series`` is cost over the cost at which the series engine reaches the same event-time error, by `cost_at`.
     """
     points = measured_points(dataset)
     series = points[points["solver"] == "series"]
-    yardsticks = [_cost_at(series[series["scene"] == p.scene], p.event_error) for p in points.itertuples()]
+    wanted = zip(points["scene"], points["event_error"], strict=True)
+    yardsticks = [cost_at(series[series["scene"] == scene], error, "cost") for scene, error in wanted]
     columns = {
         "scene": points["scene"],
         "method": points["solver"],
@@ -76,18 +92,10 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
         "order_state": points["order_state"],
         "order_theory": points["order_theory"],
         "times_series": points["cost"] / yardsticks,
+        "python_share": points["glue"],
         "repeats": points["repeats"].astype(int),
     }
     return pd.DataFrame(columns)
-
-
-def _cost_at(line: pd.DataFrame, wanted: Any) -> float:
-    """Cost of the cheapest point of a line whose event-time error is at most the one asked for, or of the finest."""
-    known = line[np.isfinite(line["event_error"])]
-    if not math.isfinite(wanted) or known.empty:
-        return math.nan
-    reached = known["cost"][known["event_error"] <= wanted]
-    return float(reached.min() if len(reached) else known["cost"][known["event_error"].idxmin()])
 
 
 def to_markdown(dataset: xr.Dataset) -> str:

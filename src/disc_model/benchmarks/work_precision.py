@@ -59,6 +59,7 @@ VARIABLES: Mapping[str, Variable] = {
     "seconds_spread": Variable("s", "largest less smallest time of the repeats"),
     "cost": Variable("1", "seconds per simulated second"),
     "marginal_cost": Variable("1", "the same of the time beyond the scene's end; nan where it was not measured"),
+    "glue": Variable("1", "share of the seconds spent in Python between compiled phases; nan where not measured"),
     "event_error": Variable("s", "largest error of an event time, nan if events are missing or invented"),
     "state_error": Variable("1", "energy norm of the error of the state at the end over that of the state"),
     "work": Variable("1", "right-hand sides evaluated; steps for methods that work with series"),
@@ -115,6 +116,7 @@ def work_precision(
     todo = points(settings)
     walls: dict[Point, list[float]] = defaultdict(list)
     more: dict[Point, list[float]] = defaultdict(list)
+    glue: dict[Point, list[float]] = defaultdict(list)
     calls: dict[str, list[float]] = defaultdict(list)
     rows: dict[Point, dict[str, float]] = {}
     hopeless: set[tuple[str, str]] = set()
@@ -130,6 +132,7 @@ def work_precision(
             if result.outcome is Outcome.TOO_SLOW:
                 hopeless.add(lane)
             walls[point].append(result.seconds)
+            glue[point].append(result.glue / max(result.seconds, 1e-9))
             if point.scene in JUDGED and result.outcome is Outcome.FINISHED and _quick(walls[point]):
                 more[point].append(_further(point, limit) - result.seconds)
             if not turn:
@@ -154,6 +157,7 @@ def work_precision(
             "seconds_spread": max(walls[point]) - min(walls[point]),
             "cost": seconds / span,
             "marginal_cost": _median(more[point]) / (FURTHER * span),
+            "glue": _median(glue[point]),
             "repeats": len(walls[point]),
         }
     return _dataset(settings, rows, {name: _median(calls[name]) for name in settings})

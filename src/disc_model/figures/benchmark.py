@@ -86,7 +86,10 @@ def _panels(
 
 
 def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None:
-    """Lines of all methods; right results filled, results with wrong events hollow, at the right edge if need be."""
+    """Lines of all methods; right results filled, results with wrong events hollow, at the right edge if need be.
+
+    Dotted: without the Python between compiled phases, where that was measured.
+    """
     ax.set(xscale="log", yscale="log")
     wrong_at = 25.0
     labels: list[tuple[float, float, str, str]] = []
@@ -99,6 +102,8 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
         right, wrong = np.isin(verdict, (0, 1)), verdict == 2
         bold = method == "series"
         ax.plot(x[right], cost[right], linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **look)
+        if np.isfinite(glue := line["glue"].values).any():
+            ax.plot(x[right], (cost * (1.0 - glue))[right], linewidth=0.7, linestyle=":", color=look["color"])
         hollow = np.full(np.count_nonzero(wrong), wrong_at) if error == "event" else x[wrong]
         ax.plot(hollow, cost[wrong], **look | {"linestyle": "", "markerfacecolor": "white", "markeredgewidth": 0.8})
         order = float(line[f"order_{error}"])
@@ -139,10 +144,19 @@ def _method_handles(part: xr.Dataset) -> list[Line2D]:
     """Legend entries of the methods that have a point in this part."""
     lines = {str(method): part.sel(solver=method) for method in part["solver"].values}
     return [
-        Line2D([], [], markersize=4, label=line["label"].item(), **_look(method))
+        handle
         for method, line in lines.items()
         if np.isin(line["verdict"], (0, 1, 2)).any()
+        for handle in _handles(method, line)
     ]
+
+
+def _handles(method: str, line: xr.Dataset) -> list[Line2D]:
+    label, look = line["label"].item(), _look(method)
+    whole = Line2D([], [], markersize=4, label=label, **look)
+    if not np.isfinite(line["glue"]).any():
+        return [whole]
+    return [whole, Line2D([], [], linewidth=0.7, linestyle=":", color=look["color"], label=f"{label}, without Python")]
 
 
 # ----------------------------------------------------------------------------------------------------

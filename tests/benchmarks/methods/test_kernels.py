@@ -28,8 +28,9 @@ def switched(start, cause, p=P):
 def test_nothing_is_violated_within_a_phase(p, phase, direction):
     _, y, modes, c = vector(lively(phase, direction, p), p)
     out = np.full(3, np.nan)
-    assert kernels.violated(modes, c, PHASES.index(phase), direction, y, out) == -1
-    assert np.isfinite(out).sum() == ENDS[phase]
+    count = kernels.switch_values(modes, c, PHASES.index(phase), direction, y, out)
+    assert count == np.isfinite(out).sum() == ENDS[phase]
+    assert kernels.violated(out, count) == -1
 
 
 def test_violations_are_told_apart():
@@ -37,7 +38,9 @@ def test_violations_are_told_apart():
         physics, y, modes, c = vector(start)
         for name, value in changes.items():
             y[getattr(physics, name)] = value
-        return kernels.violated(modes, c, PHASES.index(start.phase), start.direction, y, np.empty(3))
+        values = np.empty(3)
+        count = kernels.switch_values(modes, c, PHASES.index(start.phase), start.direction, y, values)
+        return kernels.violated(values, count)
 
     assert violated(lively("separation"), u=-1.0) == 0
     assert violated(lively("slip", 1), f=-1e-3) == 1

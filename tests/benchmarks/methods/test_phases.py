@@ -29,14 +29,14 @@ from tests.references.printed import P
 def test_what_ends_a_run_of_phases(what, outcome, words):
     problem = task()
 
-    def advance(phase, t, y, t_end, *, watched):
+    def advance(phase, t, y, t_end):
         if what == "fails":
             raise GaveUp("gave up")
         if what == "overflows":
             return Ended(None, t, y * math.nan)
         return Ended(1 if phase.name == "slip" else 0, t, y)  # one switch after the other, at once
 
-    result = run_phases(problem, Physics(P), advance, Meter(problem, Physics(P), math.inf), guard=0.0)
+    result = run_phases(problem, Physics(P), advance, Meter(problem, Physics(P), math.inf))
     assert result.outcome is outcome
     assert words in result.message
 

@@ -14,9 +14,7 @@ from disc_model.benchmarks.methods.physics import Physics
 from tests.benchmarks.methods.problems import task
 from tests.references.printed import MOTIONS, P, Printed, lively
 
-SHORT = [
-    name for name in ("RK4", "RK45", "DOP853", "DOP853-numpy", "heyoka", "CVODE") if not METHODS[name].unavailable()
-]
+SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].unavailable()]
 
 
 def solved(name, problem, tol):

@@ -3,7 +3,7 @@
     >>> from disc_model.benchmarks.methods import METHODS
     >>> METHODS["RK4"].solve(problem, 1e-5)
 
-They share the physics (`kernels`, compiled, and `physics`, the same in numpy), not the engine.  heyoka and SUNDIALS
+They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS
 come with the extra `bench`; without them their `unavailable()` says so and `solve` raises `MethodUnavailable`.  Which
 there are is said in `disc_model.benchmarks.register`.
 """

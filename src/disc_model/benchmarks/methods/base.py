@@ -49,6 +49,7 @@ class Problem:
     t_end : s, absolute, greater than start.time
     stop : whether to end at the first separation
     watched : whether the range of the disc is asked for, which costs some methods time
+    max_step : s, longest step of methods that see events at the ends of steps only, lest they miss some
     """
 
     parameters: Parameters
@@ -56,6 +57,7 @@ class Problem:
     t_end: float
     stop: bool = False
     watched: bool = False
+    max_step: float = math.inf
 
     @property
     def span(self) -> float:
@@ -77,6 +79,7 @@ class MethodResult:
     outcome, message : how it ended
     longest_step : s, longest step taken; nan if not known
     heights : m, least and greatest w of the disc under the slider; nan if not watched
+    glue : s of them in Python between compiled phases; nan where that was not measured
     """
 
     times: Array
@@ -88,6 +91,7 @@ class MethodResult:
     message: str = ""
     longest_step: float = math.nan
     heights: tuple[float, float] = (math.nan, math.nan)
+    glue: float = math.nan
 
     @property
     def separations(self) -> int:
@@ -173,12 +177,12 @@ class Meter:
     @contextmanager
     def running(self) -> Iterator[None]:
         """While the integration runs: everything before was preparation."""
-        self.began = clock.thread_time()
+        self.began, wall = clock.thread_time(), clock.perf_counter()
         try:
             yield
         except GaveUp as reason:
             self.outcome, self.message = reason.outcome, str(reason)
-        self.seconds = clock.thread_time() - self.began
+        self.seconds, self.wall = clock.thread_time() - self.began, clock.perf_counter() - wall
 
     def result(self, times: Sequence[float] | Array, kinds: Sequence[str], final: State) -> MethodResult:
         """What a method found, with what was counted meanwhile; times from the start on."""

@@ -1,11 +1,21 @@
-"""SUNDIALS CVODE through scikit-sundae (extra `bench`), with its own root finding, started anew at every switch."""
+"""SUNDIALS CVODE (in extra `bench`, with scikit-sundae), with its own root finding, started anew at every switch.
 
+The library is called directly: scikit-sundae calls Python for every right-hand side, which takes three times as long.
+Right-hand side, switch functions and Jacobian are compiled and read and write CVODE's own memory.
+"""
+
+# mypy: disable-error-code="no-untyped-def"
 from __future__ import annotations
 
+import ctypes
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
+import numba
 import numpy as np
+from numba import carray, types
 
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem, decades
@@ -14,13 +24,17 @@ from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
 from disc_model.benchmarks.register import SCENES
 
-MAX_STEPS = 10_000_000
-ROOT_FOUND = 2
-"""SUNDIALS' CV_ROOT_RETURN."""
+STEPS_PER_LOOK = 5_000
+"""Steps between two looks at the clock."""
+FAMILIES = {"Adams": 1, "BDF": 2}
+NORMAL, ONE_STEP = 1, 2
+REACHED, ROOT_FOUND, TOO_MUCH_WORK = 1, 2, -1
+HEAD = 3
+"""Numbers before the scalars in what callbacks are given: phase, direction, modes."""
 
 
 class Cvode(Method):
-    """Variable-order multistep methods: Adams where nothing is stiff, else BDF; compiled right-hand side."""
+    """Variable-order multistep methods: Adams with fixed-point iteration, BDF with Newton's where all is stiff."""
 
     def __init__(self, family: str) -> None:
         self.family = family
@@ -28,53 +42,127 @@ class Cvode(Method):
         if family == "BDF":  # where something is stiff
             self.settings = {"rigid": decades(-4, -6, -8, -10)}
             return
-        self.settings = dict.fromkeys(SCENES, decades(-4, -6, -8, -10)) | {"rigid": decades(-4)}
+        self.settings = dict.fromkeys(SCENES, decades(-4, -6, -8, -10, -11, -12)) | {"rigid": decades(-4)}
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        from sksundae.cvode import CVODE
-
         physics = Physics(problem.parameters)
         modes, c = kernels.tables(physics)
-        scale = absolute_scale(physics)
         meter = Meter(problem, physics, budget)
+        state, given = np.zeros(4 * physics.n + 4), np.concatenate([[0.0, 0.0, physics.n], c, modes.ravel()])
+        time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
+        falling = (ctypes.c_int * 3)(-1, -1, -1)
+        call, switches = _library(), _callbacks()[1]
 
-        @cache
-        def solver(phase: Phase, watched: bool) -> Any:
-            code, direction, count = phase.code, phase.direction, ENDS[phase.name]
-
-            def rhs(_t: float, y: Array, dy: Array) -> None:
-                meter.work += 1
-                kernels.rate(modes, c, code, direction, y, dy)
-
-            def events(_t: float, y: Array, out: Array) -> None:
-                kernels.switch_values(modes, c, code, direction, y, out)
-
-            options = {"method": self.family, "rtol": value, "atol": value * scale, "max_num_steps": MAX_STEPS}
-            if not watched:
-                return CVODE(rhs, **options)
-            events.direction = [-1] * count  # type: ignore[attr-defined]
-            events.terminal = [True] * count  # type: ignore[attr-defined]
-            return CVODE(rhs, eventsfn=events, num_events=count, **options)
-
-        solver(Phase("separation", 0), watched=False)
-
-        def advance(phase: Phase, t: float, y: Array, t_end: float, *, watched: bool) -> Ended:
-            cvode = solver(phase, watched=watched)
-            cvode.init_step(t, y)
-            if not watched:
-                return Ended(None, t_end, np.array(cvode.step(t_end, tstop=t_end).y))
-            while True:
+        def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
+            state[:], given[:2], time.value = y, (phase.code, phase.direction), t
+            call.CVodeReInit(memory, ctypes.c_double(t), vector)
+            call.CVodeRootInit(memory, ENDS[phase.name], switches)
+            call.CVodeSetRootDirection(memory, falling)
+            call.CVodeSetStopTime(memory, ctypes.c_double(t_end))
+            flag = 0
+            while flag in (0, TOO_MUCH_WORK):
                 meter.check()
-                found = cvode.step(t_end, method="onestep", tstop=t_end)
-                if not found.success:
-                    raise GaveUp(str(found.message))
+                before = time.value, state.copy()
+                how = ONE_STEP if problem.watched else NORMAL
+                flag = call.CVode(memory, ctypes.c_double(t_end), vector, ctypes.byref(time), how)
                 if problem.watched:
-                    before, t, y = (t, y), float(found.t), np.array(found.y)
-                    meter.path(np.array([before[0], t]), np.array([before[1], y]))
-                rooted = found.status == ROOT_FOUND
-                if rooted or found.t >= t_end:
-                    # earlier roots stay listed: the last row is this one's
-                    cause = int(np.flatnonzero(np.atleast_2d(found.i_events)[-1])[0]) if rooted else None
-                    return Ended(cause, float(found.t), np.array(found.y))
+                    meter.path(np.array([before[0], time.value]), np.array([before[1], state]))
+            call.CVodeGetNumRhsEvals(memory, ctypes.byref(evaluations))
+            meter.work += evaluations.value
+            if flag < 0:
+                raise GaveUp(f"CVODE returned {flag}")
+            if flag == REACHED:
+                return Ended(None, time.value, state)
+            call.CVodeGetRootInfo(memory, roots)
+            return Ended(next(i for i, found in enumerate(roots) if found), time.value, state)
 
-        return run_phases(problem, physics, advance, meter)
+        with _solver(self.family, state, value, value * absolute_scale(physics), given) as (
+            memory,
+            vector,
+        ):
+            return run_phases(problem, physics, advance, meter)
+
+
+@cache
+def _library() -> Any:
+    """The functions of SUNDIALS that scikit-sundae brings along."""
+    import sksundae._cy_cvode as extension
+
+    library = ctypes.CDLL(extension.__file__)
+    for name in ("CVodeCreate", "N_VMake_Serial", "SUNNonlinSol_FixedPoint", "SUNDenseMatrix", "SUNLinSol_Dense"):
+        getattr(library, name).restype = ctypes.c_void_p
+    return library
+
+
+@cache
+def _callbacks() -> tuple[ctypes.c_void_p, ...]:
+    """Addresses of right-hand side, switch functions and Jacobian."""
+    # a vector or dense matrix of SUNDIALS begins with a pointer to its content, whose second word points to the data
+    owner = types.CPointer(types.CPointer(types.CPointer(types.float64)))
+    data, scalars, rows = types.CPointer(types.float64), len(kernels.CONSTANTS), len(kernels.ROWS)
+
+    @numba.njit(forceinline=True)
+    def case(data):
+        n = int(data[2])
+        given = carray(data, HEAD + scalars + rows * n)
+        modes = given[HEAD + scalars :].reshape((rows, n))
+        return modes, given[HEAD : HEAD + scalars], int(data[0]), int(data[1]), 4 * n + 4
+
+    @numba.cfunc(types.int32(types.float64, owner, owner, data), error_model="numpy")
+    def rate(_t, y, dy, data):
+        modes, c, phase, direction, size = case(data)
+        kernels.rate(modes, c, phase, direction, carray(y[0][1], size), carray(dy[0][1], size))
+        return 0
+
+    @numba.cfunc(types.int32(types.float64, owner, data, data), error_model="numpy")
+    def switches(_t, y, out, data):
+        modes, c, phase, direction, size = case(data)
+        kernels.switch_values(modes, c, phase, direction, carray(y[0][1], size), carray(out, 3))
+        return 0
+
+    @numba.cfunc(types.int32(types.float64, owner, owner, owner, data, owner, owner, owner), error_model="numpy")
+    def jacobian(_t, y, _dy, J, data, _1, _2, _3):
+        modes, c, phase, direction, size = case(data)
+        by_columns = carray(J[0][1], (size, size))
+        kernels.jacobian(modes, c, phase, direction, carray(y[0][1], size), by_columns.T)
+        return 0
+
+    _callbacks.kept = rate, switches, jacobian  # type: ignore[attr-defined]
+    return tuple(ctypes.c_void_p(one.address) for one in _callbacks.kept)  # type: ignore[attr-defined]
+
+
+@contextmanager
+def _solver(
+    family: str, y: Array, tol: float, atol: Array, given: Array
+) -> Iterator[tuple[ctypes.c_void_p, ctypes.c_void_p]]:
+    """CVODE's memory and the vector over ``y``; tolerances relative and (shape of ``y``) absolute."""
+    call = _library()
+    rate, _, jacobian = _callbacks()
+    context, size = ctypes.c_void_p(), len(y)
+    call.SUNContext_Create(0, ctypes.byref(context))
+    call.SUNContext_ClearErrHandlers(context)
+    vector, least = (
+        ctypes.c_void_p(call.N_VMake_Serial(size, x.ctypes.data_as(ctypes.c_void_p), context)) for x in (y, atol)
+    )
+    memory = ctypes.c_void_p(call.CVodeCreate(FAMILIES[family], context))
+    call.CVodeInit(memory, rate, ctypes.c_double(0.0), vector)
+    call.CVodeSVtolerances(memory, ctypes.c_double(tol), least)
+    call.CVodeSetUserData(memory, given.ctypes.data_as(ctypes.c_void_p))
+    call.CVodeSetMaxNumSteps(memory, ctypes.c_long(STEPS_PER_LOOK))
+    if family == "Adams":
+        iteration = ctypes.c_void_p(call.SUNNonlinSol_FixedPoint(vector, 0, context))
+        call.CVodeSetNonlinearSolver(memory, iteration)
+        made = [("SUNNonlinSolFree", iteration)]
+    else:
+        matrix = ctypes.c_void_p(call.SUNDenseMatrix(size, size, context))
+        linear = ctypes.c_void_p(call.SUNLinSol_Dense(vector, matrix, context))
+        call.CVodeSetLinearSolver(memory, linear, matrix)
+        call.CVodeSetJacFn(memory, jacobian)
+        made = [("SUNLinSolFree", linear), ("SUNMatDestroy", matrix)]
+    try:
+        yield memory, vector
+    finally:
+        call.CVodeFree(ctypes.byref(memory))
+        for free, one in (*made, ("N_VDestroy", vector), ("N_VDestroy", least)):
+            getattr(call, free)(one)
+        call.SUNContext_Free(ctypes.byref(context))

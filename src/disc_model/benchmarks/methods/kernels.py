@@ -1,4 +1,4 @@
-"""The same equations as `physics`, compiled, and the fixed-step Runge-Kutta loop on them.
+"""The equations of motion, compiled, and the fixed-step Runge-Kutta loop on them.
 
 One file on purpose: numba's cache notices a change in the file of the function that is called, and in no other.
 State vector as in `physics`; ``c`` holds the scalars in the order of `CONSTANTS`.
@@ -8,6 +8,7 @@ State vector as in `physics`; ``c`` holds the scalars in the order of `CONSTANTS
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numba
 import numpy as np
@@ -17,69 +18,104 @@ from disc_model.benchmarks.methods.physics import Physics
 CONSTANTS = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0", "u_0", "compliance", "bonded")
 _N, _OMEGA, _K, _C, _M, _KP, _CP, _MUS, _MUK, _R0, _U0, _S2, _BONDED = range(len(CONSTANTS))
 
+ROWS = ("l", "psi", "omega^2", "2 xi omega", "l psi", "P by a", "P by alpha", "P by f beta", "P by -f^2 a")
+"""Of the table of modes; the last four are coefficients of the contact force over its denominator, one a state."""
+_L, _PSI, _W2, _D, _SLOPE, _BY_A, _BY_ALPHA, _BY_BETA, _BENT = range(len(ROWS))
+
 STICK, SLIP, SEPARATION = 0, 1, 2
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
 FINISHED, NON_FINITE, STALLED, STEP_LIMIT = range(4)
 HUGE = 10.0
 """m sqrt(kg); a modal displacement beyond this, thousands of static deflections, is counted as overflow."""
-BISECTIONS = 60
+SHIFT = 1e-16
+"""m, added to the gap.  A separation begins at a triple root of the gap, where general event detection reports a false
+return or none; this is below all gaps and above their rounding, and moves a reattachment by less than 1e-12 s."""
+ROOT_TRIES = 60
 
-_kernel = numba.njit(cache=True, error_model="numpy")  # division by zero gives inf, as in numpy
+# division by zero gives inf, as in numpy; sums may be taken several at a time
+_OPTIONS: Any = {"cache": True, "error_model": "numpy", "fastmath": {"reassoc", "contract", "arcp", "nsz"}}
+_kernel = numba.njit(**_OPTIONS)
+_part = numba.njit(**_OPTIONS, forceinline=True)  # a third faster where it is called four times a step
 
 
 def tables(physics: Physics) -> tuple[np.ndarray, np.ndarray]:
-    """(modes, c): rows l, psi_l, omega^2, 2 xi omega of shape (4, n), and the scalars."""
-    p = physics.p
+    """(modes, c): rows of `ROWS` with a column a mode, and the scalars."""
+    p, l, psi = physics.p, physics.l, physics.shape
     own = {"u_0": physics.u_0, "compliance": physics.compliance, "bonded": float(p.contact == "bonded")}
-    modes = np.array([physics.l, physics.shape, physics.stiffness, physics.damping])
+    by_a, by_alpha = (p.k - p.m * physics.stiffness) * psi, (p.c - p.m * physics.damping) * psi
+    bent = p.m * l**2 * psi
+    modes = np.array([l, psi, physics.stiffness, physics.damping, l * psi, by_a, by_alpha, 2.0 * p.m * l * psi, bent])
     return modes, np.array([own[name] if name in own else getattr(p, name) for name in CONSTANTS])
 
 
-@_kernel
+@_part
+def disc_point(modes, y):
+    """w and w' under the slider."""
+    n = modes.shape[1]
+    w, velocity, slope = 0.0, 0.0, 0.0
+    for i in range(n):
+        w += modes[_PSI, i] * y[i]
+        velocity += modes[_PSI, i] * y[2 * n + i]
+        slope += modes[_SLOPE, i] * y[n + i]
+    return w, velocity + y[4 * n + 1] * slope
+
+
+@_part
 def contact(modes, c, direction, y):
-    """P, F, w, w' under the slider; ``direction`` 0 is stick."""
+    """P and F; ``direction`` 0 is stick."""
     n = modes.shape[1]
     f = y[4 * n + 1]
-    w, velocity, slope, A = 0.0, 0.0, 0.0, 0.0
+    held, turned, bent, slope = 0.0, 0.0, 0.0, 0.0
     for i in range(n):
-        l, psi = modes[0, i], modes[1, i]
-        a, alpha = y[i], y[2 * n + i]
-        w += psi * a
-        velocity += psi * alpha
-        slope += l * psi * y[n + i]
-        A += psi * (-modes[3, i] * alpha - (modes[2, i] + (l * f) ** 2) * a + 2.0 * l * f * y[3 * n + i])
-    velocity += f * slope
+        held += modes[_BY_A, i] * y[i] + modes[_BY_ALPHA, i] * y[2 * n + i]
+        turned += modes[_BY_BETA, i] * y[3 * n + i]
+        bent += modes[_BENT, i] * y[i]
+        slope += modes[_SLOPE, i] * y[n + i]
     F = c[_KP] * y[4 * n] + c[_CP] * (c[_OMEGA] - f)
-    top = c[_N] + c[_K] * (w - c[_U0]) + c[_C] * velocity + c[_M] * A
+    top = c[_N] - c[_K] * c[_U0] + held + f * (c[_C] * slope + turned - f * bent)
     below = 1.0 + c[_M] * c[_S2]
     if direction == 0:
-        return top / below, F, w, velocity
-    return (top + slope * F) / (below + direction * c[_MUK] * slope / c[_R0]), F, w, velocity
+        return top / below, F
+    return (top + slope * F) / (below + direction * c[_MUK] / c[_R0] * slope), F
 
 
-@_kernel
+@_part
 def rate(modes, c, phase, direction, y, dy):
-    """Fill ``dy`` with dy/dt."""
+    """Fill ``dy`` with dy/dt; returns P and F, in separation 0 and F."""
     n = modes.shape[1]
     f, P = y[4 * n + 1], 0.0
     dy[4 * n] = c[_OMEGA] - f
     if phase == SEPARATION:
         u, v = y[4 * n + 2], y[4 * n + 3]
-        dy[4 * n + 1] = (c[_KP] * y[4 * n] + c[_CP] * (c[_OMEGA] - f)) / c[_M]
+        F = c[_KP] * y[4 * n] + c[_CP] * (c[_OMEGA] - f)
+        dy[4 * n + 1] = F / c[_M]
         dy[4 * n + 2] = v
         dy[4 * n + 3] = -(c[_N] + c[_K] * (u - c[_U0]) + c[_C] * v) / c[_M]
     else:
-        P, F, _, _ = contact(modes, c, direction, y)
+        P, F = contact(modes, c, direction, y)
         dy[4 * n + 1] = F / c[_M] - direction * c[_MUK] * P / (c[_M] * c[_R0]) if phase == SLIP else 0.0
         dy[4 * n + 2] = 0.0
         dy[4 * n + 3] = 0.0
     for i in range(n):
-        turn = modes[0, i] * f
+        turn = modes[_L, i] * f
         a, b, alpha, beta = y[i], y[n + i], y[2 * n + i], y[3 * n + i]
         dy[i] = alpha + turn * b
         dy[n + i] = beta - turn * a
-        dy[2 * n + i] = -modes[3, i] * alpha - modes[2, i] * a + turn * beta - modes[1, i] * P
-        dy[3 * n + i] = -modes[3, i] * beta - modes[2, i] * b - turn * alpha
+        dy[2 * n + i] = -modes[_D, i] * alpha - modes[_W2, i] * a + turn * beta - modes[_PSI, i] * P
+        dy[3 * n + i] = -modes[_D, i] * beta - modes[_W2, i] * b - turn * alpha
+    return P, F
+
+
+@_kernel
+def jacobian(modes, c, phase, direction, y, J):
+    """Fill ``J`` (size, size) with the derivatives of `rate`, a row each; by complex steps, exact but for rounding."""
+    z, dz = y.astype(np.complex128), np.empty(len(y), np.complex128)
+    for j in range(len(y)):
+        z[j] += 1e-30j
+        rate(modes, c, phase, direction, z, dz)
+        z[j] = y[j]
+        for i in range(len(y)):
+            J[i, j] = dz[i].imag * 1e30
 
 
 STRIBECK = 30.0
@@ -97,7 +133,7 @@ def smooth_friction(c, law, f):
 def smooth_force(modes, c, law, y):
     """Signed penalty force; contact where it is positive."""
     n = modes.shape[1]
-    _, _, w, velocity = contact(modes, c, 0, y)
+    w, velocity = disc_point(modes, y)
     return law[2] * (w - y[4 * n + 2]) + law[3] * (velocity - y[4 * n + 3])
 
 
@@ -109,32 +145,36 @@ def smooth_rate(modes, c, law, y, dy):
     P = smooth_force(modes, c, law, y)
     if P > 0.0:
         for i in range(n):
-            dy[2 * n + i] -= modes[1, i] * P
+            dy[2 * n + i] -= modes[_PSI, i] * P
         dy[4 * n + 3] += P / c[_M]
         dy[4 * n + 1] -= smooth_friction(c, law, y[4 * n + 1]) * P / (c[_M] * c[_R0])
 
 
-@_kernel
-def rk4_step(modes, c, phase, direction, y, h, out, k, z):
-    """One step of the classical fourth-order method from ``y`` to ``out``; ``k`` (4, size), ``z`` (size,) are work."""
+@_part
+def rk4_step(modes, c, phase, direction, y, first, h, out, k, z):
+    """One step of the classical fourth-order method from ``y``, whose rate is ``first``, to ``out``.
+
+    ``k`` (3, size) and ``z`` (size,) are work.
+    """
     size = len(y)
-    rate(modes, c, phase, direction, y, k[0])
-    for stage in range(1, 4):
-        part = h if stage == 3 else 0.5 * h
-        for j in range(size):
-            z[j] = y[j] + part * k[stage - 1, j]
-        rate(modes, c, phase, direction, z, k[stage])
     for j in range(size):
-        out[j] = y[j] + h / 6.0 * (k[0, j] + 2.0 * k[1, j] + 2.0 * k[2, j] + k[3, j])
+        z[j] = y[j] + 0.5 * h * first[j]
+    rate(modes, c, phase, direction, z, k[0])
+    for j in range(size):
+        z[j] = y[j] + 0.5 * h * k[0, j]
+    rate(modes, c, phase, direction, z, k[1])
+    for j in range(size):
+        z[j] = y[j] + h * k[1, j]
+    rate(modes, c, phase, direction, z, k[2])
+    for j in range(size):
+        out[j] = y[j] + h / 6.0 * (first[j] + 2.0 * k[0, j] + 2.0 * k[1, j] + k[2, j])
 
 
 @_kernel
-def switch_values(modes, c, phase, direction, y, out):
-    """Fill ``out`` with what falls through zero at the phase's end, see `phases.ENDS`; returns how many there are."""
-    n = modes.shape[1]
-    P, F, w, _ = contact(modes, c, direction, y)
+def _margins(c, phase, direction, y, n, P, F, w, out):
+    """`switch_values` of a state whose P, F and w are known."""
     if phase == SEPARATION:
-        out[0] = y[4 * n + 2] - w
+        out[0] = y[4 * n + 2] - w + SHIFT
         return 1
     out[0] = P if c[_BONDED] == 0.0 else 1.0
     if phase == SLIP:
@@ -146,9 +186,17 @@ def switch_values(modes, c, phase, direction, y, out):
 
 
 @_kernel
-def violated(modes, c, phase, direction, y, values):
-    """Place of the first of the `switch_values` that is negative at ``y``, or -1; ``values`` (3,) is work."""
-    for place in range(switch_values(modes, c, phase, direction, y, values)):
+def switch_values(modes, c, phase, direction, y, out):
+    """Fill ``out`` with what falls through zero at the phase's end, see `phases.ENDS`; returns how many there are."""
+    n = modes.shape[1]
+    P, F = contact(modes, c, direction, y)
+    return _margins(c, phase, direction, y, n, P, F, disc_point(modes, y)[0], out)
+
+
+@_kernel
+def violated(values, count):
+    """Place of the first of ``count`` values that is negative, or -1."""
+    for place in range(count):
         if values[place] < 0.0:
             return place
     return -1
@@ -157,21 +205,23 @@ def violated(modes, c, phase, direction, y, values):
 @_kernel
 def _leave(modes, c, y):
     n = modes.shape[1]
-    _, _, y[4 * n + 2], y[4 * n + 3] = contact(modes, c, 0, y)
+    y[4 * n + 2], y[4 * n + 3] = disc_point(modes, y)
 
 
 @_kernel
 def switch(modes, c, phase, cause, y, kinds):
     """Carry out a switch in place, ``cause`` being the place of its function in `switch_values`.
 
-    Returns (phase, direction, number of events written to ``kinds``).
+    Returns (phase, direction, number of events written to ``kinds``); -1 events if the state is not finite.
     """
     n = modes.shape[1]
+    if not abs(np.sum(y)) < np.inf:
+        return phase, 0, -1
     if phase == SEPARATION:
-        _, _, _, velocity = contact(modes, c, 0, y)
+        _, velocity = disc_point(modes, y)
         impulse = (velocity - y[4 * n + 3]) / (c[_S2] + 1.0 / c[_M])
         for i in range(n):
-            y[2 * n + i] -= modes[1, i] * impulse
+            y[2 * n + i] -= modes[_PSI, i] * impulse
         kinds[0] = REATTACHMENT
         direction = 1 if y[4 * n + 1] > 0.0 else -1
     elif cause == 0:
@@ -180,17 +230,17 @@ def switch(modes, c, phase, cause, y, kinds):
         return SEPARATION, 0, 1
     elif phase == STICK:
         kinds[0] = STICK_TO_SLIP
-        _, F, _, _ = contact(modes, c, 0, y)
+        _, F = contact(modes, c, 0, y)
         direction = 1 if F > 0.0 else -1
     else:
         y[4 * n + 1] = 0.0
-        P, F, _, _ = contact(modes, c, 0, y)
+        P, F = contact(modes, c, 0, y)
         if c[_R0] * abs(F) < c[_MUS] * P:
             kinds[0] = SLIP_TO_STICK
             return STICK, 0, 1
         direction = 1 if F > 0.0 else -1
         kinds[0] = SLIP_REVERSAL
-    P, _, _, _ = contact(modes, c, direction, y)
+    P, _ = contact(modes, c, direction, y)
     if P < 0.0 and c[_BONDED] == 0.0:
         _leave(modes, c, y)
         # a slider that neither sticks nor slips back has not turned round
@@ -201,61 +251,100 @@ def switch(modes, c, phase, cause, y, kinds):
 
 
 @_kernel
-def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kinds, heights):
-    """Fixed steps ``h`` from local time 0; conditions checked at step ends, the offending step bisected.
+def _dip(before, here, after):
+    """Where in the last of two equal steps the parabola through three values has its least, if it is below half of both
+    ends there; else 0."""
+    bend, rise = after - 2.0 * here + before, 0.5 * (after - before)
+    s = -rise / bend if bend > 0.0 else 0.0
+    return s if 0.0 < s < 1.0 and here + 0.5 * s * rise < 0.5 * min(here, after) else 0.0
 
-    ``stop``: whether to end at the first separation.  Returns (why, time, phase, direction, events, steps); ``y`` is
-    overwritten, ``times`` and ``kinds`` are filled, and ``heights`` with the least and greatest w at step ends.
+
+@_kernel
+def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kinds, heights):
+    """Fixed steps ``h`` from local time 0 to a switch, which is found by secants within the step where it lies.
+
+    A step is searched if a switch function has changed its sign over it or dips within it.  ``stop``: whether to end at
+    the first separation.  Returns (why, time, phase, direction, events, steps); ``y`` is overwritten, ``times`` and
+    ``kinds`` are filled, and ``heights`` with the least and greatest w at step ends.
     """
     size, n = len(y), modes.shape[1]
-    k, z, values = np.empty((4, size)), np.empty(size), np.empty(3)
-    new, found = np.empty(2, np.int64), np.empty(size)
-    origin, count, local, events, steps = 0.0, 0, 0.0, 0, 0
+    k, z, trial = np.empty((3, size)), np.empty(size), np.empty(3)
+    new, found, first, following_rate = np.empty(2, np.int64), np.empty(size), np.empty(size), np.empty(size)
+    before, here, after = np.empty(3), np.empty(3), np.empty(3)
+    lows, probe, given = np.empty(3), np.empty(size), y
+    why, origin, count, local, events, steps = FINISHED, 0.0, 0, 0.0, 0, 0
     while local < t_end:
         if steps >= max_steps:
-            return STEP_LIMIT, local, phase, direction, events, steps
+            why = STEP_LIMIT
+            break
+        if count == 0:
+            rate(modes, c, phase, direction, y, first)
+            switch_values(modes, c, phase, direction, y, here)
         # time is event time plus a whole number of steps: adding up h would lose the event times' digits
         following = origin + (count + 1) * h
         length = following - local
         if following >= t_end:
             following, length = t_end, t_end - local
-        rk4_step(modes, c, phase, direction, y, length, found, k, z)
+        rk4_step(modes, c, phase, direction, y, first, length, found, k, z)
         steps += 1
-        for j in range(2 * n):
-            if not abs(found[j]) < HUGE:
-                return NON_FINITE, local, phase, direction, events, steps
-        cause = violated(modes, c, phase, direction, found, values)
-        w = 0.0
-        for j in range(n):
-            w += modes[1, j] * found[j]
+        P, F = rate(modes, c, phase, direction, found, following_rate)
+        w, _ = disc_point(modes, found)
+        if not abs(w) < HUGE:
+            why = NON_FINITE
+            break
         heights[0], heights[1] = min(heights[0], w), max(heights[1], w)
+        many = _margins(c, phase, direction, found, n, P, F, w, after)
+        cause, high = violated(after, many), length
+        for place in range(many if cause < 0 < count else 0):
+            s = _dip(before[place], here[place], after[place])
+            if s > 0.0:
+                rk4_step(modes, c, phase, direction, y, first, s * length, probe, k, z)
+                steps += 1
+                switch_values(modes, c, phase, direction, probe, trial)
+                cause = violated(trial, many)
+                if cause >= 0:
+                    high, after[:] = s * length, trial
+                    break
         if cause < 0:
-            y[:] = found
+            y, found = found, y
+            first, following_rate = following_rate, first
+            before, here, after = here, after, before
             local = following
             count += 1
             continue
-        low, high = 0.0, length
-        for _ in range(BISECTIONS):
-            middle = 0.5 * (low + high)
-            if middle in (low, high):
-                break
-            rk4_step(modes, c, phase, direction, y, middle, found, k, z)
+        low, at_low, at_high, side = 0.0, here[cause], after[cause], 0
+        lows[:] = here
+        for _ in range(ROOT_TRIES):
+            middle = low + (high - low) * at_low / (at_low - at_high)
+            if not low < middle < high or (low == 0.0 and count == 0):  # a phase may begin at a root
+                middle = 0.5 * (low + high)
+            rk4_step(modes, c, phase, direction, y, first, middle, found, k, z)
             steps += 1
-            here = violated(modes, c, phase, direction, found, values)
-            if here < 0:
-                low = middle
+            switch_values(modes, c, phase, direction, found, trial)
+            other = violated(trial, many)
+            # an end that stays twice counts half (Illinois)
+            if other >= 0:
+                if other != cause:
+                    cause, at_low, side = other, lows[other], 0
+                at_low *= 0.5 if side == 1 else 1.0
+                moved, high, at_high, side = high - middle, middle, trial[cause], 1
             else:
-                high, cause = middle, here
-        rk4_step(modes, c, phase, direction, y, high, found, k, z)
+                at_high *= 0.5 if side == -1 else 1.0
+                moved, low, at_low, side = middle - low, middle, trial[cause], -1
+                lows[:] = trial
+            if moved < 1e-12 * length or trial[cause] == 0.0:
+                break
         y[:] = found
-        local += high
+        local += middle
         origin, count = local, 0
         phase, direction, added = switch(modes, c, phase, cause, y, new)
         if events + added > len(times):
-            return STALLED, local, phase, direction, events, steps
+            why = STALLED
+            break
         for j in range(added):
             times[events + j], kinds[events + j] = local, new[j]
         events += added
         if stop and phase == SEPARATION:
             break
-    return FINISHED, local, phase, direction, events, steps
+    given[:] = y
+    return why, local, phase, direction, events, steps

@@ -1,4 +1,4 @@
-"""The equations of motion in plain numpy, as a user would write them (docs: model, Disc in the slider's frame).
+"""What the rivals share of a case: its constants, and states as vectors (docs: model, Disc in the slider's frame).
 
 One vector holds the state in every phase:
 
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 
 class Physics:
-    """Constants of a case and the right-hand sides of its phases.  SI units throughout."""
+    """Constants of a case, in SI units; `kernels` has the equations."""
 
     def __init__(self, p: Parameters) -> None:
         modes = mode_arrays(p)
@@ -33,7 +33,6 @@ class Physics:
         self.stiffness = modes.omega**2
         self.damping = modal_damping(p)
         self.slope = self.l * self.shape
-        self.bend = self.l * self.slope
         self.compliance = float(np.sum(self.shape**2))  # S2, 1/kg
         self.u_0 = -p.N * float(np.sum(self.shape**2 / self.stiffness))
         self.a, self.b = slice(0, n), slice(n, 2 * n)
@@ -57,51 +56,6 @@ class Physics:
         """w and dw/dt of the disc under the moving slider."""
         slope = self.slope @ y[self.b]
         return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
-
-    def force(self, y: Array, direction: int) -> float:
-        """Contact force P; ``direction`` 0 is stick."""
-        return self._contact(y, direction)[0]
-
-    def _pull(self, y: Array) -> float:
-        """F = k_p psi + c_p (Omega - f)."""
-        return float(self.p.k_p * y[self.psi] + self.p.c_p * (self.p.Omega - y[self.f]))
-
-    def _contact(self, y: Array, direction: int) -> tuple[float, float]:
-        """P and F."""
-        p, f, a, alpha = self.p, y[self.f], y[self.a], y[self.alpha]
-        slope = self.slope @ y[self.b]
-        w = self.shape @ a
-        velocity = self.shape @ alpha + f * slope
-        A = -self.shape @ (self.damping * alpha + self.stiffness * a)
-        A += f * (2.0 * self.slope @ y[self.beta] - f * (self.bend @ a))
-        F = self._pull(y)
-        top = p.N + p.k * (w - self.u_0) + p.c * velocity + p.m * A
-        below = 1.0 + p.m * self.compliance
-        if direction == 0:
-            return top / below, F
-        return (top + slope * F) / (below + direction * p.mu_k * slope / p.r_0), F
-
-    # ---- right-hand sides
-    def rate(self, phase: str, direction: int, y: Array) -> Array:
-        """dy/dt, shape of ``y``."""
-        p, f, dy = self.p, y[self.f], np.zeros_like(y)
-        a, b, alpha, beta = y[self.a], y[self.b], y[self.alpha], y[self.beta]
-        turn = self.l * f
-        dy[self.a] = alpha + turn * b
-        dy[self.b] = beta - turn * a
-        dy[self.alpha] = -self.damping * alpha - self.stiffness * a + turn * beta
-        dy[self.beta] = -self.damping * beta - self.stiffness * b - turn * alpha
-        dy[self.psi] = p.Omega - f
-        if phase == "separation":
-            dy[self.f] = self._pull(y) / p.m
-            dy[self.u] = y[self.v]
-            dy[self.v] = -(p.N + p.k * (y[self.u] - self.u_0) + p.c * y[self.v]) / p.m
-            return dy
-        P, F = self._contact(y, direction)
-        dy[self.alpha] -= self.shape * P
-        if phase == "slip":
-            dy[self.f] = F / p.m - direction * p.mu_k * P / (p.m * p.r_0)
-        return dy
 
     # ---- how far two states are apart
     def distance(self, one: State, other: State) -> float:

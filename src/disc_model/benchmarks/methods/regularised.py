@@ -58,7 +58,7 @@ class Law:
         y = physics.pack(start)
         if start.phase != "separation":
             y[physics.u], y[physics.v] = physics.disc_point(y)
-            y[physics.u] -= physics.force(y, start.direction) / self.K
+            y[physics.u] -= kernels.contact(self.modes, self.c, start.direction, y)[0] / self.K
         return y
 
     def state(self, time: float, y: Array) -> State:

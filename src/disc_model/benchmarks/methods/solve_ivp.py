@@ -17,13 +17,15 @@ from disc_model.benchmarks.register import SCENES
 
 FLOOR = 2.3e-14
 """Least relative tolerance that scipy takes."""
+IMPLICIT = ("LSODA", "Radau")
 Function = Callable[[float, Array], Any]
+Parts = tuple[Function, Function, list[Function]]
 
 _TO_9, _TO_11 = decades(-3, -5, -7, -9), decades(-3, -5, -7, -9, -11)
 CHOICES: dict[str, tuple[tuple[Sequence[float], ...], Sequence[float]]] = {
-    "RK45": ((_TO_9, _TO_9, _TO_9[:3], _TO_9[:1]), MAP_TOLERANCES),
+    "RK45": ((_TO_11, _TO_11, _TO_9[:3], _TO_9[:1]), MAP_TOLERANCES),
     "DOP853": ((_TO_11, _TO_11, _TO_9, _TO_9[:1]), MAP_TOLERANCES),
-    "LSODA": ((_TO_9, _TO_9, _TO_9[:3], _TO_9), MAP_TOLERANCES[::2]),
+    "LSODA": ((_TO_11, _TO_11, _TO_9[:3], _TO_9), MAP_TOLERANCES[::2]),
     "Radau": (
         (decades(-2, -3, -4, -5), decades(-2, -3, -4), decades(-2, -3, -4), decades(-2, -4, -6, -8)),
         MAP_TOLERANCES[:8:2],
@@ -33,10 +35,10 @@ CHOICES: dict[str, tuple[tuple[Sequence[float], ...], Sequence[float]]] = {
 
 
 class SolveIvp(Method):
-    """`scipy.integrate.solve_ivp` with a compiled right-hand side; ``max_step`` (s) bounds the steps."""
+    """`scipy.integrate.solve_ivp` with a compiled right-hand side, and a compiled Jacobian where one is used."""
 
-    def __init__(self, algorithm: str, order: float = math.nan, max_step: float = np.inf) -> None:
-        self.algorithm, self.order, self.max_step = algorithm, order, max_step
+    def __init__(self, algorithm: str, order: float = math.nan) -> None:
+        self.algorithm, self.order = algorithm, order
         self.label = f"scipy {algorithm}"
         settings, self.map_values = CHOICES[algorithm]
         self.settings = dict(zip(SCENES, settings, strict=True))
@@ -47,34 +49,40 @@ class SolveIvp(Method):
         meter = Meter(problem, physics, budget)
         parts = self._functions(physics)
 
-        def advance(phase: Phase, t: float, y: Array, t_end: float, *, watched: bool) -> Ended:
-            rate, events = parts(phase)
+        def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
+            rate, slopes, events = parts(phase)
+            more = {"jac": slopes} if self.algorithm in IMPLICIT else {}
             with np.errstate(over="ignore", invalid="ignore"):
                 found = solve_ivp(
                     meter.counted(rate), (t, t_end), y,
-                    method=self.algorithm, rtol=max(value, FLOOR), atol=value * scale, max_step=self.max_step,
-                    events=events if watched else [],
+                    method=self.algorithm, rtol=max(value, FLOOR), atol=value * scale, max_step=problem.max_step,
+                    events=events, **more,
                 )  # fmt: skip
             meter.steps(found.t, found.y.T)
             if found.status == -1:
                 raise GaveUp(found.message)
             cause = next((i for i, times in enumerate(found.t_events) if len(times)), None)
-            return Ended(cause, float(found.t[-1]), found.y[:, -1])
+            return Ended(cause, float(found.t[-1]), found.y[:, -1].copy())
 
         return run_phases(problem, physics, advance, meter)
 
-    def _functions(self, physics: Physics) -> Callable[[Phase], tuple[Function, list[Function]]]:
-        """For a phase, its right-hand side and what falls through zero at its end."""
+    def _functions(self, physics: Physics) -> Callable[[Phase], Parts]:
+        """For a phase, its right-hand side, the Jacobian, and what falls through zero at its end."""
         modes, c = kernels.tables(physics)
         values = np.empty(3)
 
-        def parts(phase: Phase) -> tuple[Function, list[Function]]:
+        def parts(phase: Phase) -> Parts:
             code, direction = phase.code, phase.direction
 
             def rate(_t: float, y: Array) -> Array:
                 dy = np.empty_like(y)
                 kernels.rate(modes, c, code, direction, y, dy)
                 return dy
+
+            def slopes(_t: float, y: Array) -> Array:
+                J = np.empty((len(y), len(y)))
+                kernels.jacobian(modes, c, code, direction, y, J)
+                return J
 
             def event(place: int) -> Function:
                 def value(_t: float, y: Array) -> float:
@@ -83,21 +91,9 @@ class SolveIvp(Method):
 
                 return crossing(value, -1, last=True)
 
-            return rate, [event(place) for place in range(ENDS[phase.name])]
+            return rate, slopes, [event(place) for place in range(ENDS[phase.name])]
 
         return parts
-
-
-class InNumpy(SolveIvp):
-    """The same with a right-hand side in numpy: what most users write."""
-
-    def __init__(self, algorithm: str, order: float = math.nan) -> None:
-        super().__init__(algorithm, order)
-        self.label = f"scipy {algorithm}, numpy right-hand side"
-
-    def _functions(self, physics: Physics) -> Callable[[Phase], tuple[Function, list[Function]]]:
-        compiled = super()._functions(physics)
-        return lambda phase: (lambda _t, y: physics.rate(phase.name, phase.direction, y), compiled(phase)[1])
 
 
 def crossing(function: Any, direction: int, *, last: bool) -> Function:
