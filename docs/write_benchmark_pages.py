@@ -33,13 +33,16 @@ def fill(path: Path, run: Mapping[str, Any], passages: Callable[[Mapping[str, An
 @script
 def main(bench: str = "results/bench", root: str = "") -> None:
     folder, top = Path(bench), Path(root)
-    measured = {name: folder / f"{name}.nc" for name in ("work_precision", "answers", "contact_truncation")}
+    measured = {
+        name: folder / f"{name}.nc"
+        for name in ("work_precision", "work_precision_avx2", "answers", "contact_truncation")
+    }
     there = {name: load(path).to_dataset() for name, path in measured.items() if path.is_file()}
     if not there:
         raise DiscModelError(f"{bench} holds no measurements: make bench")
     docs = top / "docs"
-    if "work_precision" in there and "answers" in there:
-        run = pages.summary(there["work_precision"], there["answers"])
+    if {"work_precision", "work_precision_avx2", "answers"} <= there.keys():
+        run = pages.summary(there["work_precision"], there["work_precision_avx2"], there["answers"])
         keep(run, docs / "benchmark.json")
         (docs / "benchmark.md").write_text(pages.page(run), encoding="utf-8")
         for name in PAGES:

@@ -34,7 +34,7 @@ def test_every_number_on_speed_is_of_the_one_stored_run() -> None:
 
 
 def test_what_a_run_comes_to(dataset: xr.Dataset, answers: xr.Dataset) -> None:
-    run = pages.summary(dataset, answers)
+    run = pages.summary(dataset, dataset, answers)
     assert run["machine"] == dataset.attrs["machine"]
     # of conftest's methods, whose costs are laid down: 1 ms a further second at the default
     assert run["own"]["stick_slip"] == pytest.approx({"cost": 1e-3, "error": 5e-11}, rel=1e-6)
@@ -44,7 +44,7 @@ def test_what_a_run_comes_to(dataset: xr.Dataset, answers: xr.Dataset) -> None:
 
 def test_one_run_is_on_one_machine(dataset: xr.Dataset, answers: xr.Dataset) -> None:
     with pytest.raises(DiscModelError, match="another machine"):
-        pages.summary(dataset, answers.assign_attrs(machine="another machine"))
+        pages.summary(dataset, dataset, answers.assign_attrs(machine="another machine"))
 
 
 def test_a_page_is_filled_by_name() -> None:

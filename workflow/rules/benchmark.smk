@@ -38,6 +38,7 @@ rule bench:
     input:
         f"{BENCH}/table.md",
         f"{BENCH}/table.csv",
+        f"{BENCH}/table_avx2.csv",
         f"{BENCH}/answers.md",
         f"{BENCH}/contact_truncation.md",
         collect(
@@ -48,20 +49,26 @@ rule bench:
 
 
 # What looks at the clock takes the whole machine (Snakemake lowers the threads to the cores there are).
+# heyoka cannot be told for which processor to compile: as for AVX2 it stays as it is.
 rule measure_work_precision:
     output:
-        nc=f"{BENCH}/work_precision.nc",
-        csv=f"{BENCH}/table.csv",
-        md=f"{BENCH}/table.md",
+        nc=f"{BENCH}/work_precision{{target}}.nc",
+        csv=f"{BENCH}/table{{target}}.csv",
+        md=f"{BENCH}/table{{target}}.md",
     log:
-        f"{BENCH}/logs/measure_work_precision.log",
+        f"{BENCH}/logs/measure_work_precision{{target}}.log",
+    wildcard_constraints:
+        target="(_avx2)?",
     conda:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
         made_of=made_of("measure_work_precision"),
+        compiled=lambda wildcards: (
+            "NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=" if wildcards.target else ""
+        ),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 job measure_work_precision {output} > {log} 2>&1"
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 {params.compiled} job measure_work_precision {output} > {log} 2>&1"
 
 
 rule measure:

@@ -33,33 +33,39 @@ FIGURES = ("overview", "failure_maps", "answers", "prices", "answer_maps", "cont
 Summary = Mapping[str, Any]
 
 
-def summary(work_precision: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
-    """What the pages need of a run.
+def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
+    """What the pages need of a run; ``as_avx2`` is of kernels that were compiled as for a processor with AVX2 only.
 
     Raises
     ------
     disc_model.errors.DiscModelError
-        If the two were not measured on the same machine.
+        If they were not measured on the same machine.
     """
-    machines = {dataset.attrs["machine"] for dataset in (work_precision, answers)}
+    machines = {dataset.attrs["machine"] for dataset in (work_precision, as_avx2, answers)}
     if len(machines) > 1:
         raise DiscModelError(
-            f"the datasets are of one machine each, {' and '.join(sorted(machines))}: measure both anew"
+            f"the datasets are of one machine each, {' and '.join(sorted(machines))}: measure all anew"
         )
-    points = measured_points(work_precision)
-    default = at_default(points[points["scene"].isin(JUDGED)])
+    points, narrow = measured_points(work_precision), measured_points(as_avx2)
     asked = [name for name in QUESTIONS if name in answers["answer"].values]
     return {
         "machine": machines.pop(),
         "versions": json.loads(work_precision.attrs["versions"]),
-        "own": {p.scene: {"cost": p.further, "error": p.event_error} for p in default.itertuples()},
+        "own": _own(points),
         "times_slower": headline(points),
+        "as_avx2": {"own": _own(narrow), "heyoka": {scene: x.get("heyoka") for scene, x in headline(narrow).items()}},
         "glue": _glue(points),
         "whole_call": _whole_call(points),
         "stiff": _stiff(points),
         "sentences": {name: words.sentence(answers, name) for name in asked},
         "prices": {name: _prices(words.points(answers, name)) for name in asked},
     }
+
+
+def _own(points: pd.DataFrame) -> dict[str, dict[str, Any]]:
+    """By scene, cost and error of the series engine at its default."""
+    default = at_default(points[points["scene"].isin(JUDGED)])
+    return {str(p.scene): {"cost": p.further, "error": p.event_error} for p in default.itertuples()}
 
 
 def _prices(found: list[Row]) -> dict[str, dict[str, Any]]:
@@ -130,6 +136,8 @@ def _speed(run: Summary) -> str:
         own=[{"ms": 1e3 * cost["cost"], "letter": LETTERS[scene]} for scene, cost in own.items()],
         errors=[{"error": cost["error"]} for cost in own.values()],
         others=[{"label": METHODS[name].label, "ratios": said} for name, said in ratios.items()],
+        narrow=[{"ms": 1e3 * cost["cost"], "letter": LETTERS[scene]} for scene, cost in run["as_avx2"]["own"].items()],
+        narrowly=[{"times": times} for times in run["as_avx2"]["heyoka"].values() if times],
         glue=[{"letter": LETTERS[scene], "share": share} for scene, share in run["glue"].items()],
         call=[{"ms": 1e3 * call["seconds"], "times": call["heyoka"]}] if "heyoka" in call else [],
         stiff=[{"label": METHODS[name].label, "ms": plain(1e3 * cost)} for name, cost in run["stiff"].items()],
