@@ -17,12 +17,15 @@ SET_UP = 1e-4
 
 
 class Known(Method):
-    """A method whose error is ``error`` (value) seconds at every event, and which takes ``cost`` (value) seconds."""
+    """A method whose error is ``error`` (value) seconds at every event, and which takes ``cost`` (value) seconds.
 
-    def __init__(self, like: str, error, cost, outcome=Outcome.FINISHED) -> None:
+    Of these ``glue`` is the share of Python.
+    """
+
+    def __init__(self, like: str, error, cost, outcome=Outcome.FINISHED, glue=math.nan) -> None:
         own = METHODS[like]
         self.name, self.label, self.setting, self.order = own.name, own.label, own.setting, own.order
-        self.error, self.cost, self.outcome = error, cost, outcome
+        self.error, self.cost, self.outcome, self.glue = error, cost, outcome, glue
         self.tried: list[float] = []
 
     def unavailable(self) -> str:
@@ -38,14 +41,14 @@ class Known(Method):
         final = right.final.replace(psi=right.final.psi * (1 + off), f=right.final.f * (1 + off))
         work = round(1 / value) if self.setting == "step" else 1000
         seconds = SET_UP + times_longer * (self.cost(value) - SET_UP)
-        return MethodResult(times, kinds, final, seconds, work, self.outcome)
+        return MethodResult(times, kinds, final, seconds, work, self.outcome, glue=self.glue * seconds)
 
 
 @pytest.fixture
 def known(monkeypatch: pytest.MonkeyPatch) -> dict[str, Known]:
     methods = {
         "series": Known("series", lambda tol: 0.5 * tol, lambda tol: 1e-3 - 1e-5 * math.log10(tol)),
-        "RK4": Known("RK4", lambda h: 1e8 * h**4, lambda h: 1e-5 / h),
+        "RK4": Known("RK4", lambda h: 1e8 * h**4, lambda h: 1e-5 / h, glue=0.25),
         "Radau": Known("Radau", lambda tol: 1.0, lambda tol: 0.2),
         "regularised": Known("regularised", lambda e: 1e-4, lambda e: 100.0, Outcome.TOO_SLOW),
     }

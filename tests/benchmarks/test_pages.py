@@ -42,6 +42,18 @@ def test_what_a_run_comes_to(dataset: xr.Dataset, answers: xr.Dataset) -> None:
     assert json.loads(json.dumps(run)) == run
 
 
+def test_heyokas_python_and_the_engine_as_for_avx2_are_told(dataset: xr.Dataset, answers: xr.Dataset) -> None:
+    """A quarter of the costs of conftest's RK4 is Python; natively, the engine is given half of its costs."""
+    heyoka = dataset.assign_coords(solver=[{"RK4": "heyoka"}.get(name, name) for name in dataset["solver"].values])
+    fast = heyoka.copy(deep=True)
+    fast["marginal_cost"].loc[{"solver": "series"}] *= 0.5
+    run = pages.summary(fast, heyoka, answers)
+    assert run["glue"]["stick_slip"] == pytest.approx(0.25)
+    assert run["own"]["stick_slip"]["cost"] == pytest.approx(5e-4)
+    assert run["as_avx2"]["own"]["stick_slip"]["cost"] == pytest.approx(1e-3)
+    assert run["times_slower"]["stick_slip"]["heyoka"] == pytest.approx(2 * run["as_avx2"]["heyoka"]["stick_slip"])
+
+
 def test_one_run_is_on_one_machine(dataset: xr.Dataset, answers: xr.Dataset) -> None:
     with pytest.raises(DiscModelError, match="another machine"):
         pages.summary(dataset, dataset, answers.assign_attrs(machine="another machine"))

@@ -27,6 +27,8 @@ def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict
     assert (series["repeats"][:3] == 2).all()
     assert series["cost"][0] == pytest.approx(1e-3 + 6e-5)
     assert series["marginal_cost"][0] == pytest.approx(1e-3 + 6e-5 - SET_UP)
+    np.testing.assert_allclose(rk4["glue"], 0.25)
+    assert np.isnan(series["glue"]).all()
     # too long to be followed further
     assert np.isnan(rk4["marginal_cost"][3])
     assert flag_names(dataset.sel(scene="stick_slip", solver="Radau")["verdict"])[0] == "wrong_events"
