@@ -52,6 +52,11 @@ def test_heyokas_python_and_the_engine_as_for_avx2_are_told(dataset: xr.Dataset,
     assert run["own"]["stick_slip"]["cost"] == pytest.approx(5e-4)
     assert run["as_avx2"]["own"]["stick_slip"]["cost"] == pytest.approx(1e-3)
     assert run["times_slower"]["stick_slip"]["heyoka"] == pytest.approx(2 * run["as_avx2"]["heyoka"]["stick_slip"])
+    text = pages.page(run)
+    assert "| heyoka | 630 | - |" in text
+    assert "| series, modes, rigid contact | 4, 8 | - | - |" in text
+    assert "Python between the phases accounts for 25 % for" in text
+    assert "only, the package takes 1 ms for (a). heyoka always" in text
 
 
 def test_one_run_is_on_one_machine(dataset: xr.Dataset, answers: xr.Dataset) -> None:

@@ -17,7 +17,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks.answers import words
-from disc_model.benchmarks.answers.measure import Row
+from disc_model.benchmarks.answers.measure import LINES, Row
 from disc_model.benchmarks.answers.questions import QUESTIONS, AnswerVerdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
@@ -57,9 +57,15 @@ def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset
         "glue": _glue(points),
         "whole_call": _whole_call(points),
         "stiff": _stiff(points),
-        "sentences": {name: words.sentence(answers, name) for name in asked},
+        "models": {name: _models(words.points(answers, name)) for name in asked},
         "prices": {name: _prices(words.points(answers, name)) for name in asked},
     }
+
+
+def _models(found: list[Row]) -> dict[str, str]:
+    """By contact of a reduced model, the numbers of nodal diameters with which it answers rightly."""
+    lines = {model: [p for p in found if p.line == model] for model in words.MODELS}
+    return {model: words.right_numbers(line) for model, line in lines.items() if line}
 
 
 def _own(points: pd.DataFrame) -> dict[str, dict[str, Any]]:
@@ -123,25 +129,38 @@ def passages(run: Summary) -> dict[str, str]:
 
 
 def _speed(run: Summary) -> str:
-    """What a simulated second costs, and how many times that the others take."""
-    own, slower, call = run["own"], run["times_slower"], run["whole_call"]
-    methods = {name for ratios in slower.values() for name in ratios if name != "series"}
-    order = sorted(methods, key=lambda name: min(ratios[name] for ratios in slower.values() if name in ratios))
-    ratios = {
-        name: " and ".join(plain(found[name]) if name in found else "not at all" for found in slower.values())
-        for name in order
-    }
+    """What a simulated second costs, and how many times as long the other methods take."""
+    own, slower, call, narrow = run["own"], run["times_slower"], run["whole_call"], run["as_avx2"]
+    costs = [
+        [found.get(name, math.nan) for found in slower.values()] + [stiff] for name, stiff in _methods(run).items()
+    ]
+    rows = [
+        [METHODS[name].label, *("-" if math.isnan(cost) else plain(cost) for cost in line)]
+        for name, line in zip(_methods(run), costs, strict=True)
+    ]
+    head = ("method", *(f"({LETTERS[scene]}), times" for scene in slower), "(d), ms")
     return TEXTS["speed"].fill(
         machine=run["machine"],
-        own=[{"ms": 1e3 * cost["cost"], "letter": LETTERS[scene]} for scene, cost in own.items()],
+        own=_milliseconds(own),
         errors=[{"error": cost["error"]} for cost in own.values()],
-        others=[{"label": METHODS[name].label, "ratios": said} for name, said in ratios.items()],
-        narrow=[{"ms": 1e3 * cost["cost"], "letter": LETTERS[scene]} for scene, cost in run["as_avx2"]["own"].items()],
-        narrowly=[{"times": times} for times in run["as_avx2"]["heyoka"].values() if times],
-        glue=[{"letter": LETTERS[scene], "share": share} for scene, share in run["glue"].items()],
+        table="\n".join(markdown_table(head, rows)),
+        narrow=_milliseconds(narrow["own"]),
+        narrowly=[{"times": times} for times in narrow["heyoka"].values() if times],
+        glue=[{"letter": LETTERS[scene], "share": 100.0 * share} for scene, share in run["glue"].items()],
         call=[{"ms": 1e3 * call["seconds"], "times": call["heyoka"]}] if "heyoka" in call else [],
-        stiff=[{"label": METHODS[name].label, "ms": plain(1e3 * cost)} for name, cost in run["stiff"].items()],
     )
+
+
+def _methods(run: Summary) -> dict[str, float]:
+    """Methods with a cost in any scene, cheapest first, and their cost (ms) on the all but rigid disc."""
+    slower, stiff = run["times_slower"].values(), run["stiff"]
+    times = {name: min(found.get(name, math.inf) for found in slower) for found in slower for name in found}
+    names = [*sorted(times, key=lambda name: times[name]), *(name for name in stiff if name not in times)]
+    return {name: 1e3 * stiff.get(name, math.nan) for name in names}
+
+
+def _milliseconds(own: Mapping[str, Mapping[str, float]]) -> list[dict[str, Any]]:
+    return [{"ms": 1e3 * cost["cost"], "letter": LETTERS[scene]} for scene, cost in own.items()]
 
 
 def fill(text: str, known: Mapping[str, str]) -> str:
@@ -166,12 +185,18 @@ def page(run: Summary) -> str:
     """The page of the benchmark."""
     lines = dict.fromkeys(label for table in run["prices"].values() for label in table)
     rows = [[label, *(_price(table.get(label)) for table in run["prices"].values())] for label in lines]
-    head = ("method", *(QUESTIONS[name].title for name in run["prices"]))
-    sentences = [
-        {"title": QUESTIONS[name].title.capitalize(), "sentence": said} for name, said in run["sentences"].items()
-    ]
+    for model in words.MODELS:
+        found = (run["models"][name].get(model) for name in run["prices"])
+        rows.append([LINES[model][0], *("-" if right is None else right or "no number" for right in found)])
+    head = (
+        "method",
+        *(
+            f"{own.title}, to {words.within(own.enough, own.units)}"
+            for own in (QUESTIONS[name] for name in run["prices"])
+        ),
+    )
     table = "\n".join(markdown_table(head, rows))
-    return TEXTS["page"].fill(machine=run["machine"], speed=_speed(run), sentences=sentences, table=table)
+    return TEXTS["page"].fill(machine=run["machine"], speed=_speed(run), table=table)
 
 
 def _price(cell: Mapping[str, Any] | None) -> str:

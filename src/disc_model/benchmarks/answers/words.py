@@ -1,4 +1,4 @@
-"""What the measured answers come to: a sentence a question, and tables."""
+"""What the measured answers come to, as tables."""
 
 from __future__ import annotations
 
@@ -32,41 +32,29 @@ def cheapest_right(found: Sequence[Row]) -> list[Row]:
     return [*best.values()]
 
 
-def sentence(dataset: xr.Dataset, question: str) -> str:
-    """Which method answers a question rightly at what price, which wrongly, and which not at all."""
-    own, found = json.loads(dataset.attrs["questions"])[question], points(dataset, question)
-    methods = [p for p in found if p.line not in MODELS]
-    answered = {p.line for p in methods if p.verdict is not AnswerVerdict.NO_ANSWER}
-    return TEXTS["answer"].fill(
-        enough=own["enough"],
-        unit="" if own["units"] == "1" else f" {_unit(own['units'])}",
-        right=[{"label": p.label, "at": p.at, "time": _time(p)} for p in cheapest_right(found)],
-        wrong=[{"label": p.label, "at": p.at, "says": p.says} for p in methods if p.verdict is AnswerVerdict.WRONG],
-        silent=[{"label": label} for label in dict.fromkeys(p.label for p in methods if p.line not in answered)],
-        models=[
-            {"model": model, "which": _enough(line)}
-            for model in MODELS
-            if (line := [p for p in found if p.line == model])
-        ],
-    )
+def right_numbers(model: Sequence[Row]) -> str:
+    """The numbers of nodal diameters with which a reduced model answers rightly."""
+    return ", ".join(f"{p.setting:.0f}" for p in model if p.verdict is AnswerVerdict.RIGHT)
 
 
-def _enough(model: Sequence[Row]) -> str:
-    """How many nodal diameters of a model do."""
-    right = "; ".join(f"{p.setting:.0f}" for p in model if p.verdict is AnswerVerdict.RIGHT)
-    most = max(p.setting for p in model)
-    return f"right with {right} nodal diameters" if right else f"with no number of nodal diameters up to {most:.0f}"
+def within(enough: float, units: str) -> str:
+    """How near an answer must be."""
+    return f"{enough:g}" if units == "1" else f"{enough:g} {_unit(units)}"
 
 
 def to_markdown(dataset: xr.Dataset) -> str:
-    """A section a question: its sentence, its right answer, its table; the machine above."""
+    """A section a question: its right answer, how near it must be, and its table; the machine above."""
     about = json.loads(dataset.attrs["questions"])
     rows = []
     for question in dict.fromkeys(map(str, dataset["answer"].values)):
         own = about[question]
         head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "time (s)", "verdict", "status")
         table = "\n".join(markdown_table(head, map(_row, points(dataset, question))))
-        said = {"title": own["title"].capitalize(), "sentence": sentence(dataset, question), "error": own["error"]}
+        said = {
+            "title": own["title"].capitalize(),
+            "within": within(own["enough"], own["units"]),
+            "error": own["error"],
+        }
         rows.append({**said, "table": table})
     return TEXTS["answers"].fill(machine=dataset.attrs["machine"], questions=rows)
 
@@ -83,12 +71,6 @@ def _row(p: Row) -> tuple[str, ...]:
 
 def _short(number: float, digits: int = 8) -> str:
     return f"{number:.{digits}g}" if math.isfinite(number) else "-"
-
-
-def _time(p: Row) -> str:
-    if p.seconds < 0.1:
-        return f"{1e3 * p.seconds:.2g} ms"
-    return f"{p.seconds:.2g} s" if p.seconds < 100.0 else f"{p.seconds:.0f} s"
 
 
 def _unit(units: str) -> str:
