@@ -12,7 +12,7 @@ from disc_model.benchmarks.methods import METHODS, Outcome
 from disc_model.benchmarks.methods import regularised as regularised_module
 from disc_model.benchmarks.methods import solve_ivp as solve_ivp_module
 from disc_model.benchmarks.methods.base import GaveUp, Meter
-from disc_model.benchmarks.methods.phases import Ended, run_phases
+from disc_model.benchmarks.methods.phases import run_phases
 from disc_model.benchmarks.methods.physics import Physics
 from tests.benchmarks.methods.problems import task
 from tests.references.printed import P
@@ -33,8 +33,8 @@ def test_what_ends_a_run_of_phases(what, outcome, words):
         if what == "fails":
             raise GaveUp("gave up")
         if what == "overflows":
-            return Ended(None, t, y * math.nan)
-        return Ended(1 if phase.name == "slip" else 0, t, y)  # one switch after the other, at once
+            return None, t, y * math.nan
+        return 1 if phase.name == "slip" else 0, t, y  # one switch after the other, at once
 
     result = run_phases(problem, Physics(P), advance, Meter(problem, Physics(P), math.inf))
     assert result.outcome is outcome

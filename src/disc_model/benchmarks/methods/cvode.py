@@ -72,9 +72,9 @@ class Cvode(Method):
             if flag < 0:
                 raise GaveUp(f"CVODE returned {flag}")
             if flag == REACHED:
-                return Ended(None, time.value, state)
+                return None, time.value, state
             call.CVodeGetRootInfo(memory, roots)
-            return Ended(next(i for i, found in enumerate(roots) if found), time.value, state)
+            return next(i for i, found in enumerate(roots) if found), time.value, state
 
         with _solver(self.family, state, value, value * absolute_scale(physics), given) as (
             memory,

@@ -40,15 +40,9 @@ PHASE = {
 """By number and direction."""
 
 
-class Ended(NamedTuple):
-    """Where ``advance`` stopped: place of the function that did it (None at t_end), local time (s) and state.
-
-    The state is the caller's until the next call, and its to change.
-    """
-
-    cause: int | None
-    t: float
-    y: Array
+Ended = tuple[int | None, float, Array]
+"""Where ``advance`` stopped: place of the function that did it (None at t_end), local time (s), and the state, which
+the caller may change."""
 
 
 class Advance(Protocol):
@@ -82,9 +76,9 @@ def run_phases(problem: Problem, physics: Physics, advance: Advance, meter: Mete
                 raise GaveUp(NOT_FINITE, Outcome.NON_FINITE)
             phase = PHASE[number, direction]
             crowd = crowd + 1 if times and t - times[-1] < INSTANT else 0
-            for kind in new[:added].tolist():
+            for place in range(added):
                 times.append(t)
-                kinds.append(EVENT_KINDS[kind])
+                kinds.append(EVENT_KINDS[new[place]])
             if problem.stop and phase.name == "separation":
                 break
             if crowd > CROWD:

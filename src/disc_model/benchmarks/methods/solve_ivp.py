@@ -62,7 +62,7 @@ class SolveIvp(Method):
             if found.status == -1:
                 raise GaveUp(found.message)
             cause = next((i for i, times in enumerate(found.t_events) if len(times)), None)
-            return Ended(cause, float(found.t[-1]), found.y[:, -1].copy())
+            return cause, float(found.t[-1]), found.y[:, -1].copy()
 
         return run_phases(problem, physics, advance, meter)
 

@@ -68,21 +68,28 @@ class Heyoka(Method):
         for name, integrator in _integrators(p.replace(N=1.0, Omega=1.0), value, self.compact).items():
             integrator.pars[:2] = given
             # of fewer events the last ones
-            prepared[name] = integrator, integrator.state, ENDS[name] - len(integrator.t_events)
+            state = integrator.state
+            prepared[name] = (
+                integrator,
+                integrator.propagate_until,
+                state,
+                len(state),
+                ENDS[name] - len(integrator.t_events),
+            )
 
         def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
             nonlocal inside
-            integrator, state, skipped = prepared[phase.name]
-            integrator.time, state[:] = t, y[: len(state)]
+            integrator, propagate, state, size, skipped = prepared[phase.name]
+            integrator.time, state[:] = t, y[:size]
             if phase.direction:
                 integrator.pars[2] = phase.direction
             path.clear()
             began = clock.perf_counter()
-            outcome, _, _, steps, _, _ = integrator.propagate_until(t_end, max_steps=STEPS_PER_LOOK, **seen)
+            outcome, _, _, steps, _, _ = propagate(t_end, max_steps=STEPS_PER_LOOK, **seen)
             while (stop := int(outcome)) == no_more:
                 meter.work += steps
                 meter.check()
-                outcome, _, _, steps, _, _ = integrator.propagate_until(t_end, max_steps=STEPS_PER_LOOK, **seen)
+                outcome, _, _, steps, _, _ = propagate(t_end, max_steps=STEPS_PER_LOOK, **seen)
             inside += clock.perf_counter() - began
             meter.work += steps
             cause = None if stop == at_end else skipped - stop - 1
@@ -93,8 +100,8 @@ class Heyoka(Method):
                 states = np.tile(y, (len(path) + 1, 1))
                 states[1:, : len(state)] = [state for _, state in path]
                 meter.path(np.array([t, *(time for time, _ in path)]), states)
-            y[: len(state)] = state
-            return Ended(cause, integrator.time, y)
+            y[:size] = state
+            return cause, integrator.time, y
 
         result = run_phases(problem, physics, advance, meter)
         return replace(result, glue=meter.wall - inside)
