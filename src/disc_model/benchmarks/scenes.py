@@ -122,7 +122,7 @@ MOTIONS: Mapping[str, tuple[dict[str, Any], Callable[[Parameters], State], float
     "rigid": ({"E": 1e20, "n_diameters": 1}, static_start, 0.02, math.inf),
 }
 """By scene: parameters beside N = 385 N and Omega = 15.1 rad/s, the start, the end (s), and the longest step (s) of
-scipy's methods: with longer ones RK45 and DOP853 miss losses of contact at any tolerance."""
+RK45 and DOP853: with longer ones they miss losses of contact at any tolerance."""
 
 
 @lru_cache(maxsize=8)

@@ -49,7 +49,7 @@ class Problem:
     t_end : s, absolute, greater than start.time
     stop : whether to end at the first separation
     watched : whether the range of the disc is asked for, which costs some methods time
-    max_step : s, longest step of methods that see events at the ends of steps only, lest they miss some
+    max_step : s, longest step of methods that would miss events with longer ones
     """
 
     parameters: Parameters

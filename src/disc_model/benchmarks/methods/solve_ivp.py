@@ -51,12 +51,11 @@ class SolveIvp(Method):
 
         def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
             rate, slopes, events = parts(phase)
-            more = {"jac": slopes} if self.algorithm in IMPLICIT else {}
+            more = {"jac": slopes} if self.algorithm in IMPLICIT else {"max_step": problem.max_step}
             with np.errstate(over="ignore", invalid="ignore"):
                 found = solve_ivp(
                     meter.counted(rate), (t, t_end), y,
-                    method=self.algorithm, rtol=max(value, FLOOR), atol=value * scale, max_step=problem.max_step,
-                    events=events, **more,
+                    method=self.algorithm, rtol=max(value, FLOOR), atol=value * scale, events=events, **more,
                 )  # fmt: skip
             meter.steps(found.t, found.y.T)
             if found.status == -1:
