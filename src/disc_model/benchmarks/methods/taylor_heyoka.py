@@ -104,7 +104,7 @@ class Heyoka(Method):
             return cause, integrator.time, y
 
         result = run_phases(problem, physics, advance, meter)
-        return replace(result, glue=meter.wall - inside)
+        return replace(result, glue=result.seconds * (1.0 - inside / meter.wall))
 
 
 @lru_cache(maxsize=32)
