@@ -102,7 +102,7 @@ def _glue(points: pd.DataFrame) -> dict[str, float]:
     """Share of heyoka's time that is Python between its phases, by scene, at the setting nearest to `DEFAULT`."""
     own = points[(points["solver"] == "heyoka") & points["scene"].isin(JUDGED) & points["glue"].notna()]
     nearest = np.abs(np.log(own["event_error"] / DEFAULT)).groupby(own["scene"]).idxmin()
-    return {str(scene): float(own["glue"][row]) for scene, row in nearest.items()}
+    return {scene: float(own["glue"][nearest[scene]]) for scene in JUDGED if scene in nearest}
 
 
 def _stiff(points: pd.DataFrame) -> dict[str, float]:

@@ -59,14 +59,13 @@ class Cvode(Method):
             call.CVodeRootInit(memory, ENDS[phase.name], switches)
             call.CVodeSetRootDirection(memory, falling)
             call.CVodeSetStopTime(memory, ctypes.c_double(t_end))
-            flag = 0
+            flag, how, path = 0, ONE_STEP if problem.watched else NORMAL, [(t, y.copy())]
             while flag in (0, TOO_MUCH_WORK):
                 meter.check()
-                before = time.value, state.copy()
-                how = ONE_STEP if problem.watched else NORMAL
                 flag = call.CVode(memory, ctypes.c_double(t_end), vector, ctypes.byref(time), how)
-                if problem.watched:
-                    meter.path(np.array([before[0], time.value]), np.array([before[1], state]))
+                path.append((time.value, state.copy()))
+            if problem.watched:
+                meter.path(np.array([time for time, _ in path]), np.array([state for _, state in path]))
             call.CVodeGetNumRhsEvals(memory, ctypes.byref(evaluations))
             meter.work += evaluations.value
             if flag < 0:
