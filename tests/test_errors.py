@@ -110,6 +110,9 @@ def test_a_fault_is_its_text_and_knows_its_parts() -> None:
     copy = pickle.loads(pickle.dumps(fault))
     assert fault == copy == "N=-1: must be >= 0"
     assert (copy.path, copy.value, copy.rule) == (("N",), "-1", "must be >= 0")
+    for error in (ParameterError(fault, "k=nan: must be finite"), StudyError("a: b", "c: d", source="x.yaml")):
+        again = pickle.loads(pickle.dumps(error))
+        assert (str(again), again.faults) == (str(error), error.faults)
 
 
 @pytest.mark.parametrize("make", [Parameters, Window, Poincare, Record])
