@@ -469,7 +469,7 @@ class Disc(Checked):
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = ()
     static_compliance: Positive | None = None
     radii: tuple[Positive, ...] = ()
-    shapes: tuple[tuple[Finite, ...], ...] = ()
+    shapes: tuple[tuple[Finite, ...], ...] = Field((), repr=False)
 
     _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "shapes")
 
