@@ -157,7 +157,7 @@ EQUIVALENT: dict[str, str] = {
         "zero at the equilibrium, where beta = l Omega a"
     ),
 }
-PATIENCE = 300
+PATIENCE = 100
 """s of the processor; all that is tried takes a fraction of that."""
 BUDGET = 20.0
 """s; as many of a module's tests as take this together are tried, the quickest."""
