@@ -30,7 +30,7 @@ else:
 # Numbers
 
 TOLERANCES = (1e-15, 1e-2)
-"""Least and greatest tolerance of a simulation: relative truncation error of a step."""
+"""Least and greatest tolerance of a simulation: error of event times after a second of motion, s."""
 CYCLE_TOLERANCES = (1e-14, 1e-6)
 """Those of the search for a cycle: relative residual of the return map."""
 

@@ -18,9 +18,10 @@ import pytest
 from disc_model import Parameters, plate_modes, simulate
 from tests.references import stored, taylor
 
-#: Largest event-time error over the stored second divided by tol: about 0.05 s in all the cases, with a
-#: margin of 20.
-ERROR_PER_TOL = 1.0
+#: Largest event-time error over the stored second divided by tol, s: 0.2 to 2 at all tolerances that tell.
+ERROR_PER_TOL = 3.0
+#: The same of violent motions, whose impacts and reversals amplify errors: up to 6.
+ERROR_PER_TOL_VIOLENT = 10.0
 #: Below this, double precision (53 bits, times near 55 s have a spacing of 7e-15 s) decides, not tol.
 ROUNDING = 1e-13
 
@@ -53,8 +54,10 @@ def test_every_event_is_there_with_an_error_that_falls_with_tol(name, count, sep
         errors.append(float(np.abs(events["time"].to_numpy() - stored.times_of(data)).max()))
     assert np.all(np.array(errors) <= ERROR_PER_TOL * np.array(tolerances) + ROUNDING), errors
     assert errors[-1] <= 1e-13
-    for coarse, fine in itertools.pairwise(errors[2:9:2]):
+    for coarse, fine in itertools.pairwise(errors[3:10:2]):
         assert fine <= coarse / 10 + ROUNDING, errors  # tol falls a hundredfold: at least ten, in practice 60 to 200
+    # nor far better than asked for, which would cost time: it was a fiftieth of tol
+    assert np.all(np.array(errors[3:8]) >= np.array(tolerances[3:8]) / 6), errors
 
 
 @pytest.mark.compiled
@@ -67,7 +70,7 @@ def test_values_at_the_events():
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("tol", "allowed"), [(1e-8, 1e-7), (1e-10, 1e-8), (1e-12, 1e-9), (1e-15, 1e-11)])
+@pytest.mark.parametrize(("tol", "allowed"), [(1e-8, 1e-6), (1e-10, 3e-8), (1e-12, 1e-9), (1e-15, 1e-11)])
 def test_first_separation_at_15_1_rad_s(tol, allowed):
     """54.418905535947973 s: long-double runs agree to 4e-16 s, 53-bit runs to 4e-13 s.
 
@@ -92,7 +95,7 @@ def test_violent_motion():
                 events = simulate(p, group["t_end"], tol=tol, initial_state=start).events
                 assert list(events["kind"]) == run["kinds"], (p, i, tol)
                 error = float(np.abs(events["time"].to_numpy() - times).max())
-                assert error <= ERROR_PER_TOL * tol + ROUNDING, (p, i, tol)
+                assert error <= ERROR_PER_TOL_VIOLENT * tol + ROUNDING, (p, i, tol)
     assert kinds.count("slip_reversal") > 100
     gaps = np.array(gaps)
     assert (gaps == 0).sum() > 10  # contact lost again in the instant of the impact
@@ -105,7 +108,7 @@ from tests.references import stored
 data = stored.load("C")
 p = stored.parameters_of(data)
 start = stored.engine_state(data["start"], p)
-for time, kind in simulate(p, 54.42, initial_state=start).events[["time", "kind"]].itertuples(index=False):
+for time, kind in simulate(p, 54.42, tol=1e-13, initial_state=start).events[["time", "kind"]].itertuples(index=False):
     print(repr(float(time)), kind)
 """
 

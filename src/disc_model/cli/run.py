@@ -27,7 +27,7 @@ PLOT_RATE = 2000.0
 ZOOM = 0.25
 """Length of the second column of a plot, the end of the run, s."""
 T_END_HELP = r"time at which the run ends (s) \[required]"
-TOLERANCE_HELP = f"tolerance, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}"
+TOLERANCE_HELP = f"error of event times after a second of motion, s, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}"
 STOPS = ("first_separation",)
 WINDOW_HELP = (
     "samples to keep, such as late:last=3,rate=4000 or whole:rate=2000,envelope=1000; keys start, stop, last (s), "

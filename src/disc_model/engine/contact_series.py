@@ -42,6 +42,8 @@ from .series import (
     _order_from_memory,
     _order_zero,
     _row,
+    _set_e,
+    _set_switch,
     _stick_order,
     _z,
     drive,
@@ -141,14 +143,6 @@ def _move_slider(model, s, k, f_rate, acceleration):
 
 
 @inlined
-def _set_switch(s, order, direction):
-    """The switch function of slip, and the order to which P is not known."""
-    for k in range(order + 1):
-        s.slider[SWITCH + k] = direction * s.slider[F + k]
-    s.slider[P_SERIES + order] = 0.0
-
-
-@inlined
 def compliant_slip_series(model, s, order, direction):
     """Slip on a compliant contact.  Returns V / R, whose zero is a jammed contact; 1 under the vertical force.
 
@@ -190,6 +184,7 @@ def compliant_slip_series(model, s, order, direction):
         _axisymmetric(model, s, k, impulse)
         closing = _closing(model, s, k + 1, e, carried)
         impulse = V * s.slider[UP + k]
+    _set_e(s, width, order * width, e)
     _last_force(model, s, order, impulse)
     _set_switch(s, order, direction)
     return ratio
@@ -300,6 +295,7 @@ def normal_slip_series(model, s, order, direction):
         rate = spring * lightness - ((friction + beta) * R + h) * lever
         _move_slider(model, s, k, rate, inertia + rate * slope - model.compliance * V)
         impulse = V * s.slider[UP + k]
+    _set_e(s, width, order * width, e)
     _last_force(model, s, order, impulse)
     _set_switch(s, order, direction)
     return denominator

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .coasting import coast_to
 from .compile import inlined
-from .lanes import WIDTH, fma, item, load, splat, store
+from .lanes import WIDTH, fma, load, splat, store
 from .layout import (
     DRIVE,
     DRIVE_SERIES,
@@ -23,7 +23,7 @@ from .layout import (
     is_ramped,
     ramp_of,
 )
-from .polynomial import value
+from .polynomial import value, value_by_halves
 from .series import lane_count
 from .switches import force_in_stick, stick_force
 
@@ -33,40 +33,33 @@ COAST = 0
 
 @inlined
 def _modes_at(model, s, order, x, state):
-    """Modal displacements and velocities at x."""
-    width, n, at = lane_count(model), len(model.force0), splat(x)
+    """Modal displacements and velocities at x; even and odd powers do not wait for each other."""
+    width, n, at, square = lane_count(model), len(model.force0), splat(x), splat(x * x)
     for b in range(0, width, WIDTH):
         i = order * width + b
         z, e = load(s.modes, i), load(s.modes, E * width + i)
-        for _ in range(order):
-            i -= width
-            z, e = fma(z, at, load(s.modes, i)), fma(e, at, load(s.modes, E * width + i))
-        store(state.z, b, z)
-        store(state.e, b, e)
+        z_odd, e_odd = load(s.modes, i - width), load(s.modes, E * width + i - width)
+        for _ in range(order // 2 - 1):
+            i -= 2 * width
+            z, e = fma(z, square, load(s.modes, i)), fma(e, square, load(s.modes, E * width + i))
+            z_odd = fma(z_odd, square, load(s.modes, i - width))
+            e_odd = fma(e_odd, square, load(s.modes, E * width + i - width))
+        store(state.z, b, fma(z_odd, at, fma(z, square, load(s.modes, b))))
+        store(state.e, b, fma(e_odd, at, fma(e, square, load(s.modes, E * width + b))))
     for j in range(n):
-        i = order * n + j
-        y, g = item(s.y, i), item(s.g, i)
-        for _ in range(order):
-            i -= n
-            y, g = y * x + item(s.y, i), g * x + item(s.g, i)
-        state.y[j], state.g[j] = y, g
+        state.y[j], state.g[j] = value_by_halves(s.y, j, n, order, x), value_by_halves(s.g, j, n, order, x)
 
 
 @inlined
 def state_at(model, s, order, x, phase, state):
-    """Fill ``state`` with the series' value at x (time units); u, u' only where they are not the disc's."""
+    """Fill ``state`` with the series' value at x (time units); u, u' only where they are not the disc's.
+
+    The order is even.
+    """
     _modes_at(model, s, order, x, state)
-    psi, f = item(s.psi, order), item(s.f, order)
+    psi, f = value_by_halves(s.psi, 0, 1, order, x), value_by_halves(s.f, 0, 1, order, x)
     if is_compliant(model) or phase == SEPARATION:
-        # in one loop: each of the four waits for its own last term only
-        u, v = item(s.u, order), item(s.v, order)
-        for k in range(order - 1, -1, -1):
-            psi, f = psi * x + item(s.psi, k), f * x + item(s.f, k)
-            u, v = u * x + item(s.u, k), v * x + item(s.v, k)
-        state.x[U], state.x[U_VELOCITY] = u, v
-    else:
-        for k in range(order - 1, -1, -1):
-            psi, f = psi * x + item(s.psi, k), f * x + item(s.f, k)
+        state.x[U], state.x[U_VELOCITY] = value_by_halves(s.u, 0, 1, order, x), value_by_halves(s.v, 0, 1, order, x)
     state.x[PHASE] = phase
     state.x[PSI] = psi
     state.x[SPEED] = 0.0 if phase == STICK else f

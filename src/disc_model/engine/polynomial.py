@@ -17,7 +17,7 @@ from .layout import ROWS
 NO_ROOT = -1.0
 # Halley's method ends at a step of this size, relative to the root.
 _SETTLED = 4e-16
-# In haste, at one whose cube is rounding, as long as the curve bends this little over it: the next would be its cube.
+# It also ends at one whose cube is rounding, if the curve bends this little over it: the next would be its cube.
 _SMALL, _STRAIGHT = 1e-5, 1e-4
 _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and the cell's end decides
 
@@ -34,6 +34,7 @@ def _binomials():
 # Flat, in whole blocks of lanes: j over i at i * ROWS + j; one over (n over j), or 0 for j > n, at n * ROWS + j.
 _CHOOSE = _binomials().ravel()
 _ONE_OVER_CHOOSE = np.divide(1.0, _binomials().T, out=np.zeros((ROWS, ROWS)), where=_binomials().T > 0.0).ravel()
+_MOST_HALVINGS = 20
 _HALVES = 0.5 ** np.arange(ROWS)
 _COUNT = np.arange(float(ROWS))
 
@@ -45,6 +46,17 @@ def value(c, low, n, x):
     for j in range(n - 1, low - 1, -1):
         p = p * x + item(c, j)
     return p
+
+
+@inlined
+def value_by_halves(c, first, stride, n, x):
+    """sum_{j=0..n} c[first + j stride] x^j for an even n: even and odd powers do not wait for each other."""
+    i = first + n * stride
+    even, odd, square = item(c, i), item(c, i - stride), x * x
+    for _ in range(n // 2 - 1):
+        i -= 2 * stride
+        even, odd = even * square + item(c, i), odd * square + item(c, i - stride)
+    return odd * x + (even * square + item(c, first))
 
 
 @inlined
@@ -126,11 +138,8 @@ def _halve(cell, left, n, work):
 
 
 @inlined
-def _polish(d, n, low, high, x, hasty):
-    """Root between ``low`` (positive) and ``high`` (not positive), from the guess x: Halley in a shrinking bracket.
-
-    hasty: whether to leave out a step that would be rounding.
-    """
+def _polish(d, n, low, high, x):
+    """Root between ``low`` (positive) and ``high`` (not positive), from the guess x: Halley in a shrinking bracket."""
     for _ in range(80):
         p, slope, curve = item(d, n), 0.0, 0.0
         for j in range(n - 1, -1, -1):
@@ -146,7 +155,7 @@ def _polish(d, n, low, high, x, hasty):
         enough = _SETTLED
         if not (low <= new <= high):
             new = 0.5 * (low + high)
-        elif hasty and abs(p * curve) <= _STRAIGHT * slope * slope:
+        elif abs(p * curve) <= _STRAIGHT * slope * slope:
             enough = _SMALL
         if abs(new - x) <= enough * x:
             return new
@@ -175,39 +184,59 @@ def _surely_falling(d, n):
 
 
 @inlined
-def first_root(c, low, n, x_end, powers, work, hasty):
+def first_root(c, low, n, x_end, powers, work):
     """Smallest x in (0, x_end] where the polynomial stops being positive, or NO_ROOT.
 
     c: coefficients, zero beyond n; low: known multiplicity of the root at 0; powers: x_end**j; both padded to whole
-    blocks of lanes; work: shape (>= 54, whole blocks for n + 1 coefficients and two more);
-    hasty: see ``_polish``.  A polynomial that is negative at 0 has its root there.
+    blocks of lanes; work: shape (>= 54, whole blocks for n + 1 coefficients and two more).  A polynomial that is
+    negative at 0 has its root there.
     """
     if surely_positive(c, low, n, powers):
         return NO_ROOT
-    return _search(c, low, n, x_end, powers, work, hasty)
+    return _search(c, low, n, x_end, powers, work)
+
+
+@inlined
+def _sum_of(d, n):
+    """d[0] + ... + d[n]."""
+    sums, blocks = splat(0.0), (n + 1) // WIDTH * WIDTH
+    for j in range(0, blocks, WIDTH):
+        sums = add(sums, load(d, j))
+    end = total(sums)
+    for j in range(blocks, n + 1):
+        end += item(d, j)
+    return end
 
 
 @helper
-def _search(c, low, n, x_end, powers, work, hasty):
+def _search(c, low, n, x_end, powers, work):
     degree = n - low
     d = work[0]
     for j in range(0, degree + 1, WIDTH):
         store(d, j, mul(load(c, low + j), load(powers, j)))
-    end = 0.0
-    for j in range(degree + 1):
-        end += d[j]
+    end = _sum_of(d, degree)
     if d[0] <= 0.0:
         return 0.0 if d[0] < 0.0 or end < 0.0 else NO_ROOT
+    # a half at whose end it is not positive holds the first root: far cheaper than to halve the Bernstein form
+    for _ in range(_MOST_HALVINGS):
+        for j in range(0, degree + 1, WIDTH):
+            store(work[1], j, mul(load(d, j), load(_HALVES, j)))
+        middle = _sum_of(work[1], degree)
+        if middle > 0.0:
+            break
+        for j in range(0, degree + 1, WIDTH):
+            store(d, j, load(work[1], j))
+        x_end, end = 0.5 * x_end, middle
     if _surely_falling(d, degree):
         # one root if the end is not positive, none otherwise
-        return x_end * _polish(d, degree, 0.0, 1.0, d[0] / (d[0] - end), hasty) if end <= 0.0 else NO_ROOT
+        return x_end * _polish(d, degree, 0.0, 1.0, d[0] / (d[0] - end)) if end <= 0.0 else NO_ROOT
     _to_bernstein(d, degree, work[1], work[2])
-    root = _leftmost(d, degree, work, hasty)
+    root = _leftmost(d, degree, work)
     return NO_ROOT if root == NO_ROOT else x_end * root
 
 
 @helper
-def _leftmost(d, n, work, hasty):
+def _leftmost(d, n, work):
     """First root in (0, 1] of the polynomial whose Bernstein form is work[2]; NO_ROOT if there is none.
 
     work[2:] is a stack of cells, leftmost on top: coefficients in whole blocks of lanes, left end, width.
@@ -221,8 +250,7 @@ def _leftmost(d, n, work, hasty):
         if cell[0] < 0.0:
             return low
         if changes == 1:
-            guess = _crossing(cell, n) if hasty else 0.5
-            return _polish(d, n, low, low + width, low + guess * width, hasty)
+            return _polish(d, n, low, low + width, low + _crossing(cell, n) * width)
         if changes == 2 and width > _NARROWEST:
             top += 1
             left = work[top]

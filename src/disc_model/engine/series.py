@@ -219,11 +219,9 @@ def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
     carried = fma(first, z_next, fma(f, _z(s, width + b), z_inner))
     free = fma(_row(model, STIFFNESS, b), z_last, mul(damping, e))
     turned = swap_halves(fma(first, e, fma(f, _e(s, width, b), e_inner)))
-    e_next = mul(fma(shift, turned, sub(splat(0.0), free)), up)
+    e_next = mul(sub(mul(shift, turned), free), up)
     _set_e(s, width, at, e)
-    _set_e(s, width, at + width, e_next)
     _set_z(s, at + width, z_next)
-    _keep(s, _CARRIED, width, b, carried)
     return part, _pending(model, s, width, b, e_next, z_next, carried), e_next, carried, e, z_next
 
 
@@ -232,7 +230,9 @@ def _order_from_memory(model, s, width, b, k, f, f0, impulse):
     """As ``_order`` for the blocks after the first, whose values between orders are not kept in registers."""
     at, carried = k * width + b, _kept(s, _CARRIED, width, b)
     e, e_last, z_last = _e(s, width, at), _e(s, width, at - width), _z(s, at)
-    part, pending, _, _, _, _ = _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last)
+    part, pending, e, carried, _, _ = _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last)
+    _set_e(s, width, at + width, e)
+    _keep(s, _CARRIED, width, b, carried)
     return part, pending
 
 
@@ -273,17 +273,27 @@ def _first_order(model, s, width, f0):
 
 
 @inlined
+def _axisymmetric_mode(model, s, k, n, j, impulse):
+    """Mode j of n without nodal diameter, order k: it only feels P.  Returns its part of u'' without P_{k-1}."""
+    at, up, force, damping = k * n + j, s.slider[UP + k], item(model.force0, j), item(model.damping0, j)
+    g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
+    part = -force * (damping * g + pull)
+    g -= force * impulse
+    put(s.g, at, g)
+    put(s.y, at + n, g * up)
+    put(s.g, at + n, -(damping * g + pull) * up)
+    return part
+
+
+@inlined
 def _axisymmetric(model, s, k, impulse):
-    """Modes without nodal diameter, order k: they only feel P.  Returns their part of u'' without P_{k-1}."""
-    part, n, up = 0.0, len(model.force0), s.slider[UP + k]
+    """Modes without nodal diameter, order k.  Returns their part of u'' without P_{k-1}."""
+    n = len(model.force0)
+    if n == 1:  # the usual case; a loop costs as much again
+        return _axisymmetric_mode(model, s, k, 1, 0, impulse)
+    part = 0.0
     for j in range(n):
-        at, force, damping = k * n + j, item(model.force0, j), item(model.damping0, j)
-        g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
-        part -= force * (damping * g + pull)
-        g -= force * impulse
-        put(s.g, at, g)
-        put(s.y, at + n, g * up)
-        put(s.g, at + n, -(damping * g + pull) * up)
+        part += _axisymmetric_mode(model, s, k, n, j, impulse)
     return part
 
 
@@ -299,6 +309,15 @@ def _last_force(model, s, order, impulse):
 
 
 @inlined
+def _set_switch(s, order, direction):
+    """The switch function of slip, and the order to which P is not known."""
+    for j in range(0, order + 1, WIDTH):
+        store(s.switch, j, mul(splat(direction), load(s.f, j)))
+    # what an earlier step in another phase may have left
+    s.slider[SWITCH + order + 1] = s.slider[P_SERIES + order] = 0.0
+
+
+@inlined
 def slip_series(model, s, order, direction):
     """Slip with sgn(f) = ``direction``.  Returns the denominator of P, whose zero is Painleve's paradox.
 
@@ -311,17 +330,18 @@ def slip_series(model, s, order, direction):
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
     friction = direction * model.mu_k / model.r_0
     denominator = 1.0 + model.m * model.compliance + friction * slope
-    inverse, braking, lightness = 1.0 / denominator, friction / model.m, 1.0 / model.m
-    weight = model.m * inverse
+    inverse, braking = 1.0 / denominator, friction / model.m
+    recoil, spring, damper = model.compliance + braking * slope, model.k_p / model.m, model.c_p / model.m
 
     now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
     coriolis = total(by_e)
     by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
     # order 0: C has the Coriolis term once too often, because z_1 in by_f_rate holds it already
     acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
-    pull = model.k_p * psi + model.c_p * (drive(model, s) - f0)
-    P = (load_at(model, s) + model.k * (u - model.u_0) + model.c * v + model.m * acceleration + slope * pull) * inverse
-    s.slider[P_SERIES], s.slider[SWITCH] = P, direction * f0
+    pull = spring * psi + damper * (drive(model, s) - f0)
+    vertical = load_at(model, s) + model.k * (u - model.u_0) + model.c * v
+    P = (vertical + model.m * (acceleration + slope * pull)) * inverse
+    s.slider[P_SERIES] = P
     psi = (drive(model, s) - f0) * s.slider[UP]
     e, carried, e_last, z_last = (
         _e(s, width, width),
@@ -329,23 +349,13 @@ def slip_series(model, s, order, direction):
         _e(s, width, 0),
         _z(s, width),
     )
-    # d P_k / d P_{k-1}: from c u', from c_p in F, and from u''
-    by_force = model.damped_compliance - braking * by_f
-    by_force = inverse * (model.m * by_force - (model.c - model.c_p) * braking * slope - model.c * model.compliance)
-    by_force_rate = -inverse * friction * by_f_rate
-    by_u, by_v, by_psi, by_f_hat = (
-        inverse * model.k,
-        inverse * model.c,
-        inverse * slope * model.k_p,
-        inverse * slope * model.c_p,
-    )
+    by_u, by_v, by_pull, weight = inverse * model.k, inverse * model.c, inverse * model.m * slope, inverse * model.m
     for k in range(1, order + 1):
-        # the slider at order k: what the order before leaves, without its P and with it
         up = s.slider[UP + k - 1]
-        impulse, f_hat = P * up, pull * lightness * up
-        u, v_hat = v * up, acceleration * up + f_hat * slope
-        f, v = f_hat - braking * impulse, v_hat - (model.compliance + braking * slope) * impulse
-        s.slider[F + k], s.slider[PSI_SERIES + k], s.slider[SWITCH + k] = f, psi, direction * f
+        impulse, f_hat = P * up, pull * up
+        u, v = v * up, acceleration * up + f_hat * slope - recoil * impulse
+        f = f_hat - braking * impulse
+        s.slider[F + k], s.slider[PSI_SERIES + k] = f, psi
         s.slider[U_SERIES + k], s.slider[V_SERIES + k] = u, v
         if k == order:
             break
@@ -356,23 +366,21 @@ def slip_series(model, s, order, direction):
         for b in range(WIDTH, width, WIDTH):
             more, left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
             part, pending = add(part, more), add(pending, left)
-        down = s.slider[DOWN + k]
-        by_speed = by_f + by_f_rate * down
+        by_speed = by_f + by_f_rate * s.slider[DOWN + k]
         single = _axisymmetric(model, s, k, impulse)
-        known = by_u * u + by_v * v_hat + by_psi * psi + (weight * by_speed - by_f_hat) * f_hat + weight * single
-        modes = total(part)
-        acceleration = modes + (single + f * by_speed + impulse * model.damped_compliance)
-        pull = model.k_p * psi - model.c_p * f
-        P = P * (up * (by_force + by_force_rate * down)) + (weight * modes + known)
+        acceleration = total(part) + (single + f * by_speed + impulse * model.damped_compliance)
+        pull = spring * psi - damper * f
+        P = weight * acceleration + (by_u * u + by_v * v + by_pull * pull)
         psi = -f * s.slider[UP + k]
         if is_ramped(model) and k == 1:
             psi += s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
-            more_pull = model.c_p * s.slider[DRIVE_SERIES + 1]
+            more_pull = damper * s.slider[DRIVE_SERIES + 1]
             pull += more_pull
-            P += (s.slider[LOAD_SERIES + 1] + slope * more_pull) * inverse
+            P += s.slider[LOAD_SERIES + 1] * inverse + by_pull * more_pull
         s.slider[P_SERIES + k] = P
+    _set_e(s, width, order * width, e)
     _last_force(model, s, order, P * s.slider[UP + order - 1])
-    s.slider[P_SERIES + order] = 0.0
+    _set_switch(s, order, direction)
     return denominator
 
 

@@ -57,7 +57,7 @@ log = logging.getLogger(__name__)
 Choose = Callable[[Parameters, str], tuple[Parameters, str]]
 """From a case and what asks for its modes: the case with them, and how they were chosen."""
 
-AUDIT_EVERY, AUDIT_EVERY_COMPLIANT = 64, 256
+AUDIT_EVERY = 256
 """Steps from one audit of the energy to the next; a compliant contact takes about four times as many steps a second."""
 MOST_STEPS = 2**62
 """What the engine can count."""
@@ -95,7 +95,7 @@ def simulate(
     ----------
     p : the case
     t_end : s, greater than the initial state's time; or a text with a unit, such as "2 min"
-    tol : relative truncation error of a step, 1e-15 to 1e-2; event times over a second of motion are about as good
+    tol : error to be expected of event times after a second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md)
     initial_state : where to start; None is the static start (static equilibrium, stick, spring relaxed)
     record : what to keep, or one window to keep; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
@@ -183,8 +183,7 @@ class _Run:
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
         self.max_steps = _step_limit(model, t_end - start) if max_steps is None else min(max_steps, MOST_STEPS)
         self.pause_after = _pause_after(model, record.energy)
-        usual = AUDIT_EVERY_COMPLIANT if p.contact_compliance else AUDIT_EVERY
-        self.audit_every = 1 if record.energy else usual
+        self.audit_every = 1 if record.energy else AUDIT_EVERY
         # each of them, the first last: all is compiled by then, and the wall time is the simulation's own
         for place, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < t_end:

@@ -149,7 +149,7 @@ class Record(Checked):
     windows : uniform samples
     poincare : samples at the drive's period
     events : whether to keep the table of events (they are counted in any case)
-    energy : audit both energy balances on every step instead of every 64th, or every 256th on a compliant contact
+    energy : audit both energy balances on every step instead of every 256th
         (costs a factor of about ten in time)
     """
 

@@ -31,6 +31,9 @@ PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 ROUGHEST = 1e-10
 """Tolerance of flights, whatever residual is asked for: a rougher map is too rough itself for a residual of 1e-8."""
 
+FINER = 1 / 20
+"""Of the cycle's tolerance, that of flights: the Jacobian asks more of the series than event times do."""
+
 PATIENT = 60.0
 """Patience with motions that may separate: the slider then passes many places at which the quiet one would stick. They
 are given some 5 s, as long as the stretches that are looked at."""
@@ -152,7 +155,7 @@ class ReturnMap:
         self.parameters, self.patience = p, patience
         self._case = engine_case(p)
         self.model = model = self._case.model
-        flights = min(tol, ROUGHEST)
+        flights = FINER * min(tol, ROUGHEST)
         self.order = series_order(flights)
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
