@@ -489,6 +489,6 @@ DAMAGES: Mapping[str, Callable[[Groups], Groups]] = {
     "separates in the end": _separates_at(1.0),
     "nothing moves": _each(lambda group: group.map(xr.zeros_like, keep_attrs=True)),
 }
-QUICK = {"nothing recorded", "no envelopes", "single samples", "nothing moves"}
+QUICK = {"no events", "no envelopes", "only envelopes", "two samples", "nothing moves"}
 EACH_DAMAGE = [pytest.param(one, marks=() if one in QUICK else pytest.mark.slow) for one in DAMAGES]
 """A few of them in the quick tests."""

@@ -13,7 +13,7 @@ from disc_model import Parameters
 from disc_model.claims.ledger import COLUMNS
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
-from disc_model.claims.pages import ledger
+from disc_model.claims.pages import ledger, table_page
 from disc_model.claims.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2, table_2_or_why
 
 F_S, OMEGA = 67.63, 15.1
@@ -80,3 +80,9 @@ def test_the_ledger_counts_and_escapes() -> None:
     assert not re.search(r"<\d>", text)
     assert text.count("<tr>") == 7
     assert not re.search(r"(src|href)=", text), "self-contained"
+
+
+def test_a_table_page_leaves_unknown_numbers_empty() -> None:
+    text = table_page("T", "", pd.DataFrame({"x": [1.5, np.nan]}))
+    assert '<td class="number">1.5</td>' in text
+    assert '<td class="number"></td>' in text
