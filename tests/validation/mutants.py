@@ -136,7 +136,7 @@ NO_EQUATION = {
         ),
         "benchmarks/methods/physics.py": ("Physics.unpack",),
         "benchmarks/methods/kernels.py": ("tables", "rk4_run"),
-        "benchmarks/methods/taylor_heyoka.py": ("Heyoka._solve", "_places", "_integrators"),
+        "benchmarks/methods/taylor_heyoka.py": ("Heyoka._solve",),
         "benchmarks/scenes.py": ("separating_start", "answer", "rigid_cycle", "errors", "event_time_error"),
     },
 }
