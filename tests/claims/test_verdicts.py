@@ -229,6 +229,8 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
         ("P03", None, {}, REMARK, ""),
         ("P03", None, {"P03l6": root_with(first_separation=np.nan, n_separations=0)}, FAILS, ""),
         ("S43c", None, {}, REMARK, "a wait of 700 to 900 s gives 12.6 rad/s"),
+        ("S43c", None, {"S43c12": root_with(first_separation=750.0)}, UNDECIDED, "a wait of 700 to 750 s gives 12.6"),
+        ("S43c", None, {"S43c12": root_with(first_separation=650.0)}, FAILS, "within the 810 s"),
         # a run that ended early was taken for one without separation
         *(
             (claim, None, {"S43c11": root_with(time_reached=100.0)},

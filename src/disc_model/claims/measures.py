@@ -380,14 +380,25 @@ def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -
         raise Absent(f"case {case.name}: {error} in w_point") from None
 
 
-def section_widths(case: CaseView, first: float, end: float) -> list[float]:
-    """Widths of the in-plane motion's section before a time, and in the later half of the time from there to an end."""
+class Section(NamedTuple):
+    """Width of the in-plane motion's section, rad, and share of its points in stick."""
+
+    width: float
+    stick: float
+
+    def changed(self, then: Section, share: float) -> list[int]:
+        """Of both, -1 or 1 where it falls or rises by more than a share of itself, else 0."""
+        return [int(np.sign(b - a)) if abs(b - a) > share * a else 0 for a, b in zip(self, then, strict=True)]
+
+
+def sections(case: CaseView, first: float, end: float) -> list[Section]:
+    """Before a time, and in the later half of the time from there to an end."""
     samples = case.samples("poincare")
-    time, psi = samples["time"].values, samples["psi"].values
+    time, psi, stick = samples["time"].values, samples["psi"].values, samples["phase"].values == PHASES.index("stick")
     stages = time < first, (time > (first + end) / 2) & (time <= end)
     if min(int(inside.sum()) for inside in stages) < FEWEST:
         raise Missing(f"case {case.name} has no section of {FEWEST} points before or long after its first separation")
-    return [float(np.ptp(psi[inside])) for inside in stages]
+    return [Section(float(np.ptp(psi[inside])), float(stick[inside].mean())) for inside in stages]
 
 
 def late_section(case: CaseView, last: int) -> Array:

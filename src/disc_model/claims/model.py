@@ -123,6 +123,10 @@ class Text(BaseModel):
     apart: str = ""
 
 
+RATIOS = frozenset({"bounded", "factor", "part", "ratio", "share"})
+"""Bounds without unit, which are compared with 1."""
+
+
 @dataclass(frozen=True)
 class Claim:
     """A statement of the paper, under our name for it, with the check that decides it."""
@@ -193,14 +197,14 @@ class Claim:
     def turned_by(self, cases: Mapping[str, CaseView], verdict: str) -> str:
         """Which of its bounds, halved or doubled, turns this verdict of the claim, and into what; else "stable".
 
-        Of bounds between 0.5 and 2, what is halved or doubled is their distance from 1.
+        Of shares and ratios between 0.5 and 2, what is halved or doubled is their distance from 1.
         """
         if not self.said.bounds or verdict.startswith(NOT_COMPUTED):
             return ""
         turned = []
         for name, bound in self.said.bounds.items():
             for factor in (0.5, 2.0):
-                other = 1 + factor * (bound - 1) if 0.5 < bound < 2 else factor * bound
+                other = 1 + factor * (bound - 1) if name in RATIOS and 0.5 < bound < 2 else factor * bound
                 said = self.said.model_copy(update={"bounds": self.said.bounds | {name: other}})
                 found = replace(self, said=said).evaluate(cases).verdict
                 if found.replace(REMARK, HOLDS) != verdict.replace(REMARK, HOLDS):

@@ -183,28 +183,24 @@ def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
 
 @CHECKS("S41d", "F18t")
 def trajectory_changes(*cases: CaseView, share: float) -> Answer:
-    """Whether the width of the section, or the share of time in stick, changes with the first separation.
+    """Whether the width of the section, or the share of its points in stick, changes with the first separation.
 
-    The control beside each case is the one without separation over the same times: if that changes as well, nothing is
-    decided.
+    The control beside each case is the one without separation over the same times: what changes alike there, decides
+    nothing.
     """
     published = [case for case in cases if "start" not in case.node.attrs]
-    found, changes, controls = [], [], []
+    found, changes, own = [], [], []
     for case, bonded in pairs(published):
         first, end = case["first_separation"], case["time_reached"]
-        before, after = measures.section_widths(case, first, end)
-        _, control = measures.section_widths(bonded, first, end)
-        then = measures.phase_share(case, "stick")
-        # of the events only late ones are kept: what the whole run sticks less what it sticks after separation
-        stick = max(0.0, case["time_stick"] - then * (end - first)) / first
-        wider = measures.ratio(after, before, f"the width of the section of case {case.name} before separation")
-        changes.append(abs(wider - 1) > share or abs(then - stick) > share * stick)
-        controls += [bonded.name] if abs(control / before - 1) > share else []
-        widths = {"before": before, "after": after, "control": control}
-        found.append({"case": case, **widths, "stick": 100 * stick, "then": 100 * then})
+        before, after = measures.sections(case, first, end)
+        _, control = measures.sections(bonded, first, end)
+        changed, ignored = before.changed(after, share), before.changed(control, share)
+        changes.append(any(changed))
+        own.append(any(a and a != b for a, b in zip(changed, ignored, strict=True)))
+        stick = {name: 100 * one.stick for name, one in (("stick", before), ("then", after), ("ignored", control))}
+        found.append({"case": case, "before": before.width, "after": after.width, "control": control.width, **stick})
     another = measures.another_motion(*zip(published, cases[len(published) :], strict=False))
-    holds = None if all(changes) and controls else all(changes)
-    return Answer(holds, "control", changes=found, without=controls, another=another)
+    return Answer(None if all(changes) and not all(own) else all(own), "control", changes=found, another=another)
 
 
 @CHECKS("C3d")

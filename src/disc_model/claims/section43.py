@@ -84,12 +84,15 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     latest = [speed for speed, t in scan.items() if not math.isnan(t)]
     # waits for which no speed clearly lower separates
     first = min((t for speed, t in scan.items() if speed < printed - within and not math.isnan(t)), default=math.inf)
+    some = scan[printed] < first < math.inf
+    holds = scan[printed] <= horizon and not lower
     return Answer(
-        scan[printed] <= horizon and not lower,
+        None if some and not holds else holds,
+        "wait",
         speeds=[{"Omega": speed, "time": measures.or_none(scan[speed], ".0f", " s")} for speed in sorted(scan)],
         latest=min(latest, default=math.nan),
         lower=[{"horizon": horizon, "least": min(lower)}] if lower else [],
-        exactly=[{"low": scan[printed], "high": first}] if scan[printed] < first < math.inf else [],
+        exactly=[{"low": scan[printed], "high": first}] if some else [],
     )
 
 
