@@ -11,7 +11,7 @@
 ``growth_rate``
     N = 200 N, Omega = 20 rad/s: how fast a small deviation from the stick-slip cycle grows
 ``region``
-    `SIDE` x `SIDE` cells of speed and preload: share of the cells for which it is said wrongly whether the published
+    `SIDE` x `SIDE` cells of speed and preload: share of the cells for which it is said wrongly whether the static
     start leads to a separation within `REGION_HORIZON` s
 
 Right answers are stored in ``data/answers.json``, made by ``tests/references/make_answer_references.py`` with methods

@@ -218,6 +218,17 @@ def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkey
     assert len(quiet.fates) == 5 * 5
 
 
+def test_separations_that_all_corners_of_a_cell_miss_are_found_in_its_middle(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As between 550 and 583 N on the map over c_p: rounding decides there whether a single motion separates late."""
+
+    def outcome(i: int, j: int) -> str:
+        return "growing" if i % 4 == 0 and j % 4 == 0 else "separation"
+
+    tile = tile_of(9, lambda *_: NONE, outcome, monkeypatch)
+    assert all(tile.outcome((i, j)) == outcome(i, j) for i in range(9) for j in range(9) if (i, j) in tile.fates)
+    assert sum(word == "growing" for word in (tile.filled | tile.presumed).values()) == 0
+
+
 MOST_WRONG = 0.08
 """Share of points drawn at which the map may say another outcome than a simulation throughout; most are beside borders,
 where the outcome hangs on the last per cent of a long growth."""

@@ -1,14 +1,14 @@
 """What becomes of the static start over two parameters, refined where it changes; and the cycle at every point.
 
-A batch is a tile of the plane. The cycle is found at each of its points, which is cheap. What becomes of the published
+A batch is a tile of the plane. The cycle is found at each of its points, which is cheap. What becomes of the static
 start (`disc_model.stability.attractor`) follows from the cycle's multipliers where it is quiet, or grows so slowly that
 nothing else happens within the horizon. Elsewhere it is simulated at the corners of coarse cells, or at one point
 inside if multipliers tell of all corners. A cell is divided where these differ, or where slow growth lies beside
-separation, and once where all grow without separation, since stripes of separation run through such growth. Neutral
-curves and folds are thus followed from point to point, and borders of separation down to the grid's own intervals; in a
-cell that is not divided all that multipliers leave open have the outcome of those simulated. But for two kinds of
-points, which are worked out one by one: where the start follows a cycle that grows and all around stays quiet, and
-where it follows none on a strip thinner than the grid.
+separation. Where all grow without separation, stripes of separation may run between: the cell is divided once, and then
+the point in its middle has to be alike. Neutral curves and folds are thus followed from point to point, and borders of
+separation down to the grid's own intervals. In a cell that is not divided, all that multipliers leave open have the
+outcome of those simulated. Two kinds of points are worked out one by one: where the start follows a cycle that grows
+and all around stays quiet, and where it follows none on a strip thinner than the grid.
 """
 
 from __future__ import annotations
@@ -193,7 +193,11 @@ class _Tile:
         outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
-        if len(outcomes) == 1 and (not outcomes <= GROWN or side <= max(1, self.options.coarse // 2)):
+        fills = len(outcomes) == 1 and (not outcomes <= GROWN or side <= max(1, self.options.coarse // 2))
+        # late separations hang on rounding: all corners may miss them by chance
+        if fills and outcomes <= GROWN and side > 1:
+            fills = {self.outcome(_middle(undecided))} == outcomes
+        if fills:
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
             if side <= FINE:
