@@ -29,7 +29,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity)
     Bars are intervals of 95 %; the line is the probability at all values.
     """
     cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
-    figure = new_figure(PAGE, 0.6 + 1.3 * len(cells))
+    figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
     for part, (title, cell) in zip(figure.subfigures(len(cells), 1, squeeze=False)[:, 0], cells, strict=True):
         axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]
         for ax, name in zip(axes, names, strict=True):
@@ -74,10 +74,10 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     ax.axhline(float(cell["probability_unstable"]), color=GREY, linewidth=0.7)
     ax.errorbar(middle, share, 1.96 * error, color=BLUE, marker="o", markersize=2.5, linewidth=0.8, capsize=1.5)
     ends = np.quantile(cell["drawn"].sel(parameter=name), [0, 1])
-    factor = shown_number(name).factor
+    _, _, unit, factor = shown_number(name)
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
     ax.minorticks_off()
-    ax.set_xlabel(symbol(name))
+    ax.set_xlabel(f"{symbol(name)}\n({unit})" if unit else symbol(name))
     ax.set(ylim=(-0.03, 1.03))
 
 
