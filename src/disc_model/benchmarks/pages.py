@@ -131,12 +131,13 @@ def passages(run: Summary) -> dict[str, str]:
 def _speed(run: Summary) -> str:
     """What a simulated second costs, and how many times as long the other methods take."""
     own, slower, call, narrow = run["own"], run["times_slower"], run["whole_call"], run["as_avx2"]
-    costs = [
-        [found.get(name, math.nan) for found in slower.values()] + [stiff] for name, stiff in _methods(run).items()
-    ]
+    costs = {
+        name: [*(found.get(name, math.nan) for found in slower.values()), stiff]
+        for name, stiff in _methods(run).items()
+    }
     rows = [
         [METHODS[name].label, *("-" if math.isnan(cost) else plain(cost) for cost in line)]
-        for name, line in zip(_methods(run), costs, strict=True)
+        for name, line in costs.items()
     ]
     head = ("method", *(f"({LETTERS[scene]}), times" for scene in slower), "(d), ms")
     return TEXTS["speed"].fill(

@@ -123,7 +123,7 @@ class Text(BaseModel):
     apart: str = ""
 
 
-RATIOS = frozenset({"bounded", "factor", "part", "ratio", "share"})
+RELATIVE = frozenset({"bounded", "factor", "part", "ratio", "share"})
 """Bounds without unit, which are compared with 1."""
 
 
@@ -204,7 +204,7 @@ class Claim:
         turned = []
         for name, bound in self.said.bounds.items():
             for factor in (0.5, 2.0):
-                other = 1 + factor * (bound - 1) if name in RATIOS and 0.5 < bound < 2 else factor * bound
+                other = 1 + factor * (bound - 1) if name in RELATIVE and 0.5 < bound < 2 else factor * bound
                 said = self.said.model_copy(update={"bounds": self.said.bounds | {name: other}})
                 found = replace(self, said=said).evaluate(cases).verdict
                 if found.replace(REMARK, HOLDS) != verdict.replace(REMARK, HOLDS):

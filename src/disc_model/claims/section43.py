@@ -380,7 +380,7 @@ def _effect_of(case: CaseView, damper: str) -> dict[str, Any]:
     """
     from disc_model.stability.sliding import steady_sliding
 
-    loads_and_speeds = product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))
+    loads_and_speeds = [*product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))]
     lowered, slides, ended, lost, raised = 0, 0, 0, 0, []
     for N, speed in loads_and_speeds:
         p = case.parameters.replace(N=N, Omega=speed)
@@ -394,7 +394,7 @@ def _effect_of(case: CaseView, damper: str) -> dict[str, Any]:
         if not gone and rate > without:
             raised.append(f"{measures.place(N, speed)}: {without:+.4f} to {rate:+.4f}/s")
     return {
-        "points": 30,
+        "points": len(loads_and_speeds),
         "value": case[damper],
         "lowered": lowered,
         "slides": [{"count": slides}] if slides else [],

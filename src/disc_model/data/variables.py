@@ -101,6 +101,8 @@ class Column(NamedTuple):
         return np.full(shape, self.missing, dtype=self.dtype)
 
 
+STABLE_CYCLES = ("stable", "slides", "sticks")
+"""Of what there is near the static start: a stable cycle, stable steady sliding, rest on the disc."""
 SERIES = {
     "time": Variable("s", "time"),
     "kind": Variable("1", "kind of switch", EVENT_KINDS),

@@ -11,7 +11,6 @@ import xarray as xr
 
 from disc_model.figures.grids import sensitivity
 from disc_model.figures.grids.campbell import gaps, noted, spread
-from disc_model.studies.grids.points import STABLE
 from disc_model.studies.grids.summaries.campbell import EFFECTS
 from disc_model.studies.study import StudyError
 from tests.figures.grids.reading import draw
@@ -38,10 +37,6 @@ def test_instability_against_each_parameter() -> None:
     assert figure.subfigs[0].get_suptitle().startswith("Preload N = 200 N, unstable ")
     assert [ax.get_xlabel() for ax in figure.axes[-2:]] == ["k\n(kN/m)", "$μ_s$"]
     assert "k, $μ_s$ ± 10 %" in figure.get_suptitle()
-
-
-def test_stable_words_are_those_of_the_study() -> None:
-    assert sensitivity.STABLE == STABLE
 
 
 @pytest.mark.parametrize(

@@ -12,10 +12,11 @@ import pytest
 import xarray as xr
 
 from disc_model.errors import Status
+from disc_model.stability.attractor import course
 from disc_model.stability.attractor.course import Stretch
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.points import STATUSES
-from disc_model.studies.grids.quantities import critical_speed, hysteresis
+from disc_model.studies.grids.quantities import critical_speed
 from disc_model.studies.grids.run import run_batch
 from tests.stability.toy_map import fold_at, outside, toy
 from tests.studies.refused import parse_grid
@@ -61,7 +62,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         return SimpleNamespace(final_state=apart, status=Status.OK, message=""), found
 
     monkeypatch.setattr(critical_speed, "motion", motion)
-    monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
+    monkeypatch.setattr(course, "late_stretch", late_stretch)
 
 
 @pytest.fixture

@@ -12,13 +12,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data.variables import SAMPLE, flag_names, shown_number, typeset
+from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, shown_number, typeset
 from disc_model.figures import parts
 from disc_model.figures.kinds import Sensitivity
 from disc_model.figures.parts import BLUE, GREY, PAGE, new_figure
 
-STABLE = ("stable", "slides", "sticks")
-"""What counts as stable of the cycles at samples: a stable cycle, stable sliding, rest."""
 BINS = 3
 """Parts, of as many draws each, of what a parameter is drawn from."""
 
@@ -57,7 +55,7 @@ def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
     x = np.stack([draws[:, int(one in ("B", name))] for one in variants], axis=1)
     words = flag_names(cell["cycle"].transpose(SAMPLE, "variant"))
     known = words != "failed"
-    unstable = ~np.isin(words, STABLE)
+    unstable = ~np.isin(words, STABLE_CYCLES)
     edges = np.quantile(draws, np.linspace(0, 1, BINS + 1))
     part = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, BINS - 1)
     found = []

@@ -7,7 +7,7 @@ Newton's method finds from it.  What follows from that, and what is simulated, i
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -325,6 +325,23 @@ def late_stretch(
     window = Window(start=stop - late, stop=stop, rate=RATE)
     result = simulate(p, stop, tol=tol, initial_state=state, record=Record(windows=(window,)))
     return result, stretch_of(result) if result.status.complete else None
+
+
+def sweep(
+    p: Parameters, name: str, values: Sequence[float], dwell: float, late: float, tol: float
+) -> Iterator[tuple[tuple[int, int], Result, Stretch | None]]:
+    """Carry the motion through values of a parameter, up and down again, for ``dwell`` s at each.
+
+    Yields the way (0 up, 1 down) and the number of the value, the run there, and its last stretch of ``late`` s; where
+    a run could not go on there is no stretch, and the sweep ends.
+    """
+    state: State | None = None
+    for place in [(0, i) for i in range(len(values))] + [(1, i) for i in reversed(range(len(values)))]:
+        result, stretch = late_stretch(p.replace(**{name: values[place[1]]}), state, dwell, late, tol)
+        yield place, result, stretch
+        if stretch is None:
+            return
+        state = result.final_state
 
 
 def stretch_of(result: Result) -> Stretch:

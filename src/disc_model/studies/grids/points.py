@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import COURSES, Variable
+from disc_model.data.variables import COURSES, STABLE_CYCLES, Variable
 from disc_model.errors import DiscModelError, Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
@@ -23,6 +23,8 @@ Made = Parameters | DiscModelError
 
 
 PUBLISHED = Start()
+DIRECTION = (np.array(("up", "down")), Variable("", "direction of the sweep"))
+"""Coordinate of what is swept up and down."""
 
 
 @dataclass(frozen=True)
@@ -47,10 +49,9 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
 # ----------------------------------------------------------------------------------------------------
 # What is found at samples of distributed parameters
 
-STABLE = ("stable", "slides", "sticks")
 UNSTABLE = ("unstable", "no_cycle", "separates", "slips")
-SAMPLE_CYCLES = ("failed", *STABLE, *UNSTABLE)
-"""What there is near the static start: a stable cycle, stable steady sliding, or rest on the disc; or an unstable
-cycle, none though the slider sticks and slips, loss of contact at once, or unstable sliding."""
+SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
+"""What there is near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider sticks and
+slips, loss of contact at once, or unstable sliding."""
 SAMPLE_OUTCOMES = ("not_followed", *COURSES)
 DRAWS = ("A", "B")

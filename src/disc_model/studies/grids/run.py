@@ -70,14 +70,10 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
         for name, column in quantity.COLUMNS.items()
     }
     if data["base"].get("n_diameters") == AUTO:
-        for name, column in (
-            ("n_diameters", "diameters"),
-            ("n_circles", "circles"),
-        ):  # -1 where nothing could be chosen
-            highest = [
-                -1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), column).max() for p in parameters
-            ]
-            variables[name] = xr.Variable(POINT, highest, attributes(name))
+        modes = [None if isinstance(p, DiscModelError) else mode_arrays(p) for p in parameters]
+        for name in ("diameters", "circles"):  # -1 where nothing could be chosen
+            highest = [-1 if one is None else getattr(one, name).max() for one in modes]
+            variables[f"n_{name}"] = xr.Variable(POINT, highest, attributes(f"n_{name}"))
     variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
     coords = {name: xr.Variable(POINT, [point[i] for point in points], describe(name)) for i, name in enumerate(names)}
     attrs = {

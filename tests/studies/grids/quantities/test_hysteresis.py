@@ -11,6 +11,7 @@ import xarray as xr
 
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
+from disc_model.stability.attractor import course
 from disc_model.stability.attractor.course import Stretch
 from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import Point
@@ -38,7 +39,7 @@ def test_a_sweep_that_cannot_go_on_says_where(monkeypatch: pytest.MonkeyPatch) -
         result = SimpleNamespace(status=Status.PARADOX if failed else Status.OK, message="why", final_state=state)
         return result, None if failed else Stretch(1, 2, 3, 4, 0.5, 0.5, 0, 0)
 
-    monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
+    monkeypatch.setattr(course, "late_stretch", late_stretch)
     table = swept(200, SCAN)
     assert list(table.messages) == ["Omega=13.5: why"]
     statuses = [[hysteresis.STATUSES[i] for i in row] for row in table.arrays["sweep_status"][0]]
@@ -61,7 +62,7 @@ def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
         result = SimpleNamespace(status=Status.STALLED if failed else Status.OK, message="why", final_state=end)
         return result, None if failed else Stretch(1, 2, 3, 4, 0.5, 0.5, 0, rate)
 
-    monkeypatch.setattr(hysteresis, "late_stretch", late_stretch)
+    monkeypatch.setattr(course, "late_stretch", late_stretch)
     found = swept(200, SCAN).arrays
     assert found["onset"][0] == 14.0
     assert found["persists_to"][0] == pytest.approx(persists_to, nan_ok=True)

@@ -16,19 +16,18 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.course import FIRST_LEG, late_stretch
+from disc_model.stability.attractor.course import FIRST_LEG, late_stretch, sweep
 from disc_model.stability.attractor.many import cycle_reached
 from disc_model.stability.branch import Steps
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import steady_sliding
-from disc_model.studies.grids.points import NUMERICAL, STATUS, Point, listed
+from disc_model.studies.grids.points import DIRECTION, NUMERICAL, STATUS, Point, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.document import BranchesOptions
 
-DIRECTIONS = ("up", "down")
 _ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
 COLUMNS = {
     "status": Column(*STATUS),
@@ -51,7 +50,7 @@ between points of a branch are known roughly where it is steep; periods tell bra
 
 def coordinates(options: BranchesOptions) -> dict[str, tuple[Any, Variable]]:
     return {
-        "direction": (np.array(DIRECTIONS), Variable("", "direction of the sweep")),
+        "direction": DIRECTION,
         "sweep_value": (np.array(options.scan.values), Variable("", f"{options.parameter} in the sweep, SI units")),
         "branch": (np.arange(options.max_branches), Variable("1", "number of the branch")),
         "branch_point": (np.arange(2 * options.max_points), Variable("1", "number of the point along the branch")),
@@ -63,7 +62,6 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
     values, unfollowed = options.scan.values, []
     rows: list[dict[str, Any]] = []
     swept = {name: np.full((2, len(values)), math.nan) for name, column in COLUMNS.items() if column.dims == _SWEEP}
-    state: State | None = None
     message = ""
 
     def follow(cycle: FloquetResult, reached: bool) -> None:
@@ -76,21 +74,20 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
             except NUMERICAL as error:
                 unfollowed.append(str(error))
 
-    for way, order in enumerate((range(len(values)), reversed(range(len(values))))):
-        for i in order:
-            p = point.parameters.replace(**{options.parameter: values[i]})
-            result, late = late_stretch(p, state, options.dwell, options.late, options.tol)
-            if late is None:
-                message = f"{options.parameter}={values[i]:g}: {result.message}"
-                break
-            state = result.final_state
-            swept["sweep_range"][way, i], swept["sweep_separation_rate"][way, i] = late.range, late.separation_rate
-            if way == 0 and (own := find_cycle(p)).state is not None:
-                follow(own, False)
-            leg = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state, record=Record())
-            reached = cycle_reached(p, leg, options.releases) if leg.status.complete else None
-            if reached is not None and reached.own and reached.cycle.growth_rate < 0:
-                follow(reached.cycle, True)
+    for (way, i), result, late in sweep(
+        point.parameters, options.parameter, values, options.dwell, options.late, options.tol
+    ):
+        if late is None:
+            message = f"{options.parameter}={values[i]:g}: {result.message}"
+            break
+        p, state = result.parameters, result.final_state
+        swept["sweep_range"][way, i], swept["sweep_separation_rate"][way, i] = late.range, late.separation_rate
+        if way == 0 and (own := find_cycle(p)).state is not None:
+            follow(own, False)
+        leg = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state, record=Record())
+        reached = cycle_reached(p, leg, options.releases) if leg.status.complete else None
+        if reached is not None and reached.own and reached.cycle.growth_rate < 0:
+            follow(reached.cycle, True)
     sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
     known = {"status": "failed" if message else "ok", "n_branches": len(rows), "n_unfollowed": len(unfollowed)}
     return listed(rows) | swept | known | {"sliding_growth_rate": sliding}, message
@@ -106,9 +103,11 @@ def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> di
         continue_cycle(p, name, bounds, direction=way, steps=steps, near=near, releases=cycle.releases if near else 1)
         for way in (-1, 1)
     )
-    value = np.concatenate([down.values[::-1, 0], up.values[1:, 0]])
-    points = np.concatenate([down.points[::-1], up.points[1:]])
-    period = np.concatenate([down.period[::-1], up.period[1:]])
+    values, points, period, growth_rate = (
+        np.concatenate([getattr(down, column)[::-1], getattr(up, column)[1:]])
+        for column in ("values", "points", "period", "growth_rate")
+    )
+    value = values[:, 0]
     own = ReturnMap(p)
     ranges = []
     for one, x, time in zip(value, points, period, strict=True):
@@ -121,7 +120,7 @@ def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> di
         "value": value,
         "period": period,
         "range": np.array(ranges),
-        "growth_rate": np.concatenate([down.growth_rate[::-1], up.growth_rate[1:]]),
+        "growth_rate": growth_rate,
     }
 
 

@@ -8,14 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
-from disc_model.simulation.result import State
-from disc_model.stability.attractor.course import late_stretch
-from disc_model.studies.grids.points import STATUS, STATUSES, Point
+from disc_model.stability.attractor.course import sweep
+from disc_model.studies.grids.points import DIRECTION, STATUS, STATUSES, Point
 
 if TYPE_CHECKING:
     from disc_model.studies.document import HysteresisOptions
 
-DIRECTIONS = ("up", "down")
 _DIMS = ("direction", "sweep_Omega")
 COLUMNS = {
     "status": Column(*STATUS),
@@ -33,7 +31,7 @@ COLUMNS = {
 
 def coordinates(options: HysteresisOptions) -> dict[str, tuple[Any, Variable]]:
     return {
-        "direction": (np.array(DIRECTIONS), Variable("", "direction of the sweep")),
+        "direction": DIRECTION,
         "sweep_Omega": (
             np.array(options.scan.values),
             Variable("rad s-1", "speed of the drive point, in the sweep"),
@@ -46,19 +44,12 @@ def at(point: Point, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
     speeds = options.scan.values
     columns = {name: column for name, column in COLUMNS.items() if column.dims}
     values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns.items()}
-    state: State | None = None
     status, message = "ok", ""
-    ways = [(0, i) for i in range(len(speeds))] + [(1, i) for i in reversed(range(len(speeds)))]
-    for place in ways:
-        case = point.parameters.replace(Omega=speeds[place[1]])
-        result, late = late_stretch(case, state, options.dwell, options.late, options.tol)
+    for place, result, late in sweep(point.parameters, "Omega", speeds, options.dwell, options.late, options.tol):
         if late is None:
-            status, message = result.status.value, f"Omega={case.Omega:g}: {result.message}"
-            values["sweep_status"][place] = STATUSES.index(status)
-            break
-        state = result.final_state
-        values["sweep_status"][place] = STATUSES.index("ok")
-        for name, number in asdict(late).items():
+            status, message = result.status.value, f"Omega={speeds[place[1]]:g}: {result.message}"
+        values["sweep_status"][place] = STATUSES.index(status)
+        for name, number in asdict(late).items() if late else ():
             if name in values:
                 values[name][place] = number
     done = values["sweep_status"] == STATUSES.index("ok")

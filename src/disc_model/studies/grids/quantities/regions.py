@@ -193,11 +193,11 @@ class _Tile:
         outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
-        fills = len(outcomes) == 1 and (not outcomes <= GROWN or side <= max(1, self.options.coarse // 2))
-        # late separations hang on rounding: all corners may miss them by chance
-        if fills and outcomes <= GROWN and side > 1:
-            fills = {self.outcome(_middle(undecided))} == outcomes
-        if fills:
+        most = max(1, self.options.coarse // 2)
+        if len(outcomes) == 1 and outcomes <= GROWN and 1 < side <= most:
+            # late separations hang on rounding: all corners may miss them by chance
+            outcomes.add(self.outcome(_middle(undecided)))
+        if len(outcomes) == 1 and (not outcomes <= GROWN or side <= most):
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
             if side <= FINE:
