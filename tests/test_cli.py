@@ -1,4 +1,4 @@
-"""The command line: options, summary, plot, and one line for bad input."""
+"""The command line: options, summary, plot. Texts of what is refused are in tests/studies/test_messages.py."""
 
 from __future__ import annotations
 
@@ -68,59 +68,6 @@ def test_every_option_reaches_the_parameters(command: Command) -> None:
 def test_underscores_are_accepted_in_option_names(command: Command) -> None:
     dashed = command.out("modes", "--n-circles", "1", "--r-0", "0.11")
     assert command.out("modes", "--n_circles", "1", "--r_0", "0.11") == dashed
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        ("--a 0.2", "a=0.2: must be < r_0=0.1"),
-        ("--r-0 0.2", "r_0=0.2: must be <= b=0.12"),
-        ("--t-end 0", "t_end=0: must be finite and > 0"),
-        ("--t-end inf", "t_end=inf: must be finite and > 0"),
-        ("--t-end soon", "t_end='soon': must be a number"),
-        ("--tol 1", "tol=1: must be"),
-        ("--tol nan", "tol=nan: must be"),
-        ("--stop-at never", "stop_at='never': must be 'first_separation'"),
-        ("--plot p.doc", "plot='p.doc': must end in"),
-        ("--plot no/such/p.png", "must be in a folder that exists"),
-        ("--max-steps 1.5", "max_steps=1.5: must be a whole number >= 1"),
-        ("--save no/such/r.nc", "save='no/such/r.nc': must be in a folder that exists"),
-        ("--checkpoint no/such", "checkpoint='no/such': must be a file in a folder"),
-        (f"--save {'x' * 240}", "must be the name of a file, of at most 233 bytes"),
-        ("--window late", "window='late': must be NAME:KEY=VALUE,..."),
-        # used to be refused by the file, after the simulation
-        ("--window events:rate=100", "window='events:rate=100': must be NAME:KEY"),
-        ("--window late:last=0,rate=1", "window.late.last=0: must be > 0"),
-        ("--window w:start=0,stop=3,rate=1", "window.w: must be within the run: stop=3 <= t_end=1"),
-        ("--window w:rat=1", "window.w.rat='1': unknown key, did you mean rate?"),
-        ("--ramp Omega", "ramp='Omega': must be PARAMETER:KEY=VALUE,..."),
-        ("--ramp N:to=0,start=1,end=2", "ramp.0.to=0: must be > 0"),
-    ],
-)
-def test_bad_input_is_one_line_and_exit_code_2(command: Command, arguments: str, said: str) -> None:
-    assert said in command.error("run", *BASE, "--t-end", "1", *arguments.split())
-
-
-@pytest.mark.parametrize(
-    ("arguments", "parts"),
-    [
-        ("run --N -1 --Omega nan --mu-k 0.5 --t-end 1", ("N=-1: ", "Omega=nan", "mu_k=0.5")),
-        ("run --N 385 --Omega 15.1", ("t_end: is required",)),
-        ("run", ("N: is required", "Omega: is required", "t_end: is required")),
-        ("run --Omga 3", ("--Omga", "--Omega")),
-        ("run --t-end", ("--t-end",)),
-        ("rum", ("No such command 'rum'. Did you mean 'run'?",)),
-        ("floquet --N 385 --Omega 15.1 --tol 1", ("error: tol=1: must be within 1e-14 and 1e-06\n",)),
-        ("list colours", ("error: what='colours': must be one of studies, figures, cases, stale\n",)),
-        (
-            "modes --truncation-quantity growth",
-            ("truncation_quantity='growth': is used with n_diameters='auto' only",),
-        ),
-    ],
-)
-def test_what_is_missing_or_unknown_is_one_line(command: Command, arguments: str, parts: tuple[str, ...]) -> None:
-    err = command.error(*arguments.split())
-    assert all(part in err for part in parts)
 
 
 def test_what_cannot_be_computed_with_is_an_error(command: Command) -> None:

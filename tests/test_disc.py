@@ -90,33 +90,6 @@ def test_content_decides_the_key(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({"omega": [1490.0, 0.0, 1820.0]}, "omega.1=0: must be within 0.001 and 1e+07"),
-        ({"amplitude": [1.0, -1e7, 0.0]}, "largest amplitude=10000000: must be within 1e-06 and 1e+06"),
-        ({"omega": [1490.0, 1515.0]}, "omega=2 values: must be as many as diameters, 3"),
-        ({"diameters": [0, 1, 1.5]}, "diameters.2=1.5: must be a whole number"),
-        ({"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1515.0]}, "one frequency: each mode"),
-        ({"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1530.0]}, "0.98 % apart: the disc must be axisymmetric"),
-        ({"diameters": [0, 1, 1], "circles": [0, 0, 0]}, "17 % apart: the disc must be axisymmetric"),
-        ({"amplitude": [0.0, 0.0, 0.0]}, "must not be 0 for all modes"),
-        ({"damping_ratio": [0.0, 1.0, 0.0]}, "damping_ratio.1=1: must be < 1"),
-        ({"static_compliance": -1}, "static_compliance=-1: must be > 0"),
-        ({"amplitude": [1.0, 2.0, float("nan")]}, "amplitude.2=nan: must be finite"),
-        ({"radii": [0.05, 0.1]}, "radii=2 radii: must be two or more, with a value of the shape of every mode at each"),
-        ({"radii": [0.1], "shapes": [[1.0]] * 3}, "radii=1 radii: must be two or more"),
-        ({"radii": [0.1, 0.05], "shapes": [[1.0, 2.0]] * 3}, "radii=[0.1, 0.05]: must ascend"),
-        ({"radii": [0.05, 0.1], "shapes": [[1.0, 2.0]]}, "shapes=1 values: must be as many as diameters, 3"),
-        ({"radii": [0.05, 0.1], "shapes": [1.0, 2.0, 3.0]}, "shapes.0=1: must be a list"),
-    ],
-)
-def test_what_is_no_disc_is_refused(change: dict[str, object], said: str) -> None:
-    with pytest.raises(dm.ParameterError) as error:
-        dm.Disc(**(THREE | change))
-    assert said in str(error.value)
-
-
-@pytest.mark.parametrize(
     ("parameters", "said"),
     [
         ({"disc": dm.Disc(**THREE), "E": 2e11}, "must be left out where a disc is given"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from typing import Any
 
 import pytest
 
@@ -13,7 +12,7 @@ from disc_model.errors import DiscModelError
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.study import StudyError, parse_study
-from disc_model.truncation import RICH, frequency_error, read_asked
+from disc_model.truncation import RICH, frequency_error
 
 P = Parameters(N=385.0, Omega=15.1)
 
@@ -95,31 +94,6 @@ def test_chosen_parameters_are_those_given_outright() -> None:
 def test_a_plain_value_leaves_no_choice() -> None:
     with pytest.raises(ParameterError, match=r"n_diameters='auto': must be a whole number; disc_model\.choose_modes"):
         Parameters(N=385, Omega=15.1, n_diameters="auto")
-
-
-@pytest.mark.parametrize(
-    ("values", "faults"),
-    [
-        ({"N": -1, "n_diameters": "auto"}, ("N=-1: must be >= 0",)),
-        (
-            {"N": -1, "n_diameters": "auto", "truncation_tolerance": 1e-9},
-            ("N=-1: must be >= 0", "truncation_tolerance=1e-09: must be finite and >= 0.0001"),
-        ),
-        ({"n_diameters": "auto", "truncation_tolerance": "fine"}, ("truncation_tolerance='fine': must be a number",)),
-        (
-            {"n_diameters": "auto", "truncation_quantity": "x"},
-            ("truncation_quantity='x': must be one of frequencies, growth, first_separation, separation_rate",),
-        ),
-        (
-            {"n_diameters": 4, "truncation_tolerance": 1e-3},
-            ("truncation_tolerance=0.001: is used with n_diameters='auto' only",),
-        ),
-    ],
-)
-def test_faults_of_the_choice_come_with_the_others(values: dict[str, Any], faults: tuple[str, ...]) -> None:
-    with pytest.raises(ParameterError) as caught:
-        read_asked({"N": 385, "Omega": 15.1, **values})
-    assert caught.value.faults == faults
 
 
 @pytest.mark.compiled

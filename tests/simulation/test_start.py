@@ -23,27 +23,6 @@ from disc_model.simulation.result import State
 from disc_model.studies.study import StudyError, parse_study
 from tests.contact_laws import LAWS
 from tests.studies.grids.conftest import computed
-from tests.studies.refused import parse_grid
-
-
-@pytest.mark.parametrize(
-    ("parameters", "faults"),
-    [
-        ({"Omgea": 15}, ["Omgea = 15: unknown parameter, did you mean Omega?"]),
-        ({"m": -1, "contact": "open"}, ["m = -1: must be > 0", "contact = 'open': must be 'separable' or 'bonded'"]),
-        ({"mu_s": 0.2, "mu_k": 0.3}, ["mu_k = 0.3: must be <= mu_s=0.2"]),
-        ({"n_diameters": "auto"}, ["n_diameters = 'auto': must be a whole number, that of the points"]),
-    ],
-)
-@pytest.mark.parametrize(("quantity", "more"), [("bifurcation", {}), ("lyapunov", {"duration": 1})])
-def test_a_preparation_is_checked_before_anything_runs(
-    quantity: str, more: dict, parameters: dict, faults: list[str]
-) -> None:
-    given = {"prepare": {"parameters": parameters, "time": 1}, "transient": 1} | more
-    raw = {"study": "b", "quantity": quantity, "axes": {"N": [1], "Omega": [15]}}
-    with pytest.raises(StudyError) as error:
-        parse_grid(raw | {"options": given})
-    assert error.value.faults == tuple(f"options.prepare.parameters.{fault}" for fault in faults)
 
 
 def test_any_parameter_may_be_prepared_however_it_is_spelled() -> None:

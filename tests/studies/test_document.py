@@ -21,7 +21,6 @@ from tests.studies.refused import faults_of
 ROOT = Path(__file__).parents[2]
 SHIPPED = ROOT / "workflow" / "schemas" / "study.schema.json"
 SCHEMA = json.loads(SHIPPED.read_text(encoding="utf-8"))
-PLANE = {"N": [1, 2], "Omega": [2, 3]}
 CHECK = jsonschema.Draft202012Validator(SCHEMA)
 
 

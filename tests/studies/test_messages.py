@@ -1,4 +1,4 @@
-"""What is said of bad study files and command lines, word by word: `messages.json` beside this file.
+"""What is said of bad study files, command lines and values, word by word: `messages.json` beside this file.
 
 ``python -m tests.studies.test_messages`` writes the texts anew. A text that changes has to be looked at: it must say
 no less than before.
@@ -10,12 +10,15 @@ import contextlib
 import io
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from disc_model import cli
+from disc_model import Disc, ParameterError, Parameters, Poincare, Record, Window, cli
+from disc_model.figures.kinds import PLOTS
 from disc_model.studies.study import StudyError, parse_study
+from disc_model.truncation import read_asked
 from tests.trees import places, planted
 
 FILE = Path(__file__).with_name("messages.json")
@@ -31,6 +34,48 @@ def faults_of(raw: Any) -> list[str]:
     except StudyError as error:
         return list(error.faults)
     return []
+
+
+def values_of(dims: dict[str, list[Any]]) -> dict[str, list[tuple[Any, ...]]]:
+    """Values along the dimensions of a study; those of a zip are lists in the file."""
+    return {name: [tuple(one) if isinstance(one, list) else (one,) for one in row] for name, row in dims.items()}
+
+
+def faults_of_figure(plot: dict[str, Any], dims: dict[str, list[Any]]) -> list[str]:
+    """Of a figure of a study with these dimensions."""
+    return [fault.in_file for fault in PLOTS[plot["kind"]].model_validate(plot).faults(values_of(dims))]
+
+
+def faults_beside(plot: dict[str, Any], role: str, other: dict[str, Any]) -> list[str]:
+    """Of another study that a figure shows beside its own."""
+    shown = PLOTS[plot["kind"]].model_validate(plot)
+    own = {"quantity": shown.quantities[0], "options": {}, "base": {"normalization": "as_published"}}
+    own_study, other_study = (
+        SimpleNamespace(
+            quantity=one["quantity"],
+            options=SimpleNamespace(**one["options"]),
+            base=one["base"],
+            values=values_of(one["dims"]),
+        )
+        for one in (own | {"dims": {name: [1] for name in shown.dims}}, other)
+    )
+    return list(shown.misfits_of(role, own_study, other_study))
+
+
+MADE = {one.__name__: one for one in (Parameters, Window, Poincare, Record, Disc)} | {
+    "read_asked": lambda **v: read_asked(v)
+}
+CHECKED = {"figure": faults_of_figure, "figure beside": faults_beside}
+
+
+def faults_of_value(value: dict[str, dict[str, Any]]) -> list[str]:
+    """Of what is made with these arguments, or of a figure."""
+    [(what, given)] = value.items()
+    if what in CHECKED:
+        return CHECKED[what](**given)
+    with pytest.raises(ParameterError) as error:
+        MADE[what](**given)
+    return list(error.value.faults)
 
 
 def said_to(arguments: list[str]) -> str:
@@ -56,6 +101,11 @@ def test_texts_of_bad_studies(entry: dict[str, Any]) -> None:
     assert faults_of(entry["study"]) == entry["faults"]
 
 
+@pytest.mark.parametrize("entry", TEXTS["values"], ids=lambda entry: " ".join(entry["faults"])[:60])
+def test_texts_of_bad_values(entry: dict[str, Any]) -> None:
+    assert faults_of_value(entry["value"]) == entry["faults"]
+
+
 @pytest.mark.parametrize("entry", TEXTS["planted"], ids=lambda entry: entry["study"].get("quantity", "cases"))
 def test_texts_of_one_bad_value(entry: dict[str, Any]) -> None:
     assert planted_faults(entry["study"]) == entry["faults"]
@@ -70,12 +120,12 @@ def _written() -> None:
     """The file with today's texts."""
     for entry in TEXTS["studies"]:
         entry["faults"] = faults_of(entry["study"])
+    for entry in TEXTS["values"]:
+        entry["faults"] = faults_of_value(entry["value"])
     for entry in TEXTS["planted"]:
         entry["faults"] = planted_faults(entry["study"])
     for entry in TEXTS["commands"]:
         entry["said"] = said_to(entry["command"])
-    for kind, entries in TEXTS.items():
-        TEXTS[kind] = [entry for entry in entries if entry.get("faults", entry.get("said"))]
     lines = {kind: ",\n".join(_line(entry) for entry in entries) for kind, entries in TEXTS.items()}
     text = ",\n".join(f'"{kind}": [\n{line}\n]' for kind, line in lines.items())
     FILE.write_text(f"{{\n{text}\n}}\n", encoding="utf-8")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,10 +11,8 @@ import xarray as xr
 from disc_model.figures.grids import sensitivity
 from disc_model.figures.grids.campbell import gaps, noted, spread
 from disc_model.studies.grids.summaries.campbell import EFFECTS
-from disc_model.studies.study import StudyError
 from tests.figures.grids.reading import draw
 from tests.studies.grids.quantities import test_sensitivity as uncertain
-from tests.studies.refused import parse_grid
 
 
 def test_instability_against_each_parameter() -> None:
@@ -133,30 +130,3 @@ def test_names_are_spread(places: list[float]) -> None:
     if len(places) > 1:
         assert np.diff(found).min() >= min(0.5, 10 / (len(places) - 1)) * (1 - 1e-12)
     assert np.all((found >= -1e-12) & (found <= 10 + 1e-12))
-
-
-CAMPBELL: dict[str, Any] = {
-    "quantity": "campbell", "base": {"N": 200}, "options": {}, "figures": {"f": {"kind": "campbell"}},
-    "axes": {"Omega": [1, 2], "normalization": ["as_published", "orthonormal"]},
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({"axes": {"N": [1, 2, 3, 4, 5]}}, "'sensitivity': has room for 4 points beside their samples"),
-        ({"figures": {"f": {"kind": "campbell"}}}, "'campbell': needs the quantity campbell"),
-        (CAMPBELL, "can show one normalization only"),
-        (
-            CAMPBELL
-            | {"figures": {"f": {"kind": "campbell", "normalization": "orthonormal"}}}
-            | {"axes": {"Omega": [1, 2], "normalization": ["as_published"]}},
-            "is not computed",
-        ),
-    ],
-)
-def test_what_a_figure_cannot_show_is_said(change: dict[str, Any], said: str) -> None:
-    raw = {"study": "s", **uncertain.study({"k": uncertain.UNIFORM}, figures={"f": {"kind": "sensitivity"}}), **change}
-    with pytest.raises(StudyError) as error:
-        parse_grid(raw)
-    assert said in str(error.value)

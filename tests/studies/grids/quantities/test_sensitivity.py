@@ -22,7 +22,6 @@ from tests.studies.grids.conftest import SMALL, computed
 from tests.studies.refused import faults_of, parse_grid
 
 UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
-NORMAL = {"distribution": "normal", "mean": 1}
 TURN = {"distribution": "uniform", "low": 0.0, "high": 2 * np.pi}
 
 
