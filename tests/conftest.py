@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
-from tests import needs, tally
+from tests import tally
 
 # The quick suite draws the same values in every clone. `make test-long` searches at random, by a seed that it prints.
 settings.register_profile(
@@ -34,11 +34,8 @@ def seed(request: pytest.FixtureRequest) -> int:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Say how much was tried, and what was not because something is not installed."""
-    # the last part of a skipped test's (file, line, reason)
-    skipped = [report.longrepr[-1] for report in terminalreporter.getreports("skipped")]
-    for title, found in (("tried", list(tally.lines())), ("not tried", list(needs.lines(skipped)))):
-        if found:
-            terminalreporter.section(title)
-            for line in found:
-                terminalreporter.line(line)
+    """Say how much was tried."""
+    if found := list(tally.lines()):
+        terminalreporter.section("tried")
+        for line in found:
+            terminalreporter.line(line)

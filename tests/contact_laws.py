@@ -44,6 +44,16 @@ def by_series(p):
     return Ramp(parameter="N", to=math.nextafter(p.N, math.inf), start=0.0, end=1e3)
 
 
+def course_of(p, ramps):
+    """Corners of Omega and N on ramps, (time, Omega, N), from 0 on."""
+    lines = {name: ([0.0], [getattr(p, name)]) for name in ("Omega", "N")}
+    for ramp in ramps:
+        times, values = lines[ramp.parameter]
+        lines[ramp.parameter] = [*times, ramp.start, ramp.end], [*values, values[-1], ramp.to]
+    corners = sorted({time for times, _ in lines.values() for time in times})
+    return [(t, *(float(np.interp(t, *line)) for line in lines.values())) for t in corners]
+
+
 def compare_series(law, phase, direction, n_diameters, rates=None):
     """The engine's coefficients beside the reference's, in units of the largest: all dampers work.
 

@@ -74,7 +74,7 @@ def test_a_result_is_laid_out_as_its_file_is(result: Result, tree: xr.DataTree) 
     assert mine.attrs["parameters"] == P.canonical_json
 
 
-@pytest.mark.parametrize("names", [["a"], ["a", "a"], ["a", "events"], ["a", "N"], ["a", "b/c"]])
+@pytest.mark.parametrize("names", [["a", "a"], ["a", "N"]])
 def test_a_window_takes_no_others_name(names: list[str]) -> None:
     record = Record(windows=(Window(stop=0.001, rate=1e4), Window(stop=0.001, rate=1e3)))
     with pytest.raises(ParameterError, match=r"names=.*: must be 2 different names"):
@@ -100,14 +100,6 @@ def test_the_angle_of_the_disc_is_kept_with_what_was_taken_there(
         assert tree[name].attrs["theta"] == theta
         assert merged[name].attrs["theta"] == theta
     assert [result.to_dataset(name).attrs["theta"] for name in ("sample_0", "sample_1", "poincare")] == [1.0, 0.5, 2.0]
-
-
-def test_default_record_gives_events_and_scalars_alone() -> None:
-    tree = simulate(P, 0.1).to_tree()
-    assert list(tree.children) == ["events"]
-    assert tree["events"].sizes["event"] > 0
-    tree = simulate(P, 0.1, record=Record(events=False)).to_tree()
-    assert tree["events"].sizes == {"event": 0}
 
 
 @pytest.mark.compiled

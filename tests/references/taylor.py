@@ -4,13 +4,14 @@ Nothing here is shared with the engine.  The equations stand as in the model's t
 compliance ``C`` (m/N), contact force ``vertical`` or ``normal``; quotients are quotients of series.  A switch is looked
 for by exclusion: on an interval of middle m and half width r a polynomial has no root if |p(m)| > sum |p_j(m)| r^j, and
 at most one if the same holds for its derivative; else the interval is halved.  Omega and N may change at constant
-rates from the time 0 on; u_0 stays that of the first N.
+rates, from corner to corner of a course; u_0 stays that of the first N.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 from math import comb
 
 import numpy as np
@@ -35,8 +36,10 @@ class Law:
 class Problem:
     """A case's numbers in long double.  ``base`` has the names of `stored.BASE`; modes are l = 0, 1, ... in order.
 
-    ``rates`` are those of Omega (rad/s^2) and N (N/s).
+    ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on.
     """
+
+    since, bonded = LONG(0), False
 
     def __init__(self, N, Omega, omega, psi, law, base=BASE, rates=(0.0, 0.0)):
         self.Omega_rate, self.N_rate = LONG(rates[0]), LONG(rates[1])
@@ -68,7 +71,7 @@ def problem_of(p, rates=(0.0, 0.0)):
     modes, law = plate_modes(p), Law(contact_give(p), p.contact_force)
     base = {name: getattr(p, name) for name in BASE}
     q = Problem(p.N, p.Omega, modes["omega"], np.abs(modes["psi"]), law, base, rates)
-    q.l = modes["diameters"].to_numpy().astype(LONG)
+    q.l, q.bonded = modes["diameters"].to_numpy().astype(LONG), p.contact == "bonded"
     return q
 
 
@@ -96,7 +99,7 @@ class Step:
         self.fa, self.below = np.zeros((K + 1, n), LONG), np.zeros(K + 1, LONG)
         # Omega and N of each order
         self.drive, self.load = np.zeros(K + 1, LONG), np.zeros(K + 1, LONG)
-        time = LONG(state.time)
+        time = LONG(state.time) - q.since
         self.drive[:2] = q.Omega + q.Omega_rate * time, q.Omega_rate
         self.load[:2] = q.N + q.N_rate * time, q.N_rate
         self.psi[0], self.f[0] = state.psi, state.f
@@ -190,18 +193,20 @@ class Step:
         groups = [(self.alpha, 0), (self.beta, 0), (self.f, abs(q.Omega)), (self.a, 0), (self.b, 0), (self.R, q.N)]
         if not q.rigid or self.phase == "separation":
             groups.append((self.v, 0))
-        modal = max(abs(x[0]).max() for x in (self.alpha, self.beta)) + q.N * (q.s / np.sqrt(q.w2)).max()
+        modal = max(abs(x[0]).max(initial=0) for x in (self.alpha, self.beta)) + q.N * (q.s / np.sqrt(q.w2)).max(
+            initial=0
+        )
         for x, usual in groups:
             last = len(x) - (2 if x is self.R else 1)
-            scale = max(abs(x[0]).max(), usual)
+            scale = max(abs(x[0]).max(initial=0), usual)
             if x is self.alpha or x is self.beta:
                 scale = modal
             elif x is self.v:
                 scale = max(scale, q.N * (q.s**2 / np.sqrt(q.w2)).sum())
             elif x is self.a or x is self.b:
-                scale = modal / np.sqrt(q.w2.max())
+                scale = modal / np.sqrt(q.w2.max(initial=1))
             for k in (last, last - 1):
-                size = abs(x[k]).max()
+                size = abs(x[k]).max(initial=0)
                 if size > 0:
                     h = min(h, (LONG(truncation) * scale / size) ** (LONG(1) / k))
         return h
@@ -310,12 +315,13 @@ def _bisect(c, left, right):
 class Reference:
     """Event-driven run of a `Problem` from a `State`.
 
-    ``defect`` is the worst of `Step.energy_defects` if ``audit``; ``impacts`` has for each impact the change of the
-    whole energy and what the model says of it, J.
+    ``course`` has the corners of Omega and N, (time, Omega, N), from the start on.  ``defect`` is the worst of
+    `Step.energy_defects` if ``audit``; ``impacts`` has the change of the whole energy at each impact and what the model
+    says of it, J.
     """
 
-    def __init__(self, q, state, truncation=TRUNCATION, audit=False):
-        self.q, self.truncation, self.audit = q, truncation, audit
+    def __init__(self, q, state, truncation=TRUNCATION, audit=False, course=()):
+        self.q, self.truncation, self.audit, self.course = q, truncation, audit, course
         self.events, self.defect, self.impacts = [], 0.0, []
         self.phase, self.direction = state.phase, int(state.direction)
         self.start, self.local = LONG(state.time), LONG(0)
@@ -346,6 +352,18 @@ class Reference:
 
     def run(self, t_end):
         """Advance to the absolute time `t_end`.  Returns self."""
+        if not self.course:
+            return self._advance(t_end)
+        q, last = self.q, (np.inf, *self.course[-1][1:])
+        for corner, following in pairwise([*self.course, last]):
+            if self.time < min(following[0], t_end):
+                here, there = (np.array(one, LONG) for one in (corner, following))
+                q.since, q.Omega, q.N = here
+                q.Omega_rate, q.N_rate = (there[1:] - here[1:]) / (there[0] - here[0])
+                self._advance(min(following[0], t_end))
+        return self
+
+    def _advance(self, t_end):
         end = LONG(t_end) - self.start
         while self.local < end:
             step = Step(self.q, self.phase, self.direction, self.state())
@@ -369,10 +387,11 @@ class Reference:
             return [("reattachment", gap[self.divide["gap"] :])]
         R = step.R[self.divide["R"] : K]
         if self.phase == "slip":
-            return [("separation", R), ("rest", self.direction * step.f[self.divide["f"] :])]
+            rest = ("rest", self.direction * step.f[self.divide["f"] :])
+            return [rest] if self.q.bonded else [("separation", R), rest]
         held = [("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)]
         # a compliant contact does not pull, though friction may hold where it would
-        return [*held, ("separation", R if self.q.rigid else step.V[self.divide["R"] : K])]
+        return held if self.q.bonded else [*held, ("separation", R if self.q.rigid else step.V[self.divide["R"] : K])]
 
     # -- switching
     def _enter(self, kind, phase, direction, **divide):
@@ -380,6 +399,8 @@ class Reference:
         self.divide = {"f": 0, "gap": 0, "R": 0} | divide
         P = LONG(0) if phase == "separation" else self.forces(phase, direction)[0]
         self.events.append({"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P})
+        if P < 0 and self.q.rigid and not self.q.bonded:
+            self._separate(2)
 
     def _switch(self, kind):
         if kind in ("stick_to_slip", "rest"):
@@ -389,7 +410,8 @@ class Reference:
                 self._enter("slip_to_stick", "stick", 0)
             else:
                 kind = "slip_reversal" if kind == "rest" else kind
-                self._enter(kind, "slip", 1 if T > 0 else -1, f=1)
+                # f begins with a rate of its own only where friction falls
+                self._enter(kind, "slip", 1 if T > 0 else -1, f=1 if abs(T) > (1 + 1e-12) * self.q.mu_k * R else 2)
         elif kind == "separation":
             self._separate(3 if self.q.rigid else 1)
         else:
@@ -426,8 +448,6 @@ class Reference:
         if self.f == 0:
             raise RuntimeError("impact at rest: not met in the stored cases")
         self._enter("reattachment", "slip", 1 if self.f > 0 else -1)
-        if self.events[-1]["P"] < 0:
-            self._separate(2)
 
 
 # ------------------------------------------------------------------------------------- stored cases

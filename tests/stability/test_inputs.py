@@ -10,7 +10,6 @@ import pytest
 
 from disc_model import ParameterError, Parameters, floquet, steady_sliding
 from disc_model.engine import variational
-from disc_model.errors import shown
 from disc_model.stability.bifurcation import bifurcation_samples
 from disc_model.stability.continuation import continue_border, continue_cycle
 from disc_model.stability.lyapunov import lyapunov_exponents
@@ -24,30 +23,19 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
     [
         (lambda: floquet("x", tol=0.5, releases=0), "p='x' tol=0.5 releases=0"),
         (lambda: floquet(P, releases=2), "releases=2"),
-        (lambda: floquet(P, near="x", releases=1.5), "near='x' releases=1.5"),
         (lambda: continue_cycle(P, "k", (1, 2), near="x", releases=0), "near='x' releases=0"),
         (lambda: continue_cycle("x", "nu", (1, 2), releases=2), "p='x' name='nu' releases=2"),
         (lambda: floquet(P, tol=True, releases=np.True_), "tol=True releases=np.True_"),
-        (lambda: continue_cycle(P, "k", (1, 2), tol="x"), "tol='x'"),
         (lambda: continue_cycle(P, "k", (1, 2), near=[1.0, 2.0]), "near=[1.0, 2.0]"),
         (lambda: continue_border("fold", P, ("k", "N"), {}, tol=0.5), "bounds={} tol=0.5"),
-        (lambda: steady_sliding("x"), "p='x'"),
         (
             lambda: lyapunov_exponents("x", -1, transient=math.nan, count=9, interval=0),
             "p='x' duration=-1 transient=nan count=9 interval=0",
-        ),
-        (
-            lambda: lyapunov_exponents(P, "1", transient=[], count=True, interval="x", initial_state=5, tol="x"),
-            "duration='1' transient=[] count=True interval='x' initial_state=5 tol='x'",
         ),
         # intervals that would take a gigabyte and an hour, and bounds of other functions
         (
             lambda: lyapunov_exponents(P, 1.0, interval=1e-9, tol=1e3, leave_out_trivial="x"),
             "interval=1e-09 leave_out_trivial='x' tol=1000",
-        ),
-        (
-            lambda: lyapunov_exponents(P, 10**400, interval=math.inf, tol=math.nan),
-            f"duration={shown(10**400)} interval=inf tol=nan",
         ),
         (lambda: bifurcation_samples("x", "E", [], transient=-1, samples=0), "p='x' values=[] transient=-1 samples=0"),
         (lambda: bifurcation_samples(P, "contact", [1.0], transient=0, samples=1), "name='contact'"),

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import functools
-import itertools
 
 import numpy as np
 import pytest
 
 from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
-from tests.contact_laws import COMPILES, LAWS
+from tests.contact_laws import COMPILES, LAWS, course_of
 from tests.references import stored, taylor
 
 #: s, what is promised.
@@ -19,12 +18,6 @@ EVENT_TIMES = 1e-12
 def _ramp(p, parameter, rate, end=0.0625):
     """From time 0 on; powers of two keep the rate what was said."""
     return Ramp(parameter=parameter, to=getattr(p, parameter) + rate * end, start=0.0, end=end)
-
-
-def _rates(p, ramps):
-    """As the ramps' numbers give them, rounding included."""
-    found = {ramp.parameter: (ramp.to - getattr(p, ramp.parameter)) / ramp.end for ramp in ramps}
-    return found.get("Omega", 0.0), found.get("N", 0.0)
 
 
 @functools.cache
@@ -45,7 +38,7 @@ def test_every_law_against_long_double(name):
     p = Parameters(N=385.0, Omega=15.1, c=5.0, c_p=0.5, **LAWS.get(name, {}))
     ramps = (_ramp(p, "Omega", -128.0), _ramp(p, "N", -2048.0))
     start = taylor.violent_start(1.0 if p.contact_compliance else 1.3)
-    reference = taylor.Reference(taylor.problem_of(p, _rates(p, ramps)), start, audit=True).run(0.02)
+    reference = taylor.Reference(taylor.problem_of(p), start, audit=True, course=course_of(p, ramps)).run(0.02)
     start, record = stored.engine_state(start, p), Record(energy=True)
     found = simulate(p, 0.02, tol=1e-15, initial_state=start, ramps=ramps, record=record)
     assert reference.defect < 1e-16
@@ -58,20 +51,6 @@ def test_every_law_against_long_double(name):
 
 
 # ------------------------------------------------------------------------ begins and ends within the run
-def course_of(p, ramps, t_end):
-    """Pieces between corners of Omega and N: end, and values and rates from the time 0 on."""
-    corners, values = sorted({0.0, t_end, *(t for ramp in ramps for t in (ramp.start, ramp.end) if t < t_end)}), {}
-    for name in ("Omega", "N"):
-        own = [(0.0, getattr(p, name))]
-        for ramp in ramps:
-            if ramp.parameter == name:
-                own += [(ramp.start, own[-1][1]), (ramp.end, ramp.to)]
-        values[name] = np.interp(corners, *zip(*own, strict=True))
-    for i, (begin, end) in enumerate(itertools.pairwise(corners)):
-        rates = [(row[i + 1] - row[i]) / (end - begin) for row in values.values()]
-        yield end, [row[i] - rate * begin for row, rate in zip(values.values(), rates, strict=True)], rates
-
-
 @pytest.mark.parametrize(
     "ramps",
     [
@@ -85,14 +64,9 @@ def course_of(p, ramps, t_end):
     ids=["Omega", "both"],
 )
 def test_ramps_that_begin_and_end_within_the_run(ramps):
-    """The reference goes from corner to corner."""
     p, t_end = Parameters(N=400.0, Omega=15.0, c_p=1.0, n_diameters=1), 0.07
-    first = taylor.problem_of(p)
-    run = taylor.Reference(first, first.equilibrium())
-    for end, (Omega, N), rates in course_of(p, ramps, t_end):
-        run.q = taylor.problem_of(p.replace(Omega=Omega, N=N), rates)
-        run.q.u_0 = first.u_0
-        run.run(end)
+    q = taylor.problem_of(p)
+    run = taylor.Reference(q, q.equilibrium(), course=course_of(p, ramps)).run(t_end)
     found = simulate(p, t_end, tol=1e-14, ramps=ramps)
     assert len(run.events) > 5
     assert list(found.events["kind"]) == [event["kind"] for event in run.events]
