@@ -1,7 +1,5 @@
 """The laws of contact beside the paper's, as tests name them; and what of them is left to the long tests."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -6,8 +6,6 @@ runs a command as a processor of that name would.  Four libraries choose their c
 (which has a name of its own for it), numpy's loops and the C library's elementary functions.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """What some tests need beyond the locked environment, for their skips."""
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import shutil

@@ -1,7 +1,5 @@
 """Counts of what long tests have tried, for the summary at the end of a run."""
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """The command line: options, summary, plot. Texts of what is refused are in tests/studies/test_messages.py."""
 
-from __future__ import annotations
-
 import json
 import resource
 import subprocess

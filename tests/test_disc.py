@@ -1,7 +1,5 @@
 """Discs given by a table of their modes."""
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import json

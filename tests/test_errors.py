@@ -1,7 +1,5 @@
 """How faults are said, whatever holds the value; and statuses: words that carry their sentence."""
 
-from __future__ import annotations
-
 import pickle
 from typing import Any
 

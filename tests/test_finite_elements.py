@@ -1,7 +1,5 @@
 """Finite elements of a section: against the plate, and against themselves on finer meshes."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Residual flexibility against modal sums and against collocation, which shares neither code nor functions with it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.polynomial import chebyshev

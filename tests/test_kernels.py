@@ -1,7 +1,5 @@
 """Kinds of kernels: which cases need which."""
 
-from __future__ import annotations
-
 import pytest
 
 from disc_model import Parameters, Ramp

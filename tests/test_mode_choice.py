@@ -1,7 +1,5 @@
 """The modes that quantities of the motion need."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable

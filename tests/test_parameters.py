@@ -1,7 +1,5 @@
 """Parameters: validation, one error for all faults, hashing, copies."""
 
-from __future__ import annotations
-
 import inspect
 import json
 import math

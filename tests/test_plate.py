@@ -1,7 +1,5 @@
 """Disc modes against the paper's numbers and against Rayleigh-Ritz, which shares no code and no method."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given

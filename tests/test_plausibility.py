@@ -1,7 +1,5 @@
 """Values that can hardly be meant, told once; and none of the paper's among them."""
 
-from __future__ import annotations
-
 import warnings
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What is shown of long work: on a terminal, in a notebook, elsewhere."""
 
-from __future__ import annotations
-
 import builtins
 import io
 import subprocess

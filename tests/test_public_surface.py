@@ -1,7 +1,5 @@
 """Wrong types and sizes, for each argument of every public function: each is named, with its value and the rule."""
 
-from __future__ import annotations
-
 import inspect
 import math
 import re

@@ -1,7 +1,5 @@
 """The random search of tests: what it draws is decided by the test, or by a seed, and by nothing else."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

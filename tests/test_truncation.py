@@ -1,7 +1,5 @@
 """How many modes a study needs."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -1,7 +1,5 @@
 """Numbers with units: what is accepted, what it amounts to in SI, and what is said of a unit that does not fit."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

@@ -1,7 +1,5 @@
 """Content of YAML files as trees: the places in it, and other values there."""
 
-from __future__ import annotations
-
 from typing import Any
 
 

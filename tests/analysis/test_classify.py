@@ -1,7 +1,5 @@
 """Motions are named rightly for signals whose nature is known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Sections of known motions, and the stages of a run."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Sobol' indices against scipy's and known ones; shares with intervals against their definition."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy import stats

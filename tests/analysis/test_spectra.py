@@ -1,7 +1,5 @@
 """Lines, their names, and spectra in time, for signals made of known lines."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Methods whose errors and costs are laid down, and what a benchmark makes of them."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

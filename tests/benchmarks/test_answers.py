@@ -1,7 +1,5 @@
 """What each answer costs: how answers are found and judged, what is missing, tables, sentences and charts."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

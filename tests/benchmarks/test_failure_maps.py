@@ -1,7 +1,5 @@
 """Maps of where methods fail."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 

@@ -1,7 +1,5 @@
 """Where a benchmark runs."""
 
-from __future__ import annotations
-
 import os
 
 import pytest

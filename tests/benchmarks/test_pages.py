@@ -1,7 +1,5 @@
 """What README and docs say of a benchmark's run."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

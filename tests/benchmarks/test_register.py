@@ -1,7 +1,5 @@
 """The register of rivals: names without the methods themselves."""
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The scenes' right answers, errors against them, and verdicts."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

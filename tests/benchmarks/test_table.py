@@ -1,7 +1,5 @@
 """The measured points as a table, and in a few words."""
 
-from __future__ import annotations
-
 import math
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """What truncating the modes does to what a study asks for."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """What the docs say of the number of modes."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

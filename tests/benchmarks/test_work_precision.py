@@ -1,7 +1,5 @@
 """Speed against accuracy: what is measured, how often, and what is made of it."""
 
-from __future__ import annotations
-
 import json
 import math
 

@@ -1,7 +1,5 @@
 """The paper's cases, made up once."""
 
-from __future__ import annotations
-
 import pytest
 import xarray as xr
 

@@ -4,15 +4,13 @@ A `Story` says what a case did; `tell` writes it down as a simulation would, wit
 config/paper.yaml asks for.  `as_told` is what the paper says happened, `to_the_contrary` the opposite of all of it.
 """
 
-from __future__ import annotations
-
 import cmath
 import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import pandas as pd
@@ -175,7 +173,7 @@ class Story:
     def separates(self) -> bool:
         return math.isfinite(self.first)
 
-    def but(self, **changes: object) -> Story:
+    def but(self, **changes: object) -> Self:
         return dataclasses.replace(self, **changes)
 
     def grown(self, t: np.ndarray, end: float) -> np.ndarray:

@@ -1,7 +1,5 @@
 """Tables and pages made of claims and cases."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

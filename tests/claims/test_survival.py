@@ -1,7 +1,5 @@
 """What survives: every verdict on data made up so that it holds, that it does not, and that they do not tell."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from pathlib import Path

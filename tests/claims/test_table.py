@@ -1,7 +1,5 @@
 """The table of claims: complete, computed, and honest about what it lacks."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

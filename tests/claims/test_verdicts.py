@@ -1,7 +1,5 @@
 """Verdicts follow the evidence: the claims of the paper judged by motions made up to fit them, and not to fit them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any

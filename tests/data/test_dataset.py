@@ -1,7 +1,5 @@
 """Results as datasets and files: names, units, flags, round trips, equal bytes; whole, or noticed."""
 
-from __future__ import annotations
-
 import os
 import resource
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Hashes of sources, versions and commits."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

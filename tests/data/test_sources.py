@@ -1,7 +1,5 @@
 """The lists of sources against what is imported."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterable
 from importlib import import_module

@@ -1,7 +1,5 @@
 """docs/architecture.md speaks of what is there."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

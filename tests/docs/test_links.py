@@ -1,7 +1,5 @@
 """Links between pages lead somewhere, and names of the package that texts mention exist."""
 
-from __future__ import annotations
-
 import pydoc
 import re
 from pathlib import Path

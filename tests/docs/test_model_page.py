@@ -1,7 +1,5 @@
 """docs/model.md: its numbers and its table of symbols."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Pages are written in short sentences, in the words of the glossary, with symbols that are defined."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Kernels of tests are never cached: numba would not notice that the engine they call has changed."""
 
-from __future__ import annotations
-
 import numba
 
 from disc_model.engine.compile import RULES

@@ -1,7 +1,5 @@
 """The engine with a column for every coordinate of the full system."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from disc_model import Parameters

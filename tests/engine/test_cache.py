@@ -1,7 +1,5 @@
 """The files of compiled kernels: found again, and never trusted when damaged."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Stick in closed form against its Taylor series, and the bound that says how long stick lasts."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """How kernels, their helpers and what they are handed are compiled."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

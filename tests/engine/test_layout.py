@@ -1,7 +1,5 @@
 """Constants of a case: where things lie, and the scales by which rounding and steps are judged."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Where the machine and the flights of the return map cannot go on, and that they say so."""
 
-from __future__ import annotations
-
 import math
 
 import numba

@@ -1,7 +1,5 @@
 """The root finder: no root missed, none invented, the first one taken."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import assume, given

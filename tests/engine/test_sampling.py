@@ -1,7 +1,5 @@
 """Samples at the very instant of a switch: the side before it, whichever way the switch is reached."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Each mode of stick by itself: how far it takes the contact force."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

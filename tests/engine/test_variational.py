@@ -1,7 +1,5 @@
 """Small changes of state and parameters, along a motion and through every kind of switch: against differences."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Made-up studies with all that merged datasets may hold, and motions at some of their points."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the page is told of studies and motions."""
 
-from __future__ import annotations
-
 import base64
 import json
 import zlib

@@ -1,7 +1,5 @@
 """The explorer in a real browser, as wide as a screen and as narrow as a telephone."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

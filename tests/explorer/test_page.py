@@ -1,7 +1,5 @@
 """The page as text: all in it, nothing fetched, nothing that breaks out of its place."""
 
-from __future__ import annotations
-
 import base64
 import io
 import json

@@ -1,7 +1,5 @@
 """The benchmark's figures."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

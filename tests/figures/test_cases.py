@@ -1,7 +1,5 @@
 """Figures of named cases and of the paper: from data alone, in one style, with units, and where a case holds less."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

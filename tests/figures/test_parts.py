@@ -1,7 +1,5 @@
 """What titles say of parameters."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

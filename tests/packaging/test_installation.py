@@ -1,7 +1,5 @@
 """The package as others get it: built, installed from the locked versions, and used without the sources."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """The numerics alone: what a plain installation can do, and that what is written of versions agrees."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

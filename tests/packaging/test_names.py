@@ -1,7 +1,5 @@
 """A name that many modules could use means one thing in the package."""
 
-from __future__ import annotations
-
 import ast
 from collections import defaultdict
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The parts in which `make test` runs hold each file of tests once."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a public host is told: addresses, and definitions for GitHub Actions."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import tomllib

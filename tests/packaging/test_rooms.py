@@ -3,8 +3,6 @@
 A room is a file of the package outside the engine; it is entered when a function of it runs, importing it aside.
 """
 
-from __future__ import annotations
-
 import importlib
 import inspect
 import io

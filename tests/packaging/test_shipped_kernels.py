@@ -1,7 +1,5 @@
 """Kernels that come with the package: who has a fitting processor compiles nothing, and all others as without them."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

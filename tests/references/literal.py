@@ -7,8 +7,6 @@ numerically. Slow and readable on purpose; the one change to the print is the ">
 One phase at a time, integrated by scipy's DOP853.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

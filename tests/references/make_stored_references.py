@@ -7,8 +7,6 @@ wild and first_separation that are in the repository were found by heyoka's seri
 for roots: they agree with these to 1e-17 s.
 """
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

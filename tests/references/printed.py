@@ -4,8 +4,6 @@ The states are lively: no term of the equations is small, all dampers work, slip
 quickly under the slider.  Runs from there are so short that they need no compilation.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

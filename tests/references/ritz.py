@@ -1,7 +1,5 @@
 """Rayleigh-Ritz eigenvalues of the annular plate: no Bessel functions, no root search, nothing to miss."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The stored references (parameters, modes, starts, event times) and the way from them to disc_model."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from functools import cache

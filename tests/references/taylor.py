@@ -7,8 +7,6 @@ at most one if the same holds for its derivative; else the interval is halved.  
 rates, from corner to corner of a course; u_0 stays that of the first N.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """When results are the same."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

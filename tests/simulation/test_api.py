@@ -1,7 +1,5 @@
 """How simulations end, and what they refuse to begin with."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """What a simulation keeps: windows, envelopes, samples by the drive; and which records are refused."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

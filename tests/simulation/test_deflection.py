@@ -1,7 +1,5 @@
 """The whole disc's deflection: against the engine's own samples at one point, and the plate's clamp."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

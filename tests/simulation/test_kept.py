@@ -1,7 +1,5 @@
 """An interrupted simulation goes on from its checkpoint to the same result, bit for bit; and so do long ones."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import os

@@ -1,7 +1,5 @@
 """A first look at a result."""
 
-from __future__ import annotations
-
 import math
 import sys
 from types import SimpleNamespace

@@ -3,8 +3,6 @@
 Event times are held against references in tests/validation/test_ramps.py.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

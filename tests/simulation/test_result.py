@@ -1,7 +1,5 @@
 """Between parameters and the engine: constants that runs share, and states there and back."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Results and states as values to hand on: files, pictures, a line of text, windows by the end of the run."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Motions that begin where another one ended, or with a kick."""
 
-from __future__ import annotations
-
 import functools
 import json
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """What motions come to: multipliers and early judgement against long simulations."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

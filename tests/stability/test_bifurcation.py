@@ -1,7 +1,5 @@
 """Samples for bifurcation diagrams."""
 
-from __future__ import annotations
-
 import math
 from unittest import mock
 

@@ -1,7 +1,5 @@
 """Frequencies of steady sliding against another eigenproblem, those of the cycle against its return map."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

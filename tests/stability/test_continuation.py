@@ -1,7 +1,5 @@
 """Continuation on a map that is solved by hand: every point, every fold and every border is known."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Seeds of curves of stability."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The stick-slip cycle: its multipliers, its status, what is stable."""
 
-from __future__ import annotations
-
 import math
 import re
 

@@ -1,7 +1,5 @@
 """What grazes: dips that miss a switch and dips that make it, on signals that are parabolas."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

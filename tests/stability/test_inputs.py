@@ -1,7 +1,5 @@
 """Bad input to the stability functions, named in full."""
 
-from __future__ import annotations
-
 import math
 
 import numba

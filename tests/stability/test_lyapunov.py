@@ -1,7 +1,5 @@
 """Largest Lyapunov exponents."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Resonances: frequencies at rest, and the one that a multiplier belongs to."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """The return map: its section, its derivatives, Newton on it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cycles that lose contact, with impacts: found, judged and followed, against simulations of the same motions."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Steady sliding: an equilibrium with the flow's eigenvalues, or why there is none."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -10,8 +10,6 @@ ellipse g = 0.  Damper and spring do nothing.  Beyond 30 rad/s the motion loses 
 are no numbers.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

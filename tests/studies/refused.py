@@ -1,7 +1,5 @@
 """What is said of a study file that is refused, and the grid of one that is right."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Cases put together."""
 
-from __future__ import annotations
-
 import json
 
 from disc_model.parameters import Parameters

@@ -3,8 +3,6 @@
 Words of faults are in test_messages.py.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -4,8 +4,6 @@
 no less than before.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

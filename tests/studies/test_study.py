@@ -1,7 +1,5 @@
 """What study files amount to: cases, grids, figures of either, and the files that they name."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -16,8 +16,6 @@ Tests are collected once, without compilation. Each change is put into a fork of
 fails: first those that noticed other changes of the function, then the quickest.
 """
 
-from __future__ import annotations
-
 import ast
 import contextlib
 import functools

@@ -1,7 +1,5 @@
 """`simulate` and its series under every law of contact: compliant or rigid, force vertical or normal."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

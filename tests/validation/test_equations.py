@@ -3,8 +3,6 @@
 tests/references/printed.py has Eqs. (18)-(37), and the states from which single phases are compared with them.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

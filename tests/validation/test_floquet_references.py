@@ -1,7 +1,5 @@
 """The cycle's stability against growth in simulations, prototypes' growth rates, and limits with known answers."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -3,8 +3,6 @@
 How many of each kind were tried is said at the end of the tests' output.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import math

@@ -1,7 +1,5 @@
 """The tests notice a wrong sign, factor or comparison in any of the equations: tests/validation/mutants.py."""
 
-from __future__ import annotations
-
 import ast
 import os
 import subprocess

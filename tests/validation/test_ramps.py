@@ -1,7 +1,5 @@
 """`simulate` on ramps of Omega and of N, against references that know nothing of the engine."""
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Random admissible cases with ramps, from any start: against the reference in long double."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

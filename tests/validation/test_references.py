@@ -5,8 +5,6 @@ tests/references/data holds event times of long-double runs (two of different or
 contact.  Phases and switches by themselves are compared with the paper's equations in test_equations.py.
 """
 
-from __future__ import annotations
-
 import itertools
 import os
 import subprocess

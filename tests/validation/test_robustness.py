@@ -1,7 +1,5 @@
 """Anything in the parameter box and beyond ends with a result or a named status, and breaks no law on the way."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import example, given

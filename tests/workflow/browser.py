@@ -1,7 +1,5 @@
 """A real browser, driven over WebDriver with the standard library alone."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import socket

@@ -1,7 +1,5 @@
 """A finished small study, made once, and copies of it to change."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """A SLURM of one node for tests: daemons, key, ports, state and logs of its own, all in one folder."""
 
-from __future__ import annotations
-
 import contextlib
 import ctypes
 import getpass

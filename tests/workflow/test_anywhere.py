@@ -1,7 +1,5 @@
 """The workflow outside its repository's folder: from elsewhere, as a module, without the package installed."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

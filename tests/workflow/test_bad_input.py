@@ -1,7 +1,5 @@
 """Bad study files end Snakemake before any job, with every fault in the message."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

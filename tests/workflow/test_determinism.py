@@ -8,8 +8,6 @@ Equal within rounding: with and without compilation, and on another kind of proc
 see `disc_model.engine.compile`); Python rounds twice.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

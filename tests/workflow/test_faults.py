@@ -1,7 +1,5 @@
 """Faults during a study: after a rerun the results are those of an undisturbed run, byte for byte."""
 
-from __future__ import annotations
-
 import os
 import random
 import shutil

@@ -4,8 +4,6 @@ Processors differ in the last bit: one has fused multiplication and addition and
 twice; vectors of another length add up in another order.  No test may turn on that, and no published digit.
 """
 
-from __future__ import annotations
-
 import functools
 import os
 import re

@@ -1,7 +1,5 @@
 """The report in a real browser: everything in it can be opened, every figure loads, and the console stays clean."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

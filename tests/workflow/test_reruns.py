@@ -1,7 +1,5 @@
 """What runs again after a change, and what does not: real Snakemake, real files."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Callable

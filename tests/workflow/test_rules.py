@@ -1,7 +1,5 @@
 """What the rules have in common."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

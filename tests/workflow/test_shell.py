@@ -1,7 +1,5 @@
 """The command line in real shells: completion, and Ctrl-C."""
 
-from __future__ import annotations
-
 import os
 import random
 import re

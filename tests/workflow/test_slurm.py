@@ -1,7 +1,5 @@
 """The SLURM profile on a real SLURM: every job of a study is run by it, and one that takes too long gets more time."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """Short problems for rival methods, from states in which every term of the equations counts."""
 
-from __future__ import annotations
-
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, kernels
 from disc_model.benchmarks.methods.base import Problem

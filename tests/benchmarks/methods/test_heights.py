@@ -1,7 +1,5 @@
 """The range of the disc under the slider, and runs that end at the first separation."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Compiled conditions and switches."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

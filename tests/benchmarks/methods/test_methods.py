@@ -1,7 +1,5 @@
 """The rival methods: that each is right where it should be, and wrong where it must be."""
 
-from __future__ import annotations
-
 import dataclasses
 import functools
 

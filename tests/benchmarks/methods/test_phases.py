@@ -1,7 +1,5 @@
 """What ends a run of phases."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 

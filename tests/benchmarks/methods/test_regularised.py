@@ -1,7 +1,5 @@
 """The regularised model: its law, its contact, its order, its stiffness."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Fixed steps: how they end, where they blow up, what they miss."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

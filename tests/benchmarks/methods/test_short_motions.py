@@ -1,7 +1,5 @@
 """Rival methods on short motions of every phase, and through single switches."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figures from made-up studies, and what stands in them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

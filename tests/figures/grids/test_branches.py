@@ -1,7 +1,5 @@
 """Continuation diagrams."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.text import Annotation

@@ -1,7 +1,5 @@
 """Charts over speed and preload: thresholds, sweeps, and what lies behind them."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Heat maps and curves of any variable: what is shown where, and on what scale."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

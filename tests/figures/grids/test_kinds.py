@@ -1,7 +1,5 @@
 """Which studies a figure can show, alone and beside others: all that could end in an error once they are computed."""
 
-from __future__ import annotations
-
 from importlib.util import find_spec
 
 from disc_model.figures.kinds import PLOTS, General

@@ -1,7 +1,5 @@
 """Maps of outcomes, regions and growth rates: cells, lines, marks, and what is said of them."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

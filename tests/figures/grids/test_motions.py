@@ -1,7 +1,5 @@
 """Figures of motions over one parameter: bifurcation diagrams, basins, ramps; and what all figures of grids do."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

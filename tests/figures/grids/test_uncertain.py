@@ -1,7 +1,5 @@
 """Figures of uncertain parameters and Campbell diagrams: what is drawn, and that no name covers another."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Followed motions, sweeps and curves whose outcome is known, and what quantities make of them."""
 
-from __future__ import annotations
-
 import json
 import math
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Grid studies: what files may say, and how grids become batches."""
 
-from __future__ import annotations
-
 import json
 import time
 from itertools import combinations

@@ -1,7 +1,5 @@
 """What may vary along a grid, and what is refused before anything is computed."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

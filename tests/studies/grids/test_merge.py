@@ -1,7 +1,5 @@
 """Batches put together again: in the grid's order, whole, and with failures named."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

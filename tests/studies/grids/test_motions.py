@@ -1,7 +1,5 @@
 """Motions of which histories are kept for the explorer."""
 
-from __future__ import annotations
-
 import importlib
 import json
 

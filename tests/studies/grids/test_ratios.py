@@ -1,7 +1,5 @@
 """Axes of ratios, which stand for a parameter."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

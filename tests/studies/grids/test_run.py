@@ -1,7 +1,5 @@
 """A point that fails costs its own row, not the batch."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Points that a grid's own rule leaves out: not computed, recorded as excluded, drawn as empty."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

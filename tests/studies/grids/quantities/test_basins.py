@@ -1,7 +1,5 @@
 """Shares of what many starts come to, and the least kick that separates."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """What a motion settles to, sampled at switches."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

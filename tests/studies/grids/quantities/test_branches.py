@@ -1,7 +1,5 @@
 """Branches of cycles against one parameter, beside a sweep."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

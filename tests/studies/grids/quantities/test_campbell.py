@@ -1,7 +1,5 @@
 """Campbell diagrams: rows of the table, crossings against root finding, and what growth rates do there."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The speed of onset, and every crossing."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cycles and their multipliers, tabulated."""
 
-from __future__ import annotations
-
 from disc_model import Parameters, floquet
 from disc_model.data.variables import flag_names
 from tests.studies.grids.conftest import SMALL, computed

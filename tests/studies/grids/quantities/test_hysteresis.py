@@ -1,7 +1,5 @@
 """Sweeps up and down."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Exponents as a quantity."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

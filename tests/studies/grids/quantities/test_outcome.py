@@ -1,7 +1,5 @@
 """What becomes of a motion."""
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np

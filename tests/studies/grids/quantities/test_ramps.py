@@ -1,7 +1,5 @@
 """Speed ramps up and down, of motions whose separations are known, and of a real one."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 

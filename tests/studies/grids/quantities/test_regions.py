@@ -1,7 +1,5 @@
 """Regions of outcomes: which cells are divided, and how tiles make a plane."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Uncertain parameters: what is drawn, what becomes of it, indices and probabilities of functions that are known."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Neutral curves and folds over two parameters."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr
