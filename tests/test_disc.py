@@ -116,6 +116,24 @@ def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> N
         dm.deflection(table, state, 0.13, 0.0)
 
 
+def test_a_table_is_read_as_a_spreadsheet_writes_it(tmp_path: Path) -> None:
+    """With a byte order mark, rows without text, and blanks around names; a radius has the digits that it needs."""
+    disc = dm.Disc(**THREE, radii=[0.073, 0.1], shapes=[[1.0, 0.1]] * 3)
+    text = disc_table(P.replace(disc=disc))
+    assert "shape_at_0.073_m" in text
+    (tmp_path / "disc.csv").write_text("\ufeff" + text.replace(",", " , ") + ",,,\n")
+    assert dm.read_disc(tmp_path / "disc.csv") == disc
+
+
+def test_the_slider_on_a_given_disc_runs_where_the_plate_ends(tmp_path: Path) -> None:
+    """A radius above the plate's b = 0.12 m was refused, and so was another b."""
+    assert dm.Parameters(N=1, Omega=1, disc=dm.Disc(**THREE), r_0=0.13).r_0 == 0.13
+    (tmp_path / "disc.csv").write_text(disc_table(P))
+    for said in ("base: {disc: disc.csv, r_0: 0.13, N: 1}", "base: {r_0: 0.13, N: 1}\naxes: {disc: [disc.csv]}"):
+        (tmp_path / "study.yaml").write_text(f"study: own\nquantity: floquet\nzip: {{Omega: [15]}}\n{said}\n")
+        load_study(tmp_path / "study.yaml")
+
+
 def test_without_shapes_a_deflection_is_refused() -> None:
     p = P.replace(disc=dm.Disc(**THREE))
     with pytest.raises(dm.ParameterError, match=r"^disc: must have shapes, in columns such as shape_at_0\.08_m: only"):
@@ -161,6 +179,23 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
             "diameters,frequency_Hz,amplitude\n1,2,3\n",
             "'amplitude': unknown column, did you mean amplitude_per_sqrt_kg",
         ),
+        # the first value was dropped, so that a mode of 2 Hz with the amplitude 551 was read
+        ("diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,2,551,0.5\n", "mode 1 has 4 values: must be as many as"),
+        (
+            "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,2,3\n2,-1,3\n",
+            "frequency_Hz='-1': must be within 0.001 and",
+        ),
+        (
+            "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,2,nan\n",
+            "amplitude_per_sqrt_kg='nan': must be finite (mode 1)",
+        ),
+        # `modes` showed a negative residual
+        (
+            "# static_compliance_m_per_N: 1e-9\ndiameters,omega_rad_per_s,amplitude_per_sqrt_kg\n1,1e3,1\n",
+            "static_compliance_m_per_N=1e-09: must not be less than what the modes give at the slider, 1e-06 m/N",
+        ),
+        ("diameters,frequency_Hz,amplitude_per_sqrt_kg,circles,circles\n", "must have one column circles, and not 2"),
+        ("diameters,frequency_Hz,amplitude_per_sqrt_kg,shape_at_.1_m,shape_at_0.10_m\n", "one column shape_at_0.1_m"),
     ],
 )
 def test_a_table_of_other_columns_is_told_apart(text: str, said: str, tmp_path: Path) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import csv
 import math
 import re
-from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -52,47 +52,74 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
     ParameterError
         If the file cannot be read or is no such table; the message names the column or mode, its value and the rule.
     """
-    import pandas as pd
-
-    text = _text(path)
-    lines = text.splitlines()
-    compliance = _static_compliance(lines, path)
-    rows = "\n".join(line for line in lines if not line.lstrip().startswith("#"))
+    lines = _text(path).splitlines()
+    values: dict[str, Any] = {"static_compliance": _static_compliance(lines, path)}
     try:
-        table = pd.read_csv(StringIO(rows), skipinitialspace=True, dtype=str, keep_default_na=False)
-    except (ValueError, pd.errors.ParserError) as error:
-        raise _fault(path, f"must be a table of comma-separated values ({' '.join(str(error).split())})") from None
-    faults = _column_faults([str(name) for name in table.columns])
-    if faults:
-        raise ParameterError(*(fault.inside((Path(path).name,)) for fault in faults))
-    values: dict[str, Any] = {"static_compliance": compliance}
+        return _disc(values, *_rows([line for line in lines if not line.lstrip().startswith("#")]))
+    except ParameterError as error:
+        raise ParameterError(*(fault.inside((Path(path).name,)) for fault in error.faults)) from None
+
+
+def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
+    """Names of the columns, and the cells of each mode; rows without text, as spreadsheets append them, are skipped."""
+    try:
+        table = [[cell.strip() for cell in row] for row in csv.reader(lines, skipinitialspace=True)]
+    except csv.Error as error:
+        raise ParameterError(Fault((), "", f"must be a table of comma-separated values ({error})")) from None
+    names, *rows = [row for row in table if any(row)] or [[]]
+    uneven = [
+        Fault((), "", f"mode {i} has {len(row)} values: must be as many as columns, {len(names)}")
+        for i, row in enumerate(rows, 1)
+        if len(row) != len(names)
+    ]
+    if faults := _column_faults(names) or uneven[:3]:
+        raise ParameterError(*faults)
+    return names, rows
+
+
+def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Disc:
+    """The disc of a table; what is wrong with a number is told of its column, mode and cell."""
     shapes: dict[float, list[float]] = {}
-    for name, column in table.items():
-        target, factor = COLUMNS.get(str(name), ("", 1.0))
-        numbers = [_value(path, str(name), i, cell, factor) for i, cell in enumerate(column)]
+    for at, name in enumerate(names):
+        target, factor = COLUMNS.get(name, ("", 1.0))
+        numbers = [_value(name, i, row[at], factor) for i, row in enumerate(rows, 1)]
         if target:
             values[target] = numbers
         else:
-            shapes[float(SHAPE.fullmatch(str(name))[1])] = numbers  # type: ignore[index]
+            shapes[float(SHAPE.fullmatch(name)[1])] = numbers  # type: ignore[index]
     if shapes:
         values["radii"] = sorted(shapes)
         values["shapes"] = list(zip(*(shapes[radius] for radius in sorted(shapes)), strict=True))
     try:
-        return Disc(**values)
+        disc = Disc(**values)
     except ParameterError as error:
-        raise ParameterError(*(Fault((Path(path).name,), "", str(fault)) for fault in error.faults)) from None
+        columns = {COLUMNS[name][0]: at for at, name in enumerate(names) if name in COLUMNS}
+        raise ParameterError(*(_of_table(fault, columns, names, rows) for fault in error.faults)) from None
+    static, modal = disc.static_compliance, math.fsum(np.square(np.divide(disc.amplitude, disc.omega)).tolist())
+    if static is not None and static < modal * (1 - 1e-9):  # both may be one sum, rounded
+        rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
+        raise ParameterError(Fault((STATIC_COMPLIANCE,), shown(static), rule))
+    return disc
+
+
+def _of_table(fault: Fault, columns: dict[str, int], names: list[str], rows: list[list[str]]) -> Fault:
+    if len(fault.path) != 2 or fault.path[0] not in columns:
+        return fault
+    at, i = columns[fault.path[0]], int(fault.path[1])
+    unit = " rad/s" if names[at] == "frequency_Hz" and "within" in fault.rule else ""
+    return Fault((names[at],), shown(rows[i][at]), f"{fault.rule}{unit} (mode {i + 1})")
 
 
 def disc_table(p: Parameters) -> str:
-    """The modes of a case as a table that `read_disc` reads; 17 digits bring numbers back as they were."""
+    """The modes of a case as a table that `read_disc` reads; their digits bring each number back as it was."""
     from disc_model.flexibility import residual_flexibility
 
     modes, lines = mode_arrays(p), []
     static = residual_flexibility(p).total if p.disc is None else p.disc.static_compliance
     if static is not None:
-        lines.append(f"# {STATIC_COMPLIANCE}: {static:.17g}")
+        lines.append(f"# {STATIC_COMPLIANCE}: {static}")
     radii, shapes = ((), ()) if p.disc is None else (p.disc.radii, p.disc.shapes)
-    shape_columns = [f"shape_at_{radius:.17g}_m" for radius in radii]
+    shape_columns = [f"shape_at_{radius}_m" for radius in radii]
     names = ("diameters", "circles", "omega_rad_per_s", "amplitude_per_sqrt_kg", "damping_ratio", *shape_columns)
     lines.append(",".join(names))
     with np.errstate(invalid="ignore"):
@@ -100,7 +127,7 @@ def disc_table(p: Parameters) -> str:
     for row in zip(
         modes.diameters, modes.circles, modes.omega, modes.psi, ratios, *zip(*shapes, strict=True), strict=True
     ):
-        lines.append(",".join(f"{value:.17g}" for value in row))
+        lines.append(",".join(str(value) for value in row))
     return "\n".join(lines) + "\n"
 
 
@@ -109,7 +136,7 @@ def _text(path: str | os.PathLike[str]) -> str:
         too_large = Path(path).stat().st_size > LARGEST
         text = "" if too_large else Path(path).read_text(encoding="utf-8-sig")
     except (OSError, TypeError, ValueError) as error:
-        said = getattr(error, "strerror", None) or type(error).__name__
+        said = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
         raise _fault(path, f"must be a text file that can be read ({said})") from None
     if too_large:
         raise _fault(path, f"must be a table of at most {LARGEST // 1_000_000} MB")
@@ -136,22 +163,21 @@ def _column_faults(names: list[str]) -> list[Fault]:
             if ";" in name or "\t" in name:
                 return [Fault(("columns",), shown(name), "must be separated by commas, with points in numbers")]
             faults.append(Fault(("columns",), shown(name), f"unknown column{suggestion(name, list(COLUMNS))}"))
-    given = [COLUMNS[name][0] for name in names if name in COLUMNS]
-    for target in ("diameters", "omega", "amplitude"):
-        wanted = " or ".join(name for name, (which, _) in COLUMNS.items() if which == target)
-        if given.count(target) != 1:
-            rule = f"must have one column {wanted}" + (f", and not {given.count(target)}" if target in given else "")
+    radii = [f"shape_at_{float(match[1])}_m" for name in names if (match := SHAPE.fullmatch(name))]
+    given = [COLUMNS[name][0] for name in names if name in COLUMNS] + radii
+    for target in dict.fromkeys(["diameters", "omega", "amplitude", *given]):
+        if (count := given.count(target)) != 1:
+            wanted = " or ".join(name for name, (which, _) in COLUMNS.items() if which == target) or target
+            rule = f"must have one column {wanted}" + (f", and not {count}" if count else "")
             faults.append(Fault(("columns",), "", rule))
     return faults
 
 
-def _value(path: object, name: str, i: int, cell: str, factor: float) -> float:
+def _value(name: str, i: int, cell: str, factor: float) -> float:
     try:
         return float(cell) * factor
     except ValueError:
-        raise ParameterError(
-            Fault((Path(str(path)).name, name), shown(cell), f"must be a number (mode {i + 1})")
-        ) from None
+        raise ParameterError(Fault((name,), shown(cell), f"must be a number (mode {i})")) from None
 
 
 def _fault(path: object, rule: str) -> ParameterError:

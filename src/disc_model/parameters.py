@@ -364,7 +364,7 @@ CHOOSING = ("truncation_quantity", "truncation_tolerance")
 RESIDUAL = "residual"
 """As ``contact_compliance``: the static give of the modes left out."""
 
-RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu")
+RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
 """Parameters that rules relate to each other."""
 
 PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
@@ -468,7 +468,7 @@ class Disc(Checked):
     damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = ()
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = ()
     static_compliance: Positive | None = None
-    radii: tuple[Positive, ...] = ()
+    radii: tuple[Positive, ...] = Field((), repr=False)
     shapes: tuple[tuple[Finite, ...], ...] = Field((), repr=False)
 
     _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "shapes")
@@ -569,15 +569,15 @@ def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> l
                     f"{name} and frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a "
                     f"pair once, by its mean frequency, and what splits it is neglected"
                 )
-            faults.append(Fault(("omega",), shown(omega[j]), rule))
+            faults.append(Fault(("omega", str(j)), shown(omega[j]), rule))
     return faults[:3]
 
 
 class Parameters(Checked):
     """One case of the disc and slider, a plain value. Defaults are the paper's Table 1.
 
-    The radii must ascend, a < r_0 <= b, and mu_k must not be above mu_s. `disc_model.choose_modes` finds how many modes
-    a tolerance asks for.
+    The radii of the plate must ascend, a < r_0 <= b, and mu_k must not be above mu_s. `disc_model.choose_modes` finds
+    how many modes a tolerance asks for.
 
     Parameters
     ----------
@@ -739,7 +739,8 @@ def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
         if math.isfinite(value):
             values[name] = value
     faults: list[str] = []
-    for low, sign, holds, high in _ORDER:
+    # a disc that is given by its modes has other radii than the plate
+    for low, sign, holds, high in _ORDER if data.get("disc") is None else _ORDER[:1]:
         if low in values and high in values and not holds(values[low], values[high]):
             faults.append(Fault((low,), shown(values[low]), f"must be {sign} {high}={shown(values[high])}"))
     if values.keys() >= {"E", "h", "nu"} and values["E"] > 0 and values["h"] > 0 and abs(values["nu"]) < 1:

@@ -105,9 +105,8 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
             given["disc"] = read_disc(case["disc"])
     except ParameterError as error:
         del given["disc"]
-        for fault in error.faults:
-            rule = ": ".join(filter(None, (fault.value, fault.rule)))
-            faults.append(Fault(("disc",), shown(case["disc"]), rule))
+        inner = (Fault(fault.path[1:], fault.value, fault.rule) for fault in error.faults)  # without the file's name
+        faults += (Fault.of(("disc",), case["disc"], str(fault)) for fault in inner)
     try:
         p, asked = read_asked(given)
         tell_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
