@@ -127,8 +127,9 @@ def test_json_round_trip_is_exact(N: float, Omega: float) -> None:
 
 
 def test_import_is_light() -> None:
-    heavy = "{'numba', 'xarray', 'pandas', 'matplotlib'}"
-    code = f"import sys, disc_model; disc_model.Parameters; print({heavy} & set(sys.modules))"
+    """The library for units is loaded where one is met only: it takes a second."""
+    heavy = "{'numba', 'xarray', 'pandas', 'matplotlib', 'pint'}"
+    code = f"import sys, disc_model; disc_model.Parameters(N='1e2', Omega=1); print({heavy} & set(sys.modules))"
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert out.stdout.strip() == "set()"
 

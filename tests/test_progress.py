@@ -2,7 +2,6 @@
 
 import builtins
 import io
-import subprocess
 import sys
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -76,14 +75,6 @@ def test_a_bar_goes_no_further_than_the_end(monkeypatch: pytest.MonkeyPatch) -> 
         tell(1.0)
         tell(9.0)
     assert texts()[1:3] == ["█" * 8 + "░" * 22 + " simulating: 1.00 of 4 s", "█" * 30 + " simulating: 4.00 of 4 s"]
-
-
-@pytest.mark.compiled
-def test_kernels_from_the_cache_are_no_news(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A part of them is compiled, in no time."""
-    code = "import disc_model; disc_model.simulate(disc_model.Parameters(N=200, Omega=50, n_diameters=1), 1e-3)"
-    simulate(P, 1e-3)
-    assert not subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stderr
 
 
 @pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")

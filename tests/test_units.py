@@ -2,8 +2,6 @@
 
 import json
 import math
-import subprocess
-import sys
 from typing import Any
 
 import pytest
@@ -113,9 +111,3 @@ def test_a_study_names_the_place_of_a_unit_that_does_not_fit() -> None:
         f"starts.k.kick.u = '1 s': {rule.format('m')}",
         f"axes.h = '2 N': {rule.format('m')}",
     }
-
-
-def test_units_are_loaded_where_one_is_met_only() -> None:
-    """The library for them takes a second."""
-    code = "import sys, disc_model as dm; dm.Parameters(N='1e2', Omega=1); print('pint' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"

@@ -31,28 +31,8 @@ OLD = {
     r"normaliz\w+|behavior\w*|stabiliz\w+|colors?|centers?": "British spelling; `normalization` only as a key",
 }
 """Words that pages do not use, and those of the glossary that they do."""
-GREEK = {
-    "alpha": "α",
-    "beta": "β",
-    "delta": "δ",
-    "kappa": "κ",
-    "mu": "μ",
-    "nu": "ν",
-    "xi": "ξ",
-    "psi": "ψ",
-    "Psi": "Ψ",
-    "Pi": "Π",
-    "Phi": "Φ",
-    "Sigma": "Σ",
-    "sigma": "σ",
-    "omega": "ω",
-    "Omega": "Ω",
-    "varphi": "φ",
-    "rho": "ρ",
-    "theta": "θ",
-    "Lambda": "Λ",
-    "lambda": "λ",
-}
+NAMES = "alpha beta delta kappa mu nu xi psi Psi Pi Phi Sigma sigma omega Omega varphi rho theta Lambda lambda"
+GREEK = dict(zip(NAMES.split(), "αβδκμνξψΨΠΦΣσωΩφρθΛλ", strict=True))
 STANDARD = {"e", "i", "I", "O", "T", "H"}
 """Letters of mathematics: Euler's number, the imaginary unit, the identity, Landau's symbol, transposes."""
 

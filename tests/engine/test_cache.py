@@ -161,4 +161,5 @@ dm.floquet(p)
     for _ in range(2):
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not done.stdout
+    assert not done.stderr  # kernels from the cache are no news
     assert Path(machine.run.stats.cache_path).name.startswith("engine-")
