@@ -193,10 +193,6 @@ def test_the_version_is_told(command: Command) -> None:
     assert command.out("--version") == f"disc_model {disc_model.__version__}\n"
 
 
-def test_what_auto_chose_is_told(command: Command) -> None:
-    assert command.out("modes", "--n-diameters", "auto").startswith("modes chosen")
-
-
 def test_auto_is_told_by_what_to_choose(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: 1.0 + 0.1 / p.n_diameters)
     asked = ("modes", *SMALL_BASE[:4], "--n-diameters", "auto", "--truncation-quantity", "growth")

@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from disc_model import ParameterError, Parameters, choose_modes, mode_choice
-from disc_model.cli.case import parameters_of
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import CANDIDATES, larger
 from disc_model.simulation.api import run_case
@@ -114,15 +113,6 @@ def test_the_record_holds_what_was_compared(measured: Measured) -> None:
         "tolerance": 1e-3,
         "values": {"1,0": 2.0, "2,0": 2.0, "2,1": 2.0},
     }
-
-
-def test_files_and_command_lines_name_the_quantity(measured: Measured) -> None:
-    measured(lambda d, c: 1.0 + 0.1 / d**2)
-    values = {"N": 385, "Omega": 15.1, "n_diameters": "auto", "n_circles": 5}
-    p, choice = parameters_of({**values, "truncation_quantity": "growth"}, [])
-    assert (p, choice) == (P.replace(n_diameters=3), choose_modes(P, 1e-2, quantity="growth"))
-    p, _ = parameters_of({**values, "truncation_quantity": "growth", "truncation_tolerance": "0.05"}, [])
-    assert p == P.replace(n_diameters=2)
 
 
 def test_bad_quantities_are_named() -> None:

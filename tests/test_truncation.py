@@ -9,7 +9,7 @@ from disc_model.cli.case import parameters_of
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.study import StudyError, parse_study
+from disc_model.studies.study import parse_study
 from disc_model.truncation import RICH, frequency_error
 
 P = Parameters(N=385.0, Omega=15.1)
@@ -89,11 +89,6 @@ def test_chosen_parameters_are_those_given_outright() -> None:
     assert chosen.model_copy() == chosen
 
 
-def test_a_plain_value_leaves_no_choice() -> None:
-    with pytest.raises(ParameterError, match=r"n_diameters='auto': must be a whole number; disc_model\.choose_modes"):
-        Parameters(N=385, Omega=15.1, n_diameters="auto")
-
-
 @pytest.mark.compiled
 def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
     raw = {"study": "s", "base": {"Omega": 15.1}, "cases": {}}
@@ -108,10 +103,3 @@ def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
     assert run_case(read).attrs["truncation"] == record
     assert "truncation" not in run_case(given).attrs
     assert "truncation" not in given.canonical
-
-
-def test_a_case_for_which_modes_cannot_be_chosen_is_a_fault() -> None:
-    raw = {"study": "s", "base": {"Omega": 15.1, "n_diameters": "auto", "k": 1e50}}
-    raw["cases"] = {"A": {"title": "A", "t_end": 0.01, "parameters": {"N": 385}}}
-    with pytest.raises(StudyError, match=r"base\.n_diameters = 'auto': disc and slider at rest: m=0\.1, k=1e\+50"):
-        parse_study(raw)

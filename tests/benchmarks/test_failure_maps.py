@@ -50,11 +50,3 @@ def test_observed_stability_limit_is_the_linear_one(diameters):
     """2 sqrt(2)/omega_max is exact for a linear undamped system; stick-slip and damping shift it by 3 % at most."""
     theory = float(failure_maps.failure_map("RK4", "separating", (diameters,), (1e-3,))["step_limit"][0])
     assert failure_maps.observed_step_limit(diameters) == pytest.approx(theory, rel=0.03)
-
-
-@pytest.mark.compiled
-def test_failure_map():
-    found = failure_maps.failure_map("RK4", "stick_slip", (1, 4), (1e-3, 3e-4, 5e-5))
-    words = np.array(found["verdict"].attrs["flag_meanings"].split())[found["verdict"].values]
-    assert words.tolist() == [["inaccurate", "inaccurate", "converged"], ["unstable", "inaccurate", "converged"]]
-    assert found["modes"].values.tolist() == [3, 9]

@@ -56,6 +56,9 @@ OUTCOMES: dict[str, tuple[dict[str, Any], float, Outcome]] = {
         Outcome.OTHER_CYCLE,
     ),
     "too soon to say": ({"N": 385, "Omega": 15.1}, 9, Outcome.UNDECIDED),
+    "a bond that holds cannot separate": ({"N": 385, "Omega": 15.1, "contact": "bonded"}, 60, Outcome.GROWING),
+    # without friction and damper nothing brings it to steady sliding; that it did not grow was called stable
+    "a slider that swings for ever": ({"N": 100, "Omega": 10, "mu_s": 0, "mu_k": 0}, 100, Outcome.UNDECIDED),
 }
 
 

@@ -23,6 +23,17 @@ OPTIONS = (
 )
 
 
+CONTRAST = """
+    const light = text => { const [r, g, b] = text.match(/[0-9.]+/g).slice(0, 3).map(x => Number(x) / 255)
+        .map(x => x <= 0.03928 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+    const behind = x => { for (; x; x = x.parentElement) { const c = getComputedStyle(x).backgroundColor;
+        if (c !== "rgba(0, 0, 0, 0)") return light(c); } return 1; };
+    return Math.min(...[...document.querySelectorAll(arguments[0])].filter(x => x.innerText).map(x => {
+        const text = light(getComputedStyle(x).color), back = behind(x);
+        return (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05); }));"""
+
+
 class Page:
     """A page opened in a browser of its own."""
 
@@ -61,6 +72,11 @@ class Page:
         features = [{"name": "prefers-color-scheme", "value": scheme}]
         command = {"cmd": "Emulation.setEmulatedMedia", "params": {"features": features}}
         self.call("POST", "/goog/cdp/execute", command)
+
+    def contrast(self, of: str) -> float:
+        """The least contrast of these elements; the guidelines for accessible pages ask for 4.5."""
+        found: float = self.run(CONTRAST, of)
+        return found
 
     def point(self, x: float, y: float, *, click: bool = False) -> None:
         """Move the pointer to a place in the window, and click there."""

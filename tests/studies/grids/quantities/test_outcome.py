@@ -73,12 +73,6 @@ def test_the_observed_rate_of_decay_is_that_of_the_multipliers() -> None:
 
 
 @pytest.mark.compiled
-def test_a_bond_that_holds_cannot_separate() -> None:
-    _, words = outcomes([Parameters(N=385, Omega=15.1, contact="bonded")], horizon=60)
-    assert words == ["growing"]
-
-
-@pytest.mark.compiled
 def test_following_does_not_move_the_first_separation() -> None:
     p = Parameters(N=385, Omega=15.1)
     arrays, words = outcomes([p], horizon=100)
@@ -87,15 +81,6 @@ def test_following_does_not_move_the_first_separation() -> None:
     assert arrays["first_separation"][0] == pytest.approx(alone, abs=1e-6)
     assert arrays["separation_rate"][0] > 100
     assert arrays["P_min"][0] == 0
-
-
-@pytest.mark.compiled
-def test_a_slider_that_swings_for_ever_has_come_to_nothing() -> None:
-    """Without friction and damper nothing brings it to steady sliding; that it did not grow was called stable."""
-    arrays, words = outcomes([Parameters(N=100, Omega=10, mu_s=0, mu_k=0)], horizon=100)
-    assert words == ["undecided"]
-    assert arrays["share_slip"][0] == 1
-    assert arrays["P_max"][0] == pytest.approx(100, abs=0.05)
 
 
 def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
