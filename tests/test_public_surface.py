@@ -11,7 +11,6 @@ import pytest
 import disc_model
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, State, Window, simulate
 from disc_model.data import dataset
-from disc_model.simulation.api import published_start
 from disc_model.stability.bifurcation import bifurcation_samples
 from disc_model.stability.branch import Steps
 from disc_model.stability.continuation import continue_border, continue_cycle
@@ -26,6 +25,7 @@ HOSTILE: dict[str, Any] = {
     "bytes": b"1",
     "None": None,
     "True": True,
+    "flag": np.True_,
     "nan": math.nan,
     "inf": math.inf,
     "negative": -1.5,
@@ -37,16 +37,21 @@ HOSTILE: dict[str, Any] = {
     "pair": (2, 1),
     "array": np.array([1.0, math.nan]),
     "matrix": np.eye(2),
+    "scalar": np.array(0.5),
+    "words": np.array(["1", "1"]),
     "dict": {1: 2},
     "empty": (),
     "object": object(),
 }
 FILE = "text digits"
-ANY = "zero negative pair empty matrix"
+ANY = "zero negative pair empty matrix scalar"
+
+
+SLIPPING = simulate(P, 2.5e-3).final_state
 
 
 def start(**changes: object) -> None:
-    simulate(P, 1.0, initial_state=published_start(P).replace(**changes))
+    simulate(P, 1.0, initial_state=SLIPPING.replace(**{"time_low": SLIPPING.time_low} | changes))
 
 
 start.__signature__ = inspect.signature(State)  # type: ignore[attr-defined]
@@ -80,7 +85,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
             **dict.fromkeys(("a", "b", "alpha", "beta"), "pair"),
             "mode_amplitudes": "None",
             "case_key": " ".join(HOSTILE),
-            "direction": " ".join(HOSTILE),
         },
     ),
     (disc_model.snapshots, {"p": P, "times": 1e-4}, {"times": "zero empty", "initial_state": "None"}),
@@ -96,7 +100,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {
             "values": "pair",
             "transient": "zero",
-            "follow": "True",
+            "follow": "True flag",
             "initial_state": "None",
             "theta": "zero negative digits",
         },
@@ -116,7 +120,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         lyapunov_exponents,
         {"p": P, "duration": 0.1},
-        {"transient": "zero", "initial_state": "None", "leave_out_trivial": "True"},
+        {"transient": "zero", "initial_state": "None", "leave_out_trivial": "True flag"},
     ),
     (
         Window,
@@ -129,7 +133,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         },
     ),
     (Poincare, {}, {"start": "zero", "stop": "inf huge wide", "theta": "zero negative"}),
-    (Record, {}, {"windows": "empty", "poincare": "None", "events": "True zero bytes", "energy": "True zero bytes"}),
+    (
+        Record,
+        {},
+        {"windows": "empty", "poincare": "None", "events": "True flag zero bytes", "energy": "True flag zero bytes"},
+    ),
     (Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {"start": "zero"}),
     (RUN.value_at, {"name": "N", "times": 0.0}, {"times": ANY}),
     (RUN.to_tree, {}, {"names": f"None {FILE}"}),

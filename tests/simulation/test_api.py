@@ -56,21 +56,6 @@ def test_no_call_decides_how_later_ones_are_computed(given):
     same(simulate(P, 0.0625), usual)
 
 
-@pytest.mark.parametrize(
-    "given",
-    [
-        {"t_end": True}, {"t_end": np.array(0.1)}, {"tol": True}, {"tol": np.array([1e-9, 1e-8])}, {"max_steps": True},
-        {"max_steps": np.True_}, {"max_steps": 5.0}, {"max_steps": np.array(5)}, {"stop_at": np.array(["a", "b"])},
-        {"stop_at": np.array(["first_separation"])}, {"ramps": np.array([1, 2])}, {"progress": 3},
-    ],
-    ids=str,
-)  # fmt: skip
-def test_what_is_no_such_value_is_refused(given):
-    (name,) = given
-    with pytest.raises(ParameterError, match=rf"^{name}=.*: must be"):
-        simulate(P, **{"t_end": 0.1, **given})
-
-
 STATE = simulate(P, 0.0371).final_state
 
 
@@ -89,27 +74,6 @@ def test_a_state_is_taken_as_doubles(change):
     plain = {name: np.array(getattr(given, name), float) for name in ("a", "b", "alpha", "beta")}
     expected = simulate(P, 0.1, initial_state=STATE.replace(u=u, **plain))
     same(simulate(P, 0.1, initial_state=given.replace(u=u)), expected)
-
-
-NO_NUMBERS = [True, np.array(0.0), np.array([0.0, 1.0]), None, "x", 1j, np.array(["1", "1"]), [0, 0]]
-
-
-@pytest.mark.parametrize("value", NO_NUMBERS, ids=str)
-@pytest.mark.parametrize("name", ["time", "time_low", "phase", "direction", "psi", "f", "u", "u_velocity", "known"])
-def test_what_is_no_number_is_refused_in_a_state(name, value):
-    with pytest.raises(ParameterError, match=rf"^initial_state\.{name}[=:]"):
-        simulate(P, 0.1, initial_state=STATE.replace(**{"time_low": STATE.time_low, name: value}))
-
-
-@pytest.mark.parametrize(
-    "values", [None, "xx", ["1", "1"], [True, False], np.zeros(2, complex), [0, math.nan], [[0, 0]]], ids=str
-)
-@pytest.mark.parametrize("name", ["a", "b", "alpha", "beta", "mode_amplitudes"])
-def test_what_are_no_numbers_is_refused_in_a_state(name, values):
-    if name == "mode_amplitudes" and values is None:  # of a state made by hand
-        return
-    with pytest.raises(ParameterError, match=rf"initial_state\.{name}: must be 2 finite numbers"):
-        simulate(P, 0.1, initial_state=STATE.replace(**{name: values}))
 
 
 def test_a_run_stops_at_its_first_separation():
@@ -134,7 +98,7 @@ def test_a_state_that_overflows_is_named():
 
 def test_all_faults_of_the_arguments_come_at_once():
     with pytest.raises(ParameterError) as error:
-        simulate(3, math.nan, tol=1, record="all", stop_at="never", max_steps=0)
+        simulate(3, math.nan, tol=1, record="all", stop_at="never", max_steps=5.0)
     names = [fault.partition("=")[0] for fault in error.value.faults]
     assert names == ["p", "record", "t_end", "tol", "stop_at", "max_steps"]
     state = simulate(P, 1e-3).final_state

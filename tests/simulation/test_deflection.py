@@ -69,14 +69,6 @@ def test_bad_input_is_named() -> None:
         deflection(P, state, 0.2, np.nan)
     with pytest.raises(ParameterError, match=r"states.0: must have 4 modes, as the case, and not 5"):
         deflection(P.replace(n_diameters=3), state, 0.1, 0.0)
-    with pytest.raises(ParameterError, match=r"p='p': must be Parameters; initial_state=1: must be a State; times='a'"):
-        snapshots("p", "a", initial_state=1)  # type: ignore[arg-type]
-    with pytest.raises(
-        ParameterError, match=r"r='a': must be .*; theta=None: must be finite; states.1=5: must be a State"
-    ):
-        deflection(P, [state, 5], "a", None)  # type: ignore[list-item, arg-type]
-    with pytest.raises(ParameterError, match=r"p='p': must be Parameters"):
-        deflection("p", state, 0.1, 0.0)  # type: ignore[arg-type]
 
 
 def test_a_rigid_disc_stays_flat() -> None:

@@ -252,11 +252,6 @@ class TestArguments:
         with pytest.raises(ParameterError, match=rf"^checkpoint=.*{rule}$"):
             simulate(P, 1, checkpoint=path)
 
-    @pytest.mark.parametrize("every", [-1, float("nan"), float("inf"), "5", None, True])
-    def test_no_time(self, every: Any) -> None:
-        with pytest.raises(ParameterError, match=r"^checkpoint_every=.*: must be finite and >= 0$"):
-            simulate(P, 1, checkpoint_every=every)
-
     @pytest.mark.compiled
     def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(
         self, run: Options, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch

@@ -106,7 +106,7 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
 def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> tuple[list[State], Array, Array]:
     """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
     refuse(_foreign(p, None))
-    given: list[Any] = list(states) if isinstance(states, Iterable) else [states]
+    given: list[Any] = list(states) if np.iterable(states) else [states]
     psi, (low, high) = mode_arrays(p).psi, radial_range(p)
     radii, angles = _numbers(r), _numbers(theta)
     within = radii is not None and np.all((radii >= low) & (radii <= high))

@@ -6,7 +6,7 @@ import dataclasses
 import json
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -335,7 +335,7 @@ _GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")
 
 def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
     """Names of a result's windows: each becomes a group of a file, beside those that are there in any case."""
-    given = list(names) if isinstance(names, Iterable) and not isinstance(names, str) else [names]
+    given = list(names) if np.iterable(names) and not isinstance(names, str) else [names]
     good = all(isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() for name in given)
     if not good or not len(given) == len(result.samples) == len(set(given) - set(BESIDE_WINDOWS)):
         rule = f"must be {len(result.samples)} different names, one a window, of at most 60 printable characters, "

@@ -66,7 +66,7 @@ def bifurcation_samples(
     """
     import xarray as xr
 
-    values = list(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes | Mapping) else values
+    values = list(values) if np.iterable(values) and not isinstance(values, str | bytes | Mapping) else values
     _check(p, name, values, transient, samples, follow, initial_state)
     values = list(map(float, values))
     cases = [p.replace(**{name: value}) for value in values]
