@@ -92,7 +92,7 @@ $(PARTS): test-%: kernels
 
 # Compiled once, before parts that run at the same time would each compile them.
 kernels: env
-	$(BIN)/python -m disc_model warm
+	$(BIN)/python -m disc_model compile
 
 # What compiling each kind of kernel costs, from an empty cache.
 compile-times: env

@@ -86,7 +86,7 @@ def test_help_shows_units_defaults_and_what_there_is_to_choose_from(
     assert command.out("help", "run") == out
     out = command.out("help")
     assert out == command.out("--help")
-    for name in ("run", "floquet", "modes", "study", "list", "init", "warm", "--install-completion"):
+    for name in ("run", "floquet", "modes", "study", "list", "init", "compile", "--install-completion"):
         assert name in out
 
 
@@ -142,13 +142,13 @@ def test_module_runs_as_a_program() -> None:
 
 
 def test_warm_says_that_it_is_done(command: Command) -> None:
-    said = command.out("warm")
+    said = command.out("compile")
     assert [line.partition(":")[0] for line in said.splitlines()] == [
         "simulate-rigid_vertical",
         "floquet-rigid_vertical",
         "kernels compiled and cached",
     ]
-    assert "did you mean ramp-rigid_normal?" in command.error("warm", "ramp-rigid_norml")
+    assert "did you mean ramp-rigid_normal?" in command.error("compile", "ramp-rigid_norml")
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), RuntimeError("unforeseen")])

@@ -312,7 +312,7 @@ def test_numbers_of_single_modes_can_be_uncertain(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text(disc_table(P))
     study = computed(tmp_path, UNCERTAIN)
     own = dm.read_disc(tmp_path / "a.csv")
-    drawn = study["drawn"].isel(N=0, sample=0).sel(draw="A")
+    drawn = study["parameter_values"].isel(N=0, sample=0).sel(sample_matrix="A")
     numbers = {str(name): float(drawn.sel(parameter=name)) for name in drawn["parameter"].values}
     changed = dm.Parameters(N=385, Omega=15, disc=own).replace(**numbers)
     expected = {"omega": {1: "omega_1_0"}, "amplitude": {2: "amplitude_2_0"}, "damping_ratio": {0: "damping_ratio_0_0"}}

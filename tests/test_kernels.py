@@ -5,7 +5,7 @@ import pytest
 from disc_model import Parameters, Ramp
 from disc_model.engine.layout import HALF
 from disc_model.kernels import KINDS, LAWS, PAIRS_OF_A_BLOCK, example, kinds_of, kinds_of_case
-from disc_model.simulation.case import CaseSpec, Preparation, Start
+from disc_model.simulation.case import CaseSpec, Prerun, Start
 from disc_model.simulation.result import engine_case
 from disc_model.studies.modes import to_text
 from disc_model.truncation import Asked
@@ -42,7 +42,7 @@ def test_an_example_is_what_the_compiler_takes_for_its_kind(kind: str) -> None:
             SIMULATED | {"floquet-rigid_vertical", "floquet-rigid_vertical-wide"},
         ),
         (
-            {"start": Start(prepare=Preparation(parameters={"contact_force": "normal"}, time=1.0))},
+            {"start": Start(prerun=Prerun(parameters={"contact_force": "normal"}, time=1.0))},
             {"simulate-rigid_vertical", "simulate-rigid_normal"},
         ),
     ],

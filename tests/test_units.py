@@ -50,8 +50,8 @@ def test_python_takes_units_everywhere() -> None:
 
 
 def grid(E: Any, h: Any, Omega: Any, **options: Any) -> dict[str, Any]:
-    axes = {"Omega": Omega, "h": h, "start": ["published", "k"]}
-    starts = {"k": {"kick": {"u": options.pop("u")}}}
+    axes = {"Omega": Omega, "h": h, "start": ["static", "k"]}
+    starts = {"k": {"perturbation": {"u": options.pop("u")}}}
     return {
         "study": "s",
         "quantity": "outcome",
@@ -83,7 +83,7 @@ def test_spelling_with_units_runs_nothing_anew() -> None:
 
 def test_numbers_of_figures_have_the_units_of_their_axes() -> None:
     axes = {"Omega": [1, 2], "h": [1e-3, 2e-3]}
-    marks = {"A": {"x": "1 rad/s", "y": "2 mm", "paper": "quiet"}}
+    marks = {"A": {"x": "1 rad/s", "y": "2 mm", "paper_outcome": "quiet"}}
     figures = {
         "map": {"kind": "stability_map", "x": "Omega", "y": "h", "marks": marks},
         "cut": {"kind": "curve", "variable": "P_max", "x": "Omega", "at": {"h": "1 mm"}},
@@ -108,6 +108,6 @@ def test_a_study_names_the_place_of_a_unit_that_does_not_fit() -> None:
     assert set(faults_of(parse_study, raw)) == {
         f"base.E = '150 kg': {rule.format('Pa')}",
         f"options.horizon = '60 m': {rule.format('s')}",
-        f"starts.k.kick.u = '1 s': {rule.format('m')}",
+        f"starts.k.perturbation.u = '1 s': {rule.format('m')}",
         f"axes.h = '2 N': {rule.format('m')}",
     }

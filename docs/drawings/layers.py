@@ -35,6 +35,7 @@ WHAT = {
     "plausibility": "implausible values",
     "progress": "progress displays",
     "errors": "statuses, exceptions and their messages",
+    "renamed": "names that are gone, and their successors",
 }
 """A few words for each part of a layer."""
 COLOURS = ("#e8f1f8", "#d3e4f2")

@@ -6,12 +6,15 @@ import difflib
 import enum
 import logging
 import math
+import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any, Literal, Self, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
+
+from disc_model.renamed import renamed
 
 # ----------------------------------------------------------------------------------------------------
 # Exceptions
@@ -162,6 +165,8 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
         else:
             known_rule = _RULES.get(kind)
             rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
+            if kind == "literal_error":
+                rule += renamed(value, re.findall(r"'(\w+)'", context["expected"]))
             yield Fault(path, _shown_faulty(kind, value), rule)
 
 
@@ -208,6 +213,8 @@ def shown(value: Any) -> str:
 
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
     """What may have been meant, and what there is; of many names only the one that comes close, if one does."""
+    if new := renamed(name, known):
+        return new
     folded = {field.lower(): field for field in known}
     close = difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
     meant = f", did you mean {folded[close[0]]}?" if close else ""

@@ -49,8 +49,8 @@ def kinds_of_case(spec: CaseSpec) -> list[str]:
         values["n_diameters"] = AUTO
         tasks += ["floquet"] * (json.loads(spec.modes)["quantity"] == "growth")
     found = {*kinds_of([values], tasks)}
-    if spec.start.prepare is not None:
-        found |= {*kinds_of([values | spec.start.prepare.parameters], ["simulate"])}
+    if spec.start.prerun is not None:
+        found |= {*kinds_of([values | spec.start.prerun.parameters], ["simulate"])}
     return [kind for kind in KINDS if kind in found]
 
 
@@ -75,7 +75,7 @@ def example(kind: str) -> Parameters:
     return Parameters(N=385, Omega=15, **LAWS[law], **(WIDTHS["-wide"] if width else {}))
 
 
-def warm(kind: str) -> float:
+def compile_kernels(kind: str) -> float:
     """Have the kernels of a kind compiled, so that jobs find them in the cache; s that it took."""
     # not above: a study is read without the engine
     from disc_model.simulation.api import simulate

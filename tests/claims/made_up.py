@@ -362,7 +362,7 @@ def scans(
     """
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
-    bonded = {"share_stick": (("Omega", "N"), shares), "settled": (("Omega", "N"), times)}
+    bonded = {"stick_fraction": (("Omega", "N"), shares), "settling_time": (("Omega", "N"), times)}
     kinds = ["failed", "quiet", "growing", "separation"]
     outcome = np.full((3, 2, 2), kinds.index("quiet"), dtype=np.int8)
     outcome[:, 1] = np.array([[kinds.index(kind)] for kind in discs])

@@ -72,9 +72,9 @@ def curves(
             "kind": flag(np.array([kind, "none"]), ("none", "neutral", "fold"), ["curve"]),
             "x": (dims, x),
             "y": (dims, y),
-            "border": flag(np.full((2, 3), border), ("no", "yes"), dims),
+            "adjoins_stable_cycle": flag(np.full((2, 3), border), ("no", "yes"), dims),
             "status": flag(np.array(status), ("ok", "failed"), ()),
-            "n_unfollowed": missed,
+            "n_continuation_failures": missed,
         }
     )
 

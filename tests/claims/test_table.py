@@ -111,7 +111,7 @@ def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -
 
 
 def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
-    case = {"parameters": {"N": 385, "Omega": 15}, "t_end": 0.01, "start": {"kick": {"f": 1.0}}}
+    case = {"parameters": {"N": 385, "Omega": 15}, "t_end": 0.01, "start": {"perturbation": {"f": 1.0}}}
     claim = Claim("x", Text(location="", claim="", cases={"F11": 0}, ours=""), lambda _: Answer(True))
     said = "case F11 does not begin with the static start in this study"
     assert claim.evaluate(views(tree_of(F11=case))).verdict == f"{NOT_COMPUTED}: {said}"

@@ -151,8 +151,8 @@ def test_samples_and_audit_within_a_coast() -> None:
         size = max(np.abs(values).max(), 1e-3 * (name == "u_velocity"))
         np.testing.assert_allclose(closed.samples[0][name], values, rtol=0, atol=1e-9 * size, err_msg=name)
     # the quadrature of a step is good to rounding, so is that of a coast
-    assert closed.statistics["energy_transverse"] < 1e-13
-    assert closed.statistics["energy_inplane"] < 1e-13
+    assert closed.statistics["energy_residual_transverse"] < 1e-13
+    assert closed.statistics["energy_residual_inplane"] < 1e-13
 
 
 @pytest.mark.compiled

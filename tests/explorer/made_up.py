@@ -38,7 +38,7 @@ def plane() -> xr.Dataset:
         "status": (dims, status, flagged("what became of the computation", "ok failed")),
         "outcome": (dims, outcome - 1, flagged("what becomes of the start", "quiet separation", first=-1)),
         "growth_rate": (dims, growth, {"long_name": "growth rate", "units": "s-1"}),
-        "origin": (dims, origin, flagged("how the value is known", "simulation undivided_cell")),
+        "method": (dims, origin, flagged("how the value is known", "simulation inferred")),
         "releases": (dims[:2], np.arange(12).reshape(3, 4), {"long_name": "number of releases", "units": "1"}),
         "message": (dims, message),
     }

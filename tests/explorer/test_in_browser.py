@@ -194,11 +194,11 @@ def test_what_was_simulated_is_marked(shown: Page) -> None:
     assert "how the value is known: simulation" in text(shown, "legend")
     assert shown.run(middle, 0, 0) == [255, 255, 255]
     assert shown.run(middle, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]) != [255, 255, 255]
-    choose(shown, "Dots", "origin=undivided_cell")
+    choose(shown, "Dots", "method=inferred")
     assert shown.run(middle, 0, 0) != [255, 255, 255]
-    choose(shown, "Variable", "origin")
+    choose(shown, "Variable", "method")
     shown.point(*centre(shown, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]))
-    assert "origin undivided_cell" in text(shown, "hovered")
+    assert "method inferred" in text(shown, "hovered")
 
 
 def test_a_click_shows_the_motion(shown: Page) -> None:

@@ -13,7 +13,7 @@ from PIL import Image
 
 from disc_model import Parameters, Poincare, Record, Window, simulate
 from disc_model.data.dataset import Missing, events_dataset
-from disc_model.data.variables import KICKS, SHOWN
+from disc_model.data.variables import PERTURBATIONS, SHOWN
 from disc_model.figures import parts
 from disc_model.figures.kinds import CASE_PLOTS, OwnFigure
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, label, number_of, said_parameters
@@ -260,7 +260,7 @@ def test_parameters_that_are_words_are_said_as_words() -> None:
 def test_every_number_that_varies_has_a_symbol() -> None:
     """A map over the compliance of the contact passed the check of its file and ended in a KeyError."""
     numbers = [name for name in Parameters.model_fields if Parameters.unit(name)]
-    assert {*numbers, *KICKS} <= SHOWN.keys()
+    assert {*numbers, *PERTURBATIONS} <= SHOWN.keys()
 
 
 def test_captions_say_times_and_angles_of_the_windows() -> None:

@@ -16,7 +16,7 @@ from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import carried_over, kicked, prepared, published_start, run_case, simulate
-from disc_model.simulation.case import CaseSpec, Preparation, Start
+from disc_model.simulation.case import CaseSpec, Prerun, Start
 from disc_model.simulation.result import State
 from disc_model.studies.study import StudyError, parse_study
 from tests.contact_laws import LAWS
@@ -25,8 +25,8 @@ from tests.studies.grids.conftest import computed
 
 def test_any_parameter_may_be_prepared_however_it_is_spelled() -> None:
     def read(**parameters: object) -> dict:
-        raw = {"prepare": {"parameters": parameters, "time": 1}}
-        return Start.model_validate(raw).model_dump()["prepare"]["parameters"]
+        raw = {"prerun": {"parameters": parameters, "time": 1}}
+        return Start.model_validate(raw).model_dump()["prerun"]["parameters"]
 
     assert read() == {}
     found = read(normalization="orthonormal", N="3e2", n_diameters=4.0, mu_k=0.5, contact="bonded")
@@ -36,7 +36,7 @@ def test_any_parameter_may_be_prepared_however_it_is_spelled() -> None:
 
 
 def test_a_preparation_that_fails_is_reported() -> None:
-    options = {"prepare": {"parameters": {"mu_k": 0.9}, "time": 1}, "transient": 1}
+    options = {"prerun": {"parameters": {"mu_k": 0.9}, "time": 1}, "transient": 1}
     raw = {"study": "b", "quantity": "bifurcation", "base": {"N": 385}, "axes": {"Omega": [15]}, "options": options}
     found = computed(**raw).isel(Omega=0)
     assert flag_names(found["status"]) == "failed"
@@ -46,7 +46,7 @@ def test_a_preparation_that_fails_is_reported() -> None:
 def test_a_preparation_is_another_motions_end() -> None:
     p = Parameters(N=200, Omega=50, n_diameters=1)
     assert prepared(p, Start(), 1e-8) is None
-    start = prepared(p, Start(prepare={"parameters": {"N": 100}, "time": 0.01}), 1e-8)
+    start = prepared(p, Start(prerun={"parameters": {"N": 100}, "time": 0.01}), 1e-8)
     expected = simulate(p.replace(N=100), 0.01, tol=1e-8).final_state
     np.testing.assert_array_equal(start.a, expected.a)
     assert start.time == 0
@@ -194,7 +194,7 @@ def test_the_published_start_is_the_one_taken_without_a_state() -> None:
     own, given = simulate(p, 0.2), simulate(p, 0.2, initial_state=published_start(p))
     np.testing.assert_array_equal(own.event_rows, given.event_rows)
     assert prepared(p, Start(), 1e-10) is None
-    assert prepared(p, Start(kick={"u": 0.0}), 1e-10) is None
+    assert prepared(p, Start(perturbation={"u": 0.0}), 1e-10) is None
 
 
 def test_a_kick_moves_slider_and_disc_as_a_steady_force_would() -> None:
@@ -234,41 +234,41 @@ def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
 @pytest.mark.compiled
 def test_starts_are_an_axis() -> None:
     """A motion that has separated goes on at 15 rad/s, where the static start stays quiet."""
-    starts = {"apart": {"prepare": {"parameters": {"Omega": 15.1}, "time": 56}}, "kicked": {"kick": {"u": 3e-4}}}
-    options = {"horizon": 55, "late": 0.1, "after_separation": 0.1}
+    starts = {"apart": {"prerun": {"parameters": {"Omega": 15.1}, "time": 56}}, "kicked": {"perturbation": {"u": 3e-4}}}
+    options = {"horizon": 55, "evaluation_time": 0.1, "after_separation": 0.1}
     found = computed(
         study="s", quantity="outcome", options=options, base={"N": 385}, starts=starts,
-        axes={"Omega": [15], "start": ["published", "apart", "kicked"], "kick_u": [0, 1e-4]},
+        axes={"Omega": [15], "start": ["static", "apart", "kicked"], "perturbation_u": [0, 1e-4]},
     ).isel(Omega=0)  # fmt: skip
-    assert found["start"].values.tolist() == ["apart", "kicked", "published"]
+    assert found["start"].values.tolist() == ["apart", "kicked", "static"]
     outcome = flag_names(found["outcome"])
     assert outcome.tolist() == [["separation"] * 2, ["separation"] * 2, ["quiet"] * 2]
     first = found["first_separation"].values
     assert (first[0] < 1).all()
     assert first[1, 1] < first[1, 0] - 0.5  # its own kick and the axis' add up
-    assert sorted(json.loads(found.attrs["starts"])) == ["apart", "kicked", "published"]
+    assert sorted(json.loads(found.attrs["starts"])) == ["apart", "kicked", "static"]
 
 
 def test_a_case_of_a_study_may_start_elsewhere() -> None:
     case = {"title": "", "parameters": {"N": 385, "Omega": 15, "n_diameters": 1}, "t_end": 0.02}
-    start = {"kick": {"f": 2.0}}
+    start = {"perturbation": {"f": 2.0}}
     specs = parse_study({"study": "x", "cases": {"A": case, "B": case | {"start": start}}}).specs
     assert "start" not in json.loads(specs["A"].canonical)
-    assert json.loads(specs["B"].canonical)["start"]["kick"] == {"f": 2.0}
+    assert json.loads(specs["B"].canonical)["start"]["perturbation"] == {"f": 2.0}
     assert CaseSpec.from_canonical(specs["B"].canonical) == specs["B"]
     tree = run_case(specs["B"])
     p = specs["B"].parameters
     expected = simulate(p, 0.02, initial_state=kicked(p, published_start(p), f=2.0))
     assert tree["events"]["time"].values.tolist() == expected.events["time"].tolist()
-    assert json.loads(tree.attrs["start"])["kick"] == {"f": 2.0}
+    assert json.loads(tree.attrs["start"])["perturbation"] == {"f": 2.0}
     assert "start" not in run_case(specs["A"]).attrs
-    with pytest.raises(StudyError, match=r"cases\.A\.start\.kick\.f = 'x': must be a number"):
-        parse_study({"study": "x", "cases": {"A": case | {"start": {"kick": {"f": "x"}}}}})
+    with pytest.raises(StudyError, match=r"cases\.A\.start\.perturbation\.f = 'x': must be a number"):
+        parse_study({"study": "x", "cases": {"A": case | {"start": {"perturbation": {"f": "x"}}}}})
 
 
 def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     """The modes weigh otherwise at another radius, so that the height in contact is another."""
-    p, start = Parameters(N=200, Omega=20, r_0=0.09), Start(prepare={"parameters": {"r_0": 0.1}, "time": 0.1})
+    p, start = Parameters(N=200, Omega=20, r_0=0.09), Start(prerun={"parameters": {"r_0": 0.1}, "time": 0.1})
     state = prepared(p, start, 1e-10)
     assert state is not None
     other = simulate(p.replace(r_0=0.1), 0.1).final_state
@@ -283,9 +283,9 @@ def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
 
 
 def test_a_prepared_disc_has_as_many_modes() -> None:
-    start = Start(prepare=Preparation(parameters={"n_diameters": 2}, time=0.1))
+    start = Start(prerun=Prerun(parameters={"n_diameters": 2}, time=0.1))
     p = Parameters(N=200, Omega=20)
-    with pytest.raises(ParameterError, match=r"start.prepare.parameters.n_diameters=2: must be that of the case, 4"):
+    with pytest.raises(ParameterError, match=r"start.prerun.parameters.n_diameters=2: must be that of the case, 4"):
         prepared(p, start, 1e-10)
     other = published_start(p.replace(n_diameters=2))
     with pytest.raises(ParameterError, match=r"initial_state.a: must be 5 finite numbers"):

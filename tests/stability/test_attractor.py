@@ -35,20 +35,20 @@ OUTCOMES: dict[str, tuple[dict[str, Any], float, Outcome]] = {
     "a stable cycle keeps the start": ({"N": 50, "Omega": 15}, 1000, Outcome.QUIET),
     "slow growth goes on until the horizon": ({"N": 100, "Omega": 20}, 1000, Outcome.GROWING),
     "without a cycle": ({"N": 385, "Omega": 15.1}, 100, Outcome.SEPARATION),
-    "steady sliding": ({"N": 50, "Omega": 15, "c_p": 0.5}, 1000, Outcome.SLIDING),
+    "steady sliding": ({"N": 50, "Omega": 15, "c_p": 0.5}, 1000, Outcome.STEADY_SLIDING),
     "steady sliding that begins in the last of many legs": (
         {"N": 133.333333333, "Omega": 15, "c_p": 0.6875},
         1000,
-        Outcome.SLIDING,
+        Outcome.STEADY_SLIDING,
     ),
     "sliding without static friction, on a compliant contact": (
         {"N": 50, "Omega": 15, "mu_s": 0, "mu_k": 0, "c_p": 20.0, "c": 20.0, "D_star": 1e-3, "n_diameters": 1}
         | {"contact_compliance": 1e-6},
         200,
-        Outcome.SLIDING,
+        Outcome.STEADY_SLIDING,
     ),
-    "nothing is driven": ({"N": 50, "Omega": 0}, 1000, Outcome.RESTING),
-    "a damper alone pulls less than friction holds": ({"N": 50, "Omega": 1, "k_p": 0, "c_p": 0.5}, 50, Outcome.RESTING),
+    "nothing is driven": ({"N": 50, "Omega": 0}, 1000, Outcome.AT_REST),
+    "a damper alone pulls less than friction holds": ({"N": 50, "Omega": 1, "k_p": 0, "c_p": 0.5}, 50, Outcome.AT_REST),
     # Newton's method finds an unstable cycle there, whose period is another
     "a stable cycle other than that of the start": (
         {"N": 200, "Omega": 11.25, "E": 1.9375e11, "normalization": "orthonormal"},
@@ -152,7 +152,7 @@ def test_what_is_not_left_early_is_followed_to_the_horizon_and_judged_there(late
     assert (found.stretch is None) == (late == 0)
     if found.stretch is not None:
         assert found.cycle is not None
-        assert found.stretch.share_stick == pytest.approx(found.cycle.stick_fraction, abs=0.05)
+        assert found.stretch.stick_fraction == pytest.approx(found.cycle.stick_fraction, abs=0.05)
         assert found.stretch.P_min < SMALL.N < found.stretch.P_max
 
 
@@ -311,10 +311,10 @@ def test_what_stays_near_an_unstable_cycle_has_not_settled() -> None:
 @pytest.mark.compiled
 def test_a_motion_that_comes_to_steady_sliding_is_told() -> None:
     p = Parameters(N=50, Omega=15, c_p=0.5)
-    assert Basins(p, 100.0).reached(published_start(p)).outcome is Outcome.SLIDING
+    assert Basins(p, 100.0).reached(published_start(p)).outcome is Outcome.STEADY_SLIDING
 
 
 def stretch(**changes: float) -> Stretch:
     """Of a separating motion, for tests of what is said of one."""
-    shares = {"share_stick": 0.25, "share_slip": 0.65, "share_separation": 0.10, "separation_rate": 135.0}
+    shares = {"stick_fraction": 0.25, "slip_fraction": 0.65, "separation_fraction": 0.10, "separation_rate": 135.0}
     return Stretch(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)

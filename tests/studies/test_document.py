@@ -42,7 +42,7 @@ def test_a_shipped_file_is_right(path: Path) -> None:
     if study.grid and not study.cases:  # what its figures show besides is found beside it
         grids, names = study.grids([Path(), path.parent])
         assert names == (study.name,)
-        assert {other for plot in study.grid.plots.values() for other in plot.others.values()} <= grids.keys()
+        assert {other for plot in study.grid.plots.values() for other in plot.overlays.values()} <= grids.keys()
 
 
 def test_editors_show_meanings_and_units() -> None:
@@ -69,15 +69,15 @@ def cases(**changes: Any) -> dict[str, Any]:
         grid(axes={"N": {"start": 1, "stop": 2, "count": 3, "extra": [1.7]}, "Omega": {"blocks": [[1], [2]]}}),
         {"study": "s", "quantity": "floquet", "zip": {"N": [1, 2], "Omega": [1, 2]}},
         grid(base={"n_diameters": "auto", "truncation_tolerance": 1e-3}),
-        grid(starts={"k": {"kick": {"u": 1e-4}}}, axes={"N": [1], "Omega": [1], "start": ["published", "k"]}),
-        grid(options={"horizon": 10, "kick": {"u": 1e-4}}),
+        grid(starts={"k": {"perturbation": {"u": 1e-4}}}, axes={"N": [1], "Omega": [1], "start": ["static", "k"]}),
+        grid(options={"horizon": 10, "perturbation": {"u": 1e-4}}),
         grid(
             figures={"f": {"kind": "heat_map", "x": "N", "y": "Omega", "variable": "outcome", "by": None}},
             axes={"N": [1, 2], "Omega": [2, 3]},
         ),
         cases(record={"windows": {"w": {"rate": 10}}, "poincare": None, "events": {"last": 2}}),
         {"record": {"windows": {"w": {"theta": 2}}}} | cases(record={"windows": {"w": {"rate": 3}}}),
-        cases(start={"prepare": {"parameters": {"N": 3}, "time": 1}}),
+        cases(start={"prerun": {"parameters": {"N": 3}, "time": 1}}),
     ],
 )
 def test_what_a_study_may_say_fits(right: dict[str, Any]) -> None:

@@ -152,7 +152,7 @@ def test_a_file_that_cannot_be_read(tmp_path: Path, content: bytes | None, said:
 
 
 def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
-    figure = {"kind": "stability_map", "x": "N", "y": "Omega", "others": {"growth": "other"}}
+    figure = {"kind": "stability_map", "x": "N", "y": "Omega", "overlays": {"growth": "other"}}
     plane = {"N": [1], "Omega": [1]}
     shown = {"study": "map", "quantity": "outcome", "options": {"horizon": 5}, "axes": plane, "figures": {"f": figure}}
     other = {"study": "other", "quantity": "floquet", "axes": plane}
@@ -160,14 +160,14 @@ def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
     assert parse_study(shown).grids([tmp_path])[1] == ("map",)
     (tmp_path / "other.yaml").write_text(json.dumps(other | {"axes": plane | {"k": [2]}}))
     fault = "must vary N, Omega beside normalization, and not N, Omega, k"
-    assert faults_of(parse_study(shown).grids, [tmp_path]) == [f"map: figures.f.others.growth = 'other': {fault}"]
+    assert faults_of(parse_study(shown).grids, [tmp_path]) == [f"map: figures.f.overlays.growth = 'other': {fault}"]
     (tmp_path / "other.yaml").unlink()
     [fault] = faults_of(parse_study(shown).grids, [tmp_path])
     assert fault.endswith("'other': no such study (known: map)")
 
 
 def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
-    plot = {"kind": "growth_map", "others": {"curves": "elsewhere"}}
+    plot = {"kind": "growth_map", "overlays": {"curves": "elsewhere"}}
     plane = {"quantity": "floquet", "axes": {"N": [1], "Omega": [1]}}
     texts = {
         "one": "study: one\nquantity: outcome\n",
@@ -184,7 +184,7 @@ def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None
         "one.yaml: axes.Omega: is required",
         "two.yaml: N: given twice, in lines 3 and 3",
         "study = 'three': is the name of another folder of results",
-        "three: figures.f.others.curves = 'elsewhere': no such study",
+        "three: figures.f.overlays.curves = 'elsewhere': no such study",
         "study = 'small': must be the name of the file",
         "study = 'five': must be a grid alone",
         "overrides.six: no such study (known: five, four, one, three, two)",

@@ -128,7 +128,7 @@ def test_energy_balances_over_ten_thousand_switches(name):
     statistics = result.statistics
     assert statistics["events"] > 10_000
     assert statistics["audited_steps"] == statistics["steps"]
-    assert max(statistics["energy_transverse"], statistics["energy_inplane"]) < 1e-12
+    assert max(statistics["energy_residual_transverse"], statistics["energy_residual_inplane"]) < 1e-12
 
 
 # ------------------------------------------------------------------------ limits

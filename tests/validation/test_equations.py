@@ -54,7 +54,7 @@ def test_motion_of_each_phase(phase, direction, tol):
     assert len(wanted) == 4
     close(samples, {name: np.array([row[name] for row in wanted]) for name in names}, accuracy)
     np.testing.assert_allclose(samples["psi_velocity"], [P.Omega - row["f"] for row in wanted], rtol=accuracy)
-    for name in ("energy_transverse", "energy_inplane"):
+    for name in ("energy_residual_transverse", "energy_residual_inplane"):
         assert result.statistics[name] < accuracy
 
 

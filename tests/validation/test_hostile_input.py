@@ -187,7 +187,7 @@ words = st.one_of(st.sampled_from(WORDS), st.text(max_size=12), st.floats().map(
 @st.composite
 def command_lines(draw: st.DrawFn) -> list[str]:
     """Often a good run with something bad in it, else anything."""
-    line = [draw(st.sampled_from(["run", "run", "run", "modes", "warm", "", "--help", "ruin"]))]
+    line = [draw(st.sampled_from(["run", "run", "run", "modes", "compile", "", "--help", "ruin"]))]
     if line == ["run"] and draw(st.booleans()):
         line += ["--N", "385", "--Omega", "15", "--t-end", "1"]
     for option, word in draw(st.lists(st.tuples(st.sampled_from(OPTIONS), words), max_size=6)):

@@ -119,4 +119,4 @@ def test_energy_balances_over_a_brake_stop():
     statistics = found.statistics
     assert statistics["audited_steps"] == statistics["steps"]
     assert statistics["separations"] > 100
-    assert max(statistics["energy_transverse"], statistics["energy_inplane"]) < 1e-12
+    assert max(statistics["energy_residual_transverse"], statistics["energy_residual_inplane"]) < 1e-12

@@ -36,14 +36,14 @@ studies: [config/small_*.yaml]
 study: small_map
 title: outcome
 quantity: outcome
-options: {horizon: 1, late: 0.2, after_separation: 0.2}
+options: {horizon: 1, evaluation_time: 0.2, after_separation: 0.2}
 axes:
   N: [100, 200.0, 300]
   Omega: [10, 15, 20, 25]
   normalization: [as_published, orthonormal]
 batch: {over: [Omega, normalization], size: 8}
 figures:
-  chart: {kind: stability_map, x: Omega, y: N, others: {growth: small_growth}}
+  chart: {kind: stability_map, x: Omega, y: N, overlays: {growth: small_growth}}
 """,
     "config/small_growth.yaml": """\
 study: small_growth
@@ -153,7 +153,7 @@ class Project:
         """Jobs that a run would do: rule and wildcards."""
         shown = self.complete("-n", *options)
         # a rule with a message shows that and not its name
-        yield from (("warm", {"kind": kind}) for kind in re.findall("Compiling kernels, once: ([^,]+),", shown))
+        yield from (("compile", {"kind": kind}) for kind in re.findall("Compiling kernels, once: ([^,]+),", shown))
         for block in re.split(r"\n(?=(?:local)?rule \w+:)", shown)[1:]:
             rule = re.match(r"(?:local)?rule (\w+):", block)
             wildcards = re.search(r"^ +wildcards: (.*)", block, re.MULTILINE)

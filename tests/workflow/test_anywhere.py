@@ -109,7 +109,7 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
 def test_what_is_stale_is_listed(elsewhere: Path) -> None:
     def listed(text: str) -> str:
         (elsewhere / "asked.yaml").write_text(text)
-        return disc_model(elsewhere, "list", "stale", "asked.yaml").stdout
+        return disc_model(elsewhere, "list", "outdated", "asked.yaml").stdout
 
     assert re.fullmatch(r"0 of \d\d files are missing or out of date\n", listed(STUDY))
     another = listed(STUDY.replace("[0.3, 0.4]", "[0.3, 0.45]"))

@@ -134,7 +134,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
     [
         (
             "src/disc_model/engine/machine.py",
-            lambda project: everything(project) | {"warm:simulate-rigid_vertical", "warm:floquet-rigid_vertical"},
+            lambda project: everything(project) | {"compile:simulate-rigid_vertical", "compile:floquet-rigid_vertical"},
         ),
         ("src/disc_model/plate.py", everything),
         ("src/disc_model/simulation/api.py", everything),

@@ -50,7 +50,7 @@ cases:
     t_end: 1
     ramps: [{parameter: N, to: 310, start: 0.1, end: 1}]
 quantity: outcome
-options: {horizon: 1, late: 0.2, after_separation: 0.2}
+options: {horizon: 1, evaluation_time: 0.2, after_separation: 0.2}
 axes: {N: [300], Omega: [20], contact_force: [normal]}
 """
 
@@ -64,4 +64,4 @@ def test_no_job_compiles_kernels_for_itself(tmp_path: Path, config: str) -> None
     replace(project, config=config).complete("-j2", "all", "explorer")
     who = counted.read_text().splitlines()
     assert who
-    assert [job for job in who if "warm" not in job] == []
+    assert [job for job in who if "compile" not in job] == []

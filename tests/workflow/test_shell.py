@@ -57,7 +57,7 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
     moments = random.Random(27)
     with shell(["bash", "--norc", "-i"], tmp_path, PATH=PATH, PS1=PROMPT) as terminal:
         terminal.wait_for(PROMPT)
-        terminal.type("disc-model study -j2 --until warm\n")
+        terminal.type("disc-model study -j2 --until compile\n")
         terminal.wait_for("(100%) done", 600)
         for _ in range(20):
             terminal.wait_for(PROMPT)

@@ -103,19 +103,19 @@ rule merge_answers:
         "job merge_answers {output} {input} > {log} 2>&1"
 
 
-rule tell_truncation:
+rule report_truncation:
     input:
         f"{BENCH}/contact_truncation.nc",
     output:
         f"{BENCH}/contact_truncation.md",
     log:
-        f"{BENCH}/logs/tell_truncation.log",
+        f"{BENCH}/logs/report_truncation.log",
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("tell_truncation"),
+        made_of=made_of("report_truncation"),
     shell:
-        "job tell_truncation {input} {output} > {log} 2>&1"
+        "job report_truncation {input} {output} > {log} 2>&1"
 
 
 rule draw_benchmark:

@@ -238,15 +238,15 @@ def grid_made_of(study):
 
 def plot_made_of(study, name):
     plot = GRIDS[study].plots[name]
-    shown = [study, *(other for _, other in sorted(plot.others.items()))]
+    shown = [study, *(other for _, other in sorted(plot.overlays.items()))]
     of = [plot.model_dump_json(), *map(grid_made_of, shown)]
     return made_of("draw_figure", plot.module, of=of)
 
 
-def shown_by(wildcards):
+def overlay_inputs(wildcards):
     """Merged files of the further studies that a figure shows, by role; none for a figure of a case beside the grid."""
     plot = GRIDS[wildcards.study].plots.get(wildcards.plot)
-    others = {} if plot is None else plot.others
+    others = {} if plot is None else plot.overlays
     return {role: grid_file(name) for role, name in sorted(others.items())}
 
 

@@ -48,7 +48,7 @@ rule draw_plot:
     # One job per figure, from the merged datasets of the studies it shows.
     input:
         study=lambda wildcards: grid_file(wildcards.study),
-        others=lambda wildcards: list(shown_by(wildcards).values()),
+        others=lambda wildcards: list(overlay_inputs(wildcards).values()),
     output:
         pdf="results/{study}/figures/{plot}.pdf",
         png=report(
@@ -74,7 +74,10 @@ rule draw_plot:
         made_of=lambda wildcards: plot_made_of(wildcards.study, wildcards.plot),
         files=lambda wildcards, input: [
             f"{role}={file}"
-            for role, file in [("study", input.study), *shown_by(wildcards).items()]
+            for role, file in [
+                ("study", input.study),
+                *overlay_inputs(wildcards).items(),
+            ]
         ],
     shell:
         "job draw_figure {params.plot:q} '' {output} {params.files:q} > {log} 2>&1"

@@ -1,7 +1,7 @@
 # Kernels, compiled once, so that parallel jobs find them in the cache.
 
 
-rule warm:
+rule compile:
     # Named by the sources: with one fixed name what uses kernels would need `ancient`, and Snakemake (9.27) does not
     # look further than a job to be run that is only an ancient input of the next, so changed sources would compile
     # again and compute nothing.
@@ -24,4 +24,4 @@ rule warm:
     message:
         "Compiling kernels, once: {wildcards.kind}, 5 to 10 s on one core. What depends on them waits."
     shell:
-        "python -m disc_model warm {wildcards.kind} > {output} 2> {log}"
+        "python -m disc_model compile {wildcards.kind} > {output} 2> {log}"

@@ -20,7 +20,7 @@ def compile_kernels(level: str, target: Path, kinds: Iterable[str] = USUAL) -> N
     name, features = TARGETS[level]
     with tempfile.TemporaryDirectory() as folder:
         chosen = {"NUMBA_CACHE_DIR": folder, "NUMBA_CPU_NAME": name, "NUMBA_CPU_FEATURES": features}
-        subprocess.run([sys.executable, "-m", "disc_model", "warm", *kinds], env=os.environ | chosen, check=True)
+        subprocess.run([sys.executable, "-m", "disc_model", "compile", *kinds], env=os.environ | chosen, check=True)
         target.mkdir(parents=True)
         for path in Path(folder).rglob("*.kernel"):
             shutil.move(path, target)

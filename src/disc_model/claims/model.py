@@ -313,7 +313,7 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
     if wanted != found:
         differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")
-    after = paper.get("start", {}).get("prepare", {}).get("parameters")
+    after = paper.get("start", {}).get("prerun", {}).get("parameters")
     if _after(case) != after:
         start = "static start" if after is None else f"last state of {after}"
         raise Missing(f"case {name} does not begin with the {start} in this study")
@@ -327,5 +327,5 @@ def _after(case: CaseView) -> Mapping[str, Any] | None:
     if "start" not in case.node.attrs:
         return None
     start = json.loads(case.node.attrs["start"])
-    prepared = (start["prepare"] or {}).get("parameters", {})
-    return {} if start["kick"] else prepared
+    prepared = (start["prerun"] or {}).get("parameters", {})
+    return {} if start["perturbation"] else prepared

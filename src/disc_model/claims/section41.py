@@ -258,11 +258,11 @@ def slip_condition(*cases: CaseView) -> Answer:
 @CHECKS("S41a")
 def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
     """Over a grid of preloads and speeds; not only where the paper looks."""
-    points = study[["share_stick", "settled"]].stack(point=("N", "Omega"))
-    if np.isnan(points["share_stick"]).any():
+    points = study[["stick_fraction", "settling_time"]].stack(point=("N", "Omega"))
+    if np.isnan(points["stick_fraction"]).any():
         raise Missing("study bonded has points that failed")
-    moves = np.isnan(points["settled"])
-    settled, moving = (points["share_stick"].where(at, drop=True) for at in (~moves, moves))
+    moves = np.isnan(points["settling_time"])
+    settled, moving = (points["stick_fraction"].where(at, drop=True) for at in (~moves, moves))
     return Answer(
         None if moving.size else float(settled.min()) > share,
         "moving",

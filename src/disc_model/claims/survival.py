@@ -152,7 +152,7 @@ def fold(found: Evidence, *, load: float, within: float) -> Answer:
         return Answer(True, growth=[], **said)
     beside = [_growth_beside(found.grid("survival_growth").sel(N=load), high - width, high) for high in highs]
     rows = [f"{said_rate(low, '/s')} to {said_rate(high, '/s')}" for low, high in beside]
-    missed = int(found.grid("survival_curves")["n_unfollowed"])
+    missed = int(found.grid("survival_curves")["n_continuation_failures"])
     goes_on = all(rate > SLOW for rates in beside for rate in rates)
     return Answer(None if missed and not goes_on else False, "missed", missed=missed, growth=[{"rates": rows}], **said)
 
@@ -172,7 +172,7 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
     for i in np.flatnonzero(flag_names(curves["kind"]) == "fold"):
         one = curves.isel(curve=int(i))
         x, y = one["x"].values, one["y"].values
-        border = flag_names(one["border"]) == "yes"
+        border = flag_names(one["adjoins_stable_cycle"]) == "yes"
         for j in np.flatnonzero((y[:-1] - load) * (y[1:] - load) <= 0):
             if y[j] != y[j + 1] and border[j] and border[j + 1]:
                 yield float(x[j] + (load - y[j]) / (y[j + 1] - y[j]) * (x[j + 1] - x[j]))

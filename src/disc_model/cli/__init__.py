@@ -1,4 +1,4 @@
-"""Command line: ``disc-model run|floquet|modes|study|list|init|warm``.
+"""Command line: ``disc-model run|floquet|modes|study|list|init|compile``.
 
 What is wrong with the input stands on stderr, with exit code 2: a line, or for a study file a list of its faults. A
 simulation that ends before its time is reported and gives exit code 1.
@@ -14,14 +14,17 @@ import typer
 from disc_model import __version__
 from disc_model.cli import numbers, run, studies
 from disc_model.errors import DiscModelError
+from disc_model.renamed import renamed
 
 app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     help="Friction-induced vibration of an elastic disc and a moving slider.",
 )
-for command in (run.run, numbers.floquet, numbers.modes, studies.study, studies.list_, studies.init, numbers.warm):
-    app.command(command.__name__.rstrip("_"))(command)
+_FUNCTIONS = (run.run, numbers.floquet, numbers.modes, studies.study, studies.list_, studies.init, numbers.compile_)
+COMMANDS = {function.__name__.rstrip("_"): function for function in _FUNCTIONS}
+for name, function in COMMANDS.items():
+    app.command(name)(function)
 
 
 def _show_version(wanted: bool) -> None:
@@ -65,7 +68,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     except Exception as error:
         if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
             raise
-        _fail(" ".join(error.format_message().split()))
+        _fail(" ".join(error.format_message().split()).rstrip(".") + (renamed(arguments[0], COMMANDS) or "."))
     if code == studies.INTERRUPTED:
         typer.echo("error: interrupted", err=True)
     sys.exit(code if isinstance(code, int) else 0)

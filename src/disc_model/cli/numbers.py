@@ -20,8 +20,7 @@ from disc_model.cli.case import (
 )
 from disc_model.disc import disc_table
 from disc_model.errors import Fault, refuse, shown, suggestion
-from disc_model.kernels import KINDS
-from disc_model.kernels import warm as compile_kernels
+from disc_model.kernels import KINDS, compile_kernels
 from disc_model.parameters import CYCLE_TOLERANCES, limits_rule
 
 TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
@@ -97,7 +96,7 @@ def floquet(
         raise typer.Exit(1)
 
 
-def warm(
+def compile_(
     kinds: Annotated[
         list[str] | None, typer.Argument(help="what is compiled: the paper's model if not given", show_default=False)
     ] = None,

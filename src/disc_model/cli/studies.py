@@ -19,6 +19,7 @@ from rich.console import Console
 
 from disc_model.cli.case import table
 from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.renamed import renamed
 
 if TYPE_CHECKING:
     from disc_model.studies.study import GridStudy, Study
@@ -29,7 +30,7 @@ PACKAGE = Path(__file__).resolve().parents[1]
 PAPER = Path("config/paper.yaml")
 INTERRUPTED = 130
 """Exit code after Ctrl-C, also what typer makes of it: 128 and the number of the signal, as shells do."""
-KINDS = ("studies", "figures", "cases", "stale")
+KINDS = ("studies", "figures", "cases", "outdated")
 FILES = typer.Argument(help="study files, later ones laid over earlier ones; this folder's if it holds one only")
 
 STUDY = """\
@@ -96,13 +97,13 @@ def list_(
     files: Annotated[list[Path] | None, FILES] = None,
     directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are")] = Path(),
 ) -> None:
-    """List the grid studies, figures or cases of a study, or what of its results is stale."""
+    """List the grid studies, figures or cases of a study, or what of its results is outdated."""
     if what not in KINDS:
-        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
+        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}{renamed(what, KINDS)}"))
     files = files or [_own_file(otherwise=_paper())]
     chosen, grids = _read(files)
-    if what == "stale":
-        _list_stale(files, directory)
+    if what == "outdated":
+        _list_outdated(files, directory)
         return
     rows, heads = LISTS[what]
     listed = table(f"{what} of {chosen.name}", heads, rows(chosen, grids, directory / "results"), overflow="fold")
@@ -265,7 +266,7 @@ LISTS = {
 }
 
 
-def _list_stale(files: Sequence[Path], directory: Path) -> None:
+def _list_outdated(files: Sequence[Path], directory: Path) -> None:
     """What a run would make, by Snakemake's own account."""
     done = subprocess.run(
         _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
@@ -273,7 +274,7 @@ def _list_stale(files: Sequence[Path], directory: Path) -> None:
     if done.returncode:
         raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
     head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
-    stale = [dict(zip(head, line, strict=False)) for line in lines if line[-1] != "no update"]
-    for row in stale:
+    outdated = [dict(zip(head, line, strict=False)) for line in lines if line[-1] != "no update"]
+    for row in outdated:
         typer.echo(f"{row['output_file']}: {row['status']}")
-    typer.echo(f"{len(stale)} of {len(lines)} files are missing or out of date")
+    typer.echo(f"{len(outdated)} of {len(lines)} files are missing or out of date")

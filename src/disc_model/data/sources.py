@@ -34,6 +34,7 @@ BESIDES = {
     "plausibility": "warns",
     "mode_choice": "a kind of its own, where it is asked",
     "progress": "shows what goes on",
+    "renamed": "words of messages only",
     "simulation.quicklook": "draws for a reader",
     "studies.grids": "a name only",
     "studies.document": "a batch's text holds the values of all options",
@@ -105,6 +106,6 @@ KINDS = {
     ),
     "measure": Kind(f"{_BENCHMARK} {_ANSWERS} benchmarks.failure_maps"),
     "merge_answers": Kind(f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.words"),
-    "tell_truncation": Kind(f"dataset benchmarks.truncation_pages {_TEXTS}"),
+    "report_truncation": Kind(f"dataset benchmarks.truncation_pages {_TEXTS}"),
 }
 """By name."""

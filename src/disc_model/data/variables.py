@@ -33,9 +33,9 @@ class Outcome(enum.StrEnum):
     """a motion that has settled, is regular and does not repeat"""
     IRREGULAR = "irregular"
     """a motion that has settled and is chaotic"""
-    SLIDING = "sliding"
+    STEADY_SLIDING = "steady_sliding"
     """steady sliding"""
-    RESTING = "resting"
+    AT_REST = "at_rest"
     """the slider stuck to the disc for good"""
     UNDECIDED = "undecided"
     """none of these could be shown"""
@@ -101,7 +101,7 @@ class Column(NamedTuple):
         return np.full(shape, self.missing, dtype=self.dtype)
 
 
-STABLE_CYCLES = ("stable", "slides", "sticks")
+STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")
 """Of what there is near the static start: a stable cycle, stable steady sliding, rest on the disc."""
 SERIES = {
     "time": Variable("s", "time"),
@@ -131,8 +131,8 @@ SCALARS = {
     "time_slip": Variable("s", "time spent slipping"),
     "time_separation": Variable("s", "time spent separated"),
     "energy_residual": Variable("1", "largest relative residual of the energy balance over one audited step"),
-    "energy_transverse": Variable("1", "accumulated relative residual of the transverse energy balance"),
-    "energy_inplane": Variable("1", "accumulated relative residual of the in-plane energy balance"),
+    "energy_residual_transverse": Variable("1", "accumulated relative residual of the transverse energy balance"),
+    "energy_residual_inplane": Variable("1", "accumulated relative residual of the in-plane energy balance"),
     "audited_steps": Variable("1", "number of steps whose energy balance was audited"),
 }
 COUNTS = {
@@ -147,10 +147,10 @@ BESIDE_WINDOWS = frozenset({"events", "poincare", *SCALARS, *Parameters.model_fi
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation) for name in ("normalization", "contact", "contact_force")
 }
-KICKS = {
-    "kick_u": Variable("m", "kick of the slider and of the disc under it, upward"),
-    "kick_u_velocity": Variable("m s-1", "kick of their velocity, upward"),
-    "kick_f": Variable("rad s-1", "kick of the slider's angular velocity"),
+PERTURBATIONS = {
+    "perturbation_u": Variable("m", "perturbation of the slider and of the disc under it, upward"),
+    "perturbation_u_velocity": Variable("m s-1", "perturbation of their velocity, upward"),
+    "perturbation_f": Variable("rad s-1", "perturbation of the slider's angular velocity"),
 }
 """What grids may add to a coordinate where motions start; coordinates of their datasets."""
 _OF_RATIOS = {name: Variable("1", f"{one} relative to {other}") for name, (one, other) in RATIOS.items()}
@@ -182,7 +182,7 @@ def attributes(name: str) -> dict[str, Any]:
         which = "least" if bound == "min" else "greatest"
         variable = SERIES[stem]._replace(long_name=f"{SERIES[stem].long_name}, {which} within the bin")
     else:
-        variable = (SERIES | SCALARS | KICKS | _OF_RATIOS).get(name) or _parameter_variable(name)
+        variable = (SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS).get(name) or _parameter_variable(name)
     return variable.attributes
 
 
@@ -232,9 +232,9 @@ SHOWN = {
     "rho": Shown("Density", "ρ", "kg/m³"),
     "damping_ratio": Shown("Damping ratio of the disc's modes", "ζ", ""),
     "contact_compliance": Shown("Contact compliance C", "", "μm/N", 1e6),
-    "kick_u": Shown("Kick", "", "mm", 1e3),
-    "kick_u_velocity": Shown("Kick", "", "m/s"),
-    "kick_f": Shown("Kick", "", "rad/s"),
+    "perturbation_u": Shown("Perturbation", "", "mm", 1e3),
+    "perturbation_u_velocity": Shown("Perturbation", "", "m/s"),
+    "perturbation_f": Shown("Perturbation", "", "rad/s"),
     "n_diameters": Shown("Nodal diameters", "", ""),
     "n_circles": Shown("Nodal circles", "", ""),
     "P": Shown("Contact force", "P", "N"),

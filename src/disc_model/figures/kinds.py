@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
-from disc_model.data.variables import KICKS, SAMPLE
+from disc_model.data.variables import PERTURBATIONS, SAMPLE
 from disc_model.errors import Fault, suggestion
 from disc_model.parameters import RATIOS, Parameters, Positive, Real, Strict, Title, Unit, each_in_si, in_si
 from disc_model.simulation.case import Poincare, Window
@@ -73,13 +73,13 @@ class Grid(Protocol):
 
 
 class Plot(Kind):
-    """A figure of a grid study, drawn by a function ``draw(study, others, plot)`` that takes datasets and this.
+    """A figure of a grid study, drawn by a function ``draw(study, overlays, plot)`` that takes datasets and this.
 
-    others : further studies it shows, by the role they play in it
+    overlays : further studies it shows, by the role they play in it
     quantities : those that it can show, the usual one first
     needs : dimensions that it needs, beside those that the file chooses as x and y
     several : whether it has a panel for each normalization, and not room for one only
-    roles : what others it can show
+    roles : what overlays it can show
     """
 
     quantities: ClassVar[tuple[str, ...]] = ()
@@ -87,7 +87,7 @@ class Plot(Kind):
     several: ClassVar[bool] = False
     roles: ClassVar[Roles] = {}
 
-    others: dict[str, str] = Field({})
+    overlays: dict[str, str] = Field({})
 
     @model_validator(mode="before")
     @classmethod
@@ -102,7 +102,7 @@ class Plot(Kind):
             if isinstance(marks, dict)
             else marks,
             "at": each_in_si(at, {name: Parameters.unit(name) for name in Parameters.model_fields}),
-            "paper": in_si(said.get("paper"), units["x"]),
+            "paper_cases": in_si(said.get("paper_cases"), units["x"]),
         }
         return said | {name: place for name, place in places.items() if name in said}
 
@@ -119,19 +119,21 @@ class Plot(Kind):
     def faults(self, values: Values) -> Iterator[Fault]:
         """What keeps it from showing a study with these dimensions; one without values is only meant to be there."""
         yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
-        for role, name in self.others.items():
+        for role, name in self.overlays.items():
             if role not in self.roles:
-                yield Fault.of(("others", role), name, f"unknown role{suggestion(role, self.roles)}")
+                yield Fault.of(("overlays", role), name, f"unknown role{suggestion(role, self.roles)}")
         for role, wanted in self.roles.items():
-            if wanted.required and role not in self.others:
-                yield Fault(("others", role), "", f"is required: a study of the quantity {wanted.quantity}")
+            if wanted.required and role not in self.overlays:
+                yield Fault(("overlays", role), "", f"is required: a study of the quantity {wanted.quantity}")
 
     def _wrong_axes(self, values: Values) -> Iterator[Fault]:
         """Of those that the file chooses."""
         for axis, name in self.axes.items():
             if name not in values:
                 yield Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
-            elif name not in (*KICKS, *RATIOS) and (name not in Parameters.model_fields or not Parameters.unit(name)):
+            elif name not in (*PERTURBATIONS, *RATIOS) and (
+                name not in Parameters.model_fields or not Parameters.unit(name)
+            ):
                 yield Fault.of((axis,), name, "must be one parameter, and a number")
         if len({*self.axes.values()}) < len(self.axes):
             yield Fault.of(("y",), self.axes["y"], "must differ from x")
@@ -169,19 +171,12 @@ def _normalizations(study: Grid) -> set[str]:
     return {str(value) for (value,) in study.values.get(NORM, [(study.base.get(NORM),)])}
 
 
-FORMER = {"stable": "quiet", "unstable": "growing"}
-"""What outcomes were called, by which files may still name them."""
-
-
 class Mark(Strict):
     """A case of the paper: where it lies, and what the paper says of it."""
 
     x: Number
     y: Number
-    paper: Annotated[
-        Literal["quiet", "growing", "separation", "stable", "unstable"],
-        AfterValidator(lambda said: FORMER.get(said, said)),
-    ]
+    paper_outcome: Literal["quiet", "growing", "separation"]
 
 
 CYCLE = Role("floquet", ("N", "Omega"), instead="regions")
@@ -223,8 +218,8 @@ class RegionMap(StabilityMap):
     def faults(self, values: Values) -> Iterator[Fault]:
         """As of any map; and curves over speed and preload lie in that plane only."""
         yield from super().faults(values)
-        if "curves" in self.others and (self.x, self.y) != ("Omega", "N"):
-            yield Fault.of(("others", "curves"), self.others["curves"], "needs x: Omega and y: N")
+        if "curves" in self.overlays and (self.x, self.y) != ("Omega", "N"):
+            yield Fault.of(("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N")
 
 
 class CriticalSpeed(Plot):
@@ -241,7 +236,7 @@ class CriticalSpeed(Plot):
     }
 
     kind: Literal["critical_speed"] = "critical_speed"
-    claim: dict[str, tuple[Number, Number]] = Field({})
+    paper_points: dict[str, tuple[Number, Number]] = Field({})
 
 
 class Thresholds(CriticalSpeed):
@@ -271,7 +266,7 @@ class Bifurcation(Plot):
     """Samples once a turn against a parameter, and after how many switches the motion repeats.
 
     scale : of the variable, 1e3 for mrad or mm
-    paper : cases of the paper by name, each with its value of x
+    paper_cases : cases of the paper by name, each with its value of x
     """
 
     drawn_by = "grids.bifurcation.draw"
@@ -282,20 +277,20 @@ class Bifurcation(Plot):
     x: str
     variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
     scale: Number = 1.0e3
-    paper: dict[str, Number] = Field({})
+    paper_cases: dict[str, Number] = Field({})
 
 
 class Branches(Plot):
     """Range of motion of all cycles found against one parameter, stable and unstable, and where a sweep jumps.
 
-    paper : cases of the paper by name, each with its value of the parameter
+    paper_cases : cases of the paper by name, each with its value of the parameter
     """
 
     drawn_by = "grids.branches.draw"
     quantities = ("branches",)
 
     kind: Literal["branches"] = "branches"
-    paper: dict[str, Number] = Field({})
+    paper_cases: dict[str, Number] = Field({})
 
 
 class BasinShares(Plot):

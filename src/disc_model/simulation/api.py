@@ -391,8 +391,8 @@ def _statistics(work: Workspace, energy: bool, wall: float) -> dict[str, float]:
         "time_slip": slip,
         "time_separation": separation,
         "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
-        "energy_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
-        "energy_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
+        "energy_residual_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
+        "energy_residual_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
         "audited_steps": int(total[audit.STEPS]),
         "wall_time": wall,
     }
@@ -410,17 +410,17 @@ def prepared(p: Parameters, start: Start, tol: float) -> State | None:
     SimulationError, ParameterError
         If the other motion ends early, or its parameters are not right: the disc must have as many modes.
     """
-    kick = {name: value for name, value in start.kick.items() if value}
+    kick = {name: value for name, value in start.perturbation.items() if value}
     state = None
-    if start.prepare is not None:
-        other = p.replace(**start.prepare.parameters)
+    if start.prerun is not None:
+        other = p.replace(**start.prerun.parameters)
         if differing := [name for name in ("n_diameters", "n_circles") if getattr(other, name) != getattr(p, name)]:
-            place = ("start", "prepare", "parameters")
+            place = ("start", "prerun", "parameters")
             rule = "must be that of the case, {}"
             raise ParameterError(
                 *(Fault((*place, n), shown(getattr(other, n)), rule.format(getattr(p, n))) for n in differing)
             )
-        state = carried_over(p, _end_of(other, start.prepare.time, tol))
+        state = carried_over(p, _end_of(other, start.prerun.time, tol))
     return kicked(p, published_start(p) if state is None else state, **kick) if kick else state
 
 

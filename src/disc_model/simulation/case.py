@@ -202,7 +202,7 @@ SomeParameters = create_model("SomeParameters", __base__=Parameters, **_OPTIONAL
 """Parameters of which any may be left out; rules between several are checked if all of them are there."""
 
 
-class Preparation(Strict):
+class Prerun(Strict):
     """Another case, and how long it is simulated from the static start: its last state is where the motion starts.
 
     parameters : those that differ from the motion's own
@@ -225,15 +225,15 @@ class Preparation(Strict):
 class Start(Strict):
     """Where a motion starts; the static start if nothing is given.
 
-    prepare : after another motion, such as one that has separated
-    kick : what is added to a coordinate: ``u`` (m) and ``u_velocity`` (m/s) of the slider and of the disc under it,
+    prerun : after another motion, such as one that has separated
+    perturbation : added to a coordinate: ``u`` (m) and ``u_velocity`` (m/s) of the slider and of the disc under it,
         ``f`` (rad/s), the slider's angular velocity
     """
 
-    prepare: Preparation | None = None
-    kick: dict[Coordinate, Finite] = Field({})
+    prerun: Prerun | None = None
+    perturbation: dict[Coordinate, Finite] = Field({})
 
-    @field_validator("kick", mode="before")
+    @field_validator("perturbation", mode="before")
     @classmethod
     def _in_units(cls, given: Any) -> Any:
         return each_in_si(given, {"u": "m", "u_velocity": "m/s", "f": "rad/s"})

@@ -170,7 +170,7 @@ class Result:
     poincare : dict of arrays, None if not asked for
     ramps : those that were asked for
     statistics : steps, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
-        energy_transverse, energy_inplane, audited_steps, wall_time (s)
+        energy_residual_transverse, energy_residual_inplane, audited_steps, wall_time (s)
     """
 
     parameters: Parameters

@@ -36,7 +36,7 @@ class Frequencies:
     forward : share of those modes' energy in waves that travel with the slider, which it sees at f - l Omega / 2 pi
     cycle_frequency, cycle_growth_rate : Hz, 1/s, (n,), of the multipliers that go to each mode, the larger growth rate
         of two; nan without a cycle, and for the slider's motion in the plane, which stick forgets
-    likeness : (n,), squared cosine of the angle between the shapes of the mode and of its multiplier
+    mac : (n,), squared cosine of the angle between the shapes of the mode and of its multiplier
     """
 
     cycle: FloquetResult
@@ -46,7 +46,7 @@ class Frequencies:
     forward: Array
     cycle_frequency: Array
     cycle_growth_rate: Array
-    likeness: Array
+    mac: Array
 
 
 @compiling()
@@ -96,7 +96,7 @@ def _sliding_modes(
 
 
 def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexArray, tol: float) -> Array:
-    """Frequency, growth rate and likeness, shape (3, n), for modes of the disc of frequencies and shapes."""
+    """Frequency, growth rate and mac, shape (3, n), for modes of the disc of frequencies and shapes."""
     assert cycle.state is not None
     map_ = ReturnMap(p, tol)
     *_, jacobian, _ = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
@@ -104,9 +104,9 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
     shapes = np.array([_on_section(map_, cycle.state, shape) for shape in shapes.T]).T
     shapes = shapes / np.linalg.norm(shapes, axis=0)
     # each mode has room for two multipliers: one like its shape, one like the conjugate
-    likeness = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
-    rows, columns = linear_sum_assignment(-likeness)
-    place = np.full(len(likeness), -1)
+    mac = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
+    rows, columns = linear_sum_assignment(-mac)
+    place = np.full(len(mac), -1)
     place[rows] = columns
     own, other = place[: shapes.shape[1]], place[shapes.shape[1] :]
     rate = 1 / cycle.period
@@ -117,7 +117,7 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
         [
             (angle + np.round(seen / rate - angle)) * rate,
             np.maximum(growth[own], growth[other]),
-            likeness[np.arange(len(own)), own],
+            mac[np.arange(len(own)), own],
         ]
     )
     # where there are fewer multipliers than room, some mode got none

@@ -33,7 +33,7 @@ from pydantic import (
 )
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
-from disc_model.data.variables import BESIDE_WINDOWS, KICKS, SAMPLE, SCALARS, attributes
+from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SAMPLE, SCALARS, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.figures.kinds import CASE_PLOTS, PLOTS, CasePlot, Plot
 from disc_model.figures.paper.catalogue import CATALOGUE
@@ -74,7 +74,7 @@ from disc_model.truncation import (
 # ----------------------------------------------------------------------------------------------------
 # Names
 
-PUBLISHED = "published"
+STATIC = "static"
 """The start that needs not be said."""
 TAKEN_CASES = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
 """Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
@@ -103,7 +103,7 @@ def _window_name(text: str) -> str:
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
 CaseName = Annotated[str, AfterValidator(_case_name)]
 WindowName = Annotated[Name, AfterValidator(_window_name)]
-StartName = Annotated[str, AfterValidator(lambda text: _named(text, "", PUBLISHED))]
+StartName = Annotated[str, AfterValidator(lambda text: _named(text, "", STATIC))]
 
 # ----------------------------------------------------------------------------------------------------
 # Values along an axis: lists, linear and logarithmic ranges, and blocks of them
@@ -224,7 +224,7 @@ def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Bl
     return axis.blocks(resolution) if isinstance(axis, AxisRange) else (tuple(axis),)
 
 
-VARIED = (*Parameters.model_fields, *RATIOS, START, *KICKS)
+VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)
 """What a grid may vary, in the order of its dimensions: parameters, ratios in their place, and the start."""
 
 
@@ -244,7 +244,7 @@ def _described(name: str) -> dict[str, Any]:
         return {"description": "where the motion starts: names of starts"}
     if name == "disc":
         return {"description": "discs: tables of modes, or names of `discs`"}
-    if name in (*KICKS, *RATIOS):
+    if name in (*PERTURBATIONS, *RATIOS):
         said = attributes(name)
         return {"description": said["long_name"], "json_schema_extra": {"unit": said["units"]}}
     field = Parameters.model_fields[name]
@@ -333,7 +333,6 @@ Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator
 # Options of each quantity
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
-Deviation = Annotated[Real, Field(ge=0, le=1e-2)]
 
 
 class Options(Strict):
@@ -351,32 +350,33 @@ class Options(Strict):
         return self
 
 
-class SettlingOptions(Options):
-    """When a motion without separation may be left before the horizon; see `disc_model.stability.attractor`.
+class EarlyEndOptions(Options):
+    """Simulations that may end before the horizon.
 
-    settled : successive cycles that agree this well, relative, end the simulation; 0 never does
-    near : a motion this near to a stable stick-slip cycle, relative, and ever nearer, ends it too; 0 never does
+    early_end : whether a simulation ends as soon as its outcome is known; see `disc_model.stability.attractor`
     """
 
     tol: Tolerance = 1e-10
-    settled: Deviation = 1e-9
-    near: Deviation = 1e-4
+    early_end: bool = True
 
 
-class OutcomeOptions(SettlingOptions):
+class OutcomeOptions(EarlyEndOptions):
     """One simulation.
 
     horizon : s
-    late : s, length of the last stretch, over which ranges and shares of the phases are taken
+    evaluation_time : s, length of the last stretch, over which ranges and shares of the phases are taken
     after_separation : s that are simulated beyond the first separation, so that the late stretch shows its regime
     """
 
     horizon: Seconds
-    late: Seconds = 1.0
+    evaluation_time: Seconds = 1.0
     after_separation: Seconds = 5.0
 
     _rules = (
-        (lambda o: o.late <= min(o.after_separation, o.horizon), "late must be <= after_separation and <= horizon"),
+        (
+            lambda o: o.evaluation_time <= min(o.after_separation, o.horizon),
+            "evaluation_time must be <= after_separation and <= horizon",
+        ),
     )
 
 
@@ -384,15 +384,15 @@ class RegionsOptions(Options):
     """Outcomes over a plane, refined where they change.
 
     horizon : s
-    coarse : intervals of the grid along the side of a cell, before it is divided
+    initial_cell_size : intervals of the grid along the side of a cell, before it is divided
     """
 
     tol: Tolerance = 1e-8
     horizon: Seconds
-    coarse: Annotated[Count, Field(ge=1, le=1000)] = 8
+    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
 
 
-class CriticalSpeedOptions(SettlingOptions):
+class CriticalSpeedOptions(EarlyEndOptions):
     """Scan of the speed, then bisection of each interval in which separation begins or ends.
 
     horizons : s, each has its own critical speed; all come from the same simulations
@@ -427,15 +427,15 @@ class HysteresisOptions(Options):
 
     scan : rad/s
     dwell : s at each speed
-    late : s, the last stretch of it, over which separations, ranges and shares of the phases are taken
+    evaluation_time : s, the last stretch of it, over which separations, ranges and shares of the phases are taken
     """
 
     tol: Tolerance = 1e-10
     scan: Annotated[Range, Unit("rad/s")]
     dwell: Seconds
-    late: Seconds = 5.0
+    evaluation_time: Seconds = 5.0
 
-    _rules = ((lambda o: o.late <= o.dwell, "late must be <= dwell"),)
+    _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
 
 
 class RampsOptions(Options):
@@ -443,14 +443,14 @@ class RampsOptions(Options):
 
     low, high : rad/s, between which it goes
     rates : rad/s^2
-    stay : s, at the highest speed, and at the lowest one after the way down
+    dwell : s, at the highest speed, and at the lowest one after the way down
     """
 
     tol: Tolerance = 1e-10
     low: Speed
     high: Speed
     rates: Annotated[Range, Unit("rad/s^2")]
-    stay: Seconds = 60.0
+    dwell: Seconds = 60.0
 
     _rules = (
         (lambda o: o.low < o.high, "low must be < high"),
@@ -464,15 +464,15 @@ class BifurcationOptions(Options):
     section : once a turn of the drive; or at switches, each separation if there are any, else each release of stick: a
         periodic motion then shows as many points as its period has switches
     transient : s, left out; at switches it is doubled until the motion is known to repeat
-    longest : s, of the transient then, at most
+    max_transient : s, of the transient then, at most
     samples : number of turns, or of switches, sampled after it
     theta : rad, the disc's point whose displacement is sampled once a turn
     """
 
     tol: Tolerance = 1e-10
-    section: Literal["turn", "switch"] = "turn"
+    section: Literal["stroboscopic", "event"] = "stroboscopic"
     transient: Seconds
-    longest: Seconds = 240.0
+    max_transient: Seconds = 240.0
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
     theta: Annotated[Finite, Unit("rad")] = 1.0
 
@@ -494,36 +494,37 @@ class LyapunovOptions(Options):
 
 
 class BasinsOptions(Options):
-    """What many starts come to; see `disc_model.stability.attractor`.
+    """Outcomes of many starts; see `disc_model.stability.attractor`.
 
-    energies : J, of the kicks that are added to the start in random directions; 0 adds nothing
-    starts : of each energy
+    energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
+    n_starts : of each energy
     seed : whole number; directions follow from it and from the place of the energy and the number of the start
     horizon : s
-    near : a motion whose range is within this of a known attractor's, relative, and comes ever closer, is left; 0: all
-        are followed to the horizon
+    attractor_tol : relative; a motion ends early if its range agrees with that of a known attractor to this, and
+        approaches it. 0: every motion is simulated to the horizon
     confidence : of the intervals of shares
-    bisected : number of directions along which the least kick is looked for, those that separate at the least energies
-    precision : relative, of the least kick
+    n_bisection_directions : along so many directions the critical energy is sought, those of the separating starts
+        with the least energies
+    precision : relative, of the critical energy
     """
 
     tol: Tolerance = 1e-10
     energies: Annotated[
         tuple[Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")], ...], Field(min_length=1)
     ] = (0.0,)
-    starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
+    n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
     seed: Annotated[Count, Field(ge=0)] = 1
     horizon: Seconds = 200.0
-    near: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
+    attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
     confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
-    bisected: Annotated[Count, Field(ge=0, le=1000)] = 1
+    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1
     precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
 
     _rules = (
         (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
         (
-            lambda o: o.starts == 1 or 0.0 not in o.energies,
-            "starts must be 1 where an energy is 0, since no direction tells them apart",
+            lambda o: o.n_starts == 1 or 0.0 not in o.energies,
+            "n_starts must be 1 where an energy is 0, since no direction tells them apart",
         ),
     )
 
@@ -538,7 +539,7 @@ class StabilityCurvesOptions(Options):
     x_range : from, to; the cycle is looked for at `points` places of it
     y_lines : values of y along which that is done; curves are followed from the first to the last, widened by `margin`
     margin : of the range of y, beyond the lines at both ends
-    longest : arclength of the longest step along a curve
+    max_step : arclength of the longest step along a curve
     max_points : of a curve, each way from where it was met
     max_curves : room for that many
     """
@@ -549,7 +550,7 @@ class StabilityCurvesOptions(Options):
     y_lines: Range
     margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
     points: Annotated[Count, Field(ge=2, le=10_000)] = 31
-    longest: Positive = 0.1
+    max_step: Positive = 0.1
     max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
     tol: CycleTolerance = 1e-12
@@ -573,9 +574,9 @@ class BranchesOptions(Options):
     parameter : the one that varies
     scan : its values in the sweep; each cycle that is met there is followed between the first and the last
     dwell : s at each value
-    late : s, the last stretch of it, over which the range is taken
+    evaluation_time : s, the last stretch of it, over which the range is taken
     releases : of a cycle that is followed, at most
-    longest : arclength of the longest step along a branch
+    max_step : arclength of the longest step along a branch
     max_points : of a branch, each way from where it was met
     max_branches : room for that many
     """
@@ -583,9 +584,9 @@ class BranchesOptions(Options):
     parameter: Free = "Omega"
     scan: Range
     dwell: Seconds
-    late: Seconds = 2.0
+    evaluation_time: Seconds = 2.0
     releases: Annotated[Count, Field(ge=1, le=100)] = 4
-    longest: Positive = 0.05
+    max_step: Positive = 0.05
     max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
     tol: Tolerance = 1e-10
@@ -596,7 +597,7 @@ class BranchesOptions(Options):
         name = said.get("parameter", "Omega") if isinstance(said, dict) else "Omega"
         return each_in_si(said, {"scan": Parameters.unit(str(name))})
 
-    _rules = ((lambda o: o.late <= o.dwell, "late must be <= dwell"),)
+    _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
 
 
 class SensitivityOptions(Options):
@@ -606,9 +607,9 @@ class SensitivityOptions(Options):
         damping_ratio_2_0 with two nodal diameters and no circle
     samples : number of them, a power of two; more of them leave those that there are
     seed : whole number; a sample hangs on it and on the sample's own number alone
-    outcomes : of so many samples, the first ones, the motion is followed as well
-    horizon : s, to which it is followed
-    cap : 1/s, growth rates above which count as this in their indices: a few violent ones would be all the variance
+    simulated_samples : number of samples, the first ones, whose motion is simulated as well
+    horizon : s, to which it is simulated
+    growth_rate_cap : 1/s; larger growth rates count as this in their indices, since a few would be all the variance
     tol : of the cycles; motion_tol : of the motions
     """
 
@@ -616,9 +617,9 @@ class SensitivityOptions(Options):
     # the grid says it already: what is computed of a sample does not hang on how many there are
     samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
     seed: Annotated[Count, Field(ge=0)] = 0
-    outcomes: Annotated[Count, Field(ge=0)] = 0
+    simulated_samples: Annotated[Count, Field(ge=0)] = 0
     horizon: Seconds = 500.0
-    cap: Annotated[Positive, Unit("1/s")] = 0.5
+    growth_rate_cap: Annotated[Positive, Unit("1/s")] = 0.5
     tol: CycleTolerance = 1e-12
     motion_tol: Tolerance = 1e-10
 
@@ -640,14 +641,14 @@ class CampbellOptions(Options):
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
 
     modes : room for that many, the lowest in frequency
-    window : Hz, on either side of a crossing, within which growth rates are looked at
-    rise : 1/s, of a growth rate within the window over that at its ends, from which it counts as one
+    half_bandwidth : Hz, on either side of a crossing, within which growth rates are looked at
+    min_rise : 1/s, of a growth rate within the window over that at its ends, from which it counts as one
     max_crossings : room for that many
     """
 
     modes: Annotated[Count, Field(ge=1, le=1000)] = 12
-    window: Annotated[Positive, Unit("Hz")] = 1.0
-    rise: Annotated[Positive, Unit("1/s")] = 0.01
+    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0
+    min_rise: Annotated[Positive, Unit("1/s")] = 0.01
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
     tol: CycleTolerance = 1e-12
 
@@ -695,7 +696,7 @@ class Quantity(NamedTuple):
     def parted(self, said: Strict) -> tuple[Strict, Start]:
         """What a file says under ``options`` as the options themselves, and where motions start."""
         own = {name: getattr(said, name) for name in self.options.model_fields}
-        start = Start(prepare=said.prepare, kick=said.kick) if isinstance(said, Start) else Start()
+        start = Start(prerun=said.prerun, perturbation=said.perturbation) if isinstance(said, Start) else Start()
         return self.options.model_construct(**own), start
 
 
@@ -721,14 +722,14 @@ QUANTITIES = {
     "hysteresis": Quantity(HysteresisOptions, lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell, scans=("Omega",)),
     "ramps": Quantity(
         RampsOptions,
-        lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.stay) for rate in o.rates.values),
+        lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values),
         scans=("Omega",),
         tasks=("simulate", "ramp"),
     ),
-    "basins": Quantity(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.starts * o.horizon / 2, starts=True),
+    "basins": Quantity(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 2, starts=True),
     "bifurcation": Quantity(
         BifurcationOptions,
-        lambda o: SIMULATED * (o.transient + o.longest / 2),
+        lambda o: SIMULATED * (o.transient + o.max_transient / 2),
         starts=True,
         motions=8,
         motion="After the transient.",
@@ -745,7 +746,7 @@ QUANTITIES = {
     "sensitivity": Quantity(
         SensitivityOptions,
         # the same for more samples, whose batches are to stay
-        lambda o: CYCLE * (2 + len(o.distributions)) + SIMULATED * o.horizon / 4 * (o.outcomes > 0),
+        lambda o: CYCLE * (2 + len(o.distributions)) + SIMULATED * o.horizon / 4 * (o.simulated_samples > 0),
         over=SAMPLE,
     ),
     "campbell": Quantity(CampbellOptions, lambda o: 1.5 * CYCLE, over="Omega"),

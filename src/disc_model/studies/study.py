@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 import yaml
 from pydantic import ValidationError, create_model
 
-from disc_model.data.variables import KICKS, SAMPLE
+from disc_model.data.variables import PERTURBATIONS, SAMPLE
 from disc_model.disc import read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, faults_of, shown, suggestion
 from disc_model.figures.kinds import CasePlot, General, OwnFigure, Plot, RegionMap, Values
@@ -57,8 +57,8 @@ from disc_model.simulation.case import START, CaseSpec, SomeParameters, Start
 from disc_model.studies.document import (
     DOCUMENTS,
     NUMBERS,
-    PUBLISHED,
     QUANTITIES,
+    STATIC,
     VARIED,
     BatchSpec,
     Blocks,
@@ -270,7 +270,7 @@ class Study:
         paths = [Path(path) for pattern in self.studies for path in _found(pattern, folders)]
         asked = (*grids, *(path.stem for path in paths))
         plots = () if self.grid is None else self.grid.plots.values()
-        shown_too = {name for plot in plots for name in plot.others.values()}.difference(asked)
+        shown_too = {name for plot in plots for name in plot.overlays.values()}.difference(asked)
         helpers = [Path(path) for name in sorted(shown_too) for path in _found(f"{name}.yaml", folders)]
         known = {*grids, *(path.stem for path in paths)}
         faults: list[str] = []
@@ -405,8 +405,8 @@ def _found(pattern: str, folders: Sequence[Path]) -> list[str]:
 def _misfits(study: GridStudy, grids: Mapping[str, GridStudy], known: Collection[str]) -> Iterator[str]:
     """What is wrong with the further studies that figures show."""
     for name, plot in study.plots.items():
-        for role, other in plot.others.items():
-            where = f"{study.name}: figures.{name}.others.{role} = {other!r}"
+        for role, other in plot.overlays.items():
+            where = f"{study.name}: figures.{name}.overlays.{role} = {other!r}"
             if other not in known:
                 yield f"{where}: no such study{suggestion(other, sorted(known))}"
             elif other in grids:
@@ -608,7 +608,7 @@ FIRST_SAMPLES = 64
 """In the first block of samples."""
 MOST_POINTS = 1_000_000
 """Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
-_OTHERS: dict[str, Any] = dict.fromkeys(KICKS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
+_OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
 
@@ -752,7 +752,7 @@ class _Grid:
         if self.quantity is not None and document.options is not None:
             self.options, self.start = self.quantity.parted(document.options)
         self.base, self.automatic = self._base()
-        self.starts = {PUBLISHED: Start(), **document.starts}
+        self.starts = {STATIC: Start(), **document.starts}
         zips = raw.get("zip")
         groups = (raw.get("axes"), *([zips] if isinstance(zips, Mapping) else zips if isinstance(zips, list) else ()))
         self.wanted = {str(name) for group in groups for name in mapping(group)}
@@ -915,17 +915,20 @@ class _Grid:
 
     def _check_starts(self) -> None:
         """What starts elsewhere must be followed by the quantity, and its start be said in one place."""
-        wanted = [name for name in (START, *KICKS) if name in self.wanted]
+        wanted = [name for name in (START, *PERTURBATIONS) if name in self.wanted]
         options = mapping(self.raw.get("options"))
         if self.quantity is not None and not self.quantity.starts:
             for name in wanted:
                 self.add(("axes", name), f"the quantity {self.document.quantity} follows no motion from a start")
-        for name in ("prepare", "kick"):
+        for name in ("prerun", "perturbation"):
             if START in wanted and name in options:
                 self.add(("options", name), "must not be given where the start varies: say it under starts")
         for name in wanted:
-            if name in KICKS and name.removeprefix("kick_") in mapping(options.get("kick")):
-                self.add(("options", "kick", name.removeprefix("kick_")), f"is given, and varies as axes.{name}")
+            if name in PERTURBATIONS and name.removeprefix("perturbation_") in mapping(options.get("perturbation")):
+                self.add(
+                    ("options", "perturbation", name.removeprefix("perturbation_")),
+                    f"is given, and varies as axes.{name}",
+                )
 
     def _check_truncation(self) -> None:
         """What is chosen for each point cannot be given, and the choice is made for all points or none."""

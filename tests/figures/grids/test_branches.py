@@ -24,9 +24,9 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         "sliding_growth_rate": [0.1] * 5,
     }
     monkeypatch.setattr(branches, "at", lambda *_, **__: (values, ""))
-    options = {"scan": {"start": 10, "stop": 14, "step": 1}, "dwell": 1, "late": 1}
+    options = {"scan": {"start": 10, "stop": 14, "step": 1}, "dwell": 1, "evaluation_time": 1}
     study = computed(quantity="branches", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
-    (ax,) = draw("branches", study, paper={"F11": 12}, title="t").axes
+    (ax,) = draw("branches", study, paper_cases={"F11": 12}, title="t").axes
     thick = [line for line in ax.lines if line.get_linewidth() == 2 and len(line.get_xdata())]
     assert [(line.get_color(), [*line.get_xdata()]) for line in thick] == [
         (BLACK, [10, 12, 13]),

@@ -18,7 +18,7 @@ from tests.studies.grids.conftest import growth_over
 SPEEDS, LOADS = np.linspace(5, 50, 10), np.array([100.0, 200, 300])
 NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
 FOLD = Curve(SPEEDS, SPEEDS * 6, "fold", "2 f_s = 135.42 Hz")
-CLAIM = {"paper": (200, 12.6)}
+PAPER_POINTS = {"paper": (200, 12.6)}
 
 
 def scanned() -> xr.Dataset:
@@ -40,7 +40,12 @@ def scanned() -> xr.Dataset:
 def chart(monkeypatch: pytest.MonkeyPatch, **others: xr.Dataset) -> Figure:
     """Of known curves."""
     monkeypatch.setattr(critical_speed, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
-    return draw("thresholds", scanned(), {"curves": xr.Dataset({"n_unfollowed": 2}), **others}, claim=CLAIM)
+    return draw(
+        "thresholds",
+        scanned(),
+        {"curves": xr.Dataset({"n_continuation_failures": 2}), **others},
+        paper_points=PAPER_POINTS,
+    )
 
 
 def test_curves_crossings_and_what_the_paper_says_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -77,7 +82,7 @@ def test_the_speed_goes_across_and_panels_say_how_they_were_computed(
 ) -> None:
     """Both were titled alike, and speeds went up here and across elsewhere."""
     others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7)), "curves": plane}
-    both = draw("critical_speed", speeds, others, claim=CLAIM)
+    both = draw("critical_speed", speeds, others, paper_points=PAPER_POINTS)
     titles = [ax.get_title(loc="left") for ax in both.axes]
     assert titles == ["(a) from the static start", "(b) sweeps: 60 s, then 0.5 rad/s further"]
     assert both.axes[0].get_xlabel() == "Speed Ω (rad/s)"

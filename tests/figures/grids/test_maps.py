@@ -48,7 +48,7 @@ def test_what_there_is_without_a_cycle_is_told_apart() -> None:
         "sliding_growth_rate": (plane, np.array([[0.1, 0.1, 0.1, -0.1, 0.1, 0.1, 0.1]])),
     }
     data = xr.Dataset(values, {"N": [100.0], "Omega": np.arange(7.0)})
-    expected = ["", "none_found", "separates", "slides", "none_found", "sticks", "failed"]
+    expected = ["", "no_cycle", "separates", "steady_sliding", "no_cycle", "at_rest", "failed"]
     assert cycles_of(data, "Omega", "N")[0].tolist() == expected
 
 
@@ -84,7 +84,7 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     outcome = np.where(np.isnan(growth), "undecided", np.where(growth < 0, "quiet", "separation"))
     outcome[3, 0] = "growing"
     codes = {"outcome": np.vectorize(regions.COURSES.index)(outcome)}
-    codes |= dict.fromkeys(("cycle", "joined_first", "joined_second"), followed)
+    codes |= dict.fromkeys(("cycle", "branch_continues_first", "branch_continues_second"), followed)
     data = {
         name: (dims, values, {"flag_meanings": " ".join(regions.COLUMNS[name].variable.flags)})
         for name, values in codes.items()
@@ -95,7 +95,7 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
 
 
 def mark(x: float, y: float, paper: str) -> dict[str, Any]:
-    return {"x": x, "y": y, "paper": paper}
+    return {"x": x, "y": y, "paper_outcome": paper}
 
 
 def lengths(ax: Any) -> list[int]:
@@ -125,7 +125,7 @@ def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
     """Any cell without a cycle that was followed was said to be beyond a fold, and the picture showed the tiles."""
     study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
     for name, code in (
-        ("cycle", regions.CYCLES.index("only_near")),  # another is near
+        ("cycle", regions.CYCLES.index("nearby_only")),  # another is near
         ("outcome", regions.COURSES.index("quiet")),  # it is inferred to stay quiet
     ):
         other = study.copy(deep=True)

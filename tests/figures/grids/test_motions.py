@@ -34,7 +34,7 @@ def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() 
     samples, _ = made_up_samples()
     study = samples.assign_attrs(
         base=json.dumps({"normalization": "orthonormal", "Omega": 15, "k": 5e4, "c_p": 1.0}),
-        options=json.dumps({"section": "switch", "prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}}),
+        options=json.dumps({"section": "event", "prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}}),
     )
     figure = draw("bifurcation", study, x="N", title="Made up")
     assert labels(figure.axes[0]) == ["at release of stick"]
@@ -46,7 +46,7 @@ def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() 
 def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
     samples, exponents = made_up_samples()
     words = {"flag_meanings": "unknown no yes"}
-    samples["steady"] = ("N", np.array([2, 1, 2], np.int8), words)
+    samples["stationary"] = ("N", np.array([2, 1, 2], np.int8), words)
     exponents["converged"] = (("N", "exponent_number"), np.array([[2], [2], [1]], np.int8), words)
     above, below = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes
     assert list(lines(above)["not steady"].get_xdata()) == [2, 2]
@@ -68,8 +68,8 @@ def test_a_diagram_of_any_variable_has_its_unit() -> None:
 def test_a_diagram_looked_like_chaos_where_the_motion_repeats() -> None:
     """Nearly all points are periodic, after 21 to 259 switches; nothing said so, nor where the paper's cases lie."""
     samples, _ = made_up_samples()
-    samples["period"] = ("N", [2, 0, 45])
-    above, below = draw("bifurcation", samples, x="N", paper={"F2": 1.0, "F7": 3.0}).axes
+    samples["period_events"] = ("N", [2, 0, 45])
+    above, below = draw("bifurcation", samples, x="N", paper_cases={"F2": 1.0, "F7": 3.0}).axes
     assert below.lines[0].get_xydata().tolist() == [[1, 2], [3, 45]]
     assert list(lines(below)["not shown to repeat"].get_xdata()) == [2]
     assert [text.get_text() for text in above.texts] == ["F2", "F7"]
@@ -78,7 +78,9 @@ def test_a_diagram_looked_like_chaos_where_the_motion_repeats() -> None:
 # ---- basins
 
 QUIET, APART = (
-    Attractor(Outcome.QUIET, stretch(u_min=0, u_max=1e-5, separation_rate=0, share_stick=0.3, share_separation=0)),
+    Attractor(
+        Outcome.QUIET, stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
+    ),
     Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03)),
 )
 
@@ -97,7 +99,7 @@ def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 
     monkeypatch.setattr(basins, "Basins", Made)
     monkeypatch.setattr(basins, "random_kick", lambda p, state, energy, key: energy)
-    options = {"energies": [0.01, 0.1, 1], "starts": 4}
+    options = {"energies": [0.01, 0.1, 1], "n_starts": 4}
     return computed(quantity="basins", options=options, base={"N": 385}, axes={"Omega": [12, 13, 14, 15]})
 
 
@@ -133,9 +135,9 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
     values = {
         "status": "ok",
         "rate_status": np.array([0, 0, STATUSES.index("stalled")]),
-        "onset": np.array([15.3, np.nan, np.nan]),
+        "onset_speed": np.array([15.3, np.nan, np.nan]),
         "top_separation_rate": np.array([135.0, 0.0, np.nan]),
-        "persists_to": np.array([9.7, 9.3, np.nan]),
+        "offset_speed": np.array([9.7, 9.3, np.nan]),
     }
     monkeypatch.setattr(ramps, "at", lambda *_, **__: (values, ""))
     options = {"low": 8, "high": 20, "rates": {"start": 0.01, "stop": 1, "count": 3, "scale": "log"}}

@@ -16,7 +16,7 @@ from tests.studies.grids.quantities import test_sensitivity as uncertain
 def test_instability_against_each_parameter() -> None:
     """Made up so that a sample is unstable where mu_s is above its middle: k does not matter."""
     study = uncertain.made_up()
-    drawn = study["drawn"].transpose("N", "sample", "draw", "parameter").values
+    drawn = study["parameter_values"].transpose("N", "sample", "sample_matrix", "parameter").values
     middle = np.median(drawn[..., 1])
     pick = [0, 1, 0, 1]  # of A, B, A with k from B, A with mu_s from B
     words = study["cycle"].attrs["flag_meanings"].split()

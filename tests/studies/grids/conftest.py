@@ -28,7 +28,7 @@ def study(**changes: Any) -> dict[str, Any]:
     raw = {
         "study": "small",
         "quantity": "outcome",
-        "options": {"horizon": 2, "late": 0.2, "after_separation": 0.2},
+        "options": {"horizon": 2, "evaluation_time": 0.2, "after_separation": 0.2},
         "axes": {"N": [100, 200, 300], "Omega": {"start": 10, "stop": 20, "count": 3}},
         "batch": {"over": ["Omega"], "size": 2},
     }
@@ -56,7 +56,9 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         apart = p.Omega >= 14 or (state is not None and state and p.Omega >= 13)
         share = 0.25 if apart else 0.0
         values = dict.fromkeys(Stretch.__dataclass_fields__, 0.0)
-        found = Stretch(**values | {"share_separation": share, "share_slip": 1 - share, "separation_rate": 40 * share})
+        found = Stretch(
+            **values | {"separation_fraction": share, "slip_fraction": 1 - share, "separation_rate": 40 * share}
+        )
         return SimpleNamespace(final_state=apart, status=Status.OK, message=""), found
 
     monkeypatch.setattr(critical_speed, "motion", motion)
@@ -73,7 +75,7 @@ def speeds(fake_motions: None) -> xr.Dataset:
 
 @pytest.fixture
 def sweep(fake_motions: None) -> xr.Dataset:
-    options = {"scan": SCAN, "dwell": 60, "late": 2}
+    options = {"scan": SCAN, "dwell": 60, "evaluation_time": 2}
     return computed(quantity="hysteresis", options=options, axes={"N": [200, 400], "normalization": ["as_published"]})
 
 

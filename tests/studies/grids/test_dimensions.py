@@ -5,12 +5,12 @@ from typing import Any
 
 import pytest
 
-from disc_model.data.variables import KICKS
+from disc_model.data.variables import PERTURBATIONS
 from disc_model.parameters import Parameters
 from disc_model.studies.study import GridStudy
 from tests.studies.refused import parse_grid
 
-AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
+AFTER = {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
 
 
 def parsed(**changes: Any) -> GridStudy:
@@ -62,15 +62,15 @@ def test_a_batch_knows_the_starts_that_its_points_have_and_no_others() -> None:
         study = parsed(axes={"c": [0, 1], "start": names}, starts=starts, batch={"over": ["c"]})
         return {key: json.loads(text) for key, text in study.batches.items()}
 
-    before = texts({"apart": AFTER}, ["published", "apart"])
-    assert sorted(sorted(text["starts"]) for text in before.values()) == [["apart"], ["published"]]
-    more = texts({"apart": AFTER, "kicked": {"kick": {"u": 1e-3}}}, ["published", "apart", "kicked"])
+    before = texts({"apart": AFTER}, ["static", "apart"])
+    assert sorted(sorted(text["starts"]) for text in before.values()) == [["apart"], ["static"]]
+    more = texts({"apart": AFTER, "kicked": {"perturbation": {"u": 1e-3}}}, ["static", "apart", "kicked"])
     assert set(before) < set(more)
-    changed = texts({"apart": AFTER | {"kick": {"f": 1}}}, ["published", "apart"])
+    changed = texts({"apart": AFTER | {"perturbation": {"f": 1}}}, ["static", "apart"])
     assert len(set(before) & set(changed)) == 1
 
 
 def test_kicks_are_axes_with_units() -> None:
-    study = parsed(axes={name: [0, "1e-4"] for name in KICKS})
-    assert study.values == dict.fromkeys(KICKS, ((0.0,), (0.0001,)))
-    assert all(variable.units for variable in KICKS.values())
+    study = parsed(axes={name: [0, "1e-4"] for name in PERTURBATIONS})
+    assert study.values == dict.fromkeys(PERTURBATIONS, ((0.0,), (0.0001,)))
+    assert all(variable.units for variable in PERTURBATIONS.values())

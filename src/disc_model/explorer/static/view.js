@@ -36,7 +36,7 @@ function chooseAxes() {
   const fitting = variablesShown();
   const said = (one) => !one.name.endsWith("status");
   if (!fitting.includes(view.variable)) view.variable = fitting.find(growth) ?? fitting.find(said) ?? fitting[0];
-  const simulated = marks().find(([, variable, word]) => variable.name === "origin" && word === "simulation");
+  const simulated = marks().find(([, variable, word]) => variable.name === "method" && word === "simulation");
   view.mark = simulated ? simulated[0] : NONE;
 }
 

@@ -34,8 +34,8 @@ COLOURS = {
     "separating": SEPARATED,
     "quasi_periodic": SKY,
     "irregular": BROWN,
-    "sliding": PURPLE,
-    "resting": GREEN,
+    "steady_sliding": PURPLE,
+    "at_rest": GREEN,
     "undecided": GREY,
     "failed": BLACK,
 }
@@ -45,7 +45,7 @@ LARGEST = 36.0
 LETTERS = "abcdefghijkl"
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShares) -> Figure:
     """Above, shares of the starts of each energy; below, range of each attractor, its mark as large as its share of all
     starts, and kicks."""
     study = parts.of_one(study, {})[1].transpose(plot.x, ...)
@@ -54,7 +54,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: BasinShares)
     figure = new_figure(PAGE, 4.6)
     above, below = np.asarray(figure.subfigures(2, 1))
     axes = [*above.subplots(1, len(energies), sharey=True, squeeze=False)[0], *below.subplots(1, 2)]
-    fates = [fate for fate in COLOURS if (study["share"].sel(fate=fate) > 0).any()]
+    fates = [fate for fate in COLOURS if (study["basin_fraction"].sel(attractor_class=fate) > 0).any()]
     for ax, energy in zip(axes, energies, strict=False):
         _shares(ax, study.sel(energy=energy), along, fates)
         ax.set_xlabel(label)
@@ -79,7 +79,7 @@ def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, fates: list[str]) ->
     """Bars one upon another."""
     low = np.zeros(len(along))
     for fate in fates:
-        share = study["energy_share"].sel(fate=fate).values
+        share = study["basin_fraction_by_energy"].sel(attractor_class=fate).values
         ax.bar(along, share, 0.9 * np.diff(along).min(initial=1.0), low, color=COLOURS[fate], linewidth=0)
         low = low + np.nan_to_num(share)
     ax.set(ylim=(0, 1))
@@ -104,7 +104,7 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     for i, energy in enumerate(study["energy"].values):
         label = "kicks tried" if i == 0 else "_nolegend_"
         ax.axhline(energy, color=GREY, linestyle=":", linewidth=0.6, zorder=0, label=label)
-    sample, found = study["least_kick_sample"].values, study["least_kick"].values
+    sample, found = study["critical_energy_sampled"].values, study["critical_energy"].values
     ax.plot(along, sample, "_", color=BLACK, markersize=6, label="least of them")
     ax.plot(along, np.where(found > 0, found, np.nan), "v-", color=SEPARATED, markersize=3.5, label="by bisection")
     ax.set(ylabel="Least kick that\nseparates (J)")

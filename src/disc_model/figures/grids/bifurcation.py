@@ -27,18 +27,18 @@ ERRORS = 4
 """Of an exponent, in half of the band about it."""
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
     """Samples against a parameter; those in stick apart from those in slip or separation, and grey where the motion
     was not steady yet.
 
     A cross says where a point failed, or the largest exponent is missing; a dash where the motion has nothing to
     sample, as no switches.  The further study ``lyapunov``, if given, has a panel below.
     """
-    _, study, others = parts.of_one(study, others)
+    _, study, overlays = parts.of_one(study, overlays)
     study = study.transpose(plot.x, "sample", ...)
     options = json.loads(study.attrs.get("options", "{}"))
-    names = SWITCHES if options.get("section") == "switch" else {}
-    below = ["period"] * ("period" in study) + ["lyapunov"] * ("lyapunov" in others)
+    names = SWITCHES if options.get("section") == "event" else {}
+    below = ["period"] * ("period_events" in study) + ["lyapunov"] * ("lyapunov" in overlays)
     heights = [HEIGHTS[name] for name in ("samples", *below)]
     figure = new_figure(PAGE, sum(heights) + 0.7)
     axes = figure.subplots(len(heights), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
@@ -49,8 +49,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     lost = parts.failed(study).values
     phase = np.where(lost[:, None], -1, study["phase"].values.astype(int) - 1)
     unsteady = np.zeros(phase.shape, dtype=bool)
-    if "steady" in study:
-        unsteady[:] = (flag_names(study["steady"]) == "no")[:, None]
+    if "stationary" in study:
+        unsteady[:] = (flag_names(study["stationary"]) == "no")[:, None]
     if (there := unsteady & (phase >= 0)).any():
         ax.plot(position[there], values[there], ".", color=GREY, markersize=1.5, alpha=0.5, label="not steady")
     for code, (name_of_phase, color) in enumerate(PHASE_COLOURS.items()):
@@ -70,11 +70,11 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Bifurcation)
     ax.set_ylabel(f"{parts.axis_of(plot.variable)[0].rpartition(' (')[0]} ({prefix}{unit.replace(' s-1', '/s')})")
     for one, name in zip(axes[1:], below, strict=True):
         if name == "period":
-            _period(one, along[moving], study["period"].values[moving])
+            _period(one, along[moving], study["period_events"].values[moving])
         else:
-            _exponents(one, parts.without_failed(others["lyapunov"], "exponent", "exponent_error"), plot.x)
+            _exponents(one, parts.without_failed(overlays["lyapunov"], "exponent", "exponent_error"), plot.x)
     for one, letter in zip(axes, "abc", strict=False):
-        for i, (case, value) in enumerate(plot.paper.items()):
+        for i, (case, value) in enumerate(plot.paper_cases.items()):
             one.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
             if one is ax:  # the first to the left of its line, the next to the right
                 side = 2 * (-1) ** (i + 1)
@@ -103,11 +103,11 @@ def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
 
 def _start(options: Mapping[str, Any]) -> str:
     """Where the motions of all points start."""
-    prepare = options.get("prepare")
-    if not prepare:
+    prerun = options.get("prerun")
+    if not prerun:
         return "Each point from the static start; other motions may exist beside."
-    said = said_values(prepare.get("parameters", {}))
-    return f"Each point from the state of {said} after {prepare['time']:g} s; other motions may exist beside."
+    said = said_values(prerun.get("parameters", {}))
+    return f"Each point from the state of {said} after {prerun['time']:g} s; other motions may exist beside."
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
@@ -132,5 +132,7 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     if unsure:
         ax.plot([], [], label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
-    ax.set_ylabel("Lyapunov exponents" + (",\ntrivial one left out" if "along" in lyapunov else "") + " (1/s)")
+    ax.set_ylabel(
+        "Lyapunov exponents" + (",\ntrivial one left out" if "trivial_exponent" in lyapunov else "") + " (1/s)"
+    )
     parts.legend_above(ax)

@@ -20,9 +20,9 @@ LOWEST = 1e-3
 """mm: what vibrates less is not told from rest."""
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
     """One point: a line for each branch, thick where it is stable; triangles for the sweep up and down."""
-    norm, study, _ = parts.of_one(study, others)
+    norm, study, _ = parts.of_one(study, overlays)
     study = study.squeeze()
     name = str(json.loads(study.attrs["options"])["parameter"])
     label, factor = parts.axis_of(name)
@@ -40,9 +40,9 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Branches) ->
     said = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
     ax.plot(along, np.full(along.size, LOWEST), color=GREY, linewidth=0.8, linestyle="--" if unstable.all() else "-")
     parts.say(ax, f"steady sliding: {said}", (along[0], LOWEST), (4, 3), fontsize=7, color=GREY)
-    for case, value in plot.paper.items():
+    for case, value in plot.paper_cases.items():
         ax.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
-        side = -1 if value == min(plot.paper.values()) else 1
+        side = -1 if value == min(plot.paper_cases.values()) else 1
         parts.say(ax, case, (value * factor, 0.06), (3 * side, 0), xycoords=("data", "axes fraction"), fontsize=7)
     ax.set(
         xlabel=label, ylabel="Range of the slider's height (mm)", xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None)

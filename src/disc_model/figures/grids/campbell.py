@@ -30,7 +30,7 @@ LINEAR = 1.0
 """1/s: growth rates up to which their scale is linear."""
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:
     """(a) frequencies, (b) growth rates by mode; what happens to the cycle is numbered and said below."""
     norm = plot.normalization or parts.normalizations(study)[0]
     study = parts.of(study, norm).transpose("Omega", ...)

@@ -38,8 +38,8 @@ HATCH = 8 * "/"
 """So dense that a cell of a fiftieth of a panel has two lines."""
 OUTCOME_LOOKS = {
     "quiet": Look("stays quiet", "#e9eef2"),
-    "sliding": Look("slides steadily", "#e4dcec"),
-    "resting": Look("rests on the disc", "#dcebe1"),
+    "steady_sliding": Look("slides steadily", "#e4dcec"),
+    "at_rest": Look("rests on the disc", "#dcebe1"),
     "other_cycle": Look("another cycle in contact", "#7f93a3"),
     "growing": Look("grows, no separation", "#a9b4bd"),
     "separation": Look("separation", SEPARATED),
@@ -47,21 +47,21 @@ OUTCOME_LOOKS = {
     "failed": Look("failed", "#333333"),
 }
 CYCLE_LOOKS = {
-    "slides": Look(WITHOUT_CYCLE["no_stick_slip"], "#d9cfe3"),
-    "sticks": Look(WITHOUT_CYCLE["at_rest"], "#cfe3d6"),
+    "steady_sliding": Look(WITHOUT_CYCLE["no_stick_slip"], "#d9cfe3"),
+    "at_rest": Look(WITHOUT_CYCLE["at_rest"], "#cfe3d6"),
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae"),
-    "only_near": Look("start follows no cycle", "#f2e6a2"),
-    "none_found": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5"),
+    "nearby_only": Look("start follows no cycle", "#f2e6a2"),
+    "no_cycle": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5"),
     "alone": Look("growth unlike all cells around", "none", HATCH),
     "failed": Look("failed", "#333333"),
 }
 """What there is to see where no cycle is followed, and over a growth rate that may be another cycle's."""
 WITHOUT = {
-    "ok": "none_found",
-    "no_cycle": "none_found",
+    "ok": "no_cycle",
+    "no_cycle": "no_cycle",
     "separates": "separates",
-    "no_stick_slip": "slides",
-    "at_rest": "sticks",
+    "no_stick_slip": "steady_sliding",
+    "at_rest": "at_rest",
 }
 """The same, by the status of a point of the quantity `floquet`."""
 
@@ -156,7 +156,7 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
         return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y))
-    words = np.full(rate.shape, "none_found", dtype="<U16")
+    words = np.full(rate.shape, "no_cycle", dtype="<U16")
     if "status" in data:
         status = words_of(data, "status", x, y)
         words = np.array([WITHOUT.get(word, "failed") for word in status.flat], dtype="<U16").reshape(rate.shape)
@@ -164,7 +164,7 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
     if "sliding_growth_rate" in data:
         # steady sliding that grows is no motion to stay in
         grows = ~(data["sliding_growth_rate"].transpose(y, x).values < 0)
-        words[(words == "slides") & grows] = "none_found"
+        words[(words == "steady_sliding") & grows] = "no_cycle"
     words[np.isfinite(rate)] = ""
     words[alone(rate)] = "alone"
     return words

@@ -35,11 +35,11 @@ WIDTH = 20.0
 """Of what is measured at one load, N: well within the step of the sweeps."""
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
     """(a) where separation begins and ends from the static start, and what lies behind; (b) a sweep of the speed."""
-    norm, study, others = parts.of_one(study, others)
+    norm, study, overlays = parts.of_one(study, overlays)
     lost = parts.failed(study).values
-    sweep, cycle = others.get("hysteresis"), others.get("cycle")
+    sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
     scan = span(study["scan_Omega"].values)
     if cycle is not None:
         # beyond the scan nothing is known of separation
@@ -54,22 +54,22 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CriticalSpee
     parts.mark_failed(axes[0], loads[lost], on="y")
     study = study.isel(N=~lost).sortby("N")
     handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
-    if "curves" in others:
-        curves = curves_of(others["curves"])
+    if "curves" in overlays:
+        curves = curves_of(overlays["curves"])
         shown = curves if cycle is None else parted(curves, cycle)[0]
-        handles += draw_curves([axes[0]], [shown], [others["curves"]])
+        handles += draw_curves([axes[0]], [shown], [overlays["curves"]])
     horizons = [_horizon_of(study, cycle)] if isinstance(plot, Thresholds) else sorted(study["horizon"].values)[::-1]
     _starts(axes[0], study, horizons)
-    if plot.claim:
-        load, speed = np.transpose([*plot.claim.values()])
+    if plot.paper_points:
+        load, speed = np.transpose([*plot.paper_points.values()])
         axes[0].plot(
             speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, clip_on=False, label="what the paper says"
         )
     said = ["from the static start"]
     if sweep is not None:
         said.append(_sweep(axes[1], sweep, study, horizons[0]))
-        if "basins" in others:
-            _measured(axes[1], others["basins"])
+        if "basins" in overlays:
+            _measured(axes[1], overlays["basins"])
         elif cycle is not None:
             _both(axes[1], cycle, sweep)
     parts.letters(axes, said, pad=12)
@@ -190,8 +190,8 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
     """Where separation begins as the speed rises in steps, and ends as it falls; how the speed is swept."""
     N, lost = sweep["N"].values, parts.failed(sweep).values
     for name, color, marker, said in (
-        ("onset", ONSET, "^", "sweep up: separation begins"),
-        ("persists_to", END, "v", "sweep down: separation ends"),
+        ("onset_speed", ONSET, "^", "sweep up: separation begins"),
+        ("offset_speed", END, "v", "sweep down: separation ends"),
     ):
         speeds = np.where(lost, np.nan, sweep[name].values)
         ax.plot(speeds, N, color=color, marker=marker, markersize=3.5, label=said, clip_on=False)
@@ -213,7 +213,7 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     """
     rate = cycle["growth_rate"].transpose("N", "Omega")
     speeds, loads = rate["Omega"].values, rate["N"].values
-    lowest = np.interp(loads, sweep["N"].values, sweep["persists_to"].values, left=np.nan, right=np.nan)
+    lowest = np.interp(loads, sweep["N"].values, sweep["offset_speed"].values, left=np.nan, right=np.nan)
     there = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
     look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
     ax.pcolormesh(speeds, loads, np.ma.masked_where(~there, there), cmap=ListedColormap([ORANGE]), **look)
@@ -227,7 +227,9 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
     alone is a line.
     """
     load, speeds = json.loads(basins.attrs["base"])["N"], basins["Omega"].values
-    both = ((basins["share_low"].sel(fate="quiet") > 0) & (basins["separating_share_low"] > 0)).values
+    both = (
+        (basins["basin_fraction_low"].sel(attractor_class="quiet") > 0) & (basins["separating_fraction_low"] > 0)
+    ).values
     for i, (first, after) in enumerate(parts.stretches(both)):
         label = "_nolegend_" if i else f"quiet or separating,\nmeasured at {load:g} N"
         low, high = speeds[first], speeds[after - 1]

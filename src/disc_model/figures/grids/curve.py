@@ -24,7 +24,7 @@ LINEAR = 0.1
 """1/s, growth rate up to which its scale is linear."""
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:
     """A line, or one for each value of a second dimension; marks at the axis where there is no value.
 
     A second dimension of numbers has a scale of colours, one of words or pairs a legend.

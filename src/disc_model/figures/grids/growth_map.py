@@ -57,17 +57,17 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
     found = []
     for i in np.flatnonzero(kinds != "none"):
         one = data.isel(curve=int(i))
-        border = (flag_names(one["border"]) == "yes") & np.isfinite(one["x"].values)
+        border = (flag_names(one["adjoins_stable_cycle"]) == "yes") & np.isfinite(one["x"].values)
         if border.sum() < 2:
             continue
         x, y = (np.where(border, one[name].values, np.nan) for name in ("x", "y"))
-        near = kinds[i] == "fold" and abs(float(one["tongue_detuning"])) < NEAR
+        near = kinds[i] == "fold" and abs(float(one["resonance_detuning"])) < NEAR
         found.append(Curve(x, y, str(kinds[i]), _tongue(one).label if near else ""))
     return found
 
 
 def _tongue(one: xr.Dataset) -> Tongue:
-    return Tongue(**{field.name: one[f"tongue_{field.name}"].item() for field in fields(Tongue)})
+    return Tongue(**{field.name: one[f"resonance_{field.name}"].item() for field in fields(Tongue)})
 
 
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
@@ -142,7 +142,7 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
     handles = [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
     look: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
     handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **look) for label, i in numbers.items()]
-    lost = [int(one["n_unfollowed"].sum()) for one in data]
+    lost = [int(one["n_continuation_failures"].sum()) for one in data]
     if any(lost):
         said = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
         handles.append(Line2D([], [], linestyle="", label=f"curves stop, not followed: {', '.join(said)}"))
@@ -153,12 +153,12 @@ def span(values: Array) -> tuple[float, float]:
     return float(values.min()), float(values.max())
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
     """A panel for each normalization, with the further study ``curves`` if it is given."""
     norms = parts.normalizations(study)
     figure = new_figure(PAGE if len(norms) > 1 else COLUMN, 2.9)
     axes = list(figure.subplots(1, len(norms), sharey=True, squeeze=False)[0])
-    data = [parts.of(others["curves"], norm) for norm in norms] if "curves" in others else []
+    data = [parts.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
     shown: list[list[Curve]] = []
     other: list[Curve] = []
     gaps: set[str] = set()

@@ -26,7 +26,7 @@ HATCH = "//////"
 """Where there is no value."""
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: HeatMap) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -> Figure:
     """Panels of one scale of colours; hatched where there is no value.
 
     Growth rates have the colours of all growth maps; what has both signs is centred on 0.

@@ -18,12 +18,12 @@ from disc_model.figures.parts import COLUMN, END, ONSET, new_figure
 BEYOND = "none up to the highest speed"
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
     """One point; with the further study ``curves``, the speed at which the cycle ends."""
-    norm, study, others = parts.of_one(study, others)
+    norm, study, overlays = parts.of_one(study, overlays)
     study = study.squeeze()
     options, load = json.loads(study.attrs["options"]), float(json.loads(study.attrs["base"])["N"])
-    rates, onset, end = (study[name].values for name in ("rate", "onset", "persists_to"))
+    rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
     gone = study["rate_status"].values != 0
     figure = new_figure(COLUMN, 3.4)
     ax = figure.subplots()
@@ -33,8 +33,8 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RampedSpeeds
     if late.size:
         top = np.full(late.size, options["high"])
         ax.plot(late, top, "^", color=ONSET, markersize=4, markerfacecolor="white", clip_on=False, label=BEYOND)
-    if "curves" in others:
-        _fold(ax, curves_of(others["curves"]), load, onset)
+    if "curves" in overlays:
+        _fold(ax, curves_of(overlays["curves"]), load, onset)
     parts.mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)

@@ -27,7 +27,7 @@ UNRESOLVED = cells.Look("finer than the cells", "none", cells.HATCH)
 Mask = NDArray[np.bool_]
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
     """Two panels for each normalization: outcomes, and growth rates; the paper's cases are marked.
 
     Lines are those of the further study ``curves``, if it is given, and else lie between cells.
@@ -48,7 +48,7 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: RegionMap) -
         for row in range(2):
             ax = axes[row, column]
             parts.letter(ax, "abcd"[row * len(norms) + column], "" if row else parts.MODES[norm])
-            lines += _curves(ax, one, others) if "curves" in others else _borders(ax, one, plot)
+            lines += _curves(ax, one, overlays) if "curves" in overlays else _borders(ax, one, plot)
     above: list[Artist] = [cells.patch(cells.OUTCOME_LOOKS[name]) for name in cells.OUTCOME_LOOKS
                            if name in flag_names(study["outcome"])]  # fmt: skip
     above += [cells.patch(UNRESOLVED)] * hatched
@@ -68,10 +68,10 @@ def standing_alone(words: cells.Names) -> Mask:
     return np.asarray(np.all([words != other for other in beside], axis=0))
 
 
-def _curves(ax: Axes, data: xr.Dataset, others: Mapping[str, xr.Dataset]) -> list[Artist]:
+def _curves(ax: Axes, data: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> list[Artist]:
     """Continued curves of the cycle that the map shows; their numbers stand in growth maps."""
     norm = parts.normalizations(data)[0]
-    found = parted(curves_of(parts.of(others["curves"], norm)), data)[0]
+    found = parted(curves_of(parts.of(overlays["curves"], norm)), data)[0]
     return list(draw_curves([ax], [[curve.unnumbered for curve in found]], []))
 
 
@@ -84,10 +84,10 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Artist]:
     x, y = cells.edges_of(data, plot.x, plot.y)
     growth = data["growth_rate"].transpose(plot.y, plot.x).values
     stable, unstable = growth < 0, growth > 0
-    gone = cells.words_of(data, "cycle", plot.x, plot.y) == "none_found"
+    gone = cells.words_of(data, "cycle", plot.x, plot.y) == "no_cycle"
     gone &= cells.words_of(data, "outcome", plot.x, plot.y) != "quiet"
     # the study's plane may lie the other way round
-    names = ("joined_first", "joined_second")
+    names = ("branch_continues_first", "branch_continues_second")
     up, right = names if str(data["outcome"].dims[0]) == plot.y else names[::-1]
     found: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
     for joined, ahead, here, ends in (
@@ -116,8 +116,9 @@ def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
         here = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
         outcome, rate = str(flag_names(here["outcome"])), float(here["growth_rate"])
         found = cells.OUTCOME_LOOKS[outcome].label
-        if outcome != mark.paper:
-            yield f"{name}: the paper says “{cells.OUTCOME_LOOKS[mark.paper].label}”, the static start: {found}."
+        if outcome != mark.paper_outcome:
+            stated = cells.OUTCOME_LOOKS[mark.paper_outcome].label
+            yield f"{name}: the paper says “{stated}”, the static start: {found}."
         if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"

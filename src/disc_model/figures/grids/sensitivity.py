@@ -21,7 +21,7 @@ BINS = 3
 """Parts, of as many draws each, of what a parameter is drawn from."""
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
     """A row for each point, a panel for each parameter: how probable instability is in each third of its values.
 
     Bars are intervals of 95 %; the line is the probability at all values.
@@ -51,7 +51,7 @@ def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
     All variants of a sample count; since they share values, errors are those of samples, not of variants.
     """
     variants = [str(one) for one in cell["variant"].values]
-    draws = cell["drawn"].sel(parameter=name).transpose(SAMPLE, "draw").values
+    draws = cell["parameter_values"].sel(parameter=name).transpose(SAMPLE, "sample_matrix").values
     x = np.stack([draws[:, int(one in ("B", name))] for one in variants], axis=1)
     words = flag_names(cell["cycle"].transpose(SAMPLE, "variant"))
     known = words != "failed"
@@ -71,7 +71,7 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     middle, share, error = probabilities(cell, name)
     ax.axhline(float(cell["probability_unstable"]), color=GREY, linewidth=0.7)
     ax.errorbar(middle, share, 1.96 * error, color=BLUE, marker="o", markersize=2.5, linewidth=0.8, capsize=1.5)
-    ends = np.quantile(cell["drawn"].sel(parameter=name), [0, 1])
+    ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
     _, _, unit, factor = shown_number(name)
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
     ax.minorticks_off()

@@ -25,8 +25,8 @@ from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure
 
 MARKS: dict[str, dict[str, Any]] = {
     "quiet": {"marker": "o", "facecolor": "white", "s": 9},
-    "sliding": {"marker": "o", "facecolor": "#c9b8dc", "s": 9},
-    "resting": {"marker": "o", "facecolor": "#b9dcc6", "s": 9},
+    "steady_sliding": {"marker": "o", "facecolor": "#c9b8dc", "s": 9},
+    "at_rest": {"marker": "o", "facecolor": "#b9dcc6", "s": 9},
     "other_cycle": {"marker": "v", "facecolor": "white", "s": 13},
     "growing": {"marker": "^", "facecolor": "#9a9a9a", "s": 13},
     "undecided": {"marker": "D", "facecolor": "white", "s": 9},
@@ -38,7 +38,7 @@ LARGE = 55.0
 """Area of the marks of the paper."""
 
 
-def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
+def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
     """One panel for each normalization, a mark a point; behind it the further study ``growth``, if it is given."""
     norms = parts.normalizations(study)
     figure = new_figure(PAGE, 3.3)
@@ -46,14 +46,14 @@ def draw(study: xr.Dataset, others: Mapping[str, xr.Dataset], plot: StabilityMap
     parts.letters(axes[0], [parts.MODES[norm] for norm in norms])
     gaps: set[str] = set()
     for ax, norm in zip(axes[0], norms, strict=True):
-        if "growth" in others:
-            growth = parts.of(others["growth"], norm)
+        if "growth" in overlays:
+            growth = parts.of(overlays["growth"], norm)
             mesh = growth_cells(ax, growth, plot.x, plot.y)
             _neutral_line(ax, growth, plot)
             gaps |= set(cycles_of(growth, plot.x, plot.y).flat)
         _points(ax, parts.of(study, norm), plot)
     handles = finish(axes, study, plot)
-    if "growth" in others:
+    if "growth" in overlays:
         growth_bar(figure, mesh, list(axes[0]))
         handles = [Line2D([], [], **parts.border("neutral")), *cycle_patches(gaps), *handles]
     present = set(flag_names(study["outcome"]).flat)
@@ -101,7 +101,12 @@ def _paper_mark(ax: Axes, plot: StabilityMap, name: str) -> None:
     """A large open mark in the shape of what the paper says, and beside it the case's name, towards the middle."""
     mark = plot.marks[name]
     at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
-    ring: dict[str, Any] = {"marker": MARKS[mark.paper]["marker"], "facecolor": "none", "zorder": 4, "clip_on": False}
+    ring: dict[str, Any] = {
+        "marker": MARKS[mark.paper_outcome]["marker"],
+        "facecolor": "none",
+        "zorder": 4,
+        "clip_on": False,
+    }
     for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
         ax.scatter(*at, LARGE, edgecolor=color, linewidth=width, **ring)
     across, up = (ax.transData + ax.transAxes.inverted()).transform(at)
@@ -111,7 +116,7 @@ def _paper_mark(ax: Axes, plot: StabilityMap, name: str) -> None:
 
 def _paper_handles(plot: StabilityMap) -> list[Artist]:
     """For legends: one for each shape among the marks."""
-    said = {mark.paper for mark in plot.marks.values()}
+    said = {mark.paper_outcome for mark in plot.marks.values()}
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": [withStroke(linewidth=2.4, foreground=BLACK)]}
     return [

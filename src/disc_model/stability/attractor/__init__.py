@@ -5,8 +5,9 @@ The words are those of `disc_model.data.variables.Outcome`. Each is decided by o
 - `quiet`, `other_cycle`, `separating`: the motion is near a stable cycle of the return map, and nears it over seconds
   as the cycle's multipliers say (`near.cycle_near`). It is separating if the cycle loses contact; quiet if the cycle is
   that of the static start, or within a tenth of the static deflection of that start.
-- `sliding`: it slides near stable steady sliding, and nears it as the eigenvalues there say (`near.nears_sliding`).
-- `resting`: it has stuck for a whole leg, and nothing will ever pull the slider off the disc (`course.at_rest`).
+- `steady_sliding`: it slides near a stable equilibrium, and approaches it at the rates of the eigenvalues there
+  (`near.nears_sliding`).
+- `at_rest`: it has stuck for a whole segment, and no force can release the slider (`course.at_rest`).
 - `quasi_periodic`, `irregular`: it has settled (`many.Basins`), is near no stable cycle, and its largest Lyapunov
   exponent but for that along the motion is zero, or positive (`many.regularity`).
 - `growing`: it is in contact at the horizon and departs from an unstable cycle, or changes from one period to the next

@@ -50,7 +50,7 @@ class Stretch:
 
     P_min, P_max : N, range of the contact force
     u_min, u_max : m, of the slider's height over static equilibrium
-    share_stick, share_slip, share_separation : of the time
+    stick_fraction, slip_fraction, separation_fraction : of the time
     separation_rate : 1/s
     """
 
@@ -58,9 +58,9 @@ class Stretch:
     P_max: float
     u_min: float
     u_max: float
-    share_stick: float
-    share_slip: float
-    share_separation: float
+    stick_fraction: float
+    slip_fraction: float
+    separation_fraction: float
     separation_rate: float
 
     @property
@@ -290,8 +290,8 @@ class _Course:
 def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:
     """Whether the slider rests on the disc, for good, or comes to steady sliding; None if that is not shown."""
     if shares(leg)[0] == 1 and never_pulls(p):
-        return Outcome.RESTING
-    return Outcome.SLIDING if nears_sliding(p, leg.final_state, tol) else None
+        return Outcome.AT_REST
+    return Outcome.STEADY_SLIDING if nears_sliding(p, leg.final_state, tol) else None
 
 
 def growing(changes: Sequence[float]) -> bool:

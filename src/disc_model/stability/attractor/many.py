@@ -123,7 +123,9 @@ class Basins:
         """
         ranges = [max(stretch.range, self.smallest) for stretch in (one, other)]
         compared = [(*ranges, self.smallest), (one.separation_rate, other.separation_rate, 2 / FIRST_LEG)]
-        compared += [(getattr(one, name), getattr(other, name), SAME) for name in ("share_stick", "share_separation")]
+        compared += [
+            (getattr(one, name), getattr(other, name), SAME) for name in ("stick_fraction", "separation_fraction")
+        ]
         return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
 
     def _nears(self, stretches: Sequence[Stretch], state: State, least: float) -> tuple[bool, float]:

@@ -22,7 +22,7 @@ Made = Parameters | DiscModelError
 """Parameters, or why there are none."""
 
 
-PUBLISHED = Start()
+STATIC_START = Start()
 DIRECTION = (np.array(("up", "down")), Variable("", "direction of the sweep"))
 """Coordinate of what is swept up and down."""
 
@@ -32,7 +32,7 @@ class Point:
     """A point of a grid: its parameters, where its motion starts, and its number among samples, if it is one."""
 
     parameters: Parameters
-    start: Start = PUBLISHED
+    start: Start = STATIC_START
     sample: int = 0
 
 
@@ -49,9 +49,9 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
 # ----------------------------------------------------------------------------------------------------
 # What is found at samples of distributed parameters
 
-UNSTABLE = ("unstable", "no_cycle", "separates", "slips")
+UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
 """What there is near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider sticks and
 slips, loss of contact at once, or unstable sliding."""
-SAMPLE_OUTCOMES = ("not_followed", *COURSES)
+SAMPLE_OUTCOMES = ("not_simulated", *COURSES)
 DRAWS = ("A", "B")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, source_hash, versions
-from disc_model.data.variables import CHOICES, KICKS, SAMPLE, Column, attributes
+from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Column, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import AUTO, Parameters, case_of, leaves_modes
 from disc_model.plate import mode_arrays
@@ -108,11 +108,11 @@ def _point(p: Made, varied: Mapping[str, Any], start: Start, starts: Mapping[str
     if isinstance(p, DiscModelError):
         return p
     start = starts[varied[START]] if START in varied else start
-    kicks = {name.removeprefix("kick_"): value for name, value in varied.items() if name in KICKS}
+    kicks = {name.removeprefix("perturbation_"): value for name, value in varied.items() if name in PERTURBATIONS}
     if kicks:
-        own = {str(name): value for name, value in start.kick.items()}
+        own = {str(name): value for name, value in start.perturbation.items()}
         whole = {name: own.get(name, 0.0) + kicks.get(name, 0.0) for name in {**own, **kicks}}
-        start = start.model_copy(update={"kick": whole})
+        start = start.model_copy(update={"perturbation": whole})
     return Point(p, start, varied.get(SAMPLE, 0))
 
 

@@ -19,7 +19,7 @@ from tests.studies.grids.conftest import computed
 
 QUIET = Attractor(
     Outcome.QUIET,
-    stretch(u_min=0, u_max=1e-5, separation_rate=0, share_stick=0.3, share_separation=0),
+    stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0),
     0.015,
     1,
     -0.1,
@@ -56,39 +56,39 @@ def found(**options):
 
 def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:
     """Three of ten: 0.108 to 0.603 (Wilson 1927, at 95 %)."""
-    table = found(energies=[0.07], starts=10).arrays
+    table = found(energies=[0.07], n_starts=10).arrays
     fates = list(basins.FATES)
     place = (0, fates.index("separating"))
-    assert table["share"][place] == 0.3
-    assert table["share_low"][place] == pytest.approx(0.1078, abs=1e-4)
-    assert table["share_high"][place] == pytest.approx(0.6032, abs=1e-4)
-    assert table["share"][0, fates.index("quiet")] == 0.7
-    assert table["share_low"][0, fates.index("undecided")] == pytest.approx(0, abs=1e-12)
-    assert table["energy_share"][0, 0].sum() == 1
+    assert table["basin_fraction"][place] == 0.3
+    assert table["basin_fraction_low"][place] == pytest.approx(0.1078, abs=1e-4)
+    assert table["basin_fraction_high"][place] == pytest.approx(0.6032, abs=1e-4)
+    assert table["basin_fraction"][0, fates.index("quiet")] == 0.7
+    assert table["basin_fraction_low"][0, fates.index("undecided")] == pytest.approx(0, abs=1e-12)
+    assert table["basin_fraction_by_energy"][0, 0].sum() == 1
     assert table["attractor_starts"][0, :3].tolist() == [7, 3, 0]
-    assert table["reached"][0, 0].tolist() == [2, 2, 2, *[1] * 7]
+    assert table["attractor_index"][0, 0].tolist() == [2, 2, 2, *[1] * 7]
 
 
 def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: None) -> None:
-    table = found(energies=[0.05, 1.0], starts=3, bisected=2, precision=0.01).arrays
-    assert table["least_kick_sample"] == 0.05
-    low, high = table["least_kick_not"][0], table["least_kick"][0]
+    table = found(energies=[0.05, 1.0], n_starts=3, n_bisection_directions=2, precision=0.01).arrays
+    assert table["critical_energy_sampled"] == 0.05
+    low, high = table["critical_energy_lower"][0], table["critical_energy"][0]
     assert low <= 0.02 < high <= low * 1.01
-    assert np.isnan(found(energies=[0.01], starts=3).arrays["least_kick"][0])
+    assert np.isnan(found(energies=[0.01], n_starts=3).arrays["critical_energy"][0])
 
 
 def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.MonkeyPatch) -> None:
     lost = Reached(None, 3.0, failed=SimpleNamespace(status=Status.PARADOX, message="paradox: at t = 3 s"))
     monkeypatch.setattr(Made, "fates", {1: lost, 2: Reached(Outcome.UNDECIDED, 200.0)})
-    table = found(energies=[0.1], starts=4)
+    table = found(energies=[0.1], n_starts=4)
     fates = list(basins.FATES)
     assert STATUSES[table.arrays["status"][0]] == "ok"
-    assert table.arrays["share"][0, fates.index("failed")] == 0.25
-    assert table.arrays["share"][0, fates.index("undecided")] == 0.25
+    assert table.arrays["basin_fraction"][0, fates.index("failed")] == 0.25
+    assert table.arrays["basin_fraction"][0, fates.index("undecided")] == 0.25
     assert table.messages == ["1 of 4 starts failed, such as paradox: at t = 3 s"]
-    assert (table.arrays["reached"][0, 0] > 0).tolist() == [True, False, False, True]
+    assert (table.arrays["attractor_index"][0, 0] > 0).tolist() == [True, False, False, True]
     monkeypatch.setattr(Made, "fates", dict.fromkeys(range(4), lost))
-    assert STATUSES[found(energies=[0.1], starts=4).arrays["status"][0]] == "paradox"
+    assert STATUSES[found(energies=[0.1], n_starts=4).arrays["status"][0]] == "paradox"
 
 
 @pytest.mark.compiled
@@ -96,23 +96,23 @@ def test_shares_are_the_same_to_the_last_digit_whatever_the_batch() -> None:
     """And more starts leave those before as they are."""
     study = {
         "quantity": "basins",
-        "options": {"energies": [0.1, 1.0], "starts": 2, "seed": 7, "horizon": 60, "bisected": 0},
+        "options": {"energies": [0.1, 1.0], "n_starts": 2, "seed": 7, "horizon": 60, "n_bisection_directions": 0},
         "base": {"N": 385},
         "axes": {"Omega": [14.5, 15]},
     }
     one, two = (computed(**study, batch={"size": size}) for size in (1, 2))
     for name in one.data_vars:
         assert np.array_equal(one[name].values, two[name].values, equal_nan=one[name].dtype.kind == "f"), name
-    more = computed(**study | {"options": study["options"] | {"starts": 3}})
+    more = computed(**study | {"options": study["options"] | {"n_starts": 3}})
     assert np.array_equal(more["kind"].sel(start=[0, 1]).values, one["kind"].values)
-    assert np.array_equal(more["simulated"].sel(start=[0, 1]).values, one["simulated"].values)
+    assert np.array_equal(more["simulated_time"].sel(start=[0, 1]).values, one["simulated_time"].values)
 
 
 @pytest.mark.compiled
 def test_kicks_of_an_axis_are_starts_of_their_own() -> None:
     """A plane of two coordinates: at 15 rad/s a kick of 0.3 mm leads to separation, one of 0.1 mm dies out."""
-    axes = {"kick_u": [1e-4, 3e-4], "kick_u_velocity": [0.0]}
-    options = {"horizon": 200, "bisected": 0}
+    axes = {"perturbation_u": [1e-4, 3e-4], "perturbation_u_velocity": [0.0]}
+    options = {"horizon": 200, "n_bisection_directions": 0}
     plane = computed(quantity="basins", options=options, base={"N": 385, "Omega": 15}, axes=axes)
     kinds = plane["kind"].squeeze().values
     assert [basins.LASTING[kind] for kind in kinds] == ["quiet", "separating"]

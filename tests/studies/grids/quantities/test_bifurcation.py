@@ -61,18 +61,18 @@ def test_what_repeats_to_rounding_needs_no_cycle(period: int) -> None:
 
 def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]:
     """What the separating motion at 385 N settles to; one that is steady says nothing besides."""
-    options = BifurcationOptions(section="switch", samples=samples, **how)
-    values, message = bifurcation.at(Point(Parameters(N=385, Omega=Omega), Start(prepare=APART)), options)
-    assert (message == "") == (values["steady"] == "yes")
+    options = BifurcationOptions(section="event", samples=samples, **how)
+    values, message = bifurcation.at(Point(Parameters(N=385, Omega=Omega), Start(prerun=APART)), options)
+    assert (message == "") == (values["stationary"] == "yes")
     return values
 
 
 @pytest.mark.compiled
 def test_a_motion_on_a_torus_has_no_period() -> None:
     """At rest there since 220 s, see `tests.stability.test_attractor`: the cycle within the torus is unstable."""
-    options = BifurcationOptions(transient=300, section="switch", longest=300, samples=50)
+    options = BifurcationOptions(transient=300, section="event", max_transient=300, samples=50)
     values, _ = bifurcation.at(Point(Parameters(N=516.666666667, Omega=12.734375)), options)
-    assert (values["separations"], values["period"], values["steady"]) == (0, 0, "yes")
+    assert (values["separations"], values["period_events"], values["stationary"]) == (0, 0, "yes")
     assert values["kind"] is Outcome.QUASI_PERIODIC
 
 
@@ -80,26 +80,26 @@ def test_a_motion_on_a_torus_has_no_period() -> None:
 @pytest.mark.slow
 def test_a_slow_approach_to_a_cycle_is_not_taken_for_a_torus() -> None:
     """At 200 N disturbances die out by 0.009/s; the 0-1 test takes what is left of them for a torus."""
-    options = BifurcationOptions(section="switch", transient=120, longest=120)
-    values, _ = bifurcation.at(Point(Parameters(N=200, Omega=15), Start(prepare=APART)), options)
-    assert (values["period"], values["kind"]) == (0, Outcome.SEPARATING)
+    options = BifurcationOptions(section="event", transient=120, max_transient=120)
+    values, _ = bifurcation.at(Point(Parameters(N=200, Omega=15), Start(prerun=APART)), options)
+    assert (values["period_events"], values["kind"]) == (0, Outcome.SEPARATING)
 
 
 @pytest.mark.compiled
 def test_a_slow_drift_with_equal_intervals_is_not_steady() -> None:
     """At 120 s intervals repeat to 1e-12 s, and the angle still drifts, by 1e-5 rad/s: it takes minutes more."""
-    early, late = (at_switches(7.5, transient=transient, longest=transient) for transient in (120, 480))
-    assert (early["steady"], early["period"]) == ("no", 0)
-    assert (late["steady"], late["period"]) == ("yes", 1)
+    early, late = (at_switches(7.5, transient=transient, max_transient=transient) for transient in (120, 480))
+    assert (early["stationary"], early["period_events"]) == ("no", 0)
+    assert (late["stationary"], late["period_events"]) == ("yes", 1)
 
 
 @pytest.mark.compiled
 def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
     """Of 21 separations and 5 releases; simulated to 240 s its intervals repeat to 1e-13 s."""
     values = at_switches(20, transient=15)
-    assert (values["period"], values["steady"]) == (21, "yes")
-    assert values["transient"] < 100
-    assert 1e-11 < values["closure"] < 1e-6
+    assert (values["period_events"], values["stationary"]) == (21, "yes")
+    assert values["transient_time"] < 100
+    assert 1e-11 < values["period_residual"] < 1e-6
     # what is shown is the cycle itself
     assert np.ptp(np.reshape(values["psi"][-42:], (2, 21)), axis=0).max() < 1e-9
 
@@ -108,7 +108,7 @@ def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
 @pytest.mark.parametrize(("Omega", "period", "phase"), [(9.5, 1, "stick"), (14.5, 2, "separation")])
 def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: float, period: int, phase: str) -> None:
     values = at_switches(Omega, transient=60, samples=100)
-    assert (values["steady"], values["period"]) == ("yes", period)
+    assert (values["stationary"], values["period_events"]) == ("yes", period)
     assert len(np.unique(np.round(values["psi"], 5))) == period
     assert set(values["phase"]) == {phase}
 
@@ -117,15 +117,15 @@ def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: 
 @pytest.mark.slow
 def test_a_motion_that_repeats_after_a_thousand_separations_is_periodic() -> None:
     """It was said to have no period: a stretch of 5 s has 677 separations, and cycles were looked for in half of it."""
-    start = Start(prepare={"parameters": {"N": 385, "Omega": 15.1, "c_p": 0}, "time": 70})
-    options = BifurcationOptions(section="switch", transient=120, longest=120)
+    start = Start(prerun={"parameters": {"N": 385, "Omega": 15.1, "c_p": 0}, "time": 70})
+    options = BifurcationOptions(section="event", transient=120, max_transient=120)
     values, _ = bifurcation.at(Point(Parameters(N=385, Omega=15, c_p=0.15), start), options)
-    assert (values["period"], values["steady"], values["kind"]) == (1066, "yes", Outcome.SEPARATING)
-    assert values["closure"] < 1e-8
+    assert (values["period_events"], values["stationary"], values["kind"]) == (1066, "yes", Outcome.SEPARATING)
+    assert values["period_residual"] < 1e-8
 
 
 @pytest.mark.compiled
 def test_the_period_of_a_motion_that_sticks_rarely_was_missed() -> None:
     """It sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several."""
-    values = at_switches(22.25, transient=30, longest=30)
-    assert (values["period"], values["steady"]) == (40, "yes")
+    values = at_switches(22.25, transient=30, max_transient=30)
+    assert (values["period_events"], values["stationary"]) == (40, "yes")

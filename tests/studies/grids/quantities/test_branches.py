@@ -9,7 +9,7 @@ from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import branches
 from disc_model.studies.grids.run import Table, compute
 
-OPTIONS = {"scan": {"start": 14.75, "stop": 15.25, "step": 0.25}, "dwell": 60, "late": 1, "max_points": 60}
+OPTIONS = {"scan": {"start": 14.75, "stop": 15.25, "step": 0.25}, "dwell": 60, "evaluation_time": 1, "max_points": 60}
 
 
 @pytest.fixture(scope="module")

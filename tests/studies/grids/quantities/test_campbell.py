@@ -68,7 +68,7 @@ def made_up(**changes: Any) -> xr.Dataset:
         "diameters": np.ones((401, 1), int),
         "sliding_frequency": np.full((401, 1), 100.0),
         "cycle_frequency": np.full((401, 1), 100.0),
-        "likeness": np.ones((401, 1)),
+        "mac": np.ones((401, 1)),
         "cycle_growth_rate": rate[:, None],
     } | changes
     dims = {1: "Omega", 2: ("Omega", "mode")}
@@ -92,7 +92,7 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     # at the window's ends, one step beyond it, the peak has fallen to 1 / (1 + 5.5^2)
     assert found["crossing_rise"][0] == pytest.approx(0.1 - 0.1 / (1 + 5.5**2), rel=1e-3)
     assert effects(peak) == ["rises"]
-    assert effects(peak, rise=0.2) == ["no_rise"]
+    assert effects(peak, min_rise=0.2) == ["no_rise"]
     rate = peak["growth_rate"].values
     raised = made_up(growth_rate=rate + 0.15, cycle_growth_rate=rate[:, None] + 0.15)
     assert effects(raised) == ["destabilises"]
@@ -133,8 +133,8 @@ def test_a_line_that_meets_the_cycles_frequency_and_not_slidings_is_a_crossing()
     """It was missed: 10 f_s at 23.85 rad/s, orthonormal modes, 1.8 Hz below the frequency of sliding."""
     speeds = np.linspace(8, 12, 401)[:, None]
     locked = np.abs(speeds - 10) < 0.05
-    own, likeness = np.where(locked, 10 * speeds, 100.0), np.where(locked, 0.5, 0.9)
-    cell = made_up(cycle_frequency=own, likeness=likeness, sliding_frequency=np.full((401, 1), 130.0))
+    own, mac = np.where(locked, 10 * speeds, 100.0), np.where(locked, 0.5, 0.9)
+    cell = made_up(cycle_frequency=own, mac=mac, sliding_frequency=np.full((401, 1), 130.0))
     found = campbell.of(cell, CampbellOptions())
     # where the multiplier is bound to the line it says nothing of the mode
     assert found["n_crossings"] == 1

@@ -7,7 +7,7 @@ import pytest
 
 from tests.studies.grids.conftest import computed
 
-AFTER = {"prepare": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}, "transient": 1}
+AFTER = {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}, "transient": 1}
 
 
 @pytest.mark.compiled
@@ -17,5 +17,5 @@ def test_exponents_are_stored_with_their_errors() -> None:
     assert found["exponent"].shape == (3,)
     assert np.all(np.isfinite(found["exponent"]))
     assert np.all(found["exponent_error"] > 0)
-    assert float(found["covered"]) == pytest.approx(2)
-    assert json.loads(found.attrs["options"])["prepare"]["time"] == 56
+    assert float(found["averaging_time"]) == pytest.approx(2)
+    assert json.loads(found.attrs["options"])["prerun"]["time"] == 56

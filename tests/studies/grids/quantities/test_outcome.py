@@ -35,7 +35,7 @@ SLOW_GROWTH = [
 @pytest.mark.parametrize("case", SLOW_GROWTH, ids=str)
 def test_slow_growth_is_never_taken_for_rest(case: dict[str, float]) -> None:
     found, words = outcomes([Parameters(**case)])
-    assert np.isnan(found["settled"][0])
+    assert np.isnan(found["settling_time"][0])
     assert words in (["growing"], ["separation"])
 
 
@@ -53,23 +53,23 @@ QUIET = [
 def test_a_motion_left_early_would_have_stayed_quiet(case: dict[str, float]) -> None:
     p = Parameters(**case)
     left, words = outcomes([p])
-    whole, whole_words = outcomes([p], settled=0, near=0)
+    whole, whole_words = outcomes([p], early_end=False)
     assert left["time_reached"][0] < 400
     assert whole["time_reached"][0] == 1000
     assert words == whole_words == ["quiet"]
     for name in ("P_min", "P_max"):
         assert left[name][0] - p.N == pytest.approx(whole[name][0] - p.N, rel=0.02)
-    assert left["share_stick"][0] == pytest.approx(whole["share_stick"][0], abs=0.01)
+    assert left["stick_fraction"][0] == pytest.approx(whole["stick_fraction"][0], abs=0.01)
 
 
 @pytest.mark.compiled
 def test_the_observed_rate_of_decay_is_that_of_the_multipliers() -> None:
     p = Parameters(N=50, Omega=15)
-    found, words = outcomes([p], horizon=300, settled=0, near=0)
+    found, words = outcomes([p], horizon=300, early_end=False)
     rate = compute(floquet, [Point(p)], FloquetOptions()).arrays["growth_rate"][0]
     assert words == ["quiet"]
-    assert found["difference_rate"][0] == pytest.approx(rate, rel=0.2)
-    assert found["distance"][0] < 1e-2
+    assert found["return_map_residual_rate"][0] == pytest.approx(rate, rel=0.2)
+    assert found["cycle_distance"][0] < 1e-2
 
 
 @pytest.mark.compiled
@@ -92,17 +92,17 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
-    options = {"horizon": 3.0, "late": 0.05, "after_separation": 0.05, "tol": 1e-9}
+    options = {"horizon": 3.0, "evaluation_time": 0.05, "after_separation": 0.05, "tol": 1e-9}
     base = SMALL | {"c": 20.0, "D_star": 1e-3}
     damped = computed(quantity="outcome", options=options, base=base, axes={"N": [200], "Omega": [20]}).squeeze()
     assert flag_names(damped["outcome"]) == "quiet"
-    assert damped["settled"] == damped["time_reached"] < 3.0
-    assert 0 < damped["distance"] < 0.1
+    assert damped["settling_time"] == damped["time_reached"] < 3.0
+    assert 0 < damped["cycle_distance"] < 0.1
     # the late stretch is the cycle itself
-    assert damped["share_stick"] + damped["share_slip"] == pytest.approx(1)
+    assert damped["stick_fraction"] + damped["slip_fraction"] == pytest.approx(1)
     base = SMALL | {"mu_s": 1.4, "mu_k": 0.2, "k": 0}
     apart = computed(quantity="outcome", options=options, base=base, axes={"N": [700], "Omega": [50]}).squeeze()
     assert flag_names(apart["outcome"]) == "separation"
     assert apart["time_reached"] == pytest.approx(float(apart["first_separation"]) + 0.05)
-    assert np.isnan(apart["settled"])
+    assert np.isnan(apart["settling_time"])
     assert apart["P_min"] == 0

@@ -15,7 +15,7 @@ from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import ramps
 from disc_model.studies.grids.run import compute
 
-SPAN = {"low": 10, "high": 20, "stay": 7}
+SPAN = {"low": 10, "high": 20, "dwell": 7}
 EVERY = 0.125
 """s between two separations of the made-up motion."""
 
@@ -36,7 +36,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
         up, down = ramps
         rate = (up.to - p.Omega) / up.end
         begins, ends = (12 - p.Omega) / rate + 4, down.start + (up.to - 11) / rate + 2
-        times = np.arange(begins, down.end + SPAN["stay"] + 1 if world.goes_on else ends, EVERY)
+        times = np.arange(begins, down.end + SPAN["dwell"] + 1 if world.goes_on else ends, EVERY)
         lost = times[(times > start) & (times <= min(until, world.breaks_at))]
         first = float(lost[0]) if lost.size else math.nan
         end, status = min(until, world.breaks_at), Status.STALLED if until > world.breaks_at else Status.OK
@@ -56,26 +56,26 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
 
 def test_onset_and_end_are_speeds_of_the_ramps(made_up: SimpleNamespace) -> None:
     found = swept((0.01, 0.1))
-    np.testing.assert_allclose(found["onset"][0], [12.04, 12.4], atol=1e-9)
+    np.testing.assert_allclose(found["onset_speed"][0], [12.04, 12.4], atol=1e-9)
     # the last separation is the last one before that, some time below EVERY
-    assert ((found["persists_to"][0] - [10.98, 10.8]) / [0.01, 0.1] >= 0).all()
-    assert ((found["persists_to"][0] - [10.98, 10.8]) / [0.01, 0.1] <= EVERY + 1e-9).all()
-    np.testing.assert_allclose(found["top_separation_rate"], 1 / EVERY, atol=1 / SPAN["stay"])
+    assert ((found["offset_speed"][0] - [10.98, 10.8]) / [0.01, 0.1] >= 0).all()
+    assert ((found["offset_speed"][0] - [10.98, 10.8]) / [0.01, 0.1] <= EVERY + 1e-9).all()
+    np.testing.assert_allclose(found["top_separation_rate"], 1 / EVERY, atol=1 / SPAN["dwell"])
     assert (found["rate_status"] == STATUSES.index("ok")).all()
     assert max(end - start for start, end in made_up.calls if start > 1000) <= ramps.STRETCH
 
 
 def test_a_ramp_too_fast_for_separation_has_no_onset(made_up: SimpleNamespace) -> None:
     found = swept((2.0, 4.0))
-    np.testing.assert_allclose(found["onset"][0], [20.0, math.nan])
+    np.testing.assert_allclose(found["onset_speed"][0], [20.0, math.nan])
     assert found["top_separation_rate"][0, 1] > 0  # it comes while the speed stays
 
 
 def test_separation_that_goes_on_at_the_lowest_speed_has_no_end(made_up: SimpleNamespace) -> None:
     made_up.goes_on = True
     found = swept((0.01, 0.1))
-    assert np.isnan(found["persists_to"]).all()
-    assert np.isfinite(found["onset"]).all()
+    assert np.isnan(found["offset_speed"]).all()
+    assert np.isfinite(found["onset_speed"]).all()
 
 
 def test_a_run_that_cannot_go_on_says_at_which_rate(made_up: SimpleNamespace) -> None:
@@ -85,16 +85,16 @@ def test_a_run_that_cannot_go_on_says_at_which_rate(made_up: SimpleNamespace) ->
     assert [STATUSES[i] for i in table.arrays["rate_status"][0]] == ["stalled", "stalled"]
     assert STATUSES[table.arrays["status"][0]] == "stalled"
     assert list(table.messages) == ["rate=0.1: why"]
-    assert np.isnan(table.arrays["onset"][0, 0])
-    assert table.arrays["onset"][0, 1] == pytest.approx(12.4)
-    assert np.isnan(table.arrays["persists_to"]).all()
+    assert np.isnan(table.arrays["onset_speed"][0, 0])
+    assert table.arrays["onset_speed"][0, 1] == pytest.approx(12.4)
+    assert np.isnan(table.arrays["offset_speed"]).all()
 
 
 @pytest.mark.compiled
 def test_onset_at_385_N_comes_late_and_the_end_is_far_below() -> None:
     """The cycle ends at 15.09 rad/s; separation takes some 50 s to grow, and persists to below 10."""
-    found = swept((0.05, 0.1), low=8, high=22, stay=20)
-    onset, end = found["onset"][0], found["persists_to"][0]
+    found = swept((0.05, 0.1), low=8, high=22, dwell=20)
+    onset, end = found["onset_speed"][0], found["offset_speed"][0]
     assert ((onset > 16) & (onset < 20)).all()
     assert onset[0] < onset[1]
     assert ((end > 8.5) & (end < 10)).all()

@@ -58,7 +58,7 @@ def raw(**changes) -> dict:
     study = {
         "study": "small",
         "quantity": "regions",
-        "options": {"horizon": 10, "coarse": 8},
+        "options": {"horizon": 10, "initial_cell_size": 8},
         "axes": {
             "Omega": {"start": 5, "stop": 50, "count": 65},
             "N": {"start": 50, "stop": 600, "count": 49},
@@ -72,8 +72,8 @@ def raw(**changes) -> dict:
 def test_a_region_is_found_as_by_brute_force_with_fewer_points(made_up) -> None:
     study = computed(**raw()).isel(normalization=0)
     assert not wrong(study).any()
-    origin = flag_names(study["origin"])
-    assert set(np.unique(origin)) == {"simulation", "undivided_cell"}
+    origin = flag_names(study["method"])
+    assert set(np.unique(origin)) == {"simulation", "inferred"}
     assert (origin == "simulation").sum() < 0.3 * origin.size
     # what was not computed has no time of its own
     assert (np.isfinite(study["first_separation"].values) == (origin == "simulation")).all()
@@ -96,7 +96,7 @@ def test_normalisations_may_share_batches(made_up) -> None:
 def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
     axis = [Parameters(N=N, Omega=20) for N in np.linspace(50, 600, 17)]
     rows = [[p.replace(Omega=Omega) for p in axis] for Omega in np.linspace(5, 50, 17)]
-    options = RegionsOptions(horizon=10, coarse=4)
+    options = RegionsOptions(horizon=10, initial_cell_size=4)
     found = regions.over(rows, options, [])
     mirrored = regions.over([row[::-1] for row in rows[::-1]], options, [])
     assert [[row["outcome"] for row, _ in line] for line in found] == [
@@ -105,7 +105,7 @@ def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
 
 
 def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
-    marks = {"here": {"x": 12.03125, "y": 187.5, "paper": "quiet"}}
+    marks = {"here": {"x": 12.03125, "y": 187.5, "paper_outcome": "quiet"}}
     plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": marks}
     study = parse_grid(raw(figures={"map": plot}))
     texts = [json.loads(text) for text in study.batches.values()]
@@ -123,12 +123,12 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
 
 
 def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:
-    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": {"a": {"x": 50, "y": 600, "paper": "quiet"}}}
-    plot["marks"]["b"] = {"x": 47.890625, "y": 588.541666667, "paper": "quiet"}
+    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": {"a": {"x": 50, "y": 600, "paper_outcome": "quiet"}}}
+    plot["marks"]["b"] = {"x": 47.890625, "y": 588.541666667, "paper_outcome": "quiet"}
     study = computed(**raw(figures={"map": plot})).isel(normalization=0)
     for mark in plot["marks"].values():
         here = study.sel(Omega=mark["x"], N=mark["y"], method="nearest")
-        assert flag_names(here["origin"]) == "simulation"
+        assert flag_names(here["method"]) == "simulation"
 
 
 def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -149,12 +149,12 @@ def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatc
 
 def test_between_two_corners_that_are_alike_a_neighbour_may_still_find_another(made_up) -> None:
     """The middle of an edge is presumed in the finest cells only: the made-up border crosses edges twice."""
-    study = computed(**raw(options={"horizon": 10, "coarse": 2})).isel(normalization=0)
+    study = computed(**raw(options={"horizon": 10, "initial_cell_size": 2})).isel(normalization=0)
     assert wrong(study).mean() <= 2e-3
     assert (flag_names(study["outcome"]) != "failed").all()
 
 
-OPTIONS = RegionsOptions(horizon=10, coarse=8)
+OPTIONS = RegionsOptions(horizon=10, initial_cell_size=8)
 
 
 def tile_of(
@@ -238,16 +238,16 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
     """Points drawn of a map in which all outcomes and a fold occur, simulated from the static start throughout."""
     horizon = 400
     axes = {"N": {"start": 100, "stop": 500, "count": 17}, "Omega": {"start": 8, "stop": 24, "count": 17}}
-    options = {"horizon": horizon, "coarse": 4}
+    options = {"horizon": horizon, "initial_cell_size": 4}
     study = computed(quantity="regions", options=options, axes=axes, batch={"over": PLANE})
-    separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["origin"])
+    separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["method"])
     beside = np.zeros_like(separates)
     for axis in (0, 1):
         differs = np.diff(separates, axis=axis)
         for end in (0, differs.shape[axis]):
             beside |= np.insert(differs, end, False, axis=axis)
     rng, wrong, drawn = np.random.default_rng(0), [], 0
-    for there in (beside, (origin == "undivided_cell") & ~beside, (origin == "multipliers") & ~beside):
+    for there in (beside, (origin == "inferred") & ~beside, (origin == "multipliers") & ~beside):
         for i, j in rng.permutation(np.argwhere(there))[:15]:
             p = Parameters(N=study["N"].values[i], Omega=study["Omega"].values[j])
             whole = simulate(p, horizon, record=Record(events=False), stop_at="first_separation")
@@ -271,10 +271,10 @@ def test_the_cycle_is_known_at_every_point_and_goes_on_from_one_to_the_next() ->
     study = computed(quantity="regions", options={"horizon": 50}, axes=axes, batch={"over": PLANE})
     assert (flag_names(study["cycle"]) == "followed").all()
     assert (study["growth_rate"].values < 0).all()
-    assert (flag_names(study["origin"]) == "multipliers").all()
-    joined = flag_names(study["joined_second"]) == "yes"
+    assert (flag_names(study["method"]) == "multipliers").all()
+    joined = flag_names(study["branch_continues_second"]) == "yes"
     assert joined[:, :-1].all()
     assert not joined[:, -1].any()
     assert (study["other_cycles"].values == 0).all()
     # just below two oscillations of 135.42 Hz
-    assert study["oscillations"].values == pytest.approx(1.91, abs=0.02)
+    assert study["period_ratio"].values == pytest.approx(1.91, abs=0.02)

@@ -49,21 +49,23 @@ def test_indices_of_ishigamis_function(monkeypatch: pytest.MonkeyPatch) -> None:
         return Evaluated("unstable" if y > 3.5 else "stable", y)
 
     evaluating(monkeypatch, function)
-    raw = study({"c": TURN, "c_p": TURN, "k": TURN}, axes={"N": [200]}, options={"samples": 512, "cap": 100})
+    raw = study(
+        {"c": TURN, "c_p": TURN, "k": TURN}, axes={"N": [200]}, options={"samples": 512, "growth_rate_cap": 100}
+    )
     found = computed(**(raw | {"batch": {"size": 200}})).isel(N=0)
     rate = found.sel(output="growth_rate")
-    assert rate["left_out"] == 0
+    assert rate["excluded_fraction"] == 0
     for name, truth in (("first", FIRST), ("total", TOTAL)):
-        assert (rate[f"{name}_index_low"] <= truth).all()
-        assert (rate[f"{name}_index_high"] >= truth).all()
+        assert (rate[f"sobol_{name}_low"] <= truth).all()
+        assert (rate[f"sobol_{name}_high"] >= truth).all()
         # and say something: tests of the estimator itself are in tests/analysis/test_sobol.py
-        assert (rate[f"{name}_index_high"] - rate[f"{name}_index_low"] < 0.5).all()
+        assert (rate[f"sobol_{name}_high"] - rate[f"sobol_{name}_low"] < 0.5).all()
     cycles = flag_names(found["cycle"].transpose("sample", "variant")) == "unstable"
     parts = {"f_A": cycles[None, :, 0], "f_B": cycles[None, :, 1], "f_AB": cycles.T[2:, None]}
     theirs = stats.sobol_indices(func={name: part.astype(float) for name, part in parts.items()}, n=512)
     own = found.sel(output="instability")
-    np.testing.assert_allclose(own["first_index"], np.ravel(theirs.first_order), rtol=1e-10, atol=1e-12)
-    np.testing.assert_allclose(own["total_index"], np.ravel(theirs.total_order), rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(own["sobol_first"], np.ravel(theirs.first_order), rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(own["sobol_total"], np.ravel(theirs.total_order), rtol=1e-10, atol=1e-12)
 
 
 def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -76,22 +78,22 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     evaluating(monkeypatch, function)
     spread = {"distribution": "uniform", "low": 0, "high": 1}
     found = computed(**study({"c": spread, "k": UNIFORM}, options={"samples": 64})).sel(N=385)
-    c = found["drawn"].sel(parameter="c").values.ravel()
+    c = found["parameter_values"].sel(parameter="c").values.ravel()
     words = np.array(SAMPLE_CYCLES)[np.minimum((8 * c).astype(int), 7)]
     known = words[words != "failed"]
     assert len(known) < len(words) == 128
-    assert found["n_draws"] == len(known)
+    assert found["n_known_cycles"] == len(known)
     for word in found["cycle_class"].values:
-        assert found["cycle_share"].sel(cycle_class=word) == np.count_nonzero(known == word) / len(known)
-    assert float(found["cycle_share"].sum()) == pytest.approx(1, rel=1e-12)
-    unstable = np.isin(known, ("unstable", "no_cycle", "separates", "slips"))
+        assert found["cycle_fraction"].sel(cycle_class=word) == np.count_nonzero(known == word) / len(known)
+    assert float(found["cycle_fraction"].sum()) == pytest.approx(1, rel=1e-12)
+    unstable = np.isin(known, ("unstable", "no_cycle", "separates", "unstable_sliding"))
     assert found["probability_unstable"] == unstable.mean()
     assert found["probability_unstable_low"] < 4 / 7 < found["probability_unstable_high"]
-    assert found["n_followed"] == 0
+    assert found["n_known_outcomes"] == 0
     assert np.isnan(found["probability_separation"])
     # rows are left out if any of their outputs is missing
     rates = found["growth_rate"].transpose("sample", "variant").values
-    assert found["left_out"].sel(output="growth_rate") == np.mean(np.isnan(rates).any(axis=1))
+    assert found["excluded_fraction"].sel(output="growth_rate") == np.mean(np.isnan(rates).any(axis=1))
 
 
 def test_a_variant_that_fails_costs_itself_only(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -104,7 +106,7 @@ def test_a_variant_that_fails_costs_itself_only(monkeypatch: pytest.MonkeyPatch)
     found = computed(**study({"k": UNIFORM}))
     assert (flag_names(found["status"]) == "ok").all()
     failed = flag_names(found["cycle"]) == "failed"
-    np.testing.assert_array_equal(failed[..., :2], found["drawn"].sel(parameter="k").values > 5e4)
+    np.testing.assert_array_equal(failed[..., :2], found["parameter_values"].sel(parameter="k").values > 5e4)
     assert any("LinAlgError: singular" in line for line in failures(found))
 
 
@@ -118,7 +120,7 @@ def test_more_samples_keep_those_that_there_are() -> None:
     assert len(few_cut.batches) == 4
     assert few_cut.batches.items() < many_cut.batches.items()
     assert [value for (value,) in many_cut.values["sample"]] == list(range(512))
-    for change in ({"seed": 4}, {"outcomes": 1}, {"distributions": {"k": UNIFORM | {"high": 1.2}}}):
+    for change in ({"seed": 4}, {"simulated_samples": 1}, {"distributions": {"k": UNIFORM | {"high": 1.2}}}):
         other = parse_grid(study({"k": UNIFORM}, options={"samples": 16, **change}))
         assert not few.keys() & other.batches.keys()
 
@@ -155,15 +157,15 @@ def test_quantiles_are_those_of_the_distributions(share: float) -> None:
 
 @pytest.mark.compiled
 def test_what_is_found_is_what_floquet_finds() -> None:
-    options = {"samples": 2, "outcomes": 1, "horizon": 1}
+    options = {"samples": 2, "simulated_samples": 1, "horizon": 1}
     found = computed(
         **study({"k": UNIFORM, "mu_s": UNIFORM}, axes={"N": [200]}, base={"Omega": 15} | SMALL, options=options)
     )
-    assert flag_names(found["outcome"]).ravel().tolist()[1] == "not_followed"
-    assert found["n_followed"].item() == 1
+    assert flag_names(found["outcome"]).ravel().tolist()[1] == "not_simulated"
+    assert found["n_known_outcomes"].item() == 1
     for number in (0, 1):
         one = found.isel(N=0, sample=number)
-        rows = variants(one["drawn"].transpose("draw", "parameter").values)
+        rows = variants(one["parameter_values"].transpose("sample_matrix", "parameter").values)
         for variant, (k, mu_s) in zip(one["variant"].values, rows, strict=True):
             cycle = floquet(Parameters(N=200, Omega=15, k=k, mu_s=mu_s, **SMALL))
             here = one.sel(variant=variant)
@@ -182,4 +184,4 @@ def made_up() -> xr.Dataset:
     """A study of two points, without the engine."""
     with pytest.MonkeyPatch.context() as patch:
         evaluating(patch, lambda values: Evaluated("unstable" if values["k"] > 5e4 else "stable", values["k"] - 5e4))
-        return computed(**study({"k": UNIFORM, "mu_s": UNIFORM}, options={"cap": 1e6}))
+        return computed(**study({"k": UNIFORM, "mu_s": UNIFORM}, options={"growth_rate_cap": 1e6}))

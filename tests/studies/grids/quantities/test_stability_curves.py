@@ -20,7 +20,7 @@ CURVES = {
 def test_curves_are_stored_point_by_point(plane: xr.Dataset) -> None:
     one = plane.squeeze("normalization")
     assert one["n_curves"] == 2
-    assert one["n_unfollowed"] == 0
+    assert one["n_continuation_failures"] == 0
     kinds = flag_names(one["kind"])
     assert sorted(kinds[:2]) == ["fold", "neutral"]
     for i, kind in enumerate(kinds[:2]):

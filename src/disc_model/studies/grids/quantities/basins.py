@@ -28,11 +28,16 @@ FATES = (*LASTING[1:], LASTING[0])
 """What a start can come to."""
 ROOM = 12
 """For attractors, those reached by most starts; there are seven at 10 rad/s and 385 N."""
-SHOWN = ("range", "separation_rate", "share_stick", "share_separation")
+SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")
 """What is said of a stretch of an attractor."""
 SMALLEST = 2.0**-40
 """Of the least energy that separates in the sample: where the search for one that does not is given up."""
-_EACH, _SHARES, _POOLED, _KNOWN = ("energy", "start"), ("energy", "fate"), ("fate",), ("attractor",)
+_EACH, _SHARES, _POOLED, _KNOWN = (
+    ("energy", "start"),
+    ("energy", "attractor_class"),
+    ("attractor_class",),
+    ("attractor",),
+)
 
 
 def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Column]:
@@ -43,21 +48,21 @@ def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Column
 COLUMNS = {
     "status": Column(*STATUS),
     "kind": Column("1", "what the start comes to", LASTING, dims=_EACH),
-    "reached": Column("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
-    "simulated": Column("s", "simulated time until that was known", dims=_EACH),
-    "separated": Column("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
-    **_share("energy_share", _SHARES),
-    **_share("share", _POOLED),
-    **_share("separating_share", (), " that go on losing contact, be it periodic or not"),
-    "least_kick": Column("J", "least energy found that leads to lasting separation, by bisection"),
-    "least_kick_not": Column("J", "greatest energy below it, in the same direction, that does not"),
-    "least_kick_sample": Column("J", "least energy among the starts that come to lasting separation"),
+    "attractor_index": Column("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
+    "simulated_time": Column("s", "simulated time until that was known", dims=_EACH),
+    "lost_contact": Column("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
+    **_share("basin_fraction_by_energy", _SHARES),
+    **_share("basin_fraction", _POOLED),
+    **_share("separating_fraction", (), " that go on losing contact, be it periodic or not"),
+    "critical_energy": Column("J", "least energy found that leads to lasting separation, by bisection"),
+    "critical_energy_lower": Column("J", "greatest energy below it, in the same direction, that does not"),
+    "critical_energy_sampled": Column("J", "least energy among the starts that come to lasting separation"),
     "attractor_kind": Column("1", "what the attractor is", LASTING, dims=_KNOWN),
     "attractor_starts": Column("1", "number of starts that reach it", dims=_KNOWN, whole=True),
     "attractor_range": Column("m", "range of the slider's height on it", dims=_KNOWN),
     "attractor_separation_rate": Column("s-1", "separations per second on it", dims=_KNOWN),
-    "attractor_share_stick": Column("1", "share of the time spent sticking on it", dims=_KNOWN),
-    "attractor_share_separation": Column("1", "share of the time spent separated on it", dims=_KNOWN),
+    "attractor_stick_fraction": Column("1", "share of the time spent sticking on it", dims=_KNOWN),
+    "attractor_separation_fraction": Column("1", "share of the time spent separated on it", dims=_KNOWN),
     "attractor_releases": Column("1", "stick releases in its period, 0 if not periodic", dims=_KNOWN, whole=True),
     "attractor_period": Column("s", "its period, nan if not periodic", dims=_KNOWN),
     "attractor_growth_rate": Column("s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN),
@@ -67,8 +72,8 @@ COLUMNS = {
 def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
     return {
         "energy": (np.array(options.energies), Variable("J", "energy of the kick")),
-        "start": (np.arange(options.starts), Variable("1", "number of the start")),
-        "fate": (np.array(FATES), Variable("", "what the starts come to")),
+        "start": (np.arange(options.n_starts), Variable("1", "number of the start")),
+        "attractor_class": (np.array(FATES), Variable("", "what the starts come to")),
         "attractor": (np.arange(1, ROOM + 1), Variable("1", "number of the attractor")),
     }
 
@@ -85,15 +90,17 @@ def at(point: Point, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     values: dict[str, Any] = {
         "status": failed[0].status if len(failed) == len(rows) else "ok",
         "kind": [[reached.word for reached in row] for row in found],
-        "reached": [[numbers[reached.attractor] for reached in row] for row in found],
-        "simulated": [[reached.simulated for reached in row] for row in found],
-        "separated": [["no" if math.isnan(reached.first_separation) else "yes" for reached in row] for row in found],
+        "attractor_index": [[numbers[reached.attractor] for reached in row] for row in found],
+        "simulated_time": [[reached.simulated for reached in row] for row in found],
+        "lost_contact": [["no" if math.isnan(reached.first_separation) else "yes" for reached in row] for row in found],
     }
-    values |= _shares("energy_share", found, options.confidence)
-    values |= {name: one for name, (one,) in _shares("share", [rows], options.confidence).items()}
+    values |= _shares("basin_fraction_by_energy", found, options.confidence)
+    values |= {name: one for name, (one,) in _shares("basin_fraction", [rows], options.confidence).items()}
     shown = share(sum(reached.separates for reached in rows), len(rows), confidence=options.confidence)
-    values |= dict(zip(("separating_share", "separating_share_low", "separating_share_high"), shown, strict=True))
-    values |= sample.least_kick() | _described(starts)
+    values |= dict(
+        zip(("separating_fraction", "separating_fraction_low", "separating_fraction_high"), shown, strict=True)
+    )
+    values |= sample.critical_energy() | _described(starts)
     message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
     return values, message
 
@@ -105,16 +112,16 @@ class _Sample:
         p = point.parameters
         self.p, self.options = p, options
         self.start: State = prepared(p, point.start, options.tol) or published_start(p)
-        self.basins = Basins(p, options.horizon, near=options.near, tol=options.tol)
+        self.basins = Basins(p, options.horizon, near=options.attractor_tol, tol=options.tol)
         energies = list(enumerate(options.energies))
-        all_of = [[self.kicked(energy, j, i) for j, energy in energies] for i in range(options.starts)]
+        all_of = [[self.kicked(energy, j, i) for j, energy in energies] for i in range(options.n_starts)]
         self.found = list(zip(*all_of, strict=True))
 
     def kicked(self, energy: float, j: int, i: int) -> Reached:
         """What a kick of any energy in the direction of a start comes to."""
         return self.basins.reached(random_kick(self.p, self.start, energy, (self.options.seed, j, i)))
 
-    def least_kick(self) -> dict[str, float]:
+    def critical_energy(self) -> dict[str, float]:
         """By bisection of the energy's logarithm, in the directions of the starts that separate at the least energy."""
         energies = self.options.energies
         separating = sorted(
@@ -125,13 +132,16 @@ class _Sample:
         )
         if not separating:
             return {}
-        least = {"least_kick_sample": separating[0][0]}
-        if separating[0][0] == 0 or not self.options.bisected:
+        least = {"critical_energy_sampled": separating[0][0]}
+        if separating[0][0] == 0 or not self.options.n_bisection_directions:
             return least
         if self.kicked(0.0, 0, 0).separates:
-            return least | {"least_kick": 0.0}
-        low, high = min((self._bisected(*one) for one in separating[: self.options.bisected]), key=lambda ends: ends[1])
-        return least | {"least_kick_not": low, "least_kick": high}
+            return least | {"critical_energy": 0.0}
+        low, high = min(
+            (self._bisected(*one) for one in separating[: self.options.n_bisection_directions]),
+            key=lambda ends: ends[1],
+        )
+        return least | {"critical_energy_lower": low, "critical_energy": high}
 
     def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
         """Energies without and with lasting separation, nearer to each other than the precision asked for."""

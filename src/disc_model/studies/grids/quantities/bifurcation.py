@@ -33,11 +33,13 @@ COLUMNS = {
     "phase": Column("1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)),
     "first_separation": Column(*SCALARS["first_separation"]),
     "separations": Column("1", "number of separations, transient included", whole=True),
-    "transient": Column("s", "time left out before the samples"),
-    "steady": Column("1", "whether two stretches of samples, at switches, were alike", STEADY),
+    "transient_time": Column("s", "time left out before the samples"),
+    "stationary": Column("1", "whether two stretches of samples, at switches, were alike", STEADY),
     "kind": Column("1", "what the motion has come to, at switches", LASTING),
-    "period": Column("1", "number of switches after which the motion repeats, 0 if that is not shown", whole=True),
-    "closure": Column(
+    "period_events": Column(
+        "1", "number of switches after which the motion repeats, 0 if that is not shown", whole=True
+    ),
+    "period_residual": Column(
         "s", "largest difference between an interval and the one a period later: what is left of the approach"
     ),
     "stick_fraction": Column("1", "share of the time spent sticking, transient included"),
@@ -50,7 +52,7 @@ def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
 
 def at(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
     """From the static start or the prepared one."""
-    if options.section == "switch":
+    if options.section == "event":
         return _at_switches(point, options)
     p = point.parameters
     data = bifurcation_samples(
@@ -67,7 +69,7 @@ def at(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
     values: dict[str, Any] = {
         name: data[name].values for name in COLUMNS if name in data and name not in ("status", "phase")
     }
-    values |= {"status": status, "phase": data["phase"].values + 1, "transient": options.transient}
+    values |= {"status": status, "phase": data["phase"].values + 1, "transient_time": options.transient}
     return values, "" if status == "ok" else f"the simulation ended early: {status}"
 
 
@@ -98,7 +100,7 @@ def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, A
         found = _periodic(p, stretches[-1], kind)
         steady = found.period > 0 or alike(before["psi"].to_numpy(), taken["psi"].to_numpy())
         over = found.period > 0 or (steady and len(taken) < 2)
-        if over or 2 * transient > options.longest:
+        if over or 2 * transient > options.max_transient:
             break
         transient *= 2
     if found.kind is Outcome.UNDECIDED and steady:
@@ -113,15 +115,15 @@ def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, A
     values: dict[str, Any] = {name: column.to_numpy(dtype=float) for name, column in columns.items()}
     values |= {
         "kind": found.kind,
-        "period": found.period,
-        "closure": found.closure,
+        "period_events": found.period,
+        "period_residual": found.closure,
         "status": "ok",
         "phase": ["separation" if kind == "separation" else "stick"] * len(shown),
         "first_separation": first,
         "separations": separations,
         "stick_fraction": stick / begin,
-        "transient": transient,
-        "steady": "yes" if steady else "no",
+        "transient_time": transient,
+        "stationary": "yes" if steady else "no",
     }
     return values, "" if steady else f"not steady after {transient:g} s"
 

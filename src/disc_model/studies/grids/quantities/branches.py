@@ -32,7 +32,7 @@ _ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sw
 COLUMNS = {
     "status": Column(*STATUS),
     "n_branches": Column("1", "number of branches found", whole=True),
-    "n_unfollowed": Column("1", "number of cycles that could not be followed", whole=True),
+    "n_continuation_failures": Column("1", "number of cycles that could not be followed", whole=True),
     "releases": Column("1", "releases of stick in a period of the branch", dims=_ONE, whole=True),
     "separations": Column("1", "separations in a period of the branch", dims=_ONE, whole=True),
     "value": Column("", "parameter along the branch, SI units", dims=_EACH),
@@ -75,7 +75,7 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
                 unfollowed.append(str(error))
 
     for (way, i), result, late in sweep(
-        point.parameters, options.parameter, values, options.dwell, options.late, options.tol
+        point.parameters, options.parameter, values, options.dwell, options.evaluation_time, options.tol
     ):
         if late is None:
             message = f"{options.parameter}={values[i]:g}: {result.message}"
@@ -89,7 +89,11 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
         if reached is not None and reached.own and reached.cycle.growth_rate < 0:
             follow(reached.cycle, True)
     sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
-    known = {"status": "failed" if message else "ok", "n_branches": len(rows), "n_unfollowed": len(unfollowed)}
+    known = {
+        "status": "failed" if message else "ok",
+        "n_branches": len(rows),
+        "n_continuation_failures": len(unfollowed),
+    }
     return listed(rows) | swept | known | {"sliding_growth_rate": sliding}, message
 
 
@@ -98,7 +102,7 @@ def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> di
     p, name = cycle.parameters, options.parameter
     bounds = options.scan.values[0], options.scan.values[-1]
     near = cycle.state if reached else None
-    steps = Steps(longest=options.longest, max_points=options.max_points)
+    steps = Steps(longest=options.max_step, max_points=options.max_points)
     down, up = (
         continue_cycle(p, name, bounds, direction=way, steps=steps, near=near, releases=cycle.releases if near else 1)
         for way in (-1, 1)

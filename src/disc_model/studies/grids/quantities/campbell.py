@@ -25,12 +25,12 @@ COLUMNS = {
     "rotation_frequency": Column("Hz", "turns of the drive per second, f_Omega"),
     "mode_kind": Column("1", "what moves most: the disc, or the slider in the disc's plane", KINDS, dims=_EACH),
     "diameters": Column("1", "nodal diameters of the modes with most of the energy", dims=_EACH, whole=True),
-    "forward": Column("1", "share of their energy in waves that travel with the slider", dims=_EACH),
+    "forward_wave_fraction": Column("1", "share of their energy in waves that travel with the slider", dims=_EACH),
     "sliding_frequency": Column("Hz", "frequency of steady sliding, in the slider's frame", dims=_EACH),
     "sliding_growth_rate": Column("s-1", "growth rate of that mode of steady sliding", dims=_EACH),
     "cycle_frequency": Column("Hz", "frequency of the cycle's multiplier that goes to the mode", dims=_EACH),
     "cycle_growth_rate": Column("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
-    "likeness": Column("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
+    "mac": Column("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
 }
 
 
@@ -49,11 +49,11 @@ def at(point: Point, options: CampbellOptions) -> tuple[dict[str, Any], str]:
         "rotation_frequency": point.parameters.Omega / (2 * math.pi),
         "mode_kind": np.where(found.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
         "diameters": np.maximum(found.diameters, 0),
-        "forward": found.forward,
+        "forward_wave_fraction": found.forward,
         "sliding_frequency": found.frequency,
         "sliding_growth_rate": found.growth_rate,
         "cycle_frequency": found.cycle_frequency,
         "cycle_growth_rate": found.cycle_growth_rate,
-        "likeness": found.likeness,
+        "mac": found.mac,
     }
     return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice

@@ -111,7 +111,7 @@ class Motion(NamedTuple):
 
 def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
     """The motion from the static start, up to the longest horizon."""
-    horizon, early = options.horizons[-1], bool(options.settled or options.near)
+    horizon, early = options.horizons[-1], options.early_end
     found = come_to(case, horizon, tol=options.tol, furthest=FURTHEST, early=early)
     simulated = found.simulated
     if _doubtful(found, options.horizons):

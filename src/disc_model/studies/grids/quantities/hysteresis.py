@@ -21,11 +21,11 @@ COLUMNS = {
     "separation_rate": Column("s-1", "separations per second at the end of the stay at a speed", dims=_DIMS),
     "P_min": Column("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
     "P_max": Column("N", "greatest contact force at the end of the stay at a speed", dims=_DIMS),
-    "share_stick": Column("1", "share of the time spent sticking", dims=_DIMS),
-    "share_slip": Column("1", "share of the time spent slipping", dims=_DIMS),
-    "share_separation": Column("1", "share of the time spent separated", dims=_DIMS),
-    "onset": Column("rad s-1", "speed at which separation first is found on the way up"),
-    "persists_to": Column("rad s-1", "lowest speed to which it persists without a gap on the way down"),
+    "stick_fraction": Column("1", "share of the time spent sticking", dims=_DIMS),
+    "slip_fraction": Column("1", "share of the time spent slipping", dims=_DIMS),
+    "separation_fraction": Column("1", "share of the time spent separated", dims=_DIMS),
+    "onset_speed": Column("rad s-1", "speed at which separation first is found on the way up"),
+    "offset_speed": Column("rad s-1", "lowest speed to which it persists without a gap on the way down"),
 }
 
 
@@ -45,7 +45,9 @@ def at(point: Point, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
     columns = {name: column for name, column in COLUMNS.items() if column.dims}
     values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns.items()}
     status, message = "ok", ""
-    for place, result, late in sweep(point.parameters, "Omega", speeds, options.dwell, options.late, options.tol):
+    for place, result, late in sweep(
+        point.parameters, "Omega", speeds, options.dwell, options.evaluation_time, options.tol
+    ):
         if late is None:
             status, message = result.status.value, f"Omega={speeds[place[1]]:g}: {result.message}"
         values["sweep_status"][place] = STATUSES.index(status)
@@ -61,9 +63,9 @@ def _ends(speeds: np.ndarray, separates: np.ndarray, done: np.ndarray) -> dict[s
     """Where separation appears on the way up, and where it is lost on the way down, if the sweep got there."""
     found: dict[str, float] = {}
     if separates[0].any():
-        found["onset"] = float(speeds[separates[0].argmax()])
+        found["onset_speed"] = float(speeds[separates[0].argmax()])
     if separates[1, -1]:
         quiet = np.flatnonzero(~separates[1])
         if not quiet.size or done[1, quiet[-1]]:
-            found["persists_to"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
+            found["offset_speed"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
     return found

@@ -26,8 +26,8 @@ COLUMNS = {
         "s-1", "the larger of its standard error and the difference between both halves", dims=_EACH
     ),
     "converged": Column("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=_EACH),
-    "along": Column("s-1", "exponent along the motion: 0 but for what the time is too short for"),
-    "covered": Column("s", "time over which the rates are averaged"),
+    "trivial_exponent": Column("s-1", "exponent along the motion: 0 but for what the time is too short for"),
+    "averaging_time": Column("s", "time over which the rates are averaged"),
     "separations": Column("1", "number of separations in that time", whole=True),
 }
 
@@ -54,8 +54,8 @@ def at(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
         "exponent": found.exponents,
         "exponent_error": found.errors,
         "converged": np.where(known, 1 + found.converged, 0),
-        "along": found.along,
-        "covered": found.duration,
+        "trivial_exponent": found.along,
+        "averaging_time": found.duration,
         "separations": found.separations,
     }
     return values, "" if found.status is LyapunovStatus.OK else found.status.advice

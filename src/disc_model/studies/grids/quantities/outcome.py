@@ -23,18 +23,18 @@ COLUMNS = {
     "status": Column(*STATUS),
     "outcome": Column("1", "what the motion comes to, or whether it separates", COURSES),
     "first_separation": Column(*SCALARS["first_separation"]),
-    "settled": Column("s", "time at which the motion was left because it had settled, nan if it was not"),
+    "settling_time": Column("s", "time at which the motion was left because it had settled, nan if it was not"),
     "time_reached": Column(*SCALARS["time_reached"]),
-    "distance": Column("1", "relative distance from the cycle where the motion was left for it"),
-    "difference": Column("1", "relative difference of successive cycles at the last probe"),
-    "difference_rate": Column("s-1", "growth rate of that difference over the last probes"),
+    "cycle_distance": Column("1", "relative distance from the cycle where the motion was left for it"),
+    "return_map_residual": Column("1", "relative difference of successive cycles at the last probe"),
+    "return_map_residual_rate": Column("s-1", "growth rate of that difference over the last probes"),
     "P_min": Column("N", "least contact force over the late stretch"),
     "P_max": Column("N", "greatest contact force over the late stretch"),
     "u_min": Column("m", "lowest position of the slider over the late stretch, from static equilibrium"),
     "u_max": Column("m", "highest position of the slider over the late stretch, from static equilibrium"),
-    "share_stick": Column("1", "share of the late stretch spent sticking"),
-    "share_slip": Column("1", "share of the late stretch spent slipping"),
-    "share_separation": Column("1", "share of the late stretch spent separated"),
+    "stick_fraction": Column("1", "share of the late stretch spent sticking"),
+    "slip_fraction": Column("1", "share of the late stretch spent slipping"),
+    "separation_fraction": Column("1", "share of the late stretch spent separated"),
     "separation_rate": Column("s-1", "separations per second over the late stretch"),
 }
 
@@ -48,15 +48,15 @@ def at(point: Point, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
         "outcome": reached.word,
         "first_separation": reached.first_separation,
         "time_reached": reached.time,
-        "difference_rate": _rate(reached),
-        "distance": reached.distance,
+        "return_map_residual_rate": _rate(reached),
+        "cycle_distance": reached.distance,
     }
     if reached.changes:
-        values["difference"] = reached.changes[-1]
+        values["return_map_residual"] = reached.changes[-1]
     if reached.outcome is Outcome.SEPARATION and result is not None:
         values["time_reached"] = result.final_state.time
     elif reached.outcome is not None and reached.time < options.horizon:
-        values["settled"] = reached.time
+        values["settling_time"] = reached.time
     if late is not None:
         values |= asdict(late)
     return values, "" if last.status.complete else last.message
@@ -80,16 +80,16 @@ def _late(point: Point, options: OutcomeOptions) -> tuple[Reached, Result | None
         tol=options.tol,
         furthest=0.0,
         start=prepared(p, point.start, options.tol),
-        early=bool(options.settled or options.near),
-        late=options.late,
+        early=options.early_end,
+        late=options.evaluation_time,
     )
     if reached.outcome is Outcome.SEPARATION:
-        return reached, *late_stretch(p, reached.state, options.after_separation, options.late, options.tol)
+        return reached, *late_stretch(p, reached.state, options.after_separation, options.evaluation_time, options.tol)
     if reached.outcome is None or reached.stretch is not None:
         return reached, None, reached.stretch
     # what the motion tends to is known exactly, or it is steady
     on = reached.state if reached.cycle is None else reached.cycle.state
-    return reached, *late_stretch(p, on, options.late, options.late, options.tol)
+    return reached, *late_stretch(p, on, options.evaluation_time, options.evaluation_time, options.tol)
 
 
 def _rate(reached: Reached) -> float:

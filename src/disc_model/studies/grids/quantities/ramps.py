@@ -23,9 +23,9 @@ _DIMS = ("rate",)
 COLUMNS = {
     "status": Column(*STATUS),
     "rate_status": Column(*STATUS, dims=_DIMS),
-    "onset": Column("rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS),
+    "onset_speed": Column("rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS),
     "top_separation_rate": Column("s-1", "separations per second over the stay at the highest speed", dims=_DIMS),
-    "persists_to": Column(
+    "offset_speed": Column(
         "rad s-1", "speed at the last separation on the way down, nan if there is none, or it goes on", dims=_DIMS
     ),
 }
@@ -56,7 +56,7 @@ class _Run:
     def __init__(self, p: Parameters, rate: float, options: RampsOptions) -> None:
         self.p, self.rate, self.options = p.replace(Omega=options.low), rate, options
         self.top = (options.high - options.low) / rate
-        self.down = self.top + options.stay
+        self.down = self.top + options.dwell
         self.bottom = self.down + self.top
         self.ramps = (
             Ramp(parameter="Omega", to=options.high, start=0.0, end=self.top),
@@ -66,22 +66,22 @@ class _Run:
     def found(self) -> tuple[dict[str, float], Result | None]:
         """Values of the columns, as far as they are known, and the run that could not go on."""
         first = self._on(None, self.top, stop_at="first_separation")
-        values = {"onset": self.options.low + self.rate * first.first_separation}
+        values = {"onset_speed": self.options.low + self.rate * first.first_separation}
         there = self._on(first.final_state, self.top) if first.status.value == "stopped" else first
         if not there.status.complete:
             return values, there
         stay = self._on(there.final_state, self.down)
         if not stay.status.complete:
             return values, stay
-        values["top_separation_rate"] = stay.statistics["separations"] / self.options.stay
+        values["top_separation_rate"] = stay.statistics["separations"] / self.options.dwell
         last, failed = self._last_separation(stay.final_state)
         if not failed and last < self.bottom:
-            values["persists_to"] = self.options.high - self.rate * (last - self.down)
+            values["offset_speed"] = self.options.high - self.rate * (last - self.down)
         return values, failed
 
     def _last_separation(self, state: State) -> tuple[float, Result | None]:
         """Time of the last loss of contact from the begin of the way down on, s, nan if there is none."""
-        last, end = math.nan, self.bottom + self.options.stay
+        last, end = math.nan, self.bottom + self.options.dwell
         while state.time < end:
             run = self._on(state, min(state.time + STRETCH, end), events=True)
             lost = run.event_rows[run.event_rows[:, _KIND] == LOSS_OF_CONTACT, _TIME]

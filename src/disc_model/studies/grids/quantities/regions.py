@@ -39,24 +39,24 @@ Array = NDArray[np.float64]
 T = TypeVar("T")
 Place = tuple[int, int]
 
-ORIGINS = ("none", "multipliers", "simulation", "undivided_cell")
+ORIGINS = ("none", "multipliers", "simulation", "inferred")
 JOINED = ("no", "yes")
-CYCLES = ("none_found", "followed", "only_near", "slides", "sticks")
+CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 COLUMNS = {
     "status": Column(*STATUS),
     "outcome": Column("1", "what the static start comes to, or whether it separates", COURSES),
-    "origin": Column("1", "how the outcome is known; undivided_cell: like that cell's corners", ORIGINS),
+    "method": Column("1", "how the outcome is known; inferred: like that cell's corners", ORIGINS),
     "first_separation": Column(*SCALARS["first_separation"]),
-    "simulated": Column("s", "simulated time"),
+    "simulated_time": Column("s", "simulated time"),
     "cycle": Column("1", "whether the static start follows the cycle found; without one, what it does", CYCLES),
     "growth_rate": Column("s-1", "growth rate of disturbances of the cycle that the static start follows"),
     "period": Column("s", "period of the cycle"),
     "releases": Column("1", "number of stick releases in its period", whole=True),
-    "oscillations": Column("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
-    "joined_first": Column(
+    "period_ratio": Column("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
+    "branch_continues_first": Column(
         "1", "whether the cycle goes on into the next point's along the plane's first dimension", JOINED
     ),
-    "joined_second": Column(
+    "branch_continues_second": Column(
         "1", "whether the cycle goes on into the next point's along the plane's second dimension", JOINED
     ),
     "other_cycles": Column("1", "number of other cycles known, followed from neighbours", whole=True),
@@ -75,7 +75,7 @@ SEPARATING = 5.0
 MOST_CYCLES = 4
 """Cycles carried from point to point, at most."""
 GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
-CALM = (Outcome.QUIET, Outcome.SLIDING, Outcome.RESTING)
+CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
 
 
 def over(
@@ -119,7 +119,7 @@ class _Tile:
         self.trends = {place: self._trend(place) for place in self.starts}
         for place in sampled:
             self.outcome(place)
-        rows, columns = (_edges(size, options.coarse) for size in self.shape)
+        rows, columns = (_edges(size, options.initial_cell_size) for size in self.shape)
         known = -1
         # a cell may have to be divided for what has been found on its edge
         while known < len(self.fates):
@@ -193,7 +193,7 @@ class _Tile:
         outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
-        most = max(1, self.options.coarse // 2)
+        most = max(1, self.options.initial_cell_size // 2)
         if len(outcomes) == 1 and outcomes <= GROWN and 1 < side <= most:
             # late separations hang on rounding: all corners may miss them by chance
             outcomes.add(self.outcome(_middle(undecided)))
@@ -266,17 +266,17 @@ class _Tile:
             row |= {
                 "status": found.status,
                 "outcome": found.word,
-                "origin": "simulation" if found.simulated else "multipliers",
+                "method": "simulation" if found.simulated else "multipliers",
                 "first_separation": found.first_separation,
-                "simulated": found.simulated,
+                "simulated_time": found.simulated,
             }
             message = found.message
         elif not self.trends[place]:
-            row |= {"outcome": self.filled.get(place, self.presumed.get(place)), "origin": "undivided_cell"}
+            row |= {"outcome": self.filled.get(place, self.presumed.get(place)), "method": "inferred"}
         else:
-            row |= {"outcome": self.trends[place], "origin": "multipliers"}
-        row["joined_first"] = self._joined(place, (place[0] + 1, place[1]))
-        row["joined_second"] = self._joined(place, (place[0], place[1] + 1))
+            row |= {"outcome": self.trends[place], "method": "multipliers"}
+        row["branch_continues_first"] = self._joined(place, (place[0] + 1, place[1]))
+        row["branch_continues_second"] = self._joined(place, (place[0], place[1] + 1))
         followed = self.followed.get(place)
         if followed is not None:
             cycle = followed.cycle
@@ -286,7 +286,7 @@ class _Tile:
                 "growth_rate": cycle.growth_rate,
                 "period": cycle.period,
                 "releases": cycle.releases,
-                "oscillations": cycle.period * lowest,
+                "period_ratio": cycle.period * lowest,
             }
         else:
             row["cycle"] = _without(start, found)
@@ -331,13 +331,13 @@ def _tried(compute: Callable[[], T]) -> T | Exception:
 
 def _without(start: Near | FloquetResult, found: Reached | None) -> str:
     """What there is at a point whose motion follows no cycle."""
-    if found is not None and found.outcome is Outcome.SLIDING:
-        return "slides"
+    if found is not None and found.outcome is Outcome.STEADY_SLIDING:
+        return "steady_sliding"
     if isinstance(start, Near):
-        return "only_near"
+        return "nearby_only"
     if start.status is CycleStatus.AT_REST:
-        return "sticks"
-    return "slides" if start.status is CycleStatus.NO_STICK_SLIP and start.sliding.stable else "none_found"
+        return "at_rest"
+    return "steady_sliding" if start.status is CycleStatus.NO_STICK_SLIP and start.sliding.stable else "no_cycle"
 
 
 def _middle(places: Sequence[Place]) -> Place:

@@ -30,7 +30,9 @@ Array = NDArray[np.float64]
 
 COLUMNS = {
     "status": Column(*STATUS),
-    "drawn": Column("", "values of the distributed parameters, SI units", dims=("draw", "parameter")),
+    "parameter_values": Column(
+        "", "values of the distributed parameters, SI units", dims=("sample_matrix", "parameter")
+    ),
     "cycle": Column("1", "what there is near the static start", SAMPLE_CYCLES, dims=("variant",)),
     "growth_rate": Column(
         "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one", dims=("variant",)
@@ -42,7 +44,7 @@ COLUMNS = {
 
 def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
     return {
-        "draw": (np.array(DRAWS), Variable("", "one of the two draws of a sample")),
+        "sample_matrix": (np.array(DRAWS), Variable("", "one of the two draws of a sample")),
         "parameter": (np.array(sorted(options.distributions)), Variable("", "distributed parameter")),
         "variant": (
             np.array([*DRAWS, *sorted(options.distributions)]),
@@ -62,13 +64,13 @@ def at(point: Point, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
     found = [_evaluated(p, row, options.tol) for row in rows]
     values: dict[str, Any] = {
         "status": "ok",
-        "drawn": drawn,
+        "parameter_values": drawn,
         "cycle": [one.cycle for one in found],
         "growth_rate": [one.growth_rate for one in found],
-        "outcome": "not_followed",
+        "outcome": "not_simulated",
     }
     messages = [one.message for one in found if one.message]
-    if point.sample < options.outcomes:
+    if point.sample < options.simulated_samples:
         more, message = _followed(p.replace(**rows[0]), options)
         values |= more
         messages += [message] if message else []
@@ -149,8 +151,8 @@ def cycle_word(found: FloquetResult) -> str:
     if found.status is CycleStatus.OK:
         return "stable" if found.stable else "unstable"
     if found.status is CycleStatus.NO_STICK_SLIP:
-        return "slides" if found.sliding.stable else "slips"
-    words = {CycleStatus.NO_CYCLE: "no_cycle", CycleStatus.SEPARATES: "separates", CycleStatus.AT_REST: "sticks"}
+        return "steady_sliding" if found.sliding.stable else "unstable_sliding"
+    words = {CycleStatus.NO_CYCLE: "no_cycle", CycleStatus.SEPARATES: "separates", CycleStatus.AT_REST: "at_rest"}
     return words.get(found.status, "failed")
 
 

@@ -20,19 +20,19 @@ _ONE, _EACH = ("curve",), ("curve", "curve_point")
 COLUMNS = {
     "status": Column(*STATUS),
     "n_curves": Column("1", "number of curves found", whole=True),
-    "n_unfollowed": Column("1", "number of places at which a curve could not be followed", whole=True),
+    "n_continuation_failures": Column("1", "number of places at which a curve could not be followed", whole=True),
     "kind": Column("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS, dims=_ONE),
     "x": Column("", "first parameter along the curve, SI units", dims=_EACH),
     "y": Column("", "second parameter along the curve, SI units", dims=_EACH),
-    "border": Column("1", "whether the cycle is stable on one side", SIDES, dims=_EACH),
+    "adjoins_stable_cycle": Column("1", "whether the cycle is stable on one side", SIDES, dims=_EACH),
     "period": Column("s", "period of the cycle on the curve", dims=_EACH),
     "multiplier_re": Column("1", "real part of the leading multiplier", dims=_EACH),
     "multiplier_im": Column("1", "imaginary part of the leading multiplier", dims=_EACH),
-    "tongue_harmonic": Column("1", "n of the resonance n f_s = f + s l Omega / 2 pi", dims=_ONE),
-    "tongue_frequency": Column("Hz", "f of that resonance, of a mode at rest", dims=_ONE),
-    "tongue_diameters": Column("1", "l of that resonance", dims=_ONE, whole=True),
-    "tongue_sign": Column("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
-    "tongue_detuning": Column("Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE),
+    "resonance_harmonic": Column("1", "n of the resonance n f_s = f + s l Omega / 2 pi", dims=_ONE),
+    "resonance_frequency": Column("Hz", "f of that resonance, of a mode at rest", dims=_ONE),
+    "resonance_diameters": Column("1", "l of that resonance", dims=_ONE, whole=True),
+    "resonance_sign": Column("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
+    "resonance_detuning": Column("Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE),
 }
 
 
@@ -54,12 +54,12 @@ def at(point: Point, options: StabilityCurvesOptions) -> tuple[dict[str, Any], s
         lines.values,
         points=options.points,
         max_points=options.max_points,
-        longest=options.longest,
+        longest=options.max_step,
         tol=options.tol,
     )
     # room is for the longest
     rows = [_row(curve) for curve in sorted(curves, key=lambda curve: -len(curve.period))]
-    return listed(rows) | {"status": "ok", "n_curves": len(curves), "n_unfollowed": len(notes)}, ""
+    return listed(rows) | {"status": "ok", "n_curves": len(curves), "n_continuation_failures": len(notes)}, ""
 
 
 def _row(curve: StabilityCurve) -> dict[str, Any]:
@@ -67,9 +67,9 @@ def _row(curve: StabilityCurve) -> dict[str, Any]:
         "kind": curve.kind,
         "x": curve.values[:, 0],
         "y": curve.values[:, 1],
-        "border": curve.border,
+        "adjoins_stable_cycle": curve.border,
         "period": curve.period,
         "multiplier_re": curve.multipliers.real,
         "multiplier_im": curve.multipliers.imag,
-        **{f"tongue_{name}": value for name, value in asdict(curve.tongue).items()},
+        **{f"resonance_{name}": value for name, value in asdict(curve.tongue).items()},
     }

@@ -78,7 +78,9 @@ def of(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
     rows = []
     growth = cell["cycle_growth_rate"].transpose("Omega", "mode").values
     for one in found[: options.max_crossings]:
-        effect, highest, rise, mode = effect_of(one, growth, cell["growth_rate"].values, options.window, options.rise)
+        effect, highest, rise, mode = effect_of(
+            one, growth, cell["growth_rate"].values, options.half_bandwidth, options.min_rise
+        )
         row = {name: getattr(one, name) for name in ("Omega", "frequency", "mode", "line", "multiple")}
         rows.append(row | {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": mode})
     return {"n_crossings": len(found)} | {f"crossing_{name}": column for name, column in listed(rows).items()}
@@ -112,7 +114,7 @@ def frequency_of(mode: xr.Dataset) -> Array:
     """Of a mode at all speeds, Hz, as this file's head says."""
     sliding = mode["sliding_frequency"].values
     more = mode["cycle_frequency"].values - sliding
-    known = np.isfinite(more) & (mode["likeness"].values >= LIKE)
+    known = np.isfinite(more) & (mode["mac"].values >= LIKE)
     speeds = mode["Omega"].values
     return sliding + np.interp(speeds, speeds[known], more[known]) if known.any() else sliding
 

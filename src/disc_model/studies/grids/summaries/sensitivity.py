@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 OVER = SAMPLE
 FAILED = "failed"
-FOLLOWED = tuple(word for word in SAMPLE_OUTCOMES if word not in ("not_followed", FAILED))
+FOLLOWED = tuple(word for word in SAMPLE_OUTCOMES if word not in ("not_simulated", FAILED))
 KNOWN = tuple(word for word in SAMPLE_CYCLES if word != FAILED)
 OUTPUTS = ("instability", "growth_rate")
 """Of which indices are given: whether there is no stable motion (1, else 0), and the cycle's growth rate, capped."""
@@ -39,15 +39,17 @@ def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[st
 
 
 COLUMNS: Mapping[str, Column] = {
-    "n_draws": Column("1", "number of draws, A and B, whose cycle is known", whole=True),
-    "n_followed": Column("1", "number of draws whose outcome is known", whole=True),
+    "n_known_cycles": Column("1", "number of draws, A and B, whose cycle is known", whole=True),
+    "n_known_outcomes": Column("1", "number of draws whose outcome is known", whole=True),
     **_with_interval("probability_unstable", "probability that the static start is near no stable motion"),
     **_with_interval("probability_separation", "probability of separation within the horizon"),
-    **_with_interval("cycle_share", "share of the draws near whose static start there is this", ("cycle_class",)),
-    **_with_interval("outcome_share", "share of the followed draws that have this outcome", ("outcome_class",)),
-    **_with_interval("first_index", "first-order Sobol index", _INDEX),
-    **_with_interval("total_index", "total Sobol index", _INDEX),
-    "left_out": Column("1", "share of samples that the indices leave out: an output is missing", dims=("output",)),
+    **_with_interval("cycle_fraction", "share of the draws near whose static start there is this", ("cycle_class",)),
+    **_with_interval("outcome_fraction", "share of the followed draws that have this outcome", ("outcome_class",)),
+    **_with_interval("sobol_first", "first-order Sobol index", _INDEX),
+    **_with_interval("sobol_total", "total Sobol index", _INDEX),
+    "excluded_fraction": Column(
+        "1", "share of samples that the indices leave out: an output is missing", dims=("output",)
+    ),
 }
 
 
@@ -65,21 +67,21 @@ def of(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
     words = flag_names(cell["cycle"].transpose("sample", "variant"))
     drawn = words[:, : len(DRAWS)].ravel()
     outcomes = flag_names(cell["outcome"])
-    outcomes = outcomes[outcomes != "not_followed"]
+    outcomes = outcomes[outcomes != "not_simulated"]
     values: dict[str, Any] = {
-        "n_draws": np.count_nonzero(drawn != FAILED),
-        "n_followed": np.count_nonzero(outcomes != FAILED),
+        "n_known_cycles": np.count_nonzero(drawn != FAILED),
+        "n_known_outcomes": np.count_nonzero(outcomes != FAILED),
     }
-    values |= _shares("cycle_share", drawn, [(word,) for word in KNOWN])
-    values |= _shares("outcome_share", outcomes, [(word,) for word in FOLLOWED])
+    values |= _shares("cycle_fraction", drawn, [(word,) for word in KNOWN])
+    values |= _shares("outcome_fraction", outcomes, [(word,) for word in FOLLOWED])
     values |= _shares("probability_unstable", drawn, [UNSTABLE])
     values |= _shares("probability_separation", outcomes, [("separation",)])
-    outputs = outputs_of(words, cell["growth_rate"].transpose("sample", "variant").values, options.cap)
+    outputs = outputs_of(words, cell["growth_rate"].transpose("sample", "variant").values, options.growth_rate_cap)
     found = [sobol_intervals(output, options.seed) for output in outputs]
     for kind in ("first", "total"):
         for end in ("", "_low", "_high"):
-            values[f"{kind}_index{end}"] = np.array([getattr(one, f"{kind}{end}") for one in found])
-    values["left_out"] = np.array([np.mean(~np.isfinite(output).all(axis=1)) for output in outputs])
+            values[f"sobol_{kind}{end}"] = np.array([getattr(one, f"{kind}{end}") for one in found])
+    values["excluded_fraction"] = np.array([np.mean(~np.isfinite(output).all(axis=1)) for output in outputs])
     return values
 
 
