@@ -212,6 +212,7 @@ def test_maps_of_one_normalization_over_any_number(x: str, values: list[float]) 
 
 def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset) -> None:
     growth = growth_over(LOADS, SPEEDS)
+    growth["growth_rate"] /= 100  # to the rates of the paper
     growth.attrs = {"title": "Growth", "base": '{"c_p": 0.5}'}
     mapped = draw("growth_map", growth, {"curves": plane})
     assert mapped.get_suptitle() == "Growth\n$c_p$ = 0.5 N s/m"
@@ -228,10 +229,22 @@ def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset) -> None:
 @pytest.mark.usefixtures("toy")
 def test_growth_has_one_scale_of_colours_in_all_maps() -> None:
     growth = growth_over(LOADS, SPEEDS)
+    growth["growth_rate"] /= 100  # to the rates of the paper
     study = outcomes(growth["growth_rate"].dims, dict(growth.coords), np.zeros(growth["growth_rate"].shape, np.int8))
     maps = draw("growth_map", growth), draw("stability_map", study, {"growth": growth}, x="Omega", y="N")
     norms = [next(c for c in figure.axes[0].collections if c.get_array() is not None).norm for figure in maps]
     assert all(isinstance(norm, AsinhNorm) and (norm.vmin, norm.vmax) == (-GREATEST, GREATEST) for norm in norms)
+
+
+@pytest.mark.usefixtures("toy")
+def test_growth_that_is_mostly_beyond_the_scale_has_a_scale_of_its_own() -> None:
+    """The map of a disc with the damping of cast iron had one colour."""
+    growth = growth_over(LOADS, SPEEDS)
+    growth["growth_rate"] -= 3
+    axes, bar = draw("growth_map", growth).axes[:2]
+    (mesh,) = (cells for cells in axes.collections if isinstance(cells.norm, AsinhNorm))
+    assert mesh.norm.vmax == -growth["growth_rate"].min()
+    assert [tick.get_text() for tick in bar.get_yticklabels()] == ["−1", "−0.1", "0", "0.1", "1"]
 
 
 def test_a_curve_across_which_the_shown_cycle_does_not_change_is_of_another_cycle() -> None:

@@ -126,17 +126,18 @@ def patch(look: Look) -> Patch:
 # The one scale of colours for growth rates of the stick-slip cycle
 
 GREATEST = 0.3
-"""Growth rate at which the colours end, 1/s."""
-LINEAR = 0.01
-"""Growth rate up to which the colours are about linear, 1/s."""
-TICKS = (-0.1, -0.01, 0, 0.01, 0.1)
+"""Growth rate at which the colours end, 1/s, unless most rates are larger."""
+LINEAR = 1 / 30
+"""Share of it up to which the colours are about linear."""
 UNLIKE = 0.1
 """Share of the scale of colours that lies between a cell which stands alone and each around it, at least."""
 
 
-def growth_norm() -> AsinhNorm:
+def growth_norm(rates: Array) -> AsinhNorm:
     """About linear near 0, about logarithmic beyond."""
-    return AsinhNorm(linear_width=LINEAR, vmin=-GREATEST, vmax=GREATEST)
+    sizes = np.abs(rates[np.isfinite(rates)])
+    greatest = float(sizes.max()) if sizes.size and np.median(sizes) > GREATEST else GREATEST
+    return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
 
 
 def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
@@ -146,7 +147,7 @@ def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
     """
     edges, words = edges_of(data, x, y), cycles_of(data, x, y)
     shown = np.ma.masked_where(~np.isin(words, ["", "alone"]), data["growth_rate"].transpose(y, x).values)
-    mesh = ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=growth_norm(), rasterized=True)
+    mesh = ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=growth_norm(shown.compressed()), rasterized=True)
     fill(ax, edges, words, CYCLE_LOOKS)
     return mesh
 
@@ -175,7 +176,7 @@ def alone(rate: Array) -> NDArray[np.bool_]:
 
     Each point of the quantity `floquet` is computed by itself, and where several cycles exist it is any of them.
     """
-    place = np.where(np.isfinite(rate), growth_norm()(np.nan_to_num(rate)), np.nan).clip(0, 1)
+    place = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(place, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
     like = np.abs(place[..., None, None] - around) < UNLIKE
@@ -188,9 +189,15 @@ def cycle_patches(words: Collection[str]) -> list[Patch]:
     return [patch(look) for name, look in CYCLE_LOOKS.items() if name in words]
 
 
-def growth_bar(figure: Figure, mesh: QuadMesh, axes: list[Axes]) -> None:
-    """The scale beside the panels."""
-    bar = figure.colorbar(mesh, ax=axes, extend="both", pad=0.01, aspect=30)
+def growth_bar(figure: Figure, axes: list[Axes]) -> None:
+    """One scale for the growth rates in all panels, beside them."""
+    meshes = [one for ax in axes for one in ax.collections if isinstance(one.norm, AsinhNorm)]
+    norm = growth_norm(np.concatenate([np.ma.asarray(mesh.get_array()).compressed() for mesh in meshes]))
+    for mesh in meshes:
+        mesh.set_norm(norm)
+    bar = figure.colorbar(meshes[0], ax=axes, extend="both", pad=0.01, aspect=30)
     bar.set_label("Growth rate of the stick-slip cycle (1/s)")
-    bar.set_ticks(TICKS, labels=[f"{x:g}".replace("-", "−") for x in TICKS])
+    largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
+    ticks = [-largest, -largest / 10, 0, largest / 10, largest]
+    bar.set_ticks(ticks, labels=[f"{x:g}".replace("-", "−") for x in ticks])
     bar.minorticks_off()

@@ -164,7 +164,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     gaps: set[str] = set()
     for i, (ax, norm) in enumerate(zip(axes, norms, strict=True)):
         grid = parts.of(study, norm)
-        mesh = growth_cells(ax, grid, "Omega", "N")
+        growth_cells(ax, grid, "Omega", "N")
         gaps |= set(cycles_of(grid, "Omega", "N").flat)
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
         own, others_here = parted(curves_of(data[i]) if data else [], grid)
@@ -178,6 +178,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     handles += cycle_patches(gaps)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
-    growth_bar(figure, mesh, axes)
+    growth_bar(figure, axes)
     parts.head(figure, study, plot.title, modes_said=True)
     return figure

@@ -41,8 +41,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -
     axes = list(figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0])
     handles: list[Patch] = []
     if plot.variable == "growth_rate" and not plot.log:
-        mesh, handles = _growth(axes, study, plot, by)
-        growth_bar(figure, mesh, axes)
+        handles = _growth(axes, study, plot, by)
+        growth_bar(figure, axes)
     else:
         colours = _colours(found, plot)
         for ax, (_, panel) in zip(axes, panels, strict=True):
@@ -75,18 +75,18 @@ def _name(figure: Figure, axes: Sequence[Axes], values: Sequence[str], found: xr
     axes[0].set_ylabel(parts.label_of(found[plot.y])[0])
 
 
-def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> tuple[QuadMesh, list[Patch]]:
+def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> list[Patch]:
     """Growth rates, and what there is where there is no cycle, as in all growth maps."""
     names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
     picked = {name: parts.slices(parts.picked(study, name, plot.at), by) for name in names}
     words: set[str] = set()
     for i, ax in enumerate(axes):
         data = xr.Dataset({name: panels[i][1] for name, panels in picked.items()})
-        mesh = growth_cells(ax, data, plot.x, plot.y)
+        growth_cells(ax, data, plot.x, plot.y)
         words |= set(cycles_of(data, plot.x, plot.y).flat)
         for axis, name in plot.axes.items():
             ax.set(**{f"{axis}scale": "log" if scale_of(name, data[name].values) == "log" else "linear"})
-    return mesh, cycle_patches(words)
+    return cycle_patches(words)
 
 
 def _empty(ax: Axes, left_out: xr.DataArray, plot: HeatMap) -> None:

@@ -44,7 +44,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
         single = standing_alone(words)
         cells.fill(axes[0, column], edges, np.where(single, "here", ""), {"here": UNRESOLVED})
         hatched |= bool(single.any())
-        mesh = cells.growth_cells(axes[1, column], one, plot.x, plot.y)
+        cells.growth_cells(axes[1, column], one, plot.x, plot.y)
         for row in range(2):
             ax = axes[row, column]
             parts.letter(ax, "abcd"[row * len(norms) + column], "" if row else parts.MODES[norm])
@@ -54,7 +54,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     above += [cells.patch(UNRESOLVED)] * hatched
     above += {line.get_label(): line for line in lines}.values()
     legend_below_head(figure, study, plot, [*above, *finish(axes, study, plot)])
-    cells.growth_bar(figure, mesh, list(axes[1]))
+    cells.growth_bar(figure, list(axes[1]))
     below: list[Artist] = list(cells.cycle_patches(set(flag_names(study["cycle"]).flat)))
     below.append(Line2D([], [], linestyle="", label="\n".join(_said(study, plot))))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)

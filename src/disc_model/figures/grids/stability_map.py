@@ -48,13 +48,13 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
     for ax, norm in zip(axes[0], norms, strict=True):
         if "growth" in overlays:
             growth = parts.of(overlays["growth"], norm)
-            mesh = growth_cells(ax, growth, plot.x, plot.y)
+            growth_cells(ax, growth, plot.x, plot.y)
             _neutral_line(ax, growth, plot)
             gaps |= set(cycles_of(growth, plot.x, plot.y).flat)
         _points(ax, parts.of(study, norm), plot)
     handles = finish(axes, study, plot)
     if "growth" in overlays:
-        growth_bar(figure, mesh, list(axes[0]))
+        growth_bar(figure, list(axes[0]))
         handles = [Line2D([], [], **parts.border("neutral")), *cycle_patches(gaps), *handles]
     present = set(flag_names(study["outcome"]).flat)
     look: dict[str, Any] = {"linewidth": 0.5, "edgecolor": BLACK}
