@@ -200,7 +200,7 @@ class Step:
             if x is self.alpha or x is self.beta:
                 scale = modal
             elif x is self.v:
-                scale = max(scale, q.N * (q.s**2 / np.sqrt(q.w2)).sum())
+                scale = max(scale, q.N * ((q.s**2 / np.sqrt(q.w2)).sum() + np.sqrt(q.C / q.m)))
             elif x is self.a or x is self.b:
                 scale = modal / np.sqrt(q.w2.max(initial=1))
             for k in (last, last - 1):
