@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -65,6 +66,8 @@ def test_a_disc_that_stands_free_has_no_motion_of_a_rigid_body_missing() -> None
         ({"nu": float("nan"), "damping_ratio": 1}, "nu=nan: must be finite"),
         ({"highest_Hz": float("inf")}, "highest_Hz=inf: must be finite and > 0"),
         ({"highest_Hz": 1.0}, "highest_Hz=1: must be above a mode that moves under the slider"),
+        ({"clamped": lambda x: x[0] < 0.05}, "clamped=0: must hold nodes of the section: coordinates are in m"),
+        ({"clamped": lambda x: False}, "clamped=0: must hold nodes"),
     ],
 )
 def test_what_cannot_be_found_is_said(change: dict[str, object], said: str) -> None:
@@ -80,6 +83,13 @@ def test_what_cannot_be_found_is_said(change: dict[str, object], said: str) -> N
     ("rectangles", "size", "said"),
     [
         ([(0.1, 0.06, 0, 1)], 0.01, "rectangles.0"),
+        ([], 0.01, "rectangles.0=(): must be (r from"),
+        ([(0.06, 0.1, 0)], 0.01, "rectangles.0=(0.06, 0.1, 0.0): must be (r from"),
+        (
+            [(60, 120, 0, 10)],
+            0.01,
+            "size=0.01: must give at most 100,000 elements, not 6e+06: size and rectangles are in m",
+        ),
         (RING, 0, "size=0: must be > 0"),
         (RING, "x", "size='x': must be > 0"),
     ],
@@ -88,6 +98,20 @@ def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: o
     with pytest.raises(dm.ParameterError) as error:
         section(rectangles, size)  # type: ignore[arg-type]
     assert said in str(error.value)
+
+
+def test_units_by_a_thousand_or_more_off_are_told() -> None:
+    """E in GPa was searched for thousands of modes without an end."""
+    given: dict[str, Any] = {"nu": P.nu, "rho": P.rho, "clamped": lambda x: x[0] < 0.061, "slider": (0.1, 0.005)}
+    with pytest.warns(dm.ImplausibleValue), pytest.raises(dm.ParameterError, match="lowest modes of 0 nodal diameters"):
+        disc_of_section(section(RING, 0.005), **given, E=150, highest_Hz=3000)
+
+
+def test_a_section_in_pieces_is_refused() -> None:
+    """A ring that nothing held was left out without a word."""
+    mesh = section([RING[0], (0.11, 0.12, -0.005, 0.005)], 0.01)
+    with pytest.raises(dm.ParameterError, match="mesh=2: must be one piece"):
+        disc_of_section(mesh, **IRON, clamped=lambda x: x[0] < 0.061, slider=(0.1, 0.005), highest_Hz=3000)
 
 
 def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

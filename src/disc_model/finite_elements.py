@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import itertools
 import math
+import warnings
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import Disc, Parameters, is_number
+from disc_model.plausibility import ImplausibleValue, tell_doubts
 
 if TYPE_CHECKING:
     from skfem import MeshQuad
@@ -28,6 +31,10 @@ SEEN = 1e-6
 """Modes whose amplitude under the slider is a smaller share of the largest move in the plane of the disc alone."""
 SAME_PLACE = 1e-9
 """m; the slider must run through a node of the mesh."""
+MOST_ELEMENTS = 100_000
+"""In the rectangle around a section; more are a slip of units."""
+MOST_MODES = 64
+"""With as many nodal diameters; more are a slip of units, and would take minutes to find."""
 
 
 def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
@@ -45,11 +52,15 @@ def section(rectangles: Iterable[tuple[float, float, float, float]], size: float
     """
     mesh_type = _skfem().MeshQuad
     given = [tuple(map(float, rectangle)) for rectangle in rectangles]
-    for i, (inner, outer, low, high) in enumerate(given):
-        if not (0 < inner < outer and low < high):
+    for i, one in enumerate(given or [()]):
+        if not (len(one) == 4 and 0 < one[0] < one[1] < math.inf and -math.inf < one[2] < one[3] < math.inf):
             rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
-            raise ParameterError(Fault(("rectangles", str(i)), shown((inner, outer, low, high)), rule))
+            raise ParameterError(Fault(("rectangles", str(i)), shown(one), rule))
     refuse(broken((is_number(size) and size > 0, "size", size, "must be > 0")))
+    inner, outer, low, high = zip(*given, strict=True)
+    count = (max(outer) - min(inner)) / size * ((max(high) - min(low)) / size)
+    rule = f"must give at most {MOST_ELEMENTS:,} elements, not {count:.2g}: size and rectangles are in m"
+    refuse(broken((count <= MOST_ELEMENTS, "size", size, rule)))
     axes = [_divided({edge for one in given for edge in one[at : at + 2]}, size) for at in (0, 2)]
     mesh = mesh_type.init_tensor(*axes)
     r, z = mesh.p[:, mesh.t].mean(axis=1)
@@ -81,7 +92,7 @@ def disc_of_section(
     ----------
     mesh : of the section, coordinates (r, z) in m; see `section`
     E, nu, rho : Pa, 1 and kg/m^3
-    clamped : of coordinates of shape (2, k), which points are held
+    clamped : of coordinates (r, z) of shape (2, k), the middles of the edges around the section, which edges are held
     slider : (r, z) under it, m; a node of the mesh
     highest_Hz : modes up to this frequency are found
     damping_ratio : of every mode
@@ -95,7 +106,13 @@ def disc_of_section(
     Raises
     ------
     ParameterError
-        If a number breaks its rule, the slider is at no node, or no mode moves under it.
+        If a number breaks its rule, the section is in pieces or not held, the slider is at no node, or no mode moves
+        under it.
+
+    Warns
+    -----
+    ImplausibleValue
+        If E and rho are those of no solid.
     """
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
@@ -113,8 +130,17 @@ def disc_of_section(
     level = np.flatnonzero(np.abs(basis.doflocs[1, vertical] - slider[1]) < SAME_PLACE)
     radii, first = np.unique(basis.doflocs[0, vertical[level]], return_index=True)
     places = vertical[[int(np.argmin(apart)), *level[first]]]
-    refuse(broken((apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh")))
-    held, highest = basis.get_dofs(clamped).all(), math.tau * highest_Hz
+    held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
+    pieces = _pieces(mesh)
+    refuse(
+        broken(
+            (apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh"),
+            (len(held) > 0, "clamped", len(held), "must hold nodes of the section: coordinates are in m"),
+            (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
+        )
+    )
+    tell_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
+    highest = math.tau * highest_Hz
     found: list[tuple[float, int, int, float, list[float]]] = []
     for l in range(61):
         omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, places, highest)
@@ -130,6 +156,16 @@ def disc_of_section(
     names = ("omega", "diameters", "circles", "amplitude", "shapes")
     columns = dict(zip(names, map(list, zip(*kept, strict=True)), strict=True))
     return Disc(**columns, radii=radii.tolist(), damping_ratio=[iron.damping_ratio] * len(kept))
+
+
+def _pieces(mesh: MeshQuad) -> int:
+    """Number of parts of a mesh that share no node."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    count = mesh.p.shape[1]
+    links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=(count, count))
+    return len(np.unique(connected_components(links, directed=False)[1][mesh.t]))
 
 
 def _harmonic(
@@ -150,6 +186,11 @@ def _harmonic(
         squares, shapes = eigsh(K, min(count, len(free) - 1), M, sigma=0.0, v0=np.ones(len(free)))
         if squares.max() > highest**2 or count >= len(free) - 1:
             break
+        if count >= MOST_MODES:
+            most = math.sqrt(squares.max()) / math.tau
+            rule = f"must be below the {count} lowest modes of {l} nodal diameters, which end at {most:.3g} Hz: "
+            rule += "lengths are in m, E in Pa, rho in kg/m^3"
+            raise ParameterError(Fault(("highest_Hz",), shown(highest / math.tau), rule))
         count *= 2
     order = np.argsort(squares)
     order = order[squares[order] <= highest**2]
