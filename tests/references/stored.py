@@ -12,25 +12,6 @@ from disc_model.simulation.result import State as EngineState
 
 DATA = Path(__file__).parent / "data"
 
-#: Table 1 of the paper, SI units.
-BASE = {
-    "D_star": 1e-5,
-    "c": 0.0,
-    "c_p": 0.0,
-    "k": 5e4,
-    "k_p": 2e4,
-    "E": 150e9,
-    "m": 0.1,
-    "mu_s": 0.4,
-    "mu_k": 0.24,
-    "a": 0.044,
-    "b": 0.12,
-    "r_0": 0.1,
-    "h": 0.002,
-    "nu": 0.211,
-    "rho": 7200.0,
-}
-
 
 @dataclass
 class State:
@@ -57,6 +38,10 @@ def load(name):
         return State(**found) if found.keys() == State.__annotations__.keys() else found
 
     return json.loads((DATA / f"{name}.json").read_text(), object_hook=read)
+
+
+#: Table 1 of the paper, SI units.
+BASE = {name: value for name, value in load("C")["parameters"].items() if name not in ("N", "Omega")}
 
 
 def times_of(data):

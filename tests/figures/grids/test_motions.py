@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.data.variables import Outcome
 from disc_model.figures.grids import ramps as drawn
 from disc_model.figures.grids.growth_map import Curve, crossings
-from disc_model.stability.attractor.course import Attractor, Reached
+from disc_model.stability.attractor.course import Reached
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import basins, ramps
 from tests.figures.grids.reading import crosses, draw, labels, lines
-from tests.stability.test_attractor import stretch
 from tests.studies.grids.conftest import computed, growth_over, in_base, made_up_samples, with_failed
+from tests.studies.grids.quantities.test_basins import APART, QUIET
 
 # ---- bifurcation diagrams
 
@@ -76,13 +75,6 @@ def test_a_diagram_looked_like_chaos_where_the_motion_repeats() -> None:
 
 
 # ---- basins
-
-QUIET, APART = (
-    Attractor(
-        Outcome.QUIET, stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
-    ),
-    Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03)),
-)
 
 
 @pytest.fixture
