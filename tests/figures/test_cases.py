@@ -1,5 +1,6 @@
 """Figures of named cases and of the paper: from data alone, in one style, with units, and where a case holds less."""
 
+import functools
 from pathlib import Path
 from typing import Any
 
@@ -22,78 +23,37 @@ from disc_model.figures.parts import COLUMN, PAGE, save
 from tests.claims.made_up import DAMAGES, EACH_DAMAGE, damaged
 from tests.figures.grids.reading import labels
 
-
-def made_up_case(*, separates: bool = True) -> xr.DataTree:
-    """A case with the windows that figures look for; contact is lost at P = 0 once a cycle."""
-    t = np.arange(0.25, 60, 0.5)
-    grow = np.minimum(np.exp((t - 40) / 10), 1)
-    history = {
-        f"{name}_{end}": offset + sign * scale * grow
-        for name, offset, scale in (("P", 200.0, 200.0), ("w_point", -5e-4, 0.01), ("psi", 0.02, 0.05))
-        for end, sign in (("min", -1), ("max", 1))
-    }
-    s = np.linspace(0, 0.035, 3501)
-    cycle = np.sin(2 * np.pi * 135 * s)
-    force = np.maximum(200 + (220 if separates else 100) * cycle, 0)
-    zoom = {"P": force, "phase": np.where(force == 0, 2, 1).astype(np.int8)}
-    zoom |= {"u": 0.009 * cycle, "w": 0.009 * cycle - 3e-5 * (force == 0)}
-    p = Parameters(N=200, Omega=20)
-    root = xr.Dataset(
-        {"first_separation": 40.0 if separates else np.nan, "u_0": -0.001, "time_reached": 60.0},
-        attrs={"parameters": p.canonical_json},
-    )
-    stretches = {
-        f"spectrum_{name}": made_up_samples(start, 4000, 3.0) for name, start in zip("abcd", STARTS, strict=True)
-    }
-    stretches["orbit"] = made_up_samples(59, 5000, 1.0)
-    stretches["poincare"] = made_up_samples(0, 3, 60.0)
-    stretches |= {f"around{j}": made_up_circle(0.7 * j) for j in range(9)}
-    if not separates:
-        stretches = {name: window.assign(phase=window["phase"] % 2) for name, window in stretches.items()}
-    stretches |= {"history": made_up_window(t, history), "zoom": made_up_window(50 + s, zoom)}
-    return xr.DataTree.from_dict({"/": root} | {f"/{name}": window for name, window in stretches.items()})
+STARTS = (0.0, 20.0, 53.0, 56.0)
+"""Of the stretches whose spectra are shown, s: contact is first lost at 54.4 s."""
+RECORDED = {
+    "history": Window(stop=60, rate=200, envelope=100, theta=0.5),
+    "zoom": Window(start=56, stop=56.035, rate=1e5, theta=0.5),
+    **{
+        f"spectrum_{name}": Window(start=at, stop=at + 3, rate=4e3, theta=0.5)
+        for name, at in zip("abcd", STARTS, strict=True)
+    },
+    "orbit": Window(start=59, rate=5e3, theta=0.5),
+    **{f"around{j}": Window(start=56, stop=56.035, rate=1e4, theta=0.7 * j) for j in range(9)},
+}
 
 
-def made_up_window(t: np.ndarray, values: dict[str, np.ndarray], theta: float = 0.5) -> xr.Dataset:
-    return xr.Dataset({name: ("time", value) for name, value in values.items()}, {"time": t}, {"theta": theta})
+@functools.cache
+def simulated(separates: bool) -> xr.DataTree:
+    """A minute with the windows that figures look for."""
+    record = Record(windows=tuple(RECORDED.values()), poincare=Poincare(theta=0.5))
+    return simulate(Parameters(N=385, Omega=15.1 if separates else 15), 60, record=record).to_tree(list(RECORDED))
 
 
-def made_up_circle(theta: float) -> xr.Dataset:
-    """The disc at an angle, which it is bent over; the slider leaves it for a tenth of each cycle of 140 Hz."""
-    t = 50 + np.arange(350) / 1e4
-    cycle = (140 * t) % 1.0
-    values = {
-        "psi": 0.05 * np.ones_like(t),
-        "u": 1e-3 * np.cos(2 * np.pi * cycle),
-        "w_point": 1e-3 * np.cos(2 * np.pi * cycle) * np.cos(theta),
-        "phase": np.where(cycle < 0.1, 2, 1).astype(np.int8),
-    }
-    return made_up_window(t, values, theta)
-
-
-STARTS = (0.0, 20.0, 38.5, 50.0)
-"""Of the stretches whose spectra are shown, s."""
-
-
-def made_up_samples(start: float, rate: float, length: float) -> xr.Dataset:
-    """A slider that sticks, slips and separates at 70 Hz, and a disc at 140 Hz."""
-    t = start + np.arange(round(length * rate)) / rate
-    cycle, turn = np.sin(2 * np.pi * 70 * t), np.cos(2 * np.pi * 3.2 * t)
-    values = {
-        "psi": 0.05 * cycle,
-        "psi_velocity": np.minimum(20.0, 22 * np.cos(2 * np.pi * 70 * t)),
-        "w_point": 1e-3 * turn + 1e-4 * np.sin(2 * np.pi * 140 * t),
-        "w_point_velocity": 0.1 * np.cos(2 * np.pi * 140 * t),
-        "phase": np.where(cycle > 0.9, 2, np.where(cycle > 0, 0, 1)).astype(np.int8),
-    }
-    return made_up_window(t, values)
+def whole_case(*, separates: bool = True) -> xr.DataTree:
+    """To be changed."""
+    return simulated(separates).copy(deep=True)
 
 
 OPTIONS = {
-    "fig26": {"zooms": [["spectrum_c", 39.0], ["spectrum_d", 51.0]]},
-    "fig28": {"zooms": [["spectrum_d", 50.5], ["spectrum_d", 51.0]]},
+    "fig26": {"zooms": [["spectrum_c", 54.0], ["spectrum_d", 57.0]]},
+    "fig28": {"zooms": [["spectrum_d", 56.5], ["spectrum_d", 57.0]]},
 }
-"""Closer looks at times that the made-up case has."""
+"""Closer looks at times that the case has."""
 
 
 def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
@@ -102,7 +62,7 @@ def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
 
 
 def draw(name: str, *, separates: bool = True) -> Figure:
-    return drawn(name, {case: made_up_case(separates=separates) for case in CATALOGUE[name].cases})
+    return drawn(name, {case: whole_case(separates=separates) for case in CATALOGUE[name].cases})
 
 
 def said_in(figure: Figure) -> list[str]:
@@ -136,7 +96,7 @@ def test_figures_name_their_quantities_and_units_legibly_at_print_size(name: str
 @pytest.mark.parametrize("name", ONE_OF_EACH)
 def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
     """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""
-    figure = drawn(name, {case: damaged(made_up_case(), DAMAGES[damage]) for case in CATALOGUE[name].cases})
+    figure = drawn(name, {case: damaged(whole_case(), DAMAGES[damage]) for case in CATALOGUE[name].cases})
     figure.draw_without_rendering()
     reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
     if damage in ("failed", "nothing recorded"):
@@ -169,7 +129,7 @@ def test_equal_figures_give_equal_bytes_whatever_the_users_settings(suffix: str,
 
 def test_a_closer_look_began_inside_a_separation() -> None:
     """What the window cuts off looked like a jump of the force at its start."""
-    case = made_up_case()
+    case = whole_case()
     zoom = case["zoom"].to_dataset()
     apart = np.flatnonzero(zoom["phase"].values == 2)
     case["zoom"] = xr.DataTree(zoom.isel(time=slice(int(apart[5]), None)))
@@ -179,7 +139,7 @@ def test_a_closer_look_began_inside_a_separation() -> None:
 
 
 def test_two_angles_are_both_named() -> None:
-    cases = {name: made_up_case() for name in ("F02", "F04")}
+    cases = {name: whole_case() for name in ("F02", "F04")}
     cases["F04"]["history"].attrs["theta"] = 2.0
     assert drawn("fig10", cases).axes[0].get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 and 2 (mm)"
 
@@ -189,16 +149,16 @@ def test_two_angles_are_both_named() -> None:
 
 def asked(kind: str, case: xr.DataTree | None = None, **said: Any) -> Figure:
     plot = CASE_PLOTS[kind].model_validate({"kind": kind, "case": "A", **said})
-    return parts.draw(plot, {"A": made_up_case() if case is None else case})
+    return parts.draw(plot, {"A": whole_case() if case is None else case})
 
 
 def test_a_history_has_a_panel_for_each_variable() -> None:
     figure = asked("history", window="spectrum_c", variables=["w_point", "psi"], title="Seen")
-    assert figure.get_suptitle() == "Seen\nN = 200 N, Ω = 20 rad/s"
+    assert figure.get_suptitle() == "Seen\nN = 385 N, Ω = 15.1 rad/s"
     top, bottom = figure.axes
-    np.testing.assert_allclose(top.lines[0].get_ydata(), 1e3 * made_up_case()["spectrum_c/w_point"].values)  # mm
+    np.testing.assert_allclose(top.lines[0].get_ydata(), 1e3 * whole_case()["spectrum_c/w_point"].values)  # mm
     assert bottom.get_ylabel() == "Angle ψ (rad)"
-    assert "first separation 40.00 s" in said_in(figure)
+    assert "first separation 54.42 s" in said_in(figure)
     ranges = asked("history", window="history", variables=["P", "psi"])
     assert all(len(ax.collections) == 1 for ax in ranges.axes), "as bands"
 
@@ -217,7 +177,7 @@ def test_portraits_and_sections_show_all_samples() -> None:
     assert labels(ax) == ["stick", "slip", "separation"]
     slider, disc = asked("poincare").axes
     shown = sum(len(collection.get_offsets()) for collection in slider.collections)
-    assert shown == made_up_case()["poincare"].sizes["time"]
+    assert shown == whole_case()["poincare"].sizes["time"]
     assert disc.get_xlabel().startswith("Disc at")
 
 
@@ -228,7 +188,7 @@ def test_what_a_case_lacks_is_said(kind: str) -> None:
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))
     assert any("did not record" in text for text in said_in(asked(kind, empty, **said)))
     if kind != "poincare":
-        early = damaged(made_up_case(), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))})
+        early = damaged(whole_case(), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))})
         assert any("has 0 samples in orbit" in text for text in said_in(asked(kind, early, **said)))
 
 
@@ -285,7 +245,7 @@ def test_captions_say_times_and_angles_of_the_windows() -> None:
 
 def test_sections_of_a_pair_share_the_axes_of_the_slider() -> None:
     """Figs. 4 to 9 are compared, and each had axes of its own."""
-    small, large = made_up_case(), made_up_case()
+    small, large = whole_case(), whole_case()
     for name in ("psi", "psi_velocity", "w_point"):
         large["poincare"][name] = 3 * large["poincare"][name]
     (first, second), (slider, disc) = (
@@ -352,7 +312,7 @@ def test_what_does_not_determine_the_disc_is_said(case: xr.DataTree) -> None:
 
 def test_a_film_moves(tmp_path: Path) -> None:
     path = tmp_path / "film.webp"
-    film(made_up_case(), path, frames=3)
+    film(whole_case(), path, frames=3)
     with Image.open(path) as picture:
         assert picture.n_frames >= 3
     assert path.stat().st_size < 100_000
