@@ -155,6 +155,7 @@ CELLS = ("1", "-1", "0", "1e400", "nan", "inf", "", " 2 ", "x", "1,2", '"', "\0"
 NUMBERS = ("1", "2", "3", "60", "0", "0.3", "1e-9", "1e-5", "1e5", "999999")
 
 
+@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
 def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
     """A thousand of them; half have numbers in all columns, and what is a disc among these is computed."""
     path, draw, discs = tmp_path / "disc.csv", np.random.default_rng(0), 0
@@ -383,7 +384,10 @@ def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest
     path = tmp_path / "disc.csv"
     path.write_text(out("modes", "--normalization", "orthonormal", "--csv"))
     assert dm.read_disc(path).omega == tuple(mode_arrays(P).omega)
-    assert "a disc of 5 modes" in out("modes", "--disc", str(path))
+    path.write_text(disc_table(P.replace(damping_ratio=0.00375)))
+    shown = out("modes", "--disc", str(path))
+    assert "a disc of 5 modes" in shown
+    assert shown.count("0.00375") == 5
 
 
 def test_the_first_modes_of_a_table_are_chosen_as_those_of_the_plate(tmp_path: Path) -> None:

@@ -11,6 +11,8 @@ from disc_model.studies.study import parse_study
 from tests.studies.refused import parse_grid
 
 BASE = {"N": 200, "Omega": 20}
+MODE: dict[str, Any] = {"diameters": [1], "omega": [3400.0], "amplitude": [0.5]}
+SHAPES: dict[str, Any] = {"radii": [0.08, 0.12], "shapes": [[0.4, 0.6]]}
 
 
 @pytest.mark.parametrize(
@@ -29,6 +31,13 @@ BASE = {"N": 200, "Omega": 20}
         ({"E": 8e9, "rho": 8000}, set()),  # sqrt(E/rho) = 1000 m/s
         ({"E": 7.9e9, "rho": 8000}, {"speed of sound"}),
         ({"n_diameters": -1, "N": 1e9}, set()),  # rigid
+        ({"disc": MODE}, set()),
+        ({"disc": MODE | {"omega": [3.4]}}, {"frequencies of the disc"}),  # in kHz
+        ({"disc": MODE | {"omega": [3.4e6]}}, {"frequencies of the disc"}),
+        ({"disc": MODE | {"amplitude": [500.0]}}, {"amplitudes of the disc"}),
+        ({"disc": MODE | {"amplitude": [5e-4]}}, {"amplitudes of the disc"}),
+        ({"disc": MODE | SHAPES}, set()),
+        ({"disc": MODE | SHAPES, "r_0": 0.13}, {"radius of the slider"}),
     ],
 )
 def test_what_cannot_be_meant_is_doubted(changes: dict[str, float], kinds: set[str]) -> None:

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
+import numpy as np
+
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
@@ -21,6 +23,12 @@ DEEPEST = 300.0
 80,000 N that stand for a load under which nothing moves; a slip of units is a factor of 1000."""
 FURTHEST = 100.0
 """Factor from a value of Table 1."""
+PITCHES = (10.0, 1e5)
+"""Hz, of the lowest mode of a disc given by its modes."""
+MASSES = (1e-3, 1e3)
+"""kg, modal mass of its mode that moves most under the slider."""
+ELSEWHERE = 0.05
+"""Share by which an amplitude under the slider may differ from the shape there, between whose radii it is linear."""
 
 
 class ImplausibleValue(UserWarning):
@@ -91,6 +99,33 @@ def _deflected(p: Parameters) -> str:
     return f"{_said(p, 'N')} bends the disc by {times}, and its theory is linear"
 
 
+def _pitch(p: Parameters) -> str:
+    lowest = min(p.disc.omega) / math.tau if p.disc else PITCHES[0]
+    if PITCHES[0] <= lowest <= PITCHES[1]:
+        return ""
+    return f"the lowest mode of the disc has {lowest:.3g} Hz: a table has frequencies in Hz or rad/s, by its column"
+
+
+def _modal_mass(p: Parameters) -> str:
+    largest = max(map(abs, p.disc.amplitude)) if p.disc else 1.0
+    if MASSES[0] <= largest**-2 <= MASSES[1]:
+        return ""
+    return f"the largest amplitude of the disc, {largest:.3g} kg^-1/2, is that of a modal mass of {largest**-2:.2g} kg"
+
+
+def _elsewhere(p: Parameters) -> str:
+    if p.disc is None or not p.disc.radii:
+        return ""
+    amplitude, shape = max(zip(p.disc.amplitude, p.disc.shapes, strict=True), key=lambda mode: abs(mode[0]))
+    there = float(np.interp(p.r_0, p.disc.radii, shape))
+    if abs(there - amplitude) <= ELSEWHERE * abs(amplitude):
+        return ""
+    return (
+        f"{_said(p, 'r_0')} is not where the amplitudes of the disc were taken: "
+        f"a mode moves by {there:.3g} kg^-1/2 there, and its amplitude is {amplitude:.3g}"
+    )
+
+
 _PLATE = ("a", "b", "r_0", "h", "E", "nu", "n_diameters", "n_circles")
 RULES = {
     **{
@@ -99,5 +134,8 @@ RULES = {
     },
     "thickness": Rule(("h", "a", "b"), _thick),
     "speed of sound": Rule(("E", "rho"), _sound),
+    "frequencies of the disc": Rule(("disc",), _pitch),
+    "amplitudes of the disc": Rule(("disc",), _modal_mass),
+    "radius of the slider": Rule(("disc", "r_0"), _elsewhere),
     "static deflection": Rule(("N", *_PLATE), _deflected),
 }

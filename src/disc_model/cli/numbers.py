@@ -34,7 +34,7 @@ def modes(
 ) -> None:
     """Print the modes of the disc, its give under the slider, and the frequencies of both with the slider at rest."""
     from disc_model.flexibility import residual_flexibility
-    from disc_model.plate import mode_arrays, slider_at_rest_frequencies
+    from disc_model.plate import modal_damping, mode_arrays, slider_at_rest_frequencies
 
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
@@ -44,11 +44,12 @@ def modes(
         return
     tell(choice_lines(choice))
     found = mode_arrays(parameters)
+    ratios = modal_damping(parameters) / (2 * found.omega)
     rows = [
-        (str(circles), str(diameters), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6g}")
-        for circles, diameters, omega, psi in zip(found.circles, found.diameters, found.omega, found.psi, strict=True)
+        (str(c), str(l), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.4g}", f"{ratio:.3g}")
+        for c, l, omega, psi, ratio in zip(found.circles, found.diameters, found.omega, found.psi, ratios, strict=True)
     ]
-    columns = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)")
+    columns = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)", "xi")
     tables = [table(f"Modes of the disc ({disc_words(parameters)})", columns, rows, justify="right")]
     if parameters.disc is None or parameters.disc.static_compliance is not None:
         give = residual_flexibility(parameters)
