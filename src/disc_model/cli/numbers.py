@@ -46,7 +46,7 @@ def modes(
     found = mode_arrays(parameters)
     ratios = modal_damping(parameters) / (2 * found.omega)
     rows = [
-        (str(c), str(l), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.4g}", f"{ratio:.3g}")
+        (str(c), str(l), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6f}", f"{ratio:.3g}")
         for c, l, omega, psi, ratio in zip(found.circles, found.diameters, found.omega, found.psi, ratios, strict=True)
     ]
     columns = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)", "xi")
