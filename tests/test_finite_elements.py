@@ -9,6 +9,7 @@ import pytest
 
 import disc_model as dm
 from disc_model.finite_elements import disc_of_section, section
+from disc_model.flexibility import residual_flexibility
 from disc_model.plate import mode_shapes
 from tests import needs
 
@@ -20,10 +21,23 @@ RING = [(0.06, 0.1, -0.005, 0.005), (0.1, 0.12, -0.005, 0.005)]
 IRON = {"E": P.E, "nu": P.nu, "rho": P.rho}
 
 
+def plate_by_elements(highest_Hz: float) -> dm.Disc:
+    mesh = section([(P.a, P.r_0, -P.h / 2, P.h / 2), (P.r_0, P.b, -P.h / 2, P.h / 2)], P.h)
+    clamped, slider = (lambda x: x[0] < P.a + 1e-9), (P.r_0, P.h / 2)
+    return disc_of_section(mesh, **IRON, clamped=clamped, slider=slider, highest_Hz=highest_Hz)
+
+
+@pytest.mark.slow
+def test_the_static_deflection_of_the_plate_is_confirmed() -> None:
+    """All modes up to 20 kHz, of which those of the plate leave out 0.3 % of its closed form."""
+    disc = plate_by_elements(2e4)
+    found = np.sum((np.array(disc.amplitude) / disc.omega) ** 2)
+    assert found == pytest.approx(residual_flexibility(P).total, rel=5e-3)
+
+
 def test_the_plate_is_confirmed() -> None:
     """Three-dimensional elasticity of a thin annulus: Kirchhoff's theory is off by (h / wave length)^2, some 0.3 %."""
-    mesh = section([(P.a, P.r_0, -P.h / 2, P.h / 2), (P.r_0, P.b, -P.h / 2, P.h / 2)], P.h)
-    disc = disc_of_section(mesh, **IRON, clamped=lambda x: x[0] < P.a + 1e-9, slider=(P.r_0, P.h / 2), highest_Hz=1000)
+    disc = plate_by_elements(1000)
     plate = dm.plate_modes(P)
     assert list(disc.diameters) == plate["diameters"].tolist()
     np.testing.assert_allclose(disc.omega, plate["omega"], rtol=5e-3)
@@ -121,9 +135,10 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.chdir(tmp_path)
     Path("disc.csv").write_text(table)
     said: dict[str, object] = {}
+    of_table = dm.read_disc("disc.csv")
     exec(first + drawing, said)
     disc = said["disc"]
     assert isinstance(disc, dm.Disc)
-    of_table = dm.read_disc("disc.csv")
+    assert dm.read_disc("disc.csv") == disc
     np.testing.assert_allclose(disc.omega[:3], of_table.omega, rtol=0.01)
     np.testing.assert_allclose(disc.amplitude[:3], of_table.amplitude, rtol=0.01)

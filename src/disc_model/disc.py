@@ -123,7 +123,7 @@ def disc_table(p: Parameters) -> str:
     names = ("diameters", "circles", "omega_rad_per_s", "amplitude_per_sqrt_kg", "damping_ratio", *shape_columns)
     lines.append(",".join(names))
     with np.errstate(invalid="ignore"):
-        ratios = modal_damping(p) / (2 * modes.omega)
+        ratios = modal_damping(p) / (2 * modes.omega) if p.disc is None else p.disc.damping_ratio
     for row in zip(
         modes.diameters, modes.circles, modes.omega, modes.psi, ratios, *zip(*shapes, strict=True), strict=True
     ):
