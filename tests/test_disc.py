@@ -69,7 +69,7 @@ TABLES = {
 @pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)
 def test_tables_of_many_kinds_are_computed(table: dict[str, list[float]]) -> None:
     p = P.replace(disc=dm.Disc(**table))
-    run = dm.simulate(p, 0.02, record=dm.Record(energy=True)).raise_for_status()
+    run = dm.simulate(p, 0.02, record=dm.Record(audit_every_step=True)).raise_for_status()
     assert run.statistics["energy_residual"] < 1e-10  # as for the plate
     assert dm.plate_modes(p)["omega"].tolist() == table["omega"]
     assert dm.Parameters.model_validate_json(p.canonical_json) == p
@@ -168,7 +168,7 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
             p = P.replace(disc=dm.read_disc(path))
             discs += 1
             dm.simulate(p, 1e-3)
-            dm.slider_at_rest_frequencies(p)
+            dm.coupled_natural_frequencies(p)
     assert discs > 10
 
 

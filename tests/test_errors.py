@@ -109,8 +109,8 @@ def test_what_is_no_json_or_no_mapping_is_said_to_be_none(make: Any) -> None:
 
 def test_a_changed_copy_is_checked() -> None:
     record = Record(windows=(Window(**WINDOW),))
-    assert record.replace(energy=True).windows == record.windows
-    assert said(record.replace, energy=3) == ["energy=3: must be true or false"]
+    assert record.replace(audit_every_step=True).windows == record.windows
+    assert said(record.replace, audit_every_step=3) == ["audit_every_step=3: must be true or false"]
     assert said(record.windows[0].model_copy, update={"rate": 0}) == ["rate=0: must be > 0"]
 
 

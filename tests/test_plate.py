@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy import special
 
-from disc_model import ModeError, Parameters, plate_modes, slider_at_rest_frequencies
+from disc_model import ModeError, Parameters, coupled_natural_frequencies, plate_modes
 from disc_model import plate as plate_module
 from disc_model.flexibility import residual_flexibility
 from disc_model.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays, mode_shapes
@@ -45,12 +45,12 @@ def test_published_amplitudes() -> None:
 def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:
     # Section 4.4 prints nine numbers for the slider at rest and repeats the highest of the free disc.
     paper = [850.86, 1492.55, 1516.76, 1814.90, 1823.88, 2758.02, 2774.19, 4360.49, 4383.04]
-    assert [f"{value:.2f}" for value in slider_at_rest_frequencies(P)] == [f"{value:.2f}" for value in paper]
+    assert [f"{value:.2f}" for value in coupled_natural_frequencies(P)] == [f"{value:.2f}" for value in paper]
 
 
 def test_slider_at_rest_with_orthonormal_modes() -> None:
     own = [1178.65, 1500.28, 1723.08, 2575.73, 4111.83]
-    assert_allclose(slider_at_rest_frequencies(ORTHONORMAL)[[0, 1, 3, 5, 7]], own, rtol=0, atol=5.1e-3)
+    assert_allclose(coupled_natural_frequencies(ORTHONORMAL)[[0, 1, 3, 5, 7]], own, rtol=0, atol=5.1e-3)
 
 
 def coupled(p: Parameters) -> np.ndarray:
@@ -64,7 +64,7 @@ def test_coupled_frequencies_are_the_shifted_ones(p: Parameters, lowest: float) 
     mine = coupled(p)
     assert mine[0] == pytest.approx(lowest, abs=0.01)
     partners = plate_modes(p).query("diameters > 0")["omega"]
-    assert_allclose(np.sort([*mine, *partners]), slider_at_rest_frequencies(p), rtol=1e-12)
+    assert_allclose(np.sort([*mine, *partners]), coupled_natural_frequencies(p), rtol=1e-12)
 
 
 def test_more_modes_lower_every_frequency() -> None:
@@ -94,7 +94,7 @@ def test_slider_at_rest_solves_the_secular_equation() -> None:
     p = ORTHONORMAL.replace(n_diameters=10, n_circles=2)
     modes = plate_modes(p)
     free = modes.omega[modes.diameters > 0].to_numpy()
-    coupled = np.array([x for x in slider_at_rest_frequencies(p) if np.min(np.abs(free / x - 1)) > 1e-12])
+    coupled = np.array([x for x in coupled_natural_frequencies(p) if np.min(np.abs(free / x - 1)) > 1e-12])
     terms = modes.psi.to_numpy() ** 2 / (modes.omega.to_numpy() ** 2 - coupled[:, None] ** 2)
     weight = (p.k - p.m * coupled**2)[:, None]
     assert coupled.size == len(modes)
@@ -104,7 +104,7 @@ def test_slider_at_rest_solves_the_secular_equation() -> None:
 def test_without_slider_the_disc_keeps_its_frequencies() -> None:
     modes = plate_modes(P)
     expected = np.sort(np.concatenate([modes.omega, modes.omega[modes.diameters > 0]]))
-    assert_allclose(slider_at_rest_frequencies(P.replace(m=1e-12, k=0)), expected, rtol=1e-9)
+    assert_allclose(coupled_natural_frequencies(P.replace(m=1e-12, k=0)), expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize("inner", [0.02, 0.3667, 0.9])
@@ -262,7 +262,7 @@ def test_overflow_of_the_published_normalisation_is_an_error(monkeypatch: pytest
 def test_extremes_are_one_clear_error(changes: dict[str, float], said: str, normalization: str) -> None:
     p = P.replace(normalization=normalization, **changes)
     with pytest.raises(ModeError, match=said):
-        _ = residual_flexibility(p), slider_at_rest_frequencies(p)
+        _ = residual_flexibility(p), coupled_natural_frequencies(p)
 
 
 @given(st.integers(1, 60), st.floats(0.1, 3.0))

@@ -60,7 +60,7 @@ PLANE = {"p": P, "names": ("Omega", "N"), "bounds": {"Omega": (10.0, 30.0), "N":
 #: Functions, arguments that are right, and for each of `HOSTILE` that are right as well, or not looked at.
 SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (disc_model.plate_modes, {}, {}),
-    (disc_model.slider_at_rest_frequencies, {}, {}),
+    (disc_model.coupled_natural_frequencies, {}, {}),
     (disc_model.residual_flexibility, {}, {}),
     (disc_model.steady_sliding, {}, {}),
     (disc_model.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None digits", "rich": "pair"}),
@@ -93,7 +93,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"p": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0},
         {"states": "empty", "r": "empty", "theta": "zero negative pair empty"},
     ),
-    (disc_model.floquet, {"p": P}, {"near": "None"}),
+    (disc_model.floquet, {"p": P}, {"guess": "None"}),
     (
         bifurcation_samples,
         {"p": P, "name": "Omega", "values": [20.0], "transient": 0.1, "samples": 2},
@@ -108,9 +108,9 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         continue_cycle,
         {"p": P, "name": "Omega", "bounds": (10.0, 30.0)},
-        {"near": "None"},
+        {"guess": "None"},
     ),
-    (continue_border, PLANE | {"kind": "fold"}, {"near": "None"}),
+    (continue_border, PLANE | {"kind": "fold"}, {"guess": "None"}),
     (
         Steps,
         {},
@@ -136,7 +136,12 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         Record,
         {},
-        {"windows": "empty", "poincare": "None", "events": "True flag zero bytes", "energy": "True flag zero bytes"},
+        {
+            "windows": "empty",
+            "poincare": "None",
+            "events": "True flag zero bytes",
+            "audit_every_step": "True flag zero bytes",
+        },
     ),
     (Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {"start": "zero"}),
     (RUN.value_at, {"name": "N", "times": 0.0}, {"times": ANY}),

@@ -7,15 +7,16 @@ from typing import Any, get_args
 import pytest
 from pydantic import BaseModel, ValidationError
 
+import disc_model
 from disc_model import cli
 from disc_model.data.variables import SCALARS, Column
 from disc_model.errors import faults_of
 from disc_model.figures.kinds import KINDS, Mark
 from disc_model.renamed import RENAMED, renamed
-from disc_model.studies.document import QUANTITIES, STATIC, VARIED, BifurcationOptions
+from disc_model.studies.document import QUANTITIES, STATIC, VARIED, BifurcationOptions, RecordSpec
 from disc_model.studies.grids.summaries import summary_of
 
-MODELS: list[type[BaseModel]] = [*(entry.said for entry in QUANTITIES.values()), *KINDS.values(), Mark]
+MODELS: list[type[BaseModel]] = [*(entry.said for entry in QUANTITIES.values()), *KINDS.values(), Mark, RecordSpec]
 
 
 def columns(quantity: str) -> dict[str, Column]:
@@ -31,6 +32,7 @@ def places() -> Iterator[set[str]]:
         yield {*columns(quantity)}
         yield {dim for column in columns(quantity).values() for dim in column.dims}
     yield from ({*model.model_fields} for model in MODELS)
+    yield {*disc_model.__all__}
     yield from (set(SCALARS), set(VARIED), {STATIC}, set(cli.COMMANDS), set(cli.studies.KINDS))
     for model, key in ((BifurcationOptions, "section"), (Mark, "paper_outcome")):
         yield set(get_args(model.model_fields[key].annotation))
@@ -65,3 +67,5 @@ def test_values_and_commands_that_are_gone_are_refused_with_their_successors(
         with pytest.raises(SystemExit):
             cli.main(words)
         assert capsys.readouterr().err.endswith(f": it is now called {new}\n")
+    with pytest.raises(AttributeError, match="it is now called coupled_natural_frequencies"):
+        disc_model.__getattr__("slider_at_rest_frequencies")

@@ -20,7 +20,7 @@ _HOMES = {
     "Disc": "parameters",
     "read_disc": "disc",
     "plate_modes": "plate",
-    "slider_at_rest_frequencies": "plate",
+    "coupled_natural_frequencies": "plate",
     "choose_modes": "mode_choice",
     "residual_flexibility": "flexibility",
     "simulate": "simulation.api",
@@ -66,7 +66,7 @@ if TYPE_CHECKING:
     from disc_model.flexibility import residual_flexibility
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
-    from disc_model.plate import plate_modes, slider_at_rest_frequencies
+    from disc_model.plate import coupled_natural_frequencies, plate_modes
     from disc_model.plausibility import ImplausibleValue
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Poincare, Record, Window
@@ -79,7 +79,9 @@ if TYPE_CHECKING:
 
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from disc_model.renamed import renamed
+
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{renamed(name, _HOMES)}")
     value = getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
     globals()[name] = value
     return value

@@ -132,7 +132,7 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
     return np.insert(others, place, r_0), np.insert(kept, place, disc.amplitude, axis=1)
 
 
-def slider_at_rest_frequencies(p: Parameters) -> Array:
+def coupled_natural_frequencies(p: Parameters) -> Array:
     """Natural frequencies of disc and slider, the slider at rest and attached (Section 4.4), rad/s,
     ascending.
 
@@ -197,7 +197,7 @@ def _inverse_squares(omega: Array, psi: Array, m: float, k: float, give: float, 
 
 
 def _coupling(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Array]:
-    """Both matrices of M y = lambda^-2 K y: the problem of `slider_at_rest_frequencies` with y = omega v.
+    """Both matrices of M y = lambda^-2 K y: the problem of `coupled_natural_frequencies` with y = omega v.
 
     Dividing by the frequencies keeps the lowest ones accurate beside the highest.
     """

@@ -97,6 +97,9 @@ RENAMED: dict[str, tuple[str, ...]] = {
     "published": ("static",),
     "stable": ("quiet",),
     "unstable": ("growing",),
+    # keys of cases, functions of Python
+    "energy": ("audit_every_step",),
+    "slider_at_rest_frequencies": ("coupled_natural_frequencies",),
     # commands
     "warm": ("compile",),
     "stale": ("outdated",),

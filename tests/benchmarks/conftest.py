@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import register, scenes, work_precision
-from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.methods import METHODS, RunStatus
 from disc_model.benchmarks.methods.base import Method, MethodResult
 from disc_model.benchmarks.scenes import answer
 
@@ -20,7 +20,7 @@ class Known(Method):
     Of these ``glue`` is the share of Python.
     """
 
-    def __init__(self, like: str, error, cost, outcome=Outcome.FINISHED, glue=math.nan) -> None:
+    def __init__(self, like: str, error, cost, outcome=RunStatus.FINISHED, glue=math.nan) -> None:
         own = METHODS[like]
         self.name, self.label, self.setting, self.order = own.name, own.label, own.setting, own.order
         self.error, self.cost, self.outcome, self.glue = error, cost, outcome, glue
@@ -48,7 +48,7 @@ def known(monkeypatch: pytest.MonkeyPatch) -> dict[str, Known]:
         "series": Known("series", lambda tol: 0.5 * tol, lambda tol: 1e-3 - 1e-5 * math.log10(tol)),
         "RK4": Known("RK4", lambda h: 1e8 * h**4, lambda h: 1e-5 / h, glue=0.25),
         "Radau": Known("Radau", lambda tol: 1.0, lambda tol: 0.2),
-        "regularised": Known("regularised", lambda e: 1e-4, lambda e: 100.0, Outcome.TOO_SLOW),
+        "regularised": Known("regularised", lambda e: 1e-4, lambda e: 100.0, RunStatus.TOO_SLOW),
     }
     for name, method in methods.items():
         monkeypatch.setitem(METHODS, name, method)

@@ -10,13 +10,13 @@ from disc_model.benchmarks import failure_maps
 from disc_model.benchmarks.answers import measure, modelled, questions, simulated, words
 from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, AnswerVerdict, Found, verdict
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
 from disc_model.figures import benchmark as figures
 from disc_model.parameters import CYCLE_TOLERANCES, limits_faults
 from tests.references.stored import load
 
 
-def result(problem: Problem, times, kind="separation", outcome=Outcome.FINISHED, seconds=2.0) -> MethodResult:
+def result(problem: Problem, times, kind="separation", outcome=RunStatus.FINISHED, seconds=2.0) -> MethodResult:
     return MethodResult(np.array(times, float), (kind,) * len(times), problem.start, seconds, 1, outcome)
 
 
@@ -27,7 +27,7 @@ class Late(Method):
 
     def _solve(self, problem, value, budget):
         times = [54.4 + value, 54.9] if 1e-5 < value < 0.5 else []
-        outcome = Outcome.FINISHED if value > 1e-5 else Outcome.TOO_SLOW
+        outcome = RunStatus.FINISHED if value > 1e-5 else RunStatus.TOO_SLOW
         return result(problem, times, outcome=outcome, seconds=2.0 if value > 1e-3 else 3.0)
 
 
@@ -88,10 +88,10 @@ def test_a_drift_is_not_taken_for_the_oscillation() -> None:
     assert simulated.growth(np.cumsum(gaps)) == pytest.approx(0.1, abs=0.005)
 
 
-def onset_of(threshold: float, outcome: Outcome = Outcome.FINISHED, seconds: float = 1.0) -> Found:
+def onset_of(threshold: float, outcome: RunStatus = RunStatus.FINISHED, seconds: float = 1.0) -> Found:
     def solve(problem: Problem, budget: float) -> MethodResult:
         if budget < seconds:
-            return result(problem, [], outcome=Outcome.TOO_SLOW, seconds=budget)
+            return result(problem, [], outcome=RunStatus.TOO_SLOW, seconds=budget)
         return result(problem, [50.0] if problem.parameters.Omega > threshold else [], "separation", outcome, seconds)
 
     return simulated.onset(solve, 20.0)["onset"]
@@ -106,7 +106,7 @@ def test_the_speed_of_onset_is_bracketed() -> None:
     assert onset_of(16.0)[2:4] == (AnswerStatus.NONE, "no separation at 15.6 rad/s")
     assert onset_of(14.0)[2:4] == (AnswerStatus.NONE, "a separation already at 14.6 rad/s")
     assert onset_of(15.08, seconds=6.0).status is AnswerStatus.TOO_SLOW
-    assert onset_of(16.0, outcome=Outcome.NON_FINITE).status is AnswerStatus.UNSTABLE
+    assert onset_of(16.0, outcome=RunStatus.NON_FINITE).status is AnswerStatus.UNSTABLE
 
 
 def judged(wrong: int, seconds: float, budget: float = 64.0) -> Found:
@@ -132,7 +132,7 @@ def test_cells_are_drawn_where_not_all_can_be_looked_at() -> None:
 
 def test_what_breaks_off_has_a_status_and_a_reason() -> None:
     def solve(problem: Problem, budget: float) -> MethodResult:
-        return result(problem, [], outcome=Outcome.STALLED)
+        return result(problem, [], outcome=RunStatus.STALLED)
 
     for name in simulated.ASKED:
         for found in simulated.ask(solve, name).values():

@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, MethodResult, Outcome
+from disc_model.benchmarks.methods import METHODS, MethodResult, RunStatus
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.scenes import Verdict, answer, errors, event_time_error, problem
@@ -37,7 +37,7 @@ TASK, RIGHT = problem("stick_slip"), answer("stick_slip")
 
 def _result(**changes):
     right = {"times": RIGHT.times, "kinds": RIGHT.kinds, "final": RIGHT.final, "seconds": 0.1, "work": 1}
-    return MethodResult(**(right | {"outcome": Outcome.FINISHED} | changes))
+    return MethodResult(**(right | {"outcome": RunStatus.FINISHED} | changes))
 
 
 def test_the_right_answer_has_no_error():
@@ -62,9 +62,9 @@ def test_an_event_too_few_is_wrong_unless_it_is_late():
     [
         ({"times": RIGHT.times + 1e-4}, Verdict.INACCURATE),
         ({"kinds": ("separation",) * 135}, Verdict.MISSED),
-        ({"outcome": Outcome.NON_FINITE}, Verdict.UNSTABLE),
-        ({"outcome": Outcome.TOO_SLOW}, Verdict.GAVE_UP),
-        ({"outcome": Outcome.STALLED}, Verdict.GAVE_UP),
+        ({"outcome": RunStatus.NON_FINITE}, Verdict.UNSTABLE),
+        ({"outcome": RunStatus.TOO_SLOW}, Verdict.GAVE_UP),
+        ({"outcome": RunStatus.STALLED}, Verdict.GAVE_UP),
         ({"final": RIGHT.final.replace(alpha=RIGHT.final.alpha + 100.0)}, Verdict.UNSTABLE),
     ],
 )

@@ -20,7 +20,7 @@ import xarray as xr
 from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
-from disc_model.plate import slider_at_rest_frequencies
+from disc_model.plate import coupled_natural_frequencies
 from disc_model.simulation.case import CaseSpec, Start
 from disc_model.studies.study import load_study
 
@@ -74,14 +74,14 @@ def turns(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
 
 def coupled(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """N = 300 N, 20 rad/s: the lowest mode with the slider attached, moved by the rotation; fuzz; high frequencies."""
-    lowest = slider_at_rest_frequencies(p)[0] / (2 * np.pi)
+    lowest = coupled_natural_frequencies(p)[0] / (2 * np.pi)
     values = waves(t, *((lowest + side * drive(p), 1.0) for side in (-2, -1, 1, 2)))
     return values + fuzz(t, 0.01) + np.where(t > 149.45, waves(t, (1000, 0.3)), 0.0)
 
 
 def natural(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """Lines at natural frequencies with the slider attached, moved by the rotation, whatever the stick-slip rate is."""
-    lowest = slider_at_rest_frequencies(p)[[0, 1, 3]] / (2 * np.pi)
+    lowest = coupled_natural_frequencies(p)[[0, 1, 3]] / (2 * np.pi)
     return waves(t, *((f + side * 1.3 * drive(p), 1.0) for f in lowest for side in (-1, 1)))
 
 

@@ -82,7 +82,7 @@ WORLDS = {
     "another lowest mode": a_disc("P02", plate_modes=lambda p: plate_modes(p).assign(omega=lambda m: -m["omega"])),
     "no slider": a_disc(
         *("P04", "P05", "P06"),
-        slider_at_rest_frequencies=lambda p: np.sort(np.append(*[plate_modes(p)["omega"]] * 2))[1:],
+        coupled_natural_frequencies=lambda p: np.sort(np.append(*[plate_modes(p)["omega"]] * 2))[1:],
     ),
     "a plate without mass and stiffness": a_disc(
         "E17", plate_modes=lambda p: plate_modes(p).assign(omega=np.sqrt(p.D))
@@ -90,7 +90,7 @@ WORLDS = {
     "natural lines": World(some("F13", "T2kp18", "T2kp22", "T2Om12", signal=made_up.natural), claims=("T2c",)),
     "natural frequencies where the lines are": World(
         some("F13"),
-        disc={"slider_at_rest_frequencies": lambda p: 2 * np.pi * np.array([135.3, 202.9, 270.5])},
+        disc={"coupled_natural_frequencies": lambda p: 2 * np.pi * np.array([135.3, 202.9, 270.5])},
         claims=("T2e",),
     ),
     "a slider of 70 Hz": World(some("F13", rate=70.0), claims=("T2f",)),

@@ -23,10 +23,10 @@ from disc_model.data.dataset import (
     DamagedFile,
     InputsError,
     WriteError,
-    check_whole,
     load,
     load_inputs,
     save,
+    verify_checksum,
 )
 from disc_model.data.variables import STATUSES, attributes, flag_names
 from disc_model.simulation.api import run_case
@@ -228,7 +228,7 @@ def test_damage_is_noticed(damage: Callable[[bytes], bytes], path: Path) -> None
         xr.testing.assert_equal(tree.load(), TREE)
     path.write_bytes(damage(path.read_bytes()))
     with pytest.raises(DamagedFile, match=r"case\.nc: damaged"):
-        check_whole(path)
+        verify_checksum(path)
 
 
 @pytest.mark.parametrize(("umask", "mode"), [(0o077, 0o600), (0o002, 0o664)])

@@ -142,7 +142,7 @@ def test_events_are_those_of_the_series() -> None:
 def test_samples_and_audit_within_a_coast() -> None:
     """Samples that fall into a coast, and its energy balance, are as good as those of steps."""
     p = Parameters(N=385, Omega=1.0, c=1.0, D_star=1e-3)
-    record = Record(windows=(Window(start=0.0, stop=0.3, rate=2000.0),), energy=True)
+    record = Record(windows=(Window(start=0.0, stop=0.3, rate=2000.0),), audit_every_step=True)
     closed = simulate(p, 0.3, tol=1e-14, record=record)
     stepped = simulate(p, 0.3, tol=1e-14, record=record, ramps=by_series(p))
     assert closed.statistics["steps"] < stepped.statistics["steps"] / 3

@@ -7,7 +7,7 @@ from pathlib import Path
 import disc_model
 
 PACKAGE = Path(disc_model.__file__).parent
-ONE_THING = {"OUTCOMES", "CYCLES", "QUANTITIES", "Fault", "Case", "State", "Status", "Verdict", "Window", "Span"}
+ONE_THING = {"OUTCOMES", "CYCLES", "QUANTITIES", "Fault", "EngineCase", "State", "Status", "Verdict", "Window", "Span"}
 BELOW = PACKAGE / "engine"
 """Its arrays and tuples bear the names of what they hold."""
 

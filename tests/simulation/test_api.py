@@ -12,7 +12,7 @@ from disc_model.plate import mode_arrays
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
-RECORD = Record(windows=(Window(stop=0.01, rate=1000.0),), poincare=Poincare(), energy=True)
+RECORD = Record(windows=(Window(stop=0.01, rate=1000.0),), poincare=Poincare(), audit_every_step=True)
 
 
 def test_a_window_alone_is_a_record_of_it():

@@ -37,7 +37,7 @@ ALL = Record(
         Window(start=60, stop=61, rate=1e3),
     ),
     poincare=Poincare(start=54.6),
-    energy=True,
+    audit_every_step=True,
 )
 
 
@@ -93,7 +93,7 @@ def interrupt(pauses: int, *args: Any, **options: Any) -> None:
 RUNS: dict[str, Options] = {
     "everything": {"record": ALL},
     "nothing kept": {"record": Record(events=False)},
-    "stopped": {"initial_state": None, "stop_at": "first_separation", "record": Record(energy=True)},
+    "stopped": {"initial_state": None, "stop_at": "first_separation", "record": Record(audit_every_step=True)},
     "out of steps": {"max_steps": 900, "record": ALL},
     "on ramps": {"record": ALL.replace(poincare=None), "ramps": RAMPS},
 }

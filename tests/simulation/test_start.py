@@ -15,7 +15,7 @@ from disc_model.data.variables import PHASES, flag_names
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.simulation.api import carried_over, kicked, prepared, published_start, run_case, simulate
+from disc_model.simulation.api import make_initial_state, perturb, run_case, simulate, static_start, transfer_state
 from disc_model.simulation.case import CaseSpec, Prerun, Start
 from disc_model.simulation.result import State
 from disc_model.studies.study import StudyError, parse_study
@@ -45,8 +45,8 @@ def test_a_preparation_that_fails_is_reported() -> None:
 
 def test_a_preparation_is_another_motions_end() -> None:
     p = Parameters(N=200, Omega=50, n_diameters=1)
-    assert prepared(p, Start(), 1e-8) is None
-    start = prepared(p, Start(prerun={"parameters": {"N": 100}, "time": 0.01}), 1e-8)
+    assert make_initial_state(p, Start(), 1e-8) is None
+    start = make_initial_state(p, Start(prerun={"parameters": {"N": 100}, "time": 0.01}), 1e-8)
     expected = simulate(p.replace(N=100), 0.01, tol=1e-8).final_state
     np.testing.assert_array_equal(start.a, expected.a)
     assert start.time == 0
@@ -70,7 +70,7 @@ def test_a_state_of_other_modes_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match=rf"^states\.0\.{rule}"):
         deflection(ORTHONORMAL, other, 0.1, 0.0)
     with pytest.raises(ParameterError, match=rf"^initial_state\.{rule}"):
-        floquet(ORTHONORMAL, near=other)
+        floquet(ORTHONORMAL, guess=other)
     by_hand = state.replace(mode_amplitudes=None)
     assert simulate(ORTHONORMAL, 0.2, initial_state=by_hand.replace(phase="separation", u=1.0)).status.complete
 
@@ -80,7 +80,7 @@ def test_a_state_of_another_disc_is_carried_over_or_refused(change: dict) -> Non
     state, p = simulate(P, 0.1).final_state, P.replace(**change)
     with pytest.raises(ParameterError, match="the state belongs to other modes"):
         simulate(p, 0.2, initial_state=state)
-    assert simulate(p, 0.1, initial_state=carried_over(p, state)).status.complete
+    assert simulate(p, 0.1, initial_state=transfer_state(p, state)).status.complete
 
 
 # ---- at a switch
@@ -97,7 +97,7 @@ def switch() -> Callable[..., State]:
     @functools.cache
     def found(**changes: object) -> State:
         p = APART.replace(**changes)
-        start = kicked(p, published_start(p), u=-0.02)
+        start = perturb(p, static_start(p), u=-0.02)
         state = simulate(p, 1.0, initial_state=start, stop_at="first_separation").final_state
         assert state.known
         return state
@@ -109,7 +109,7 @@ def test_a_switch_continued_under_its_own_parameters_keeps_its_bits(
     switch: Callable[..., State], tmp_path: Path
 ) -> None:
     state = switch()
-    start = kicked(APART, published_start(APART), u=-0.02)
+    start = perturb(APART, static_start(APART), u=-0.02)
     whole = simulate(APART, state.time + 0.05, initial_state=start)
     state.save(tmp_path / "state.nc")
     for given in (state, State.load(tmp_path / "state.nc"), state.replace(time=state.time, time_low=state.time_low)):
@@ -130,7 +130,7 @@ def test_a_switch_continued_under_its_own_parameters_keeps_its_bits(
 def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Callable[..., State], change: dict) -> None:
     """The contact force vanishes under the former ones alone: the slider went into the disc, by up to 0.2 mm."""
     p = APART.replace(**change)
-    start = carried_over(p, switch())
+    start = transfer_state(p, switch())
     physics = Physics(p)
     force, _ = kernels.contact(
         *kernels.tables(physics), 1, physics.pack(start)
@@ -170,7 +170,7 @@ def test_a_release_continued_under_other_parameters_is_one_of_these() -> None:
 def test_a_switch_of_a_compliant_contact_keeps_its_distance(switch: Callable[..., State], change: dict) -> None:
     p = APART.replace(**(C | change))
     window = Window(start=0, stop=2e-3, rate=1e6)
-    run = simulate(p, 2e-3, initial_state=carried_over(p, switch(**C)), record=Record(windows=(window,)))
+    run = simulate(p, 2e-3, initial_state=transfer_state(p, switch(**C)), record=Record(windows=(window,)))
     samples = run.samples[0]
     assert PHASES[int(samples["phase"][0])] == "separation"
     apart = samples["phase"] == PHASES.index("separation")
@@ -191,26 +191,26 @@ def height(p: Parameters, state: State) -> float:
 
 def test_the_published_start_is_the_one_taken_without_a_state() -> None:
     p = P.replace(n_diameters=1)
-    own, given = simulate(p, 0.2), simulate(p, 0.2, initial_state=published_start(p))
+    own, given = simulate(p, 0.2), simulate(p, 0.2, initial_state=static_start(p))
     np.testing.assert_array_equal(own.event_rows, given.event_rows)
-    assert prepared(p, Start(), 1e-10) is None
-    assert prepared(p, Start(perturbation={"u": 0.0}), 1e-10) is None
+    assert make_initial_state(p, Start(), 1e-10) is None
+    assert make_initial_state(p, Start(perturbation={"u": 0.0}), 1e-10) is None
 
 
 def test_a_kick_moves_slider_and_disc_as_a_steady_force_would() -> None:
     """In that shape a kick is the static deflection of another preload."""
-    start = published_start(P)
-    moved = kicked(P, start, u=1e-4)
+    start = static_start(P)
+    moved = perturb(P, start, u=1e-4)
     assert height(P, moved) - height(P, start) == pytest.approx(1e-4, rel=1e-12)
     assert moved.u - start.u == pytest.approx(1e-4, rel=1e-12)
-    other = published_start(P.replace(N=200))
-    there = kicked(P, start, u=other.u - start.u)
+    other = static_start(P.replace(N=200))
+    there = perturb(P, start, u=other.u - start.u)
     np.testing.assert_allclose(there.a, other.a, rtol=1e-12)
 
 
 def test_a_blow_changes_the_velocity_of_slider_and_disc_alike() -> None:
-    start = published_start(P)
-    hit = kicked(P, start, u_velocity=0.2)
+    start = static_start(P)
+    hit = perturb(P, start, u_velocity=0.2)
     assert mode_arrays(P).psi @ hit.alpha == pytest.approx(0.2, rel=1e-12)
     assert hit.u_velocity == pytest.approx(0.2)
     np.testing.assert_array_equal(hit.a, start.a)
@@ -219,13 +219,13 @@ def test_a_blow_changes_the_velocity_of_slider_and_disc_alike() -> None:
 
 
 def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
-    start = published_start(P)
+    start = static_start(P)
     assert (start.phase, start.direction) == ("stick", 0)
-    forward, backward = kicked(P, start, f=3.0), kicked(P, start, f=-3.0)
+    forward, backward = perturb(P, start, f=3.0), perturb(P, start, f=-3.0)
     assert [(s.phase, s.direction, s.f) for s in (forward, backward)] == [("slip", 1, 3.0), ("slip", -1, -3.0)]
-    stopped = kicked(P, forward, f=-3.0)
+    stopped = perturb(P, forward, f=-3.0)
     assert (stopped.phase, stopped.direction, stopped.f) == ("stick", 0, 0.0)
-    apart = kicked(P, start.replace(phase="separation"), f=3.0)
+    apart = perturb(P, start.replace(phase="separation"), f=3.0)
     assert (apart.phase, apart.f) == ("separation", 3.0)
     for state in (forward, backward, stopped):
         assert simulate(P, 0.01, initial_state=state).status.complete
@@ -258,7 +258,7 @@ def test_a_case_of_a_study_may_start_elsewhere() -> None:
     assert CaseSpec.from_canonical(specs["B"].canonical) == specs["B"]
     tree = run_case(specs["B"])
     p = specs["B"].parameters
-    expected = simulate(p, 0.02, initial_state=kicked(p, published_start(p), f=2.0))
+    expected = simulate(p, 0.02, initial_state=perturb(p, static_start(p), f=2.0))
     assert tree["events"]["time"].values.tolist() == expected.events["time"].tolist()
     assert json.loads(tree.attrs["start"])["perturbation"] == {"f": 2.0}
     assert "start" not in run_case(specs["A"]).attrs
@@ -269,7 +269,7 @@ def test_a_case_of_a_study_may_start_elsewhere() -> None:
 def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     """The modes weigh otherwise at another radius, so that the height in contact is another."""
     p, start = Parameters(N=200, Omega=20, r_0=0.09), Start(prerun={"parameters": {"r_0": 0.1}, "time": 0.1})
-    state = prepared(p, start, 1e-10)
+    state = make_initial_state(p, start, 1e-10)
     assert state is not None
     other = simulate(p.replace(r_0=0.1), 0.1).final_state
     assert state.phase == other.phase != "separation"
@@ -277,7 +277,7 @@ def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     assert state.u != pytest.approx(other.u, rel=1e-3)
     assert simulate(p, 0.01, initial_state=state).status.complete
     apart = other.replace(phase="separation", direction=0, u=other.u + 1e-4, u_velocity=1.0)
-    moved = carried_over(p, apart)
+    moved = transfer_state(p, apart)
     assert moved.u - mode_arrays(p).psi @ other.a == pytest.approx(1e-4, rel=1e-9)
     assert simulate(p, 1e-5, initial_state=moved).final_state.phase == "separation"
 
@@ -286,7 +286,7 @@ def test_a_prepared_disc_has_as_many_modes() -> None:
     start = Start(prerun=Prerun(parameters={"n_diameters": 2}, time=0.1))
     p = Parameters(N=200, Omega=20)
     with pytest.raises(ParameterError, match=r"start.prerun.parameters.n_diameters=2: must be that of the case, 4"):
-        prepared(p, start, 1e-10)
-    other = published_start(p.replace(n_diameters=2))
+        make_initial_state(p, start, 1e-10)
+    other = static_start(p.replace(n_diameters=2))
     with pytest.raises(ParameterError, match=r"initial_state.a: must be 5 finite numbers"):
-        simulate(p, 0.1, initial_state=carried_over(p, other))
+        simulate(p, 0.1, initial_state=transfer_state(p, other))

@@ -10,11 +10,11 @@ from scipy.stats import qmc
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.simulation.api import kicked, published_start, simulate
+from disc_model.simulation.api import perturb, simulate, static_start
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.course import Reached, Stretch, come_to, growing, late_stretch
-from disc_model.stability.attractor.many import Basins, random_kick
-from disc_model.stability.attractor.near import Near, follows, published_start_near
+from disc_model.stability.attractor.many import Basins, random_perturbation
+from disc_model.stability.attractor.near import Near, cycle_of_static_start, follows
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -107,7 +107,7 @@ def test_what_looks_like_rest_is_followed(which: str) -> None:
 @pytest.mark.compiled
 def test_a_start_far_from_a_cycle_follows_it_once_it_has_come_near() -> None:
     """Beside the fold the motion from the start is not linear: its size tells."""
-    near = published_start_near(Parameters(N=385, Omega=15))
+    near = cycle_of_static_start(Parameters(N=385, Omega=15))
     assert isinstance(near, Near)
     at = near.map.static
     assert not follows(near, at)
@@ -123,7 +123,7 @@ def test_a_start_far_from_a_cycle_follows_it_once_it_has_come_near() -> None:
 def test_a_motion_that_has_arrived_follows_its_cycle_however_fast_others_come_to_it(rate: float) -> None:
     """What is left after a strong decay is roundings: they do not decay, and the motion was said to be elsewhere."""
     p = SMALL if rate == -50 else Parameters(N=50, Omega=15)
-    near = published_start_near(p)
+    near = cycle_of_static_start(p)
     assert isinstance(near, Near)
     assert follows(near, near.x + 1e-12 * near.distance)
 
@@ -132,7 +132,7 @@ def test_a_motion_that_has_arrived_follows_its_cycle_however_fast_others_come_to
 def test_a_start_of_ones_own_is_followed_to_what_it_comes_to() -> None:
     """At 385 N and 15 rad/s a kick of 0.2 mm dies out and one of 0.3 mm leads to separation."""
     p = Parameters(N=385, Omega=15)
-    small, large = (come_to(p, 300, start=kicked(p, published_start(p), u=kick)) for kick in (2e-4, 3e-4))
+    small, large = (come_to(p, 300, start=perturb(p, static_start(p), u=kick)) for kick in (2e-4, 3e-4))
     assert (small.outcome, large.outcome) == (Outcome.QUIET, Outcome.SEPARATION)
     assert 0 < small.simulated < 100
     assert 0 < small.distance < 0.1
@@ -230,19 +230,19 @@ def kick_energy(p: Parameters, state: State, start: State) -> float:
 
 
 def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alone() -> None:
-    start = published_start(P14)
-    one = random_kick(P14, start, 0.3, (1, 0, 5))
+    start = static_start(P14)
+    one = random_perturbation(P14, start, 0.3, (1, 0, 5))
     # differences of the static deflection lose some of its 16 digits
     assert kick_energy(P14, one, start) == pytest.approx(0.3, rel=1e-12)
     # slider and disc go along
     assert one.u == pytest.approx(float(mode_arrays(P14).psi @ one.a), rel=1e-14)
-    again, other = random_kick(P14, start, 0.3, (1, 0, 5)), random_kick(P14, start, 0.3, (1, 0, 6))
+    again, other = random_perturbation(P14, start, 0.3, (1, 0, 5)), random_perturbation(P14, start, 0.3, (1, 0, 6))
     assert np.array_equal(one.a, again.a)
     assert np.array_equal(one.beta, again.beta)
     assert not np.array_equal(one.a, other.a)
     # modes without nodal diameter have no second component
     assert not one.b[mode_arrays(P14).diameters == 0].any()
-    assert random_kick(P14, start, 0.0, (1, 0, 5)) is start
+    assert random_perturbation(P14, start, 0.0, (1, 0, 5)) is start
 
 
 def same(one: Reached, other: Reached) -> bool:
@@ -255,7 +255,7 @@ def same(one: Reached, other: Reached) -> bool:
 def compared(p: Parameters, starts: range, horizon: float, longer: float) -> list[tuple[Reached, Reached]]:
     """What kicks come to as it is judged early, and at the end of a longer horizon."""
     early, late = Basins(p, horizon), Basins(p, longer, near=0)
-    kicks = [random_kick(p, published_start(p), energy, (3, i)) for i in starts for energy in (0.05, 0.3, 2.0)]
+    kicks = [random_perturbation(p, static_start(p), energy, (3, i)) for i in starts for energy in (0.05, 0.3, 2.0)]
     return [(early.reached(kick), late.reached(kick)) for kick in kicks]
 
 
@@ -305,13 +305,13 @@ def test_what_stays_near_an_unstable_cycle_has_not_settled() -> None:
     """At 11 rad/s disturbances of the cycle grow by 0.0004/s: for a minute nothing is seen of it."""
     basins = Basins(Parameters(N=385, Omega=11), 60.0)
     assert basins.cycle is None
-    assert basins.reached(published_start(basins.p)).outcome is Outcome.UNDECIDED
+    assert basins.reached(static_start(basins.p)).outcome is Outcome.UNDECIDED
 
 
 @pytest.mark.compiled
 def test_a_motion_that_comes_to_steady_sliding_is_told() -> None:
     p = Parameters(N=50, Omega=15, c_p=0.5)
-    assert Basins(p, 100.0).reached(published_start(p)).outcome is Outcome.STEADY_SLIDING
+    assert Basins(p, 100.0).reached(static_start(p)).outcome is Outcome.STEADY_SLIDING
 
 
 def stretch(**changes: float) -> Stretch:

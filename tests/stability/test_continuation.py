@@ -40,7 +40,7 @@ def test_a_branch_goes_round_its_fold():
     assert np.all(branch.period == PERIOD)
     assert branch.stick_fraction == pytest.approx(np.full(len(branch), 0.3))
     # inside the ellipse the rotating pair is the slower one to die out; on the lower branch x_0 grows
-    assert {branch.kinds()[-1], branch.kinds()[0]} == {"fold", "neimark_sacker"}
+    assert {branch.bifurcation_types()[-1], branch.bifurcation_types()[0]} == {"fold", "neimark_sacker"}
     assert (branch.diameters[0], branch.diameters[-1]) == (1, 0)
 
 
@@ -142,11 +142,11 @@ def test_all_curves_of_a_plane_are_found_once():
         if curve.kind == "fold":
             assert Omega == pytest.approx(fold_at(N), abs=1e-6)
             # a stable cycle is on one side within the ellipse only, which the line does not meet
-            assert not curve.border.any()
+            assert not curve.adjoins_stable_cycle.any()
         else:
             assert outside(Omega, N) == pytest.approx(np.zeros(len(N)), abs=1e-6)
-            assert curve.border.all()
-            assert curve.tongue.diameters == 1
+            assert curve.adjoins_stable_cycle.all()
+            assert curve.resonance.diameters == 1
         assert np.all(curve.period == PERIOD)
 
 
@@ -190,9 +190,9 @@ def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatc
     monkeypatch.setattr(continuation, "grazing", grazing)
     none = np.zeros(0)
     near = State(0.0, "stick", 0, 0.0, 0.0, 0.0, 0.0, np.array([1.4, 0.0, 0.0]), none, none, none)
-    branch = continue_cycle(P, "Omega", (12.0, 17.0), near=near)
+    branch = continue_cycle(P, "Omega", (12.0, 17.0), guess=near)
     assert branch.ended == ("the order of switches changes: separations 1 to 2; a further separation is missed by 1e-9")
     assert branch.values[-1, 0] == pytest.approx(15.5, abs=1e-4)
     assert not branch.folds.size
-    with pytest.raises(ParameterError, match=r"near: must lie near a cycle .*, but no cycle of 1 releases near"):
-        continue_cycle(P.replace(Omega=18), "Omega", (12.0, 19.0), near=near)
+    with pytest.raises(ParameterError, match=r"guess: must lie near a cycle .*, but no cycle of 1 releases near"):
+        continue_cycle(P.replace(Omega=18), "Omega", (12.0, 19.0), guess=near)

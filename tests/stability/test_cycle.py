@@ -14,10 +14,10 @@ from disc_model.stability.attractor.near import cycle_near
 from disc_model.stability.cycle import (
     CycleError,
     CycleStatus,
+    bifurcation_type,
     find_cycle,
     find_cycle_near,
     growth_rate,
-    kind_of,
 )
 from disc_model.stability.return_map import Counts, Flight, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
@@ -83,7 +83,7 @@ def test_result_is_complete_and_consistent():
     assert np.all(np.diff(np.abs(result.multipliers)) <= 1e-13)
     assert np.allclose(np.exp(result.exponents * result.period), result.multipliers)
     assert result.growth_rate == pytest.approx(result.exponents[0].real, rel=1e-12)
-    assert result.kind == "neimark_sacker"
+    assert result.bifurcation_type == "neimark_sacker"
     assert not result.stable
     assert result.releases == result.sticks == 1
     assert result.residual < 1e-12
@@ -193,13 +193,17 @@ def test_what_the_transient_did_is_reported(monkeypatch, outcome, status, words)
 def test_from_a_given_point_no_other_cycle_is_taken():
     far = 3 * ReturnMap(P).static
     assert find_cycle(P).status is CycleStatus.OK
-    found = find_cycle(P, near=far)
+    found = find_cycle(P, guess=far)
     assert found.status is CycleStatus.NO_CYCLE
     assert found.message == "no_cycle: no cycle near the given point of the section"
 
 
 def test_a_multiplier_tells_the_bifurcation():
-    assert [kind_of(mu) for mu in (1.1 + 0j, -1.1 + 0j, 0.8 + 0.8j)] == ["fold", "period_doubling", "neimark_sacker"]
+    assert [bifurcation_type(mu) for mu in (1.1 + 0j, -1.1 + 0j, 0.8 + 0.8j)] == [
+        "fold",
+        "period_doubling",
+        "neimark_sacker",
+    ]
     assert growth_rate(0j, 0.01) == -math.inf
 
 

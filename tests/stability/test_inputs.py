@@ -21,10 +21,10 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
     [
         (lambda: floquet("x", tol=0.5, releases=0), "p='x' tol=0.5 releases=0"),
         (lambda: floquet(P, releases=2), "releases=2"),
-        (lambda: continue_cycle(P, "k", (1, 2), near="x", releases=0), "near='x' releases=0"),
+        (lambda: continue_cycle(P, "k", (1, 2), guess="x", releases=0), "guess='x' releases=0"),
         (lambda: continue_cycle("x", "nu", (1, 2), releases=2), "p='x' name='nu' releases=2"),
         (lambda: floquet(P, tol=True, releases=np.True_), "tol=True releases=np.True_"),
-        (lambda: continue_cycle(P, "k", (1, 2), near=[1.0, 2.0]), "near=[1.0, 2.0]"),
+        (lambda: continue_cycle(P, "k", (1, 2), guess=[1.0, 2.0]), "guess=[1.0, 2.0]"),
         (lambda: continue_border("fold", P, ("k", "N"), {}, tol=0.5), "bounds={} tol=0.5"),
         (
             lambda: lyapunov_exponents("x", -1, transient=math.nan, count=9, interval=0),

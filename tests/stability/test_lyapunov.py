@@ -96,7 +96,7 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     # the exponent along the motion can be left out; the multipliers leave the 1 along the orbit out as well
     found = lyapunov_exponents(p, 40.0, count=2, initial_state=cycle.state, leave_out_trivial=True)
     # the rate of the motion is what it was after a period; a fraction of one is left over: ln of its range over 40 s
-    assert found.along == pytest.approx(0, abs=0.1)
+    assert found.trivial_exponent == pytest.approx(0, abs=0.1)
     assert np.mean(found.exponents) == pytest.approx(np.mean(cycle.exponents.real[:2]), rel=0.02)
     assert found.history.shape == (16, 2)
 
@@ -107,7 +107,7 @@ def test_columns_that_had_no_time_to_turn_were_taken_for_converged():
     p = Parameters(N=385, Omega=15.0)
     start = simulate(p.replace(Omega=15.1), 70.0).final_state.replace(time=0.0)
     start = simulate(p, 30.0, initial_state=start).final_state
-    rate = floquet(p, near=start, releases=2).growth_rate
+    rate = floquet(p, guess=start, releases=2).growth_rate
     short, long = (
         lyapunov_exponents(p, duration, initial_state=start, leave_out_trivial=True, tol=1e-8)
         for duration in (10.0, 30.0)
@@ -125,7 +125,7 @@ def test_columns_that_had_no_time_to_turn_were_taken_for_converged():
 def test_where_nothing_switches_there_is_no_trivial_exponent():
     """No switch falls into the time; all that was found is kept."""
     found = lyapunov_exponents(STICK, 0.1, count=2, interval=0.005, leave_out_trivial=True)
-    assert np.isnan(found.along)
+    assert np.isnan(found.trivial_exponent)
     assert found.exponents.shape == (2,)
 
 

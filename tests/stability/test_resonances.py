@@ -6,10 +6,10 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, slider_at_rest_frequencies
+from disc_model import ParameterError, Parameters, coupled_natural_frequencies
 from disc_model.flexibility import contact_give
 from disc_model.plate import coupled_frequencies, mode_arrays
-from disc_model.stability.resonances import modes_at_rest, nearest_tongue
+from disc_model.stability.resonances import modes_at_rest, nearest_resonance
 
 P = Parameters(N=385, Omega=15)
 
@@ -17,7 +17,7 @@ P = Parameters(N=385, Omega=15)
 def test_modes_at_rest_are_the_frequencies_with_the_slider_attached():
     found = modes_at_rest(P)
     np.testing.assert_allclose(
-        [2 * math.pi * frequency for frequency, _, _ in found], slider_at_rest_frequencies(P), rtol=1e-9
+        [2 * math.pi * frequency for frequency, _, _ in found], coupled_natural_frequencies(P), rtol=1e-9
     )
     assert sum(bound for _, _, bound in found) == 5
     assert [l for _, l, bound in found if not bound] == [1, 2, 3, 4]
@@ -40,14 +40,14 @@ def test_a_multiplier_is_given_the_mode_that_turns_it(shift, diameters, sign):
     period = 0.0148
     frequency = next(f for f, l, bound in modes_at_rest(P) if l == diameters and bound == (shift == 0))
     seen = frequency + shift * diameters * P.Omega / (2 * math.pi)
-    tongue = nearest_tongue(P, period, cmath.exp(2j * math.pi * seen * period))
-    assert (tongue.frequency, tongue.diameters, tongue.sign) == (pytest.approx(frequency), diameters, sign)
-    assert tongue.detuning == pytest.approx(tongue.harmonic / period - seen)
-    assert tongue.label.startswith(f"{tongue.harmonic:g} f_s = {frequency:.2f} Hz")
-    assert tongue.label.endswith(f"{'+' if sign > 0 else '-'} {diameters} Ω/2π") == (sign != 0)
+    resonance = nearest_resonance(P, period, cmath.exp(2j * math.pi * seen * period))
+    assert (resonance.frequency, resonance.diameters, resonance.sign) == (pytest.approx(frequency), diameters, sign)
+    assert resonance.detuning == pytest.approx(resonance.harmonic / period - seen)
+    assert resonance.label.startswith(f"{resonance.harmonic:g} f_s = {frequency:.2f} Hz")
+    assert resonance.label.endswith(f"{'+' if sign > 0 else '-'} {diameters} Ω/2π") == (sign != 0)
 
 
 def test_a_negative_real_multiplier_is_a_half_harmonic():
-    assert nearest_tongue(P, 0.0148, -1.0 + 0j, 1).harmonic % 1 == 0.5
+    assert nearest_resonance(P, 0.0148, -1.0 + 0j, 1).harmonic % 1 == 0.5
     with pytest.raises(ParameterError, match="diameters=9: must be those of a mode"):
-        nearest_tongue(P, 0.0148, 1.0 + 0j, 9)
+        nearest_resonance(P, 0.0148, 1.0 + 0j, 9)

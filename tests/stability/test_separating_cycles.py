@@ -44,7 +44,7 @@ def cycle(request: pytest.FixtureRequest) -> tuple[Parameters, State, FloquetRes
     """The case, a settled state of its motion, the cycle found from there, and how often that separates."""
     p, time, releases, separations = LOCKED[request.param]
     late = settled(p, time)
-    return p, late, floquet(p, near=late, releases=releases), separations
+    return p, late, floquet(p, guess=late, releases=releases), separations
 
 
 def test_the_cycle_closes(cycle) -> None:
@@ -84,7 +84,7 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     """N = 385 N, two releases: up to 15.9717 rad/s, where a stop is grazed and left out."""
     p, time, *_ = LOCKED["2 releases"]
     late = settled(p, time)
-    branch = continue_cycle(p, "Omega", (14.0, 18.0), near=late, releases=2, steps=Steps(step=1e-2))
+    branch = continue_cycle(p, "Omega", (14.0, 18.0), guess=late, releases=2, steps=Steps(step=1e-2))
     end = float(branch.values[-1, 0])
     assert end == pytest.approx(15.97174, abs=1e-4)
     assert branch.ended.startswith("the order of switches changes: separations 2 to ")
@@ -109,7 +109,7 @@ def test_the_locking_of_45_releases() -> None:
     """N = 300 N: 2.33387 s within 2.6e-3 rad/s around 20 rad/s; simulated motions lock there, and nowhere beside."""
     p = Parameters(N=300, Omega=20.0)
     late = settled(p, 700.0)
-    found = floquet(p, near=late, releases=45)
+    found = floquet(p, guess=late, releases=45)
     assert found.residual < 1e-10
     assert found.separations == 316
     assert found.period == pytest.approx(2.33387098713, abs=1e-9)
@@ -117,7 +117,7 @@ def test_the_locking_of_45_releases() -> None:
     ends = []
     for direction in (-1, 1):
         branch = continue_cycle(
-            p, "Omega", (19.9, 20.1), near=late, releases=45, steps=Steps(step=1e-4), direction=direction
+            p, "Omega", (19.9, 20.1), guess=late, releases=45, steps=Steps(step=1e-4), direction=direction
         )
         assert "a further stop" in branch.ended or "the omission of a stop" in branch.ended
         assert np.all(branch.growth_rate < -0.1)

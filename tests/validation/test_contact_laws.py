@@ -5,7 +5,7 @@ import pytest
 
 from disc_model import Parameters, Record, Window, plate_modes, simulate
 from disc_model.engine import layout
-from disc_model.simulation.api import published_start
+from disc_model.simulation.api import static_start
 from tests.contact_laws import COMPILES, EACH_LAW, LAWS, classical_events, compare_series
 from tests.references import stored, taylor
 from tests.references.printed import MOTIONS
@@ -34,7 +34,7 @@ def _difference(name, runs, tol, record=None):
 @pytest.mark.parametrize("name", EACH_LAW)
 def test_two_violent_pieces(name):
     """Short enough to run uncompiled: all phases and switches, each step's energy balance."""
-    times, forces = _difference(name, slice(1, 3), 1e-14, Record(energy=True))
+    times, forces = _difference(name, slice(1, 3), 1e-14, Record(audit_every_step=True))
     assert times <= EVENT_TIMES
     assert forces <= 1e-6  # some kN pass; the rounding of u is felt as 1e-17/C = 4e-11 N
 
@@ -57,7 +57,7 @@ SLOPING = {"n_diameters": 1, "contact_force": "normal", "mu_s": 0.02, "mu_k": 0.
 
 def _swinging(p, psi=0.0, **modal):
     """The static start, but psi, and one of the mode's coordinates across the slider's direction."""
-    start = published_start(p)
+    start = static_start(p)
     return start.replace(psi=psi, **{name: np.array([0.0, value]) for name, value in modal.items()})
 
 
@@ -96,7 +96,7 @@ def test_a_compliant_contact_does_not_pull_where_friction_holds_on_a_steep_slope
     psi = plate_modes(p)["psi"].to_numpy()
     upward = np.array([0.0, 6.0]) * np.sign(psi)  # kg^1/2 m/s
     start = _swinging(p, 0.01, b=0.8 * p.r_0 / psi[1]).replace(alpha=upward, u_velocity=float(psi @ upward))
-    record = Record(windows=(Window(start=0.0, stop=2e-4, rate=1e6),), energy=True)
+    record = Record(windows=(Window(start=0.0, stop=2e-4, rate=1e6),), audit_every_step=True)
     result = simulate(p, 2e-4, initial_state=start, record=record, tol=1e-14)
     assert list(result.events["kind"]) == ["separation"]
     sample = result.samples[0]
@@ -124,7 +124,7 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
 def test_energy_balances_over_ten_thousand_switches(name):
     p = Parameters(N=385.0, Omega=15.1, **LAWS.get(name, {}))
     start = stored.engine_state(taylor.violent_start(1.3), p)
-    result = simulate(p, 40.0, tol=1e-15, initial_state=start, record=Record(energy=True, events=False))
+    result = simulate(p, 40.0, tol=1e-15, initial_state=start, record=Record(audit_every_step=True, events=False))
     statistics = result.statistics
     assert statistics["events"] > 10_000
     assert statistics["audited_steps"] == statistics["steps"]
@@ -150,7 +150,7 @@ def test_a_stiff_contact_does_not_shorten_the_steps_of_a_flight():
     steps = []
     for give in (1e-7, 1e-9):
         p = Parameters(N=385.0, Omega=15.1, contact_compliance=give, contact_force="normal")
-        start = published_start(p)
+        start = static_start(p)
         # 1.4 of the 1.6 ms that a fall of 5 mm takes: hundreds of radians on the stiffer contact, 6 of the disc
         high = start.replace(phase="separation", u=start.u + 5e-3, u_velocity=0.0, f=5.0)
         result = simulate(p, 1.4e-3, initial_state=high)

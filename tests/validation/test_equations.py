@@ -42,7 +42,7 @@ def engine_state(p, state):
 def test_motion_of_each_phase(phase, direction, tol):
     """At a loose tolerance steps are long: a wrong coefficient of any order shows."""
     start = lively(phase, direction)
-    record = Record(windows=(Window(start=0, stop=SPAN, rate=3 / SPAN, theta=THETA),), energy=True)
+    record = Record(windows=(Window(start=0, stop=SPAN, rate=3 / SPAN, theta=THETA),), audit_every_step=True)
     result = simulate(P, SPAN, tol=tol, initial_state=start, record=record)
     assert len(result.events) == 0
     printed, accuracy = Printed(P, start), max(ACCURACY, 10 * tol)

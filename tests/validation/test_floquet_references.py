@@ -9,7 +9,7 @@ import pytest
 from disc_model import Parameters, floquet
 from disc_model.stability.continuation import BORDER, continue_border, continue_cycle
 from disc_model.stability.cycle import CycleStatus
-from disc_model.stability.resonances import nearest_tongue
+from disc_model.stability.resonances import nearest_resonance
 
 pytestmark = pytest.mark.compiled
 
@@ -68,8 +68,8 @@ def test_the_fold_near_15_0949():
     assert math.isnan(beyond.growth_rate)
     before = floquet(p.replace(Omega=branch.folds[0, 0] - 1e-3))
     assert before.status is CycleStatus.OK
-    tongue = nearest_tongue(p, branch.period[-1], branch.multipliers[-1, 0], int(branch.diameters[-1]))
-    assert tongue.label == "2 f_s = 135.42 Hz"
+    resonance = nearest_resonance(p, branch.period[-1], branch.multipliers[-1, 0], int(branch.diameters[-1]))
+    assert resonance.label == "2 f_s = 135.42 Hz"
 
 
 @pytest.mark.parametrize(

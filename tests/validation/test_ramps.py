@@ -23,7 +23,7 @@ def test_every_law_against_long_double(name):
     ramps = (_ramp(p, "Omega", -128.0), _ramp(p, "N", -2048.0))
     start = taylor.violent_start(1.0 if p.contact_compliance else 1.3)
     reference = taylor.Reference(taylor.problem_of(p), start, audit=True, course=course_of(p, ramps)).run(0.02)
-    start, record = stored.engine_state(start, p), Record(energy=True)
+    start, record = stored.engine_state(start, p), Record(audit_every_step=True)
     found = simulate(p, 0.02, tol=1e-15, initial_state=start, ramps=ramps, record=record)
     assert reference.defect < 1e-16
     assert found.statistics["audited_steps"] == found.statistics["steps"]
@@ -90,7 +90,9 @@ def test_energy_balances_over_a_brake_stop():
     p = Parameters(N=385.0, Omega=15.1)
     start = stored.engine_state(taylor.violent_start(1.3), p)
     ramps = (Ramp(parameter="Omega", to=5.0, start=1.0, end=8.0), Ramp(parameter="N", to=150.0, start=3.0, end=9.0))
-    found = simulate(p, 10.0, tol=1e-14, initial_state=start, ramps=ramps, record=Record(energy=True, events=False))
+    found = simulate(
+        p, 10.0, tol=1e-14, initial_state=start, ramps=ramps, record=Record(audit_every_step=True, events=False)
+    )
     statistics = found.statistics
     assert statistics["audited_steps"] == statistics["steps"]
     assert statistics["separations"] > 100

@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
 from disc_model.flexibility import contact_give
-from disc_model.simulation.api import published_start
+from disc_model.simulation.api import static_start
 from tests.contact_laws import course_of
 from tests.references import stored, taylor
 from tests.tally import tried
@@ -92,7 +92,7 @@ def drawn_ramps(rng, p, span):
 
 def drawn_start(rng, p, time):
     """The static start, or any motion in any phase, in the slider's frame; contact is as its law says."""
-    rest = published_start(p).replace(time=time)
+    rest = static_start(p).replace(time=time)
     phase = str(rng.choice(["rest", "stick", "slip", "slip", "separation"]))
     if phase == "rest" or (phase == "separation" and p.contact == "bonded"):
         return rest
@@ -163,7 +163,7 @@ class Compared:
         self.begin = 0.0 if self.ramps or rng.random() < 0.5 else rng.uniform(0, 50)
         self.start, self.theta, end = drawn_start(rng, p, self.begin), rng.uniform(0, 6), self.begin + self.span
         window = Window(start=self.begin, stop=end, rate=(SAMPLES - 0.5) / self.span, theta=self.theta)
-        record = Record(windows=(window, window.replace(envelope=BIN)), energy=True)
+        record = Record(windows=(window, window.replace(envelope=BIN)), audit_every_step=True)
         self.result = simulate(p, end, tol=1e-14, initial_state=self.start, ramps=self.ramps, record=record)
         self.times = self.result.samples[0]["time"]
         # the one is exact; in steps as rough as the other's errors grow as the engine's do

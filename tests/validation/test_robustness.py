@@ -54,7 +54,7 @@ def run(p: Parameters, radians: float, tol: float) -> Result:
     tried("hostile inputs", "simulations of anything in and beyond the parameter box")
     t_end = min(1.0, radians / float(plate_modes(p).omega.max()))
     window = Window(start=0, stop=t_end, rate=400 / t_end)
-    return simulate(p, t_end, tol=tol, max_steps=20_000, record=Record(windows=(window,), energy=True))
+    return simulate(p, t_end, tol=tol, max_steps=20_000, record=Record(windows=(window,), audit_every_step=True))
 
 
 def check_laws(result: Result, phase: str = "stick") -> None:

@@ -41,7 +41,7 @@ from disc_model.simulation.case import CaseSpec
 
 windows = (("history", Window(start=0, stop=1, rate=1000)),)
 p = Parameters(N=385, Omega=15.1)
-spec = CaseSpec(parameters=p, t_end=1.0, windows=windows, poincare=Poincare(), events=(0.0, 1.0), energy=True)
+spec = CaseSpec(parameters=p, t_end=1.0, windows=windows, poincare=Poincare(), events=(0.0, 1.0), audit_every_step=True)
 save(run_case(spec), sys.argv[1] + "/grows.nc")
 after = problem("separating")
 record = Record(windows=(Window(start=after.start.time, stop=after.t_end, rate=1000),))

@@ -13,13 +13,13 @@ import sys
 import time
 from pathlib import Path
 
-from disc_model.data.dataset import DamagedFile, check_whole, set_aside
+from disc_model.data.dataset import DamagedFile, set_aside, verify_checksum
 from disc_model.errors import script
 
 
 def whole(path: Path) -> bool:
     try:
-        check_whole(path)
+        verify_checksum(path)
     except DamagedFile:
         return False
     return True

@@ -28,7 +28,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
@@ -179,9 +179,9 @@ def errors(problem: Problem, answer: Answer, result: MethodResult) -> Errors:
     """Compare a result with the right answer."""
     state = Physics(problem.parameters).distance(result.final, answer.final)
     time = event_time_error(answer, result, problem.t_end)
-    if result.outcome is Outcome.NON_FINITE or not math.isfinite(state):
+    if result.outcome is RunStatus.NON_FINITE or not math.isfinite(state):
         return Errors(math.nan, math.nan, Verdict.UNSTABLE)
-    if result.outcome is not Outcome.FINISHED:
+    if result.outcome is not RunStatus.FINISHED:
         return Errors(math.nan, math.nan, Verdict.GAVE_UP)
     if state > LOST:
         return Errors(time, state, Verdict.UNSTABLE)

@@ -20,7 +20,7 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.grid import measured
 from disc_model.benchmarks.machine import machine, one_core
-from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.methods import METHODS, RunStatus
 from disc_model.benchmarks.register import SCENES
 from disc_model.benchmarks.scenes import JUDGED, VERDICT, Verdict
 from disc_model.data.dataset import json_attribute
@@ -129,11 +129,11 @@ def work_precision(
             result = METHODS[point.method].solve(problem, point.value, limit)
             if not turn and result.seconds < LONG:  # the first call compiles and warms caches
                 result = METHODS[point.method].solve(problem, point.value, limit)
-            if result.outcome is Outcome.TOO_SLOW:
+            if result.outcome is RunStatus.TOO_SLOW:
                 hopeless.add(lane)
             walls[point].append(result.seconds)
             glue[point].append(result.glue / max(result.seconds, 1e-9))
-            if point.scene in JUDGED and result.outcome is Outcome.FINISHED and _quick(walls[point]):
+            if point.scene in JUDGED and result.outcome is RunStatus.FINISHED and _quick(walls[point]):
                 more[point].append(_further(point, limit) - result.seconds)
             if not turn:
                 found = scenes.errors(problem, scenes.answer(point.scene), result)
@@ -172,7 +172,7 @@ def _further(point: Point, limit: float) -> float:
     problem = scenes.problem(point.scene)
     longer = replace(problem, t_end=problem.t_end + FURTHER * problem.span)
     result = METHODS[point.method].solve(longer, point.value, limit)
-    return result.seconds if result.outcome is Outcome.FINISHED else math.nan
+    return result.seconds if result.outcome is RunStatus.FINISHED else math.nan
 
 
 def _whole_call(scene: str) -> float:

@@ -10,7 +10,7 @@ from scipy.integrate import fixed_quad
 from disc_model.claims.measures import CaseView, phase_share, rate_of
 from disc_model.claims.model import CHECKS, Answer
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_shapes, plate_modes, slider_at_rest_frequencies
+from disc_model.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 
 BASE = Parameters(N=200, Omega=20)
 DISC_HZ = (237.45, 241.40, 290.28, 441.53, 697.58)
@@ -43,7 +43,7 @@ def nine_modes() -> Answer:
 @CHECKS("P03")
 def truncation(*cases: CaseView, seconds: float, share: float) -> Answer:
     first = [case["first_separation"] for case in cases]
-    coupled = [slider_at_rest_frequencies(BASE.replace(n_diameters=n))[0] for n in (4, 8)]
+    coupled = [coupled_natural_frequencies(BASE.replace(n_diameters=n))[0] for n in (4, 8)]
     nine, more, circles = (
         (rate_of(case, "separation"), phase_share(case, "separation"), phase_share(case, "stick"))
         for case in (cases[0], *cases[3:])
@@ -61,15 +61,15 @@ def truncation(*cases: CaseView, seconds: float, share: float) -> Answer:
 
 @CHECKS("P04")
 def attached(*, within: float) -> Answer:
-    ours = slider_at_rest_frequencies(BASE)
-    other = slider_at_rest_frequencies(BASE.replace(normalization="orthonormal"))
+    ours = coupled_natural_frequencies(BASE)
+    other = coupled_natural_frequencies(BASE.replace(normalization="orthonormal"))
     shifted = [value for value in other if np.min(np.abs(value - np.array(DISC))) > within]
     return Answer(np.all(np.abs(ours - ATTACHED) <= within), omega=ours, shifted=shifted)
 
 
 @CHECKS("P05")
 def attached_hertz(*, within: float) -> Answer:
-    ours = slider_at_rest_frequencies(BASE) / (2 * np.pi)
+    ours = coupled_natural_frequencies(BASE) / (2 * np.pi)
     swapped = np.array(ATTACHED_HZ)[np.abs(ours - ATTACHED_HZ) > within]
     return Answer(np.all(np.abs(np.sort(ATTACHED_HZ) - ours) <= within), frequency=ours, swapped=list(swapped))
 
@@ -77,7 +77,7 @@ def attached_hertz(*, within: float) -> Answer:
 @CHECKS("P06")
 def pairs_split(*, within: float) -> Answer:
     """The frequencies interlace: between two of the disc's there is one of those that the slider lowers, if it does."""
-    attached = slider_at_rest_frequencies(BASE)
+    attached = coupled_natural_frequencies(BASE)
     disc = plate_modes(BASE)["omega"].to_numpy()
     lowered = []
     for below, omega in pairwise(disc):

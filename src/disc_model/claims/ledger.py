@@ -16,7 +16,7 @@ from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
 from disc_model.figures.paper.catalogue import said_parameters
 from disc_model.parameters import Parameters
-from disc_model.plate import plate_modes, slider_at_rest_frequencies
+from disc_model.plate import coupled_natural_frequencies, plate_modes
 
 COLUMNS = (
     "id",
@@ -113,7 +113,7 @@ def _modes() -> pd.DataFrame:
     modes = plate_modes(both[0])
     omega = modes["omega"].to_numpy()
     squares = [plate_modes(p)["psi"].to_numpy() ** 2 for p in both]
-    attached = [slider_at_rest_frequencies(p) for p in both]
+    attached = [coupled_natural_frequencies(p) for p in both]
     shifted = [[f"{f:.2f}" for f in found if np.min(np.abs(f - omega)) > 1e-6 * f] for found in attached]
     return pd.DataFrame(
         {

@@ -13,7 +13,7 @@ from disc_model.claims.model import CHECKS, Answer
 from disc_model.claims.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
-from disc_model.plate import plate_modes, slider_at_rest_frequencies
+from disc_model.plate import coupled_natural_frequencies, plate_modes
 
 EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
 """Windows of N = 385 N, 15.1 rad/s, and the stretches of them that are compared, s."""
@@ -307,7 +307,7 @@ def _off_multiples(lines: list[spectra.Line], rate: float) -> list[float]:
 
 def _natural(case: CaseView) -> Any:
     """Natural frequencies with the slider attached, Hz."""
-    return slider_at_rest_frequencies(case.parameters) / (2 * np.pi)
+    return coupled_natural_frequencies(case.parameters) / (2 * np.pi)
 
 
 def _from_combination(case: CaseView, line: spectra.Line, rate: float) -> float:

@@ -34,7 +34,7 @@ def modes(
 ) -> None:
     """Print the modes of the disc, its give under the slider, and the frequencies of both with the slider at rest."""
     from disc_model.flexibility import residual_flexibility
-    from disc_model.plate import modal_damping, mode_arrays, slider_at_rest_frequencies
+    from disc_model.plate import coupled_natural_frequencies, modal_damping, mode_arrays
 
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
@@ -56,7 +56,7 @@ def modes(
         numbers = (f"{give.total:.7g}", f"{give.remainder:.1e}", f"{give.kept:.7g}", f"{give.residual:.7g}")
         heads = ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)")
         tables.append(table("Static give of the disc under the slider", heads, [numbers], justify="right"))
-    at_rest = [(f"{value:.3f}", f"{value / math.tau:.3f}") for value in slider_at_rest_frequencies(parameters)]
+    at_rest = [(f"{value:.3f}", f"{value / math.tau:.3f}") for value in coupled_natural_frequencies(parameters)]
     tables.append(table("Disc and slider at rest", ("lambda (rad/s)", "f (Hz)"), at_rest, justify="right"))
     for one in tables:
         Console().print(one)

@@ -127,7 +127,7 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
         raise ParameterError(Fault(("tree",), shown(tree), "must be an xarray.DataTree"))
     file, encoding = _file(path), _encoding(tree)
     size = sum(node.to_dataset(inherit=False).nbytes for node in tree.subtree)
-    write_whole(file, lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)
+    write_atomically(file, lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)
 
 
 def load(path: str | Path) -> xr.DataTree:
@@ -140,7 +140,7 @@ def load(path: str | Path) -> xr.DataTree:
     disc_model.data.dataset.DamagedFile
         If it is not what was written.
     """
-    check_whole(_file(path))
+    verify_checksum(_file(path))
     with xr.open_datatree(path, engine="netcdf4", decode_timedelta=False) as tree:
         return tree.load()
 
@@ -214,7 +214,7 @@ def _file(path: str | Path) -> Path:
     return Path(path)
 
 
-def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
+def write_atomically(path: Path, write: Callable[[str], object], size: int) -> None:
     """Write a file in one piece, with a checksum at its end: `path` is either what it was before or complete.
 
     Raises `WriteError` if there is no such folder, the disk is full, or the file may not be that large.
@@ -242,7 +242,7 @@ def write_whole(path: Path, write: Callable[[str], object], size: int) -> None:
             temporary.unlink()
 
 
-def check_whole(path: Path) -> None:
+def verify_checksum(path: Path) -> None:
     """Compare a file with the checksum at its end; raises `DamagedFile` if it does not match or is not there."""
     content = path.read_bytes()
     body, end = content[:-_LENGTH], content[-_LENGTH:]

@@ -182,8 +182,8 @@ class _Run:
         self.collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_COAST * model.unit)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
         self.max_steps = _step_limit(model, t_end - start) if max_steps is None else min(max_steps, MOST_STEPS)
-        self.pause_after = _pause_after(model, record.energy)
-        self.audit_every = 1 if record.energy else AUDIT_EVERY
+        self.pause_after = _pause_after(model, record.audit_every_step)
+        self.audit_every = 1 if record.audit_every_step else AUDIT_EVERY
         # each of them, the first last: all is compiled by then, and the wall time is the simulation's own
         for place, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < t_end:
@@ -281,7 +281,7 @@ class _Run:
             first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
-            statistics=_statistics(self.workspace, self.record.energy, float(self.wall_time[0])),
+            statistics=_statistics(self.workspace, self.record.audit_every_step, float(self.wall_time[0])),
             samples=samples,
             poincare=poincare,
             ramps=self.ramps,
@@ -305,7 +305,7 @@ _ENGINES: dict[tuple[int, ...], Callable[..., int]] = {}
 """By blocks of lanes, laws of contact and ramp."""
 
 
-def published_start(p: Parameters) -> State:
+def static_start(p: Parameters) -> State:
     """The static start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
     case = engine_case(p)
     return read_state(case, case.start)
@@ -358,9 +358,9 @@ def _step_limit(model: layout.Model, duration: float) -> int:
     return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
 
 
-def _pause_after(model: layout.Model, energy: bool) -> int:
+def _pause_after(model: layout.Model, audit_every_step: bool) -> int:
     """Steps between pauses, fewer where they cost more: checkpoints, progress and Ctrl-C have their turn then."""
-    cost = (1 + model.more_blocks[0]) * (6 if energy else 1)
+    cost = (1 + model.more_blocks[0]) * (6 if audit_every_step else 1)
     return max(1, STEPS_PER_PAUSE // cost)
 
 
@@ -373,11 +373,11 @@ def _message(status: Status, state: layout.State, model: layout.Model) -> str:
     return text
 
 
-def _statistics(work: Workspace, energy: bool, wall: float) -> dict[str, float]:
+def _statistics(work: Workspace, audit_every_step: bool, wall: float) -> dict[str, float]:
     def relative(residual: int, scale: int, turnover: int) -> float:
         """Sum of the residuals over the largest energy present plus all energy exchanged."""
         size = total[scale] + total[turnover]
-        if not energy:
+        if not audit_every_step:
             return math.nan
         return abs(total[residual]) / size if size > 0 else 0.0
 
@@ -402,7 +402,7 @@ def _statistics(work: Workspace, energy: bool, wall: float) -> dict[str, float]:
 # Where a motion starts
 
 
-def prepared(p: Parameters, start: Start, tol: float) -> State | None:
+def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     """The state that a motion of case `p` starts from, at time 0; None is the static start.
 
     Raises
@@ -420,17 +420,17 @@ def prepared(p: Parameters, start: Start, tol: float) -> State | None:
             raise ParameterError(
                 *(Fault((*place, n), shown(getattr(other, n)), rule.format(getattr(p, n))) for n in differing)
             )
-        state = carried_over(p, _end_of(other, start.prerun.time, tol))
-    return kicked(p, published_start(p) if state is None else state, **kick) if kick else state
+        state = transfer_state(p, _end_of(other, start.prerun.time, tol))
+    return perturb(p, static_start(p) if state is None else state, **kick) if kick else state
 
 
-def after(p: Parameters, start: Start, time: float, tol: float) -> State:
+def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
     """The state of case `p` a while (s) after its start; raises `SimulationError` if the motion did not get there."""
-    run = simulate(p, time, tol=tol, initial_state=prepared(p, start, tol), record=Record(events=False))
+    run = simulate(p, time, tol=tol, initial_state=make_initial_state(p, start, tol), record=Record(events=False))
     return run.raise_for_status().final_state
 
 
-def kicked(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0) -> State:
+def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0) -> State:
     """A state with something added to the slider's coordinates, the disc under it going along.
 
     Parameters
@@ -462,7 +462,7 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
     return simulate(p, time, tol=tol).raise_for_status().final_state
 
 
-def carried_over(p: Parameters, state: State) -> State:
+def transfer_state(p: Parameters, state: State) -> State:
     """A state of another case as a start of case `p`, at time 0.
 
     Modal coordinates stay.  Where modes have other amplitudes under the slider, it keeps its distance from the disc; in
@@ -503,7 +503,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
                 raise TypeError("choose is needed where the modes are to be chosen")
             p, truncation = choose(p, spec.modes)
             log.info("modes chosen: %s", truncation)
-        start = prepared(p, spec.start, spec.tol)
+        start = make_initial_state(p, spec.start, spec.tol)
         result = simulate(
             p, spec.t_end, tol=spec.tol, initial_state=start, record=spec.record, stop_at=spec.stop_at,
             checkpoint=checkpoint, ramps=spec.ramps,

@@ -149,14 +149,14 @@ class Record(Checked):
     windows : uniform samples
     poincare : samples at the drive's period
     events : whether to keep the table of events (they are counted in any case)
-    energy : audit both energy balances on every step instead of every 256th
+    audit_every_step : audit both energy balances on every step instead of every 256th
         (costs a factor of about ten in time)
     """
 
     windows: tuple[Window, ...] = ()
     poincare: Poincare | None = None
     events: bool = True
-    energy: bool = False
+    audit_every_step: bool = False
 
     def resolved(self, start: float, t_end: float) -> Record:
         """With absolute times in all windows, for a run from ``start`` to ``t_end``.
@@ -257,7 +257,7 @@ class CaseSpec(Strict):
     windows: tuple[tuple[str, Window], ...] = ()
     poincare: Poincare | None = None
     events: tuple[float, float] | None = None
-    energy: bool = False
+    audit_every_step: bool = False
     start: Start = Start()
     truncation: str = ""
     """How the number of modes was chosen, as JSON; empty if it was given, or is to be chosen."""
@@ -272,7 +272,7 @@ class CaseSpec(Strict):
             windows=tuple(window for _, window in self.windows),
             poincare=self.poincare,
             events=self.events is not None,
-            energy=self.energy,
+            audit_every_step=self.audit_every_step,
         )
 
     @property

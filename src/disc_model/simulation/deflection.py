@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import Parameters, foreign_case, is_number
 from disc_model.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.simulation.api import published_start, simulate
+from disc_model.simulation.api import simulate, static_start
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State, amplitude_faults, is_finite_array
 
@@ -52,7 +52,7 @@ def snapshots(
         faults.append(Fault(("times",), shown(times), "must be finite and ascend"))
     if faults or wanted is None:
         raise ParameterError(*faults)
-    state = published_start(p) if initial_state is None else initial_state
+    state = static_start(p) if initial_state is None else initial_state
     if wanted.size and wanted[0] < state.time:
         rule = f"must be >= {shown(state.time)} (the time of the initial state)"
         raise ParameterError(Fault(("times",), shown(float(wanted[0])), rule))

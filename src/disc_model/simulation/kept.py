@@ -107,10 +107,10 @@ class Checkpoint:
 
     def _read(self) -> Contents | None:
         """What the file holds; one that is none of this run is set aside."""
-        from disc_model.data.dataset import DamagedFile, check_whole
+        from disc_model.data.dataset import DamagedFile, verify_checksum
 
         try:
-            check_whole(self.path)
+            verify_checksum(self.path)
             with np.load(self.path) as file:
                 held = dict(file)
             belongs_to = json.loads(str(held.pop("belongs_to")))
@@ -155,7 +155,7 @@ class Checkpoint:
 
     def save(self, contents: Contents) -> None:
         """Write a checkpoint; if that fails, the run goes on and the one that there is stays."""
-        from disc_model.data.dataset import write_whole
+        from disc_model.data.dataset import write_atomically
 
         arrays: dict[str, Any] = {f"state/{name}": array for name, array in contents.state.items()}
         arrays |= {f"rows/{name}/{i}": rows for name, parts in contents.rows.items() for i, rows in enumerate(parts)}
@@ -167,7 +167,7 @@ class Checkpoint:
 
         began = clock.monotonic()
         try:
-            write_whole(self.path, write, sum(array.nbytes for array in arrays.values()))
+            write_atomically(self.path, write, sum(array.nbytes for array in arrays.values()))
         except OSError as error:
             log.warning("checkpoint %s not written: %s", self.path, error)
         else:

@@ -367,7 +367,7 @@ class Workspace(NamedTuple):
     sums: np.ndarray
 
 
-class Case(NamedTuple):
+class EngineCase(NamedTuple):
     """What the engine is given of a case.  Shared by all runs of the case, and therefore never written.
 
     model, start : the engine's constants, and the static start
@@ -390,7 +390,7 @@ class Case(NamedTuple):
 
 
 @lru_cache(maxsize=CASES)
-def engine_case(p: Parameters) -> Case:
+def engine_case(p: Parameters) -> EngineCase:
     """The engine's constants of a case; what equal parameters have found before is found again."""
     tell_doubts(p)
     modes = mode_arrays(p)
@@ -412,11 +412,11 @@ def engine_case(p: Parameters) -> Case:
     places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
     present = np.flatnonzero(places >= 0)
     point, start = _point(model), layout.build_state(model)
-    return Case(model, start, p.key, modes.psi, present, places.ravel()[present], point, {})
+    return EngineCase(model, start, p.key, modes.psi, present, places.ravel()[present], point, {})
 
 
 def _point(model: layout.Model) -> np.ndarray:
-    """See `Case`."""
+    """See `EngineCase`."""
     width, n0 = len(model.force), len(model.force0)
     point = np.zeros((3, layout.disc_size(width, n0, len(model.give) == 1)))
     u, v, slope = point[:, : 2 * (width + n0)]
@@ -426,7 +426,7 @@ def _point(model: layout.Model) -> np.ndarray:
     return point
 
 
-def take_workspace(case: Case, order: int) -> Workspace:
+def take_workspace(case: EngineCase, order: int) -> Workspace:
     """A workspace of the caller's own, at the static start, with nothing counted; for `give_back` in the end.
 
     To make one takes as long as 30 steps.
@@ -444,12 +444,12 @@ def take_workspace(case: Case, order: int) -> Workspace:
     return found
 
 
-def give_back(case: Case, order: int, workspace: Workspace) -> None:
+def give_back(case: EngineCase, order: int, workspace: Workspace) -> None:
     """Leave a workspace to later runs."""
     case.idle.setdefault(order, []).append(workspace)
 
 
-def read_state(case: Case, state: layout.State, key: str = "") -> State:
+def read_state(case: EngineCase, state: layout.State, key: str = "") -> State:
     """The engine's state as a `State`; key: of the case if it is not its own, as on ramps."""
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
@@ -480,7 +480,7 @@ def read_state(case: Case, state: layout.State, key: str = "") -> State:
     )
 
 
-def write_state(case: Case, given: State, state: layout.State, key: str = "") -> bool:
+def write_state(case: EngineCase, given: State, state: layout.State, key: str = "") -> bool:
     """Put ``given`` into the engine's state; key: of the case if it is not its own, as on ramps.
 
     Returns
@@ -511,7 +511,7 @@ def write_state(case: Case, given: State, state: layout.State, key: str = "") ->
     return bool(given.known) and given.case_key != (key or case.key) and _forget_switch(case, state)
 
 
-def _forget_switch(case: Case, state: layout.State) -> bool:
+def _forget_switch(case: EngineCase, state: layout.State) -> bool:
     """Look at a state at a switch of another case: what vanishes in that case need not in this one.
 
     A slider that touches the disc, and neither leaves nor hits it, is put into contact, where the engine is to find out
@@ -540,7 +540,7 @@ SAME_AMPLITUDE = 1e-9
 """Of the largest amplitude: modes computed on two processors differ by 1e-13 of it at most, as measured."""
 
 
-def _check_height(case: Case, u: float, state: layout.State) -> None:
+def _check_height(case: EngineCase, u: float, state: layout.State) -> None:
     """In contact the disc says where the slider is: another u would be passed over in silence."""
     row = case.point[0]
     w = float(row.dot(state.disc))
@@ -551,7 +551,7 @@ def _check_height(case: Case, u: float, state: layout.State) -> None:
         raise ParameterError(Fault(("initial_state", "u"), shown(u), rule))
 
 
-def _faults(given: State, case: Case) -> list[str]:
+def _faults(given: State, case: EngineCase) -> list[str]:
     faults: list[str] = []
     n_modes = len(case.amplitudes)
     # contact and its force can begin at once where contact is compliant

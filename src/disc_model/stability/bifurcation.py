@@ -12,7 +12,7 @@ from disc_model.data.variables import SERIES, Variable
 from disc_model.errors import Status, broken, refuse
 from disc_model.parameters import Parameters, foreign_case, is_number, is_whole
 from disc_model.progress import compiling
-from disc_model.simulation.api import carried_over, simulate
+from disc_model.simulation.api import simulate, transfer_state
 from disc_model.simulation.case import Poincare, Record
 from disc_model.simulation.result import State, is_finite_array
 
@@ -77,7 +77,7 @@ def bifurcation_samples(
     separations, status = np.zeros(len(values), np.int64), np.zeros(len(values), np.int8)
     given = initial_state
     for i, case in enumerate(cases):
-        start = None if given is None else carried_over(case, given)
+        start = None if given is None else transfer_state(case, given)
         turn = 2 * math.pi / case.Omega
         begin = math.ceil(transient / turn)
         end = (begin + samples - 0.5) * turn

@@ -29,7 +29,7 @@ from disc_model.stability.return_map import (
     Counts,
     Flight,
     ReturnMap,
-    kind_of,
+    bifurcation_type,
     multipliers,
     rounding,
 )
@@ -201,9 +201,9 @@ class Branch:
     def __len__(self) -> int:
         return len(self.period)
 
-    def kinds(self) -> list[str]:
+    def bifurcation_types(self) -> list[str]:
         """Of each point: the bifurcation its leading multiplier stands for."""
-        return [kind_of(complex(m[0])) for m in self.multipliers]
+        return [bifurcation_type(complex(m[0])) for m in self.multipliers]
 
 
 def check(
@@ -239,7 +239,9 @@ def check(
 
 def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
     """A cycle as a point of the curve; raises `ParameterError` if there is none that can be followed."""
-    rule = "near: must lie near a cycle that can be followed" if problem.order else "p: must have a cycle to start from"
+    rule = (
+        "guess: must lie near a cycle that can be followed" if problem.order else "p: must have a cycle to start from"
+    )
     if cycle.releases > 1 and not problem.order:
         raise ParameterError("p: must have a cycle with a single release to start from")
     if cycle.state is None:

@@ -33,7 +33,7 @@ from disc_model.stability.branch import (
     starting_point,
     walk,
 )
-from disc_model.stability.cycle import faults_near, find_cycle, find_cycle_near
+from disc_model.stability.cycle import find_cycle, find_cycle_near, guess_faults
 from disc_model.stability.grazing import grazing
 from disc_model.stability.return_map import Array, ComplexArray, Counts, multipliers
 
@@ -55,14 +55,14 @@ def continue_cycle(
     bounds: tuple[float, float],
     *,
     direction: int = 1,
-    near: State | Array | None = None,
+    guess: State | Array | None = None,
     releases: int = 1,
     tol: float = 1e-12,
     steps: Steps = CYCLE,
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
-    From a state `near` a cycle that loses contact is followed as well, with its impacts, as long as its switches keep
+    From a state `guess` a cycle that loses contact is followed as well, with its impacts, as long as its switches keep
     their order. Where a further one would appear or one vanish, the map has a corner: the branch ends and says which.
 
     Parameters
@@ -71,7 +71,7 @@ def continue_cycle(
     name : the free parameter, one of Omega, N, D_star, c, c_p, k, k_p, E, m
     bounds : values between which to follow it
     direction : 1 to begin with rising values, -1 with falling ones
-    near : where the first cycle is looked for: near the next release after a state, as in `floquet`, or near a point of
+    guess : where the first cycle is sought: near the next release after a state, as in `floquet`, or near a point of
         the section; the static equilibrium by default
     releases : of the cycle near a state
     tol : as in `floquet`
@@ -82,9 +82,9 @@ def continue_cycle(
     ParameterError
         Bad input, or no cycle to start from.
     """
-    check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=faults_near(near, releases, points=True))
-    at_state = isinstance(near, State)
-    cycle = find_cycle_near(p, near, releases, tol) if isinstance(near, State) else find_cycle(p, tol, near)
+    check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=guess_faults(guess, releases, points=True))
+    at_state = isinstance(guess, State)
+    cycle = find_cycle_near(p, guess, releases, tol) if isinstance(guess, State) else find_cycle(p, tol, guess)
     order = Counts(*(getattr(cycle, name) for name in Counts._fields)) if at_state else None
     problem = CycleProblem(p, (name,), None if steps.scale is None else {name: steps.scale}, tol, order)
     point = starting_point(problem, cycle)
@@ -169,7 +169,7 @@ def continue_border(
     bounds: Mapping[str, tuple[float, float]],
     *,
     direction: int = 1,
-    near: Array | None = None,
+    guess: Array | None = None,
     tol: float = 1e-12,
     steps: Steps = BORDER,
 ) -> Branch:
@@ -179,7 +179,7 @@ def continue_border(
     ----------
     kind : "neutral", the curve on which the leading multiplier of the first cycle has modulus one; or "fold", that on
         which a multiplier is one, from the point of a branch of `continue_cycle` that is nearest to its fold
-    p, near : a case near the curve, and the point of the section to start Newton's method from
+    p, guess : a case near the curve, and the point of the section to start Newton's method from
     names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
     bounds : of both; the curve is followed until it leaves them, closes or ends
     direction, tol, steps : as in `continue_cycle`
@@ -190,10 +190,12 @@ def continue_border(
         Bad input, no cycle to start from, or no curve of this kind near it.
     """
     known = broken((isinstance(kind, str) and kind in ("neutral", "fold"), "kind", kind, "must be 'neutral' or 'fold'"))
-    check(p, 2, names, bounds, tol, direction=direction, steps=steps, more=[*known, *faults_near(near, 1, points=True)])
+    check(
+        p, 2, names, bounds, tol, direction=direction, steps=steps, more=[*known, *guess_faults(guess, 1, points=True)]
+    )
     names = tuple(names)  # type: ignore[assignment]
     problem = CycleProblem(p, names, None, tol)
-    point = starting_point(problem, find_cycle(p, tol, near))
+    point = starting_point(problem, find_cycle(p, tol, guess))
     test, mu = (_on_circle, complex(multipliers(point.jacobian)[0])) if kind == "neutral" else (_at_one, 1.0 + 0j)
     try:
         point, mu = _reach(problem, point, test, mu)

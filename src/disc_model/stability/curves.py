@@ -18,7 +18,7 @@ from disc_model.simulation.result import is_finite_array
 from disc_model.stability.branch import Steps, check
 from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
-from disc_model.stability.resonances import Tongue, nearest_tongue
+from disc_model.stability.resonances import Resonance, nearest_resonance
 from disc_model.stability.return_map import Array, ReturnMap
 
 SAME_PLACE, SAME_PERIOD = 0.01, 0.02
@@ -40,18 +40,18 @@ class StabilityCurve:
     ----------
     kind : "neutral", the leading multiplier has modulus one; or "fold", two cycles meet and vanish
     values : shape (n_points, 2), SI units
-    border : bool, (n_points,), whether a stable cycle is on one side: no other multiplier lies outside the unit circle
+    adjoins_stable_cycle : bool, (n_points,), whether a stable cycle is on one side: no other multiplier has modulus > 1
     period : s, (n_points,)
     multipliers : complex, (n_points,), the leading one
-    tongue : the resonance that it belongs to, at its middle
+    resonance : the resonance that it belongs to, at its middle
     """
 
     kind: str
     values: Array = field(repr=False)
-    border: NDArray[np.bool_] = field(repr=False)
+    adjoins_stable_cycle: NDArray[np.bool_] = field(repr=False)
     period: Array = field(repr=False)
     multipliers: NDArray[np.complex128] = field(repr=False)
-    tongue: Tongue
+    resonance: Resonance
 
 
 @dataclass(frozen=True)
@@ -199,7 +199,7 @@ def _trace(
     seed: _Seed, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], how: Mapping[str, Any]
 ) -> StabilityCurve:
     """The curve through a seed, both ways; `how` as in `continue_border`."""
-    follow = partial(continue_border, seed.kind, seed.case, names, bounds, near=seed.point, **how)
+    follow = partial(continue_border, seed.kind, seed.case, names, bounds, guess=seed.point, **how)
     back = follow(direction=-1)
     on = None if back.ended == "the curve is closed" else follow(direction=1)
 
@@ -214,5 +214,5 @@ def _trace(
     middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(period) // 2
     case = seed.case.replace(**dict(zip(names, map(float, values[middle]), strict=True)))
     mu = 1.0 + 0j if seed.kind == "fold" else complex(leading[middle])
-    tongue = nearest_tongue(case, float(period[middle]), mu, int(diameters[middle]))
-    return StabilityCurve(seed.kind, values, border, period, leading, tongue)
+    resonance = nearest_resonance(case, float(period[middle]), mu, int(diameters[middle]))
+    return StabilityCurve(seed.kind, values, border, period, leading, resonance)

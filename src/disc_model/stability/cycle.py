@@ -25,9 +25,9 @@ from disc_model.stability.return_map import (
     FixedPoint,
     Flight,
     ReturnMap,
+    bifurcation_type,
     case_faults,
     growth_rate,
-    kind_of,
     multipliers,
     newton,
 )
@@ -74,7 +74,7 @@ class FloquetResult:
     growth_rate : 1/s, largest real part of the exponents
     stick_fraction : share of the period in stick
     state : on the section, at the end of stick
-    kind : which bifurcation the leading multiplier brings when it crosses the unit circle: "fold" (real, positive),
+    bifurcation_type : that of the leading multiplier when it crosses the unit circle: "fold" (real, positive),
         "period_doubling" (real, negative) or "neimark_sacker" (complex); "" without a cycle
     releases, backward_releases, reversals, separations, sticks : counts over a period
     residual : of the return map, relative to the norm of the static deflection
@@ -91,7 +91,7 @@ class FloquetResult:
     growth_rate: float = math.nan
     stick_fraction: float = math.nan
     state: State | None = None
-    kind: str = ""
+    bifurcation_type: str = ""
     releases: int = 0
     backward_releases: int = 0
     reversals: int = 0
@@ -128,14 +128,14 @@ class FloquetResult:
 
 
 @compiling()
-def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, releases: int = 1) -> FloquetResult:
+def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, releases: int = 1) -> FloquetResult:
     """Find the stick-slip cycle near the static start, or near a given state, and its multipliers.
 
     Parameters
     ----------
     p : the case
     tol : relative, of the series and of the return map's residual; 1e-14 to 1e-6
-    near : look for a cycle near the next release after this state, such as a simulation's last one; that cycle may lose
+    guess : look for a cycle near the next release after this state, such as a simulation's last one; it may lose
         contact
     releases : of stick in a period of the cycle near that state
 
@@ -149,22 +149,22 @@ def floquet(p: Parameters, *, tol: float = 1e-12, near: State | None = None, rel
     ParameterError
         Bad input; the message names the argument, its value and the rule.
     """
-    refuse([*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *faults_near(near, releases)])
-    return find_cycle(p, tol) if near is None else find_cycle_near(p, near, releases, tol)
+    refuse([*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *guess_faults(guess, releases)])
+    return find_cycle(p, tol) if guess is None else find_cycle_near(p, guess, releases, tol)
 
 
-def faults_near(near: object, releases: object, *, points: bool = False) -> list[str]:
+def guess_faults(guess: object, releases: object, *, points: bool = False) -> list[str]:
     """What is wrong with where a cycle of so many releases is looked for: a state, or else a point of the section."""
-    counts = is_whole(releases) and releases >= 1 and (isinstance(near, State) or releases == 1)
-    fits = near is None or isinstance(near, State) or (points and is_finite_array(near))
+    counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
+    fits = guess is None or isinstance(guess, State) or (points and is_finite_array(guess))
     return broken(
-        (fits, "near", near, "must be a State" + " or a point of the section" * points),
+        (fits, "guess", guess, "must be a State" + " or a point of the section" * points),
         (counts, "releases", releases, "must be a whole number >= 1, and 1 without a state to look near"),
     )
 
 
-def find_cycle(p: Parameters, tol: float = 1e-12, near: Array | None = None) -> FloquetResult:
-    """The cycle Newton's method finds from `near` (a point of the section), the static equilibrium by default.
+def find_cycle(p: Parameters, tol: float = 1e-12, guess: Array | None = None) -> FloquetResult:
+    """The cycle Newton's method finds from `guess` (a point of the section), the static equilibrium by default.
 
     Where it finds none from the equilibrium, the motion from there is simulated for some returns, and cycles of up to
     three releases are looked for from where it has come to.
@@ -172,22 +172,22 @@ def find_cycle(p: Parameters, tol: float = 1e-12, near: Array | None = None) -> 
     if not may_stick_and_slip(p):
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol)
-    point = near is None or is_finite_array(near, map_.size)
-    refuse(broken((point, "near", near, f"must be {map_.size} finite numbers, a point of the section")))
-    found = newton(map_, map_.static if near is None else np.asarray(near, float), tol=tol)
+    point = guess is None or is_finite_array(guess, map_.size)
+    refuse(broken((point, "guess", guess, f"must be {map_.size} finite numbers, a point of the section")))
+    found = newton(map_, map_.static if guess is None else np.asarray(guess, float), tol=tol)
     if found is not None:
         return cycle_of(map_, tol, found)
-    if near is not None:
+    if guess is not None:
         return _none(p, tol, CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
     return _second_try(map_, tol)
 
 
-def find_cycle_near(p: Parameters, near: State, releases: int, tol: float = 1e-12) -> FloquetResult:
+def find_cycle_near(p: Parameters, guess: State, releases: int, tol: float = 1e-12) -> FloquetResult:
     """A cycle near the next release after a state; it may lose contact."""
     if not may_stick_and_slip(p):
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol, patience=PATIENT)
-    outcome, x = map_.next_release(near)
+    outcome, x = map_.next_release(guess)
     if ENDS[outcome] == "time_over":
         waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
         return _none(p, tol, CycleStatus.NO_STICK_SLIP, waited)
@@ -290,7 +290,7 @@ def cycle_of(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
         growth_rate=growth_rate(complex(values[0]), flight.period),
         stick_fraction=flight.stick_time / flight.period,
         state=map_.state(found.x),
-        kind=kind_of(complex(values[0])),
+        bifurcation_type=bifurcation_type(complex(values[0])),
         **flight.counts._asdict(),
         residual=found.residual / max(float(np.linalg.norm(map_.static)), 1e-300),
     )

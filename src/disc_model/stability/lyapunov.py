@@ -59,7 +59,7 @@ class Lyapunov:
     duration : s, time covered after the transient
     separations : losses of contact in that time
     history : 1/s, shape (16, count), the exponents of the stretches
-    along : 1/s, the exponent along the motion that was left out; nan if none was
+    trivial_exponent : 1/s, the exponent along the motion that was left out; nan if none was
     final_state : where the motion ended, to go on from
     """
 
@@ -70,7 +70,7 @@ class Lyapunov:
     separations: int
     history: Array = field(repr=False)
     final_state: State
-    along: float = math.nan
+    trivial_exponent: float = math.nan
 
     @property
     def converged(self) -> NDArray[np.bool_]:
@@ -204,14 +204,14 @@ def _summary(
     history = np.array([np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)])
     with np.errstate(invalid="ignore"):  # of -inf
         errors = np.maximum(np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS), _drift(history))
-    exponents, along = np.sum(logs, axis=0) / covered, math.nan
+    exponents, trivial = np.sum(logs, axis=0) / covered, math.nan
     order = np.argsort(-exponents, kind="stable")
     # a motion that has come to rest, or slides, has no trivial one
     if leave_out_trivial and log[variational.RELEASES] + log[variational.STICKS] + log[variational.SEPARATIONS] > 0:
-        along = float(np.sum(logs[:, 0]) / covered)
+        trivial = float(np.sum(logs[:, 0]) / covered)
         order = order[order != 0]
     order, separations = order[:count], int(log[variational.SEPARATIONS])
-    return Lyapunov(status, exponents[order], errors[order], covered, separations, history[:, order], end, along)
+    return Lyapunov(status, exponents[order], errors[order], covered, separations, history[:, order], end, trivial)
 
 
 def _drift(history: Array) -> Array:

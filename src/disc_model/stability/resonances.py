@@ -14,7 +14,7 @@ from disc_model.plate import coupled_shapes, mode_arrays
 
 
 @dataclass(frozen=True)
-class Tongue:
+class Resonance:
     """A resonance n f_s = f -/+ l Omega / 2 pi of a cycle.
 
     Attributes
@@ -39,7 +39,7 @@ class Tongue:
         return f"{self.harmonic:g} f_s = {self.frequency:.2f} Hz{shift}"
 
 
-def nearest_tongue(p: Parameters, period: float, multiplier: complex, diameters: int | None = None) -> Tongue:
+def nearest_resonance(p: Parameters, period: float, multiplier: complex, diameters: int | None = None) -> Resonance:
     """The resonance that a cycle's multiplier belongs to.
 
     Over a period the slider turns by Omega T against the disc.  A free mode of frequency f and l diameters is therefore
@@ -55,7 +55,7 @@ def nearest_tongue(p: Parameters, period: float, multiplier: complex, diameters:
     rate = 1 / float(period)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)
     half = 0.5 if multiplier.imag == 0 and multiplier.real < 0 else 0.0
-    found: list[tuple[float, Tongue]] = []
+    found: list[tuple[float, Resonance]] = []
     for frequency, l, bound in modes_at_rest(p):
         if diameters is not None and l != diameters:
             continue
@@ -64,7 +64,7 @@ def nearest_tongue(p: Parameters, period: float, multiplier: complex, diameters:
             seen = (frequency + sign * l * p.Omega / (2 * math.pi)) / rate
             miss = min(abs((seen - s * angle + 0.5) % 1 - 0.5) for s in (-1, 1))
             harmonic = round(seen - half) + half
-            found.append((miss, Tongue(harmonic, frequency, l, sign, float((harmonic - seen) * rate))))
+            found.append((miss, Resonance(harmonic, frequency, l, sign, float((harmonic - seen) * rate))))
     if not found:
         raise ParameterError(f"diameters={diameters!r}: must be those of a mode")
     return min(found, key=lambda one: one[0])[1]

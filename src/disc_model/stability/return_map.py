@@ -368,7 +368,7 @@ def growth_rate(multiplier: complex, period: float) -> float:
     return math.log(abs(multiplier)) / period if multiplier else -math.inf
 
 
-def kind_of(multiplier: complex) -> str:
+def bifurcation_type(multiplier: complex) -> str:
     """Which bifurcation a multiplier brings when it crosses the unit circle."""
     if multiplier.imag != 0:
         return "neimark_sacker"

@@ -653,7 +653,7 @@ class CampbellOptions(Options):
     tol: CycleTolerance = 1e-12
 
 
-class Quantity(NamedTuple):
+class Entry(NamedTuple):
     """An entry: the options, what a point costs, and what its grids and motions are like.
 
     options : their model
@@ -711,45 +711,43 @@ COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )
 QUANTITIES = {
-    "outcome": Quantity(OutcomeOptions, lambda o: SIMULATED * o.horizon / 2, starts=True, motions=4, motion=COME_TO),
-    "regions": Quantity(RegionsOptions, lambda o: WORK, motions=4, motion=COME_TO, tiled=True),
-    "critical_speed": Quantity(
+    "outcome": Entry(OutcomeOptions, lambda o: SIMULATED * o.horizon / 2, starts=True, motions=4, motion=COME_TO),
+    "regions": Entry(RegionsOptions, lambda o: WORK, motions=4, motion=COME_TO, tiled=True),
+    "critical_speed": Entry(
         CriticalSpeedOptions, lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9, scans=("Omega",)
     ),
-    "floquet": Quantity(
-        FloquetOptions, lambda o: CYCLE, motions=7, motion="The stick-slip cycle itself, stable or not."
-    ),
-    "hysteresis": Quantity(HysteresisOptions, lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell, scans=("Omega",)),
-    "ramps": Quantity(
+    "floquet": Entry(FloquetOptions, lambda o: CYCLE, motions=7, motion="The stick-slip cycle itself, stable or not."),
+    "hysteresis": Entry(HysteresisOptions, lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell, scans=("Omega",)),
+    "ramps": Entry(
         RampsOptions,
         lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values),
         scans=("Omega",),
         tasks=("simulate", "ramp"),
     ),
-    "basins": Quantity(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 2, starts=True),
-    "bifurcation": Quantity(
+    "basins": Entry(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 2, starts=True),
+    "bifurcation": Entry(
         BifurcationOptions,
         lambda o: SIMULATED * (o.transient + o.max_transient / 2),
         starts=True,
         motions=8,
         motion="After the transient.",
     ),
-    "lyapunov": Quantity(
+    "lyapunov": Entry(
         LyapunovOptions,
         lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration),
         starts=True,
         motions=8,
         motion="After the transient.",
     ),
-    "stability_curves": Quantity(StabilityCurvesOptions, lambda o: WORK, scans=("x", "y")),
-    "branches": Quantity(BranchesOptions, lambda o: WORK, scans=("parameter",)),
-    "sensitivity": Quantity(
+    "stability_curves": Entry(StabilityCurvesOptions, lambda o: WORK, scans=("x", "y")),
+    "branches": Entry(BranchesOptions, lambda o: WORK, scans=("parameter",)),
+    "sensitivity": Entry(
         SensitivityOptions,
         # the same for more samples, whose batches are to stay
         lambda o: CYCLE * (2 + len(o.distributions)) + SIMULATED * o.horizon / 4 * (o.simulated_samples > 0),
         over=SAMPLE,
     ),
-    "campbell": Quantity(CampbellOptions, lambda o: 1.5 * CYCLE, over="Omega"),
+    "campbell": Entry(CampbellOptions, lambda o: 1.5 * CYCLE, over="Omega"),
 }
 
 
@@ -788,7 +786,7 @@ class RecordSpec(Strict):
     windows: dict[WindowName, Window] = Field({})
     poincare: Poincare | None = None
     events: bool | Span = True
-    energy: bool = False
+    audit_every_step: bool = False
 
 
 SomeWindow = _in_part(Window)
@@ -888,7 +886,7 @@ class NamedCase(Strict):
             windows=tuple(windows),
             poincare=kept.poincare,
             events=None if events is None else (events.start, events.stop),
-            energy=kept.energy,
+            audit_every_step=kept.audit_every_step,
             **how,
         )
 
@@ -1011,7 +1009,7 @@ class Document(Strict):
         return self.zip if isinstance(self.zip, list) else [self.zip]
 
 
-def _of_quantity(name: str, quantity: Quantity) -> type[Document]:
+def _of_quantity(name: str, quantity: Entry) -> type[Document]:
     """The document of a grid of one quantity."""
     options = quantity.said
     default = ... if any(field.is_required() for field in options.model_fields.values()) else options()

@@ -63,8 +63,8 @@ from disc_model.studies.document import (
     BatchSpec,
     Blocks,
     Document,
+    Entry,
     NamedCase,
-    Quantity,
     SensitivityOptions,
     Value,
     blocks_of,
@@ -747,7 +747,7 @@ class _Grid:
     ) -> None:
         self.document, self.raw, self.plots, self.faults = document, raw, plots, faults
         self.before = len(faults)
-        self.quantity: Quantity | None = QUANTITIES.get(str(document.quantity))
+        self.quantity: Entry | None = QUANTITIES.get(str(document.quantity))
         self.options: Strict | None = None
         if self.quantity is not None and document.options is not None:
             self.options, self.start = self.quantity.parted(document.options)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, MethodUnavailable, Outcome
+from disc_model.benchmarks.methods import METHODS, MethodUnavailable, RunStatus
 from disc_model.benchmarks.methods.base import Method, Problem
 from disc_model.benchmarks.methods.cvode import Cvode
 from disc_model.benchmarks.methods.physics import Physics
@@ -89,7 +89,7 @@ def test_every_method_finds_the_135_switches_of_stick_slip(name, value, allowed)
     if name not in INSTALLED:
         pytest.skip(needs.RIVALS.reason)
     result, found = judge(name, "stick_slip", value)
-    assert (result.outcome, len(result.kinds)) == (Outcome.FINISHED, 135)
+    assert (result.outcome, len(result.kinds)) == (RunStatus.FINISHED, 135)
     assert found.event_time < allowed
 
 
@@ -128,7 +128,7 @@ def test_no_rival_returns_at_the_triple_root_where_a_separation_begins(name, val
 
 def test_a_method_out_of_time_says_so():
     result = METHODS["RK45"].solve(problem("many_modes"), 1e-6, budget=0.05)
-    assert result.outcome is Outcome.TOO_SLOW
+    assert result.outcome is RunStatus.TOO_SLOW
     assert "0.05 s" in result.message
     assert result.seconds < 5.0
 

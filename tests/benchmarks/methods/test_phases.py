@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.methods import METHODS, RunStatus
 from disc_model.benchmarks.methods import regularised as regularised_module
 from disc_model.benchmarks.methods import solve_ivp as solve_ivp_module
 from disc_model.benchmarks.methods.base import GaveUp, Meter
@@ -19,9 +19,9 @@ from tests.references.printed import P
 @pytest.mark.parametrize(
     ("what", "outcome", "words"),
     [
-        ("fails", Outcome.FAILED, "gave up"),
-        ("overflows", Outcome.NON_FINITE, "no longer finite"),
-        ("crowds", Outcome.STALLED, "more than 50 events at one instant"),
+        ("fails", RunStatus.FAILED, "gave up"),
+        ("overflows", RunStatus.NON_FINITE, "no longer finite"),
+        ("crowds", RunStatus.STALLED, "more than 50 events at one instant"),
     ],
 )
 def test_what_ends_a_run_of_phases(what, outcome, words):
@@ -51,6 +51,6 @@ def test_an_integrator_that_gives_up_is_reported(monkeypatch):
     monkeypatch.setattr(regularised_module, "solve_ivp", pretending(1.0, -1))
     for name, value in (("RK45", 1e-6), ("regularised", 1.0)):
         result = METHODS[name].solve(task(), value)
-        assert (result.outcome, result.message) == (Outcome.FAILED, "step too small")
+        assert (result.outcome, result.message) == (RunStatus.FAILED, "step too small")
     monkeypatch.setattr(regularised_module, "solve_ivp", pretending(math.nan, 0))
-    assert METHODS["regularised"].solve(task(), 1.0).outcome is Outcome.NON_FINITE
+    assert METHODS["regularised"].solve(task(), 1.0).outcome is RunStatus.NON_FINITE

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model.benchmarks.methods import Outcome, kernels
+from disc_model.benchmarks.methods import RunStatus, kernels
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
 from disc_model.benchmarks.scenes import Verdict
@@ -36,7 +36,7 @@ def test_rk4_at_its_stability_limit():
     assert at.separations > 100  # there are none
     assert found.verdict is Verdict.UNSTABLE
     above, found = judge("RK4", "stick_slip", 7e-4)
-    assert above.outcome is Outcome.NON_FINITE
+    assert above.outcome is RunStatus.NON_FINITE
     assert found.verdict is Verdict.UNSTABLE
 
 

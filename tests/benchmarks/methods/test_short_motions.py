@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import simulate
-from disc_model.benchmarks.methods import METHODS, Outcome
+from disc_model.benchmarks.methods import METHODS, RunStatus
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
 from tests.benchmarks.methods.problems import task
@@ -26,7 +26,7 @@ def test_a_short_flight_is_the_printed_one(name):
     for span in (1e-5, 1e-4):
         problem = task("separation", 0, span)
         result = solved(name, problem, 1e-9)
-        assert result.outcome is Outcome.FINISHED
+        assert result.outcome is RunStatus.FINISHED
         assert result.kinds == ()
         end = Printed(P, problem.start).at(span)
         for quantity in ("a", "alpha", "u", "psi"):
@@ -43,7 +43,7 @@ def test_a_short_motion_in_contact_is_the_printed_one(name, phase, direction, p,
     problem = task(phase, direction, p=p)
     problem = replace(problem, start=problem.start.replace(a=problem.start.a + lifted * np.sign(Physics(p).shape)))
     result = solved(name, problem, 1e-9)
-    assert (result.outcome, result.kinds) == (Outcome.FINISHED, ())
+    assert (result.outcome, result.kinds) == (RunStatus.FINISHED, ())
     printed = Printed(p, problem.start)
     assert bool(lifted) == (printed.force() < 0)
     end = printed.at(problem.t_end)
@@ -91,4 +91,4 @@ def test_a_falling_slider_lands_when_it_must(name):
 
 @pytest.mark.parametrize("name", SHORT)
 def test_a_budget_of_nothing_is_used_up(name):
-    assert METHODS[name].solve(task(span=0.05), 1e-12, budget=0.0).outcome is Outcome.TOO_SLOW
+    assert METHODS[name].solve(task(span=0.05), 1e-12, budget=0.0).outcome is RunStatus.TOO_SLOW

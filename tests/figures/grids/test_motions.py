@@ -90,7 +90,7 @@ def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
             return Reached(attractor.kind, 50.0, attractor=attractor)
 
     monkeypatch.setattr(basins, "Basins", Made)
-    monkeypatch.setattr(basins, "random_kick", lambda p, state, energy, key: energy)
+    monkeypatch.setattr(basins, "random_perturbation", lambda p, state, energy, key: energy)
     options = {"energies": [0.01, 0.1, 1], "n_starts": 4}
     return computed(quantity="basins", options=options, base={"N": 385}, axes={"Omega": [12, 13, 14, 15]})
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import published_start, simulate
+from disc_model.simulation.api import simulate, static_start
 from disc_model.simulation.case import Record, Window
 from disc_model.stability.cycle import floquet
 from disc_model.studies.document import QUANTITIES, OutcomeOptions
@@ -104,6 +104,6 @@ def test_what_has_no_motion_is_recorded():
 
 def test_a_cycle_without_releases_is_the_free_period():
     p = Parameters(N=200, Omega=20, mu_s=0.0, mu_k=0.0)
-    assert cycle_length(p, published_start(p)) == pytest.approx(2 * np.pi * np.sqrt(p.m / p.k_p))
+    assert cycle_length(p, static_start(p)) == pytest.approx(2 * np.pi * np.sqrt(p.m / p.k_p))
     slack = p.replace(k_p=0.0)
-    assert cycle_length(slack, published_start(slack)) == LONGEST
+    assert cycle_length(slack, static_start(slack)) == LONGEST

@@ -18,9 +18,9 @@ from disc_model.analysis.classify import shortest_period
 from disc_model.analysis.sobol import share
 from disc_model.benchmarks.answers import questions
 from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, Found
-from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import published_start
+from disc_model.simulation.api import static_start
 from disc_model.simulation.result import State
 
 Array = NDArray[np.float64]
@@ -67,7 +67,7 @@ def first_separation(
     horizon: float = questions.SEPARATION_HORIZON,
 ) -> Answers:
     """When contact is first lost after the static start."""
-    problem = Problem(p, published_start(p), horizon, stop=True)
+    problem = Problem(p, static_start(p), horizon, stop=True)
     result, seconds = _timed(solve, problem, budget)
     try:
         time = _separation(result)
@@ -90,7 +90,7 @@ def after_separation(
     if seconds < 3.0:
         _, seconds = _timed(solve, Problem(p, start, problem.t_end), budget)
     names = ("separation_rate", "disc_range", "period")
-    if result.outcome is not Outcome.FINISHED:
+    if result.outcome is not RunStatus.FINISHED:
         return dict.fromkeys(names, Broken(result).found(seconds))
     low, high = result.heights
     values = (result.separations / problem.span, high - low, period(_times(result, "stick_to_slip")))
@@ -117,7 +117,7 @@ def onset(solve: Solve, budget: float, within: float = questions.ONSET_WITHIN) -
     def separates(speed: float) -> bool:
         nonlocal used
         p = questions.SEPARATING.replace(Omega=speed)
-        result = solve(Problem(p, published_start(p), questions.ONSET_HORIZON, stop=True), max(budget - used, 0.1))
+        result = solve(Problem(p, static_start(p), questions.ONSET_HORIZON, stop=True), max(budget - used, 0.1))
         used += result.seconds
         return math.isfinite(_separation(result))
 
@@ -140,7 +140,7 @@ def growth_rate(solve: Solve, budget: float) -> Answers:
     start = questions.start("growing")
     problem = Problem(questions.GROWING, start, start.time + questions.GROWING_SPAN)
     result, seconds = _timed(solve, problem, budget)
-    if result.outcome is not Outcome.FINISHED:
+    if result.outcome is not RunStatus.FINISHED:
         return {"growth_rate": Broken(result).found(seconds)}
     rate = growth(_times(result, "stick_to_slip"))
     return {"growth_rate": found(rate, seconds, "no oscillation that grows or dies out steadily")}
@@ -224,7 +224,7 @@ def judged(
 
 def cell(solve: Solve, p: Parameters, budget: float) -> tuple[bool, float]:
     """Whether a case separates within the region's horizon, and the seconds that took."""
-    result = solve(Problem(p, published_start(p), questions.REGION_HORIZON, stop=True), budget)
+    result = solve(Problem(p, static_start(p), questions.REGION_HORIZON, stop=True), budget)
     return math.isfinite(_separation(result)), result.seconds
 
 
@@ -268,6 +268,6 @@ def _separation(result: MethodResult) -> float:
     times = _times(result, "separation")
     if len(times):
         return float(times[0])
-    if result.outcome is not Outcome.FINISHED:
+    if result.outcome is not RunStatus.FINISHED:
         raise Broken(result)
     return math.nan

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from disc_model.benchmarks.methods.base import Method, MethodResult, MethodUnavailable, Outcome, Problem
+from disc_model.benchmarks.methods.base import Method, MethodResult, MethodUnavailable, Problem, RunStatus
 from disc_model.benchmarks.register import RIVALS, Rival
 
 
@@ -25,4 +25,4 @@ def _made(rival: Rival) -> Method:
 
 METHODS: dict[str, Method] = {rival.name: _made(rival) for rival in RIVALS}
 
-__all__ = ["METHODS", "Method", "MethodResult", "MethodUnavailable", "Outcome", "Problem"]
+__all__ = ["METHODS", "Method", "MethodResult", "MethodUnavailable", "Problem", "RunStatus"]

@@ -28,7 +28,7 @@ class MethodUnavailable(DiscModelError, ImportError):
     """A method whose optional package is not installed."""
 
 
-class Outcome(enum.StrEnum):
+class RunStatus(enum.StrEnum):
     """How a method ended."""
 
     FINISHED = "finished"  # reached t_end
@@ -87,7 +87,7 @@ class MethodResult:
     final: State
     seconds: float
     work: int
-    outcome: Outcome
+    outcome: RunStatus
     message: str = ""
     longest_step: float = math.nan
     heights: tuple[float, float] = (math.nan, math.nan)
@@ -161,7 +161,7 @@ class Method(ABC):
 class GaveUp(Exception):
     """Raised inside a run that cannot go on."""
 
-    def __init__(self, message: str, outcome: Outcome = Outcome.FAILED) -> None:
+    def __init__(self, message: str, outcome: RunStatus = RunStatus.FAILED) -> None:
         super().__init__(message)
         self.outcome = outcome
 
@@ -172,7 +172,7 @@ class Meter:
     def __init__(self, problem: Problem, physics: Physics, budget: float) -> None:
         self.problem, self.physics, self.budget = problem, physics, budget
         self.work, self.longest_step, self.low, self.high = 0, math.nan, math.nan, math.nan
-        self.outcome, self.message = Outcome.FINISHED, ""
+        self.outcome, self.message = RunStatus.FINISHED, ""
 
     @contextmanager
     def running(self) -> Iterator[None]:
@@ -208,7 +208,7 @@ class Meter:
     def check(self) -> None:
         """Raise `GaveUp` if the time is used up."""
         if clock.thread_time() - self.began > self.budget:
-            raise GaveUp(f"not finished after {self.budget:g} s", Outcome.TOO_SLOW)
+            raise GaveUp(f"not finished after {self.budget:g} s", RunStatus.TOO_SLOW)
 
     def counted(self, function: Callable[[float, Array], Array]) -> Callable[[float, Array], Array]:
         """``function``, counting its calls and looking at the clock every 64 of them."""

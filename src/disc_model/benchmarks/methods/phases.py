@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
@@ -73,7 +73,7 @@ def run_phases(problem: Problem, physics: Physics, advance: Advance, meter: Mete
                 break
             number, direction, added = kernels.switch(modes, c, phase.code, cause, y, new)
             if added < 0:
-                raise GaveUp(NOT_FINITE, Outcome.NON_FINITE)
+                raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
             phase = PHASE[number, direction]
             crowd = crowd + 1 if times and t - times[-1] < INSTANT else 0
             for place in range(added):
@@ -82,7 +82,7 @@ def run_phases(problem: Problem, physics: Physics, advance: Advance, meter: Mete
             if problem.stop and phase.name == "separation":
                 break
             if crowd > CROWD:
-                raise GaveUp(f"more than {CROWD} events at one instant", Outcome.STALLED)
+                raise GaveUp(f"more than {CROWD} events at one instant", RunStatus.STALLED)
         if not math.isfinite(y.sum()):
-            raise GaveUp(NOT_FINITE, Outcome.NON_FINITE)
+            raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
     return meter.result(times, kinds, physics.unpack(problem.start.time + t, phase.name, phase.direction, y))

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Outcome, Problem, decades
+from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem, RunStatus, decades
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale, crossing
 from disc_model.simulation.result import State
@@ -120,7 +120,7 @@ class Regularised(Method):
             if found.status < 0:
                 raise GaveUp(found.message)
         if not np.all(np.isfinite(y)):
-            meter.outcome = Outcome.NON_FINITE
+            meter.outcome = RunStatus.NON_FINITE
         times, kinds = [time for time, _ in switches], [kind for _, kind in switches]
         return meter.result(times, kinds, law.state(problem.start.time + t, y))
 

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem
+from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
@@ -59,7 +59,7 @@ class FixedStep(Method):
             final=physics.unpack(start.time + t, PHASES[phase], direction, y),
             seconds=seconds,
             work=4 * steps,
-            outcome=(Outcome.FINISHED, Outcome.NON_FINITE, Outcome.STALLED, Outcome.TOO_SLOW)[why],
+            outcome=(RunStatus.FINISHED, RunStatus.NON_FINITE, RunStatus.STALLED, RunStatus.TOO_SLOW)[why],
             longest_step=value,
             heights=(float(heights[0]), float(heights[1])),
         )

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import Method, MethodResult, Outcome, Problem, decades
+from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus, decades
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.errors import Status
 from disc_model.simulation.api import simulate
@@ -42,12 +42,12 @@ class Series(Method):
             record=_watching(problem) if problem.watched else None,
         )  # fmt: skip
         outcome = {
-            Status.OK: Outcome.FINISHED,
-            Status.STOPPED: Outcome.FINISHED,
-            Status.STEP_LIMIT: Outcome.TOO_SLOW,
-            Status.STALLED: Outcome.STALLED,
-            Status.NON_FINITE: Outcome.NON_FINITE,
-        }.get(result.status, Outcome.FAILED)
+            Status.OK: RunStatus.FINISHED,
+            Status.STOPPED: RunStatus.FINISHED,
+            Status.STEP_LIMIT: RunStatus.TOO_SLOW,
+            Status.STALLED: RunStatus.STALLED,
+            Status.NON_FINITE: RunStatus.NON_FINITE,
+        }.get(result.status, RunStatus.FAILED)
         return MethodResult(
             times=result.events["time"].to_numpy(),
             kinds=tuple(result.events["kind"]),

@@ -19,7 +19,7 @@ from disc_model.figures import parts
 from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells
 from disc_model.figures.kinds import GrowthMap
 from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, new_figure
-from disc_model.stability.resonances import Tongue
+from disc_model.stability.resonances import Resonance
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ class Curve:
     ----------
     Omega, N : shape (n,), rad/s and N
     kind : "neutral" or "fold"
-    label : what stands next to it, such as a tongue's "2 f_s = 135.42 Hz"; may be empty
+    label : what stands next to it, such as a resonance's "2 f_s = 135.42 Hz"; may be empty
     """
 
     Omega: Array
@@ -62,12 +62,12 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
             continue
         x, y = (np.where(border, one[name].values, np.nan) for name in ("x", "y"))
         near = kinds[i] == "fold" and abs(float(one["resonance_detuning"])) < NEAR
-        found.append(Curve(x, y, str(kinds[i]), _tongue(one).label if near else ""))
+        found.append(Curve(x, y, str(kinds[i]), _resonance(one).label if near else ""))
     return found
 
 
-def _tongue(one: xr.Dataset) -> Tongue:
-    return Tongue(**{field.name: one[f"resonance_{field.name}"].item() for field in fields(Tongue)})
+def _resonance(one: xr.Dataset) -> Resonance:
+    return Resonance(**{field.name: one[f"resonance_{field.name}"].item() for field in fields(Resonance)})
 
 
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:

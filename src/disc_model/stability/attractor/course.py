@@ -26,10 +26,10 @@ from disc_model.stability.attractor.near import (
     CYCLE_TOL,
     Near,
     cycle_near,
+    cycle_of_static_start,
     departure,
     first_release,
     nears_sliding,
-    published_start_near,
     recurrence,
 )
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
@@ -161,7 +161,7 @@ def come_to(
     Parameters
     ----------
     tol : of what is simulated, as in `simulate`
-    near : what `published_start_near` says, if it is known
+    near : what `cycle_of_static_start` says, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may tell of a departure: the
         shorter, the better is the time of the first separation known; 0: all of it is simulated
     start : where to start, at time 0; None is the static start
@@ -170,7 +170,7 @@ def come_to(
     """
     course = _Course(p, horizon, tol, furthest, start, early, late)
     if early and start is None and course.map is not None:
-        near = published_start_near(p) if near is None else near
+        near = cycle_of_static_start(p) if near is None else near
         return course.run(near if isinstance(near, Near) and near.own else None)
     return course.run(None)
 

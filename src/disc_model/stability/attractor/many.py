@@ -20,7 +20,7 @@ from disc_model.analysis.classify import CLOSES, FEWEST, SETTLED, closure, short
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
-from disc_model.simulation.api import kicked, published_start, simulate
+from disc_model.simulation.api import perturb, simulate, static_start
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.course import FIRST_LEG, RATE, Attractor, Reached, Stretch, at_rest, stretch_of
@@ -31,8 +31,8 @@ from disc_model.stability.attractor.near import (
     SAME_POINT,
     Near,
     cycle_near,
+    cycle_of_static_start,
     follows,
-    published_start_near,
     recurrence,
 )
 from disc_model.stability.cycle import may_stick_and_slip
@@ -75,15 +75,15 @@ class Basins:
         self.smallest = max(SMALLEST * self.static, sys.float_info.min)
         self.map = ReturnMap(p, CYCLE_TOL, patience=PATIENT)
         self.size = float(np.linalg.norm(self.map.static))
-        found = published_start_near(p)
+        found = cycle_of_static_start(p)
         self.cycle = found if isinstance(found, Near) and found.cycle.stable else None
         self.known: list[Attractor] = []
         if self.cycle is not None:
             assert self.cycle.cycle.state is not None
             self.known.append(self._periodic(self.cycle, stretch_of(self._leg(self.cycle.cycle.state, FIRST_LEG))))
         for kick in OWN_STARTS:
-            start = published_start(p)
-            self.reached(kicked(p, start, u=-kick * self.static) if kick else start)
+            start = static_start(p)
+            self.reached(perturb(p, start, u=-kick * self.static) if kick else start)
 
     def reached(self, state: State) -> Reached:
         """What the motion from a state at time 0 comes to; an attractor that is new is known from now on."""
@@ -262,7 +262,7 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     return Regularity(Outcome.IRREGULAR if rate > 0 else periodic)
 
 
-def random_kick(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
+def random_perturbation(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
     """A state after a kick of stated energy in a random direction.
 
     The direction is uniform in the energy of the disc's modes: omega a, omega b, alpha, beta of each.  Slider and disc

@@ -103,7 +103,7 @@ class Near:
         return end, flight.period if flight.outcome == RETURNED else math.nan
 
 
-def published_start_near(p: Parameters) -> Near | FloquetResult:
+def cycle_of_static_start(p: Parameters) -> Near | FloquetResult:
     """The cycle near the static start, and whether it is the start's own; without one, what was found instead."""
     cycle = find_cycle(p, CYCLE_TOL)
     if cycle.status is not CycleStatus.OK:

@@ -47,7 +47,7 @@ class Made:
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(basins, "Basins", Made)
-    monkeypatch.setattr(basins, "random_kick", lambda p, state, energy, key: (energy, key[2]))
+    monkeypatch.setattr(basins, "random_perturbation", lambda p, state, energy, key: (energy, key[2]))
 
 
 def found(**options):

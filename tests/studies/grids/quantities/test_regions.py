@@ -49,7 +49,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
         return Reached(Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N)
 
     nothing = SimpleNamespace(status=CycleStatus.NO_CYCLE)
-    monkeypatch.setattr(regions, "published_start_near", lambda p: nothing)
+    monkeypatch.setattr(regions, "cycle_of_static_start", lambda p: nothing)
     monkeypatch.setattr(regions, "come_to", come_to)
     return asked
 
@@ -165,7 +165,7 @@ def tile_of(
     def place(p: Parameters) -> tuple[int, int]:
         return round(p.N - 100), round(p.Omega - 10)
 
-    monkeypatch.setattr(regions, "published_start_near", lambda p: start(*place(p)))
+    monkeypatch.setattr(regions, "cycle_of_static_start", lambda p: start(*place(p)))
     monkeypatch.setattr(regions, "come_to", lambda p, *_, **__: Reached(outcome(*place(p)), 1.0, None))
     monkeypatch.setattr(regions, "departs_after", lambda *_: False)
     points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]

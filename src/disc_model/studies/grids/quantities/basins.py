@@ -1,6 +1,6 @@
 """What many starts come to at one point: the attractors, their shares, and the least kick that leads to separation.
 
-Start i of each stated energy is kicked in a direction that follows from the study's seed, the place of the energy in
+Start i of each stated energy is perturbed in a direction that follows from the study's seed, the place of the energy in
 its list, and i.  All first starts come first, then all second ones: further starts leave those before as they are.
 """
 
@@ -15,10 +15,10 @@ import numpy as np
 
 from disc_model.analysis.sobol import share
 from disc_model.data.variables import LASTING, Column, Variable
-from disc_model.simulation.api import prepared, published_start
+from disc_model.simulation.api import make_initial_state, static_start
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.course import Attractor, Reached
-from disc_model.stability.attractor.many import Basins, random_kick
+from disc_model.stability.attractor.many import Basins, random_perturbation
 from disc_model.studies.grids.points import STATUS, Point, listed
 
 if TYPE_CHECKING:
@@ -111,15 +111,15 @@ class _Sample:
     def __init__(self, point: Point, options: BasinsOptions) -> None:
         p = point.parameters
         self.p, self.options = p, options
-        self.start: State = prepared(p, point.start, options.tol) or published_start(p)
+        self.start: State = make_initial_state(p, point.start, options.tol) or static_start(p)
         self.basins = Basins(p, options.horizon, near=options.attractor_tol, tol=options.tol)
         energies = list(enumerate(options.energies))
-        all_of = [[self.kicked(energy, j, i) for j, energy in energies] for i in range(options.n_starts)]
+        all_of = [[self._outcome_of(energy, j, i) for j, energy in energies] for i in range(options.n_starts)]
         self.found = list(zip(*all_of, strict=True))
 
-    def kicked(self, energy: float, j: int, i: int) -> Reached:
+    def _outcome_of(self, energy: float, j: int, i: int) -> Reached:
         """What a kick of any energy in the direction of a start comes to."""
-        return self.basins.reached(random_kick(self.p, self.start, energy, (self.options.seed, j, i)))
+        return self.basins.reached(random_perturbation(self.p, self.start, energy, (self.options.seed, j, i)))
 
     def critical_energy(self) -> dict[str, float]:
         """By bisection of the energy's logarithm, in the directions of the starts that separate at the least energy."""
@@ -135,7 +135,7 @@ class _Sample:
         least = {"critical_energy_sampled": separating[0][0]}
         if separating[0][0] == 0 or not self.options.n_bisection_directions:
             return least
-        if self.kicked(0.0, 0, 0).separates:
+        if self._outcome_of(0.0, 0, 0).separates:
             return least | {"critical_energy": 0.0}
         low, high = min(
             (self._bisected(*one) for one in separating[: self.options.n_bisection_directions]),
@@ -146,13 +146,13 @@ class _Sample:
     def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
         """Energies without and with lasting separation, nearer to each other than the precision asked for."""
         low, first = high / 4, high
-        while self.kicked(low, j, i).separates:
+        while self._outcome_of(low, j, i).separates:
             low, high = low / 4, low
             if low < SMALLEST * first:
                 return math.nan, high
         while high > low * (1 + self.options.precision):
             middle = math.sqrt(low * high)
-            if self.kicked(middle, j, i).separates:
+            if self._outcome_of(middle, j, i).separates:
                 high = middle
             else:
                 low = middle

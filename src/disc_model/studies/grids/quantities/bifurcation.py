@@ -12,7 +12,7 @@ from scipy.stats import wasserstein_distance
 from disc_model.analysis.classify import closure, shortest_period
 from disc_model.data.variables import LASTING, PHASES, SCALARS, SERIES, Column, Outcome, Variable
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import after, prepared, simulate
+from disc_model.simulation.api import make_initial_state, simulate, state_after
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.course import FIRST_LEG, at_rest
@@ -61,7 +61,7 @@ def at(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
         [p.Omega],
         transient=options.transient,
         samples=options.samples,
-        initial_state=prepared(p, point.start, options.tol),
+        initial_state=make_initial_state(p, point.start, options.tol),
         theta=options.theta,
         tol=options.tol,
     ).isel(Omega=0)
@@ -76,7 +76,7 @@ def at(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
 def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
     """Separations if there are any, else releases; the transient is doubled until the motion is known to repeat."""
     p = point.parameters
-    state, begin, transient = prepared(p, point.start, options.tol), 0.0, options.transient
+    state, begin, transient = make_initial_state(p, point.start, options.tol), 0.0, options.transient
     first, separations, stick = math.nan, 0, 0.0
     while True:
         stretches: list[Result] = []
@@ -162,4 +162,4 @@ def alike(one: np.ndarray, two: np.ndarray) -> bool:
 
 def state_at(point: Point, options: BifurcationOptions) -> State:
     """Where the transient ends; raises `SimulationError` if the motion did not get there."""
-    return after(point.parameters, point.start, options.transient, options.tol)
+    return state_after(point.parameters, point.start, options.transient, options.tol)

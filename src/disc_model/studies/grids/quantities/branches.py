@@ -104,7 +104,7 @@ def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> di
     near = cycle.state if reached else None
     steps = Steps(longest=options.max_step, max_points=options.max_points)
     down, up = (
-        continue_cycle(p, name, bounds, direction=way, steps=steps, near=near, releases=cycle.releases if near else 1)
+        continue_cycle(p, name, bounds, direction=way, steps=steps, guess=near, releases=cycle.releases if near else 1)
         for way in (-1, 1)
     )
     values, points, period, growth_rate = (

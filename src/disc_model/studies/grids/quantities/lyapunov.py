@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
-from disc_model.simulation.api import after, prepared
+from disc_model.simulation.api import make_initial_state, state_after
 from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
 from disc_model.studies.grids.points import STATUS, Point
@@ -44,7 +44,7 @@ def at(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
         transient=options.transient,
         count=options.exponents,
         interval=options.interval,
-        initial_state=prepared(point.parameters, point.start, options.tol),
+        initial_state=make_initial_state(point.parameters, point.start, options.tol),
         tol=options.tol,
         leave_out_trivial=True,
     )
@@ -54,7 +54,7 @@ def at(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
         "exponent": found.exponents,
         "exponent_error": found.errors,
         "converged": np.where(known, 1 + found.converged, 0),
-        "trivial_exponent": found.along,
+        "trivial_exponent": found.trivial_exponent,
         "averaging_time": found.duration,
         "separations": found.separations,
     }
@@ -63,4 +63,4 @@ def at(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
 
 def state_at(point: Point, options: LyapunovOptions) -> State:
     """Where the transient ends; raises `SimulationError` if the motion did not get there."""
-    return after(point.parameters, point.start, options.transient, options.tol)
+    return state_after(point.parameters, point.start, options.transient, options.tol)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import COURSES, SCALARS, Column, Outcome
-from disc_model.simulation.api import prepared
+from disc_model.simulation.api import make_initial_state
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.course import Reached, Stretch, come_to, late_stretch
 from disc_model.studies.grids.points import STATUS, Point
@@ -79,7 +79,7 @@ def _late(point: Point, options: OutcomeOptions) -> tuple[Reached, Result | None
         options.horizon,
         tol=options.tol,
         furthest=0.0,
-        start=prepared(p, point.start, options.tol),
+        start=make_initial_state(p, point.start, options.tol),
         early=options.early_end,
         late=options.evaluation_time,
     )

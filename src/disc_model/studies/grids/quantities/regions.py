@@ -26,7 +26,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.course import Reached, come_to
-from disc_model.stability.attractor.near import CYCLE_TOL, SAME_POINT, Near, departs_after, published_start_near
+from disc_model.stability.attractor.near import CYCLE_TOL, SAME_POINT, Near, cycle_of_static_start, departs_after
 from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import ReturnMap, newton
@@ -132,7 +132,7 @@ class _Tile:
 
     def _start(self, place: Place) -> Near | FloquetResult | Exception:
         point = self.points[place[0]][place[1]]
-        return point if isinstance(point, Exception) else _tried(lambda: published_start_near(point))
+        return point if isinstance(point, Exception) else _tried(lambda: cycle_of_static_start(point))
 
     def _own(self, place: Place) -> Near | None:
         """The cycle that the static start follows from its beginning."""

@@ -67,9 +67,9 @@ def _row(curve: StabilityCurve) -> dict[str, Any]:
         "kind": curve.kind,
         "x": curve.values[:, 0],
         "y": curve.values[:, 1],
-        "adjoins_stable_cycle": curve.border,
+        "adjoins_stable_cycle": curve.adjoins_stable_cycle,
         "period": curve.period,
         "multiplier_re": curve.multipliers.real,
         "multiplier_im": curve.multipliers.imag,
-        **{f"resonance_{name}": value for name, value in asdict(curve.tongue).items()},
+        **{f"resonance_{name}": value for name, value in asdict(curve.resonance).items()},
     }
