@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-import textwrap
 from pathlib import Path
 
 import numba
@@ -15,21 +14,33 @@ from disc_model.engine import cache, machine
 
 ENGINE = Path(disc_model.engine.__file__).parent
 KERNEL = """
-    import numba
-    from disc_model.engine.compile import kernel
-    @kernel
-    def twice(x):
-        return 2 * x
-    print(twice(21), sum(twice.stats.cache_hits.values()))
+import numba
+from disc_model.engine.compile import kernel
+@kernel
+def twice(x):
+    return 2 * x
+print(twice(21), sum(twice.stats.cache_hits.values()))
+"""
+OUTER = """
+from disc_model.engine.compile import kernel
+@kernel
+def inner(x):
+    for i in range(3):
+        x += 0.5 * x + i
+    return x
+@kernel
+def outer(x):
+    return inner(x) + 1.0
+print(inner(1.0), outer(1.0))
 """
 pytestmark = pytest.mark.compiled
 
 
-def ask_for_a_kernel(tmp_path: Path, before: str = "", **environment: str) -> subprocess.CompletedProcess[str]:
+def ask_for_a_kernel(tmp_path: Path, before: str = "", code: str = KERNEL) -> subprocess.CompletedProcess[str]:
     """A process that asks for a kernel, and prints 42 and how often it was found in the cache."""
     script = tmp_path / "script.py"
-    script.write_text(before + textwrap.dedent(KERNEL))
-    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")} | environment
+    script.write_text(before + code)
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
     return subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True, env=environment)
 
 
@@ -77,31 +88,12 @@ def test_a_damaged_kernel_is_compiled_again(tmp_path: Path) -> None:
 
 def test_a_kernel_is_compiled_against_one_from_the_cache(tmp_path: Path) -> None:
     """As when one of two was compiled before an interruption: the file held a stub, and calling it crashed."""
-    script = tmp_path / "script.py"
-    script.write_text(
-        textwrap.dedent("""
-            from disc_model.engine.compile import kernel
-            @kernel
-            def inner(x):
-                for i in range(3):
-                    x += 0.5 * x + i
-                return x
-            @kernel
-            def outer(x):
-                return inner(x) + 1.0
-            print(inner(1.0), outer(1.0))
-        """)
-    )
-    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    said = []
-    for _ in range(3):  # the third has the kernel that was compiled against the other one from the cache as well
-        done = subprocess.run(
-            [sys.executable, str(script)], capture_output=True, text=True, env=environment, check=False
-        )
-        said.append((done.returncode, done.stdout))
-        for path in (tmp_path / "cache").rglob("*outer*.kernel") if len(said) == 1 else ():
-            path.unlink()
-    assert said == [(0, "6.875 7.875\n")] * 3
+    said = [ask_for_a_kernel(tmp_path, code=OUTER).stdout]
+    for path in (tmp_path / "cache").rglob("*outer*.kernel"):
+        path.unlink()
+    # the last has the kernel that was compiled against the other one from the cache as well
+    said += [ask_for_a_kernel(tmp_path, code=OUTER).stdout for _ in range(2)]
+    assert said == ["6.875 7.875\n"] * 3
 
 
 def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Path) -> None:

@@ -178,6 +178,7 @@ OTHERS: dict[str, tuple[Parameters, float, Options]] = {
     "record": (P, 55, {"record": Record(windows=ALL.windows[:1])}),
     "stop_at": (P, 55, {"stop_at": "first_separation"}),
     "max_steps": (P, 55, {"max_steps": 300}),
+    "initial state": (P, 55, {"initial_state": lambda start: start.replace(psi=np.nextafter(start.psi, 1))}),
 }
 
 
@@ -188,20 +189,13 @@ class TestNotTrusted:
         run["record"] = ALL
         interrupt(3, P, 55, **run)
         p, t_end, options = OTHERS[name]
+        options = {key: value(run[key]) if callable(value) else value for key, value in options.items()}
         found = simulate(p, t_end, **run | options)
         said = re.search(r"checkpoint (.*) ignored: of another run \(other (.*)\)", caplog.text)
         assert said is not None
         assert said[1] == str(run["checkpoint"])
         assert name in said[2].split(", ")
         same(found, simulate(p, t_end, **run | options | {"checkpoint": None}))
-
-    def test_another_start(self, run: Options, caplog: pytest.LogCaptureFixture) -> None:
-        interrupt(3, P, 55, **run)
-        start = run["initial_state"]
-        moved = start.replace(psi=np.nextafter(start.psi, 1))
-        found = simulate(P, 55, **run | {"initial_state": moved})
-        assert "(other initial state)" in caplog.text
-        same(found, simulate(P, 55, initial_state=moved))
 
     @pytest.mark.parametrize(("function", "name"), [("source_hash", "sources"), ("versions", "versions")])
     def test_another_engine(
