@@ -175,7 +175,10 @@ class Compared:
         """Switches, samples, envelope and energies, as long as the reference is sure; how many switches those were."""
         statistics, events = self.result.statistics, self.result.events
         assert self.result.status.complete, self.result.message
-        assert max(statistics[f"energy_{name}"] for name in ("residual", "transverse", "inplane")) < 1e-11
+        assert (
+            max(statistics[f"energy_{name}"] for name in ("residual", "residual_transverse", "residual_inplane"))
+            < 1e-11
+        )
         sure, horizon, error = self.sure()
         times, kinds = events["time"].to_numpy(), list(events["kind"])
         wanted = self.run.events[:sure]
