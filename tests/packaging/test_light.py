@@ -35,7 +35,7 @@ import disc_model as dm
 
 for name in dm.__all__:
     getattr(dm, name)
-p = dm.Parameters(N=200, Omega=20, n_diameters=1)
+p = dm.Parameters(N=200, Omega=20, n_diameters=1, normalization="orthonormal")
 result = dm.simulate(p, 0.02, record=dm.Record(windows=(dm.Window(last=0.01, rate=1000),)))
 result.save(sys.argv[1])
 assert dm.load(sys.argv[1])["sample_0/P"].sizes["time"] == 11
