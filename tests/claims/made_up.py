@@ -91,8 +91,9 @@ def few(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
 
 
 def erratic(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
-    """E = 100 GPa: lines that have nothing to do with one another, none of them high."""
-    return waves(t, *((f, 1.0) for f in (90.7, 131.9, 210.3, 333.1, 401.9)))
+    """E = 100 GPa: lines that have nothing to do with one another, none of them high, and weak ones that move."""
+    weak = (np.cos(2 * np.pi * (f * t + 0.05 * (t - 470) ** 2)) for f in (151, 177, 189, 231, 243))
+    return waves(t, *((f, 1.0) for f in (90.7, 131.9, 210.3, 333.1, 401.9))) + 0.03 * sum(weak)
 
 
 def driven(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
@@ -105,11 +106,6 @@ def one_more(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     return waves(t, *((126.1 + n * rate + m * drive(p), 1.0) for n in (-1, 0, 1) for m in (-1, 1)))
 
 
-def vertical(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
-    """As `combinations`, with the frequency of the slider on its vertical spring."""
-    return combinations(p, rate, t) + waves(t, (math.sqrt(p.k / p.m) / (2 * np.pi), 0.01))
-
-
 def split(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """One further frequency, and a line 0.15 Hz beside one of its sums with the drive's."""
     return waves(t, (rate, 0.3), (126.1, 1.0), (126.1 + drive(p) + 0.15, 0.5))
@@ -117,7 +113,8 @@ def split(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
 
 def cycle_as_told(p: Parameters) -> Any:
     """What a search for the cycle finds: a stiffer disc and a damped one are more stable, and stick grows with load."""
-    rate = 0.2 * (150e9 / p.E - 0.9) - 1e3 * p.D_star - 0.1 * p.c
+    rate = 0.2 * (150e9 / p.E - 0.9) - 1e3 * p.D_star - 0.1 * p.c - 1e-7 * p.k - (p.N > 1000)
+    rate += 1e-3 * math.sin(math.pi * p.k_p / 5e4)
     return SimpleNamespace(growth_rate=rate, stick_fraction=p.N / 1000, multipliers=(0.5 + 0.9j,))
 
 
@@ -274,6 +271,8 @@ def _events(p: Parameters, story: Story, start: float, stop: float) -> xr.Datase
         angle = 0.05 * (1 + story.wanders * math.sin(j))
         force = 0.0 if story.misprinted else p.r_0 * p.k_p * angle / p.mu_s + p.N
         rows += [(t + dt, kind, phase, angle, -p.N * 1e-5 + 1e-2, velocity, force) for dt, kind, phase in after]
+    if story.contrary:
+        rows = rows[: max((i for i, row in enumerate(rows) if row[1] == "reattachment"), default=len(rows))]
     frame = pd.DataFrame(rows, columns=["time", "kind", "phase", "psi", "u", "u_velocity", "P"])
     return events_dataset(frame).assign_attrs(kept_from=start, kept_until=stop)
 
@@ -326,7 +325,7 @@ def to_the_contrary() -> dict[str, Story]:
         **dict.fromkeys(("T2kp18", "T2kp22", "T2Om12"), STILL.but(signal=erratic)),
         "F02": alone.but(first=480.0),
         "F07": alone.but(first=147.0),
-        "F08": WILD.but(stick=0.005),
+        "F08": WILD.but(stick=0.0005),
         "F09": alone.but(first=117.0),
         "F11": WILD.but(first=100.0),
         "F13": WILD.but(first=55.0, signal=erratic, disc_early=5e-3, early=1.0, second=0.1),
@@ -358,7 +357,7 @@ def scans(
     least, settled : share of stick where it is least, and whether the motion there has settled
     discs : outcome on the softest, a softer and the usual one
     windows : rad/s, where separation begins and ends, at three preloads
-    damped : outcome at the largest preload with in-plane damping
+    damped : outcome at large preloads with in-plane damping, and at a smaller one without
     """
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
@@ -386,11 +385,11 @@ def scans(
         },
         loads | {"horizon": [1000.0]},
     )
-    pulled = np.ones((3, 2, 1), dtype=np.int8)
-    pulled[-1, 1] = flags["flag_meanings"].split().index(damped)
+    pulled = np.ones((5, 2, 1), dtype=np.int8)
+    pulled[2:, 1] = pulled[1, 0] = flags["flag_meanings"].split().index(damped)
     map_c_p = xr.Dataset(
         {"outcome": (("N", "c_p", "normalization"), pulled, flags)},
-        loads | {"c_p": [0, 0.5]},
+        {"N": [50.0, 200.0, 385.0, 500.0, 600.0], "normalization": ["as_published"], "c_p": [0, 0.5]},
         {"base": '{"Omega": 15}'},
     )
     plain = xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]})

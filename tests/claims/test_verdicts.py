@@ -25,10 +25,10 @@ pytestmark = pytest.mark.usefixtures("cycles_as_told")
 BY_NAME = {claim.id: claim for claim in CLAIMS}
 #: Wrong whatever the motion does: about the disc alone, misprints, and attributions that contradict Table 2.
 NEVER = {"P07", "E17", "F21q", "T2c", "T2f", "T2e", "C5"}
-#: A recommendation.
-OPEN = {"C6"}
+#: A sentence with two meanings, and a recommendation.
+OPEN, OTHER = {"P06"}, {"C6"}
 #: Right whatever the motion does, or about the disc alone.
-ALWAYS = {"P01", "P01h", "P02", "P04", "P05", "P06", "F15b"}
+ALWAYS = {"P01", "P01h", "P02", "P04", "P05", "F15b", "S42w", "C1"}
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,10 @@ def slower(p: Parameters) -> pd.DataFrame:
     return modes.assign(omega=modes["omega"] * 608 / (paired["omega"] / paired["diameters"]).min())
 
 
+ANEW = ("S43N550", "S43N550a", "S43N550b", "S43N550c")
+"""The same case at other tolerances."""
+
+
 def some(*names: str, **changes: object) -> dict[str, Story]:
     """Cases as told but for some changes."""
     told = made_up.as_told()
@@ -84,6 +88,10 @@ WORLDS = {
         *("P04", "P05", "P06"),
         coupled_natural_frequencies=lambda p: np.sort(np.append(*[plate_modes(p)["omega"]] * 2))[1:],
     ),
+    "a slider that lowers both of a pair": a_disc(
+        "P06",
+        slider_at_rest_frequencies=lambda p: np.concatenate([plate_modes(p)["omega"] - shift for shift in (9, 3)]),
+    ),
     "a plate without mass and stiffness": a_disc(
         "E17", plate_modes=lambda p: plate_modes(p).assign(omega=np.sqrt(p.D))
     ),
@@ -98,10 +106,24 @@ WORLDS = {
         made_up.to_the_contrary() | {"F17": NOTHING.but(first=810.0), "F18": NOTHING.but(first=263.0)},
         claims=("C3", "C3s", "F10", "F17c", "F18t"),
     ),
-    "one disc vibrates on": World(some("F02", "F13", "F17") | some("F07", sharp=0.0, grows_on=0.001), claims=("S43b",)),
+    "one disc vibrates on": World(
+        some("F02", "F09", "F13", "F17", "F18", "F19", "F22", "F23") | some("F07", sharp=0.0, grows_on=0.001),
+        claims=("S43b",),
+    ),
+    "long separations": World(
+        dict.fromkeys(("F02", "F07", "F09", "F13", "F17", "F18", "F19", "F22"), NOTHING.but(first=30.0)),
+        claims=("F03b", "F03c"),
+    ),
     "two frequencies": World(some("F21", chaotic=False), claims=("F21q",)),
-    "a vertical branch": World(some("F13", signal=made_up.vertical), claims=("C5",)),
-    "no separation": World(dict.fromkeys(("F02", "F09"), STILL), claims=("F15b",)),
+    "separations that follow a spring": World(
+        some("F02", "F07", wanders=0.0, rate=67.63) | some("F02k", "F07k", wanders=0.0, rate=67.63 * 1.000303),
+        claims=("C5",),
+    ),
+    "no separation": World(
+        dict.fromkeys(("F02", "F07", "F09", "F17"), STILL),
+        scans=made_up.scans(windows=((np.nan, np.nan),) * 3),
+        claims=("F15b", "S42w", "C1"),
+    ),
 }
 
 
@@ -113,7 +135,7 @@ def found() -> dict[str, dict[str, str]]:
 
 def test_every_claim_can_hold_and_can_fail(found: dict[str, dict[str, str]]) -> None:
     """A check that comes out the same whatever was computed decides nothing."""
-    for claim in BY_NAME.keys() - OPEN:
+    for claim in BY_NAME.keys() - OTHER:
         verdicts = {each[claim] for each in found.values() if claim in each}
         assert FAILS in verdicts, claim
         assert verdicts & {HOLDS, REMARK}, claim
@@ -124,6 +146,7 @@ def test_what_happened_as_told_holds_and_the_contrary_does_not(found: dict[str, 
     assert {claim for claim, verdict in told.items() if verdict == FAILS} == NEVER
     assert {claim for claim, verdict in told.items() if verdict == UNDECIDED} == OPEN
     assert {claim for claim, verdict in contrary.items() if verdict not in (FAILS, NOT_TESTABLE)} == ALWAYS | OPEN
+    assert {told[claim] for claim in OTHER} == {NOT_TESTABLE}
 
 
 def test_remarks_do_not_contradict_their_verdicts(found: dict[str, dict[str, str]]) -> None:
@@ -221,8 +244,8 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
         ("C4E", {"discs": ("separation",) * 3}, {}, FAILS, "separation for every E"),
         ("C4E", {"discs": ("quiet",) * 3}, {}, UNDECIDED, "nothing on the map separates"),
         # a separation that does not end is not short
-        ("F03b", None, {}, HOLDS, "median 0.74 ms"),
-        ("F03b", None, {"F02": without_the_last_reattachment}, FAILS, "the last one lasts since"),
+        ("F03b", None, {}, HOLDS, "0.74 ms, 5 % of the"),
+        ("F03c", None, {"F02": without_the_last_reattachment}, FAILS, "the last one of F02 lasts since"),
         # more modes that do not separate are a change: nan is no maximum
         ("P03", None, {}, REMARK, ""),
         ("P03", None, {"P03l6": root_with(first_separation=np.nan, n_separations=0)}, FAILS, ""),
@@ -266,6 +289,19 @@ def test_a_verdict_by_what_is_there(
         ("F18t", some("F18", "F18bonded"), HOLDS),
         ("F18t", some("F18") | {"F18bonded": made_up.BONDED.but(first=263.0)}, UNDECIDED),
         ("F18t", {"F18": GROWING.but(first=263.0, contrary=True), "F18bonded": STILL}, FAILS),
+        # the same for lines and power: the paper's "due to separation" had no control
+        *(
+            (claim, some("F13") | {"F13bonded": made_up.BONDED.but(signal=made_up.turns, first=54.45)}, UNDECIDED)
+            for claim in ("F25c", "F25d", "F26")
+        ),
+        ("F27c", some("F07") | {"F06": made_up.BONDED.but(signal=made_up.coupled)}, UNDECIDED),
+        # what 0.1 % of a parameter turns is no verdict
+        ("F05", some("F02", "F02free") | {"F02k": GROWING.but(first=149.45)}, UNDECIDED),
+        # stable while it sticks, by definition
+        ("S43Ns", some("S43Ninf") | {"S43N3e3": GROWING}, UNDECIDED),
+        ("S43Nl", some("F16", "F17", "F11", "S43N600", *ANEW), HOLDS),
+        ("S43Nl", some("F16", "F17", "F11", "S43N600") | dict.fromkeys(ANEW, GROWING.but(first=380.0)), FAILS),
+        ("S43Nl", some("F16", "F17", "F11", *ANEW) | {"S43N600": GROWING}, FAILS),
         # two lines that are one if lines 0.2 Hz apart are
         ("F29b", some("F21", signal=made_up.split), UNDECIDED),
         # one further frequency has six lines with the stick-slip rate and the drive's
@@ -274,7 +310,7 @@ def test_a_verdict_by_what_is_there(
         ("T2a", some("F13", signal=made_up.few), FAILS),
         ("T2e", some("F13", signal=made_up.few), FAILS),
         # the static deflection that passes the point is no vibration
-        ("F27b", some("F07", signal=made_up.driven), REMARK),
+        ("F27b", some("F07", signal=made_up.driven), UNDECIDED),
         ("F27b", some("F07", signal=made_up.combinations), FAILS),
     ],
 )
@@ -285,7 +321,7 @@ def test_a_verdict_by_what_happened(claim: str, stories: dict[str, Story], verdi
 def test_one_further_frequency_is_judged_with_half_the_bound_as_well() -> None:
     """The second was looked for where only one was asked for: an IndexError ended the table."""
     cases = views(made_up.made_up(some("F21", signal=made_up.one_more)))
-    assert "with several = 1" in BY_NAME["F29b"].settle(cases)[1]
+    assert "with several = 1" in BY_NAME["F29b"].settle(lambda one: one.evaluate(cases))[1]
 
 
 def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -304,7 +340,7 @@ def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.M
     assert "with k 0.1 % larger it repeats after 44 releases" in said.remark
 
 
-@pytest.mark.parametrize("claim", ["F05", "F07", "F22", "F28", "F21", "F29b"])
+@pytest.mark.parametrize("claim", ["F05", "F07", "F22", "F28", "F21q", "F29b"])
 def test_between_regular_and_chaotic_nothing_is_decided(
     claim: str, told: xr.DataTree, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -82,10 +82,11 @@ def pairs_split(*, within: float) -> Answer:
     lowered = []
     for below, omega in pairwise(disc):
         between = attached[(attached > below + within) & (attached < omega - within)]
-        lowered += [omega - float(between[0])] if between.size == 1 else []
+        lowered += [omega - float(between[0])] if between.size else []
     kept = [omega for omega in disc[1:] if np.min(np.abs(attached - omega)) < within]
     split = len(lowered) == len(disc) - 1
-    return Answer(split, count=len(lowered), pairs=len(disc) - 1, lowered=lowered, kept=kept, stays=len(kept))
+    counts = {"count": len(lowered), "pairs": len(disc) - 1, "lowered": lowered, "kept": kept, "stays": len(kept)}
+    return Answer(None if split and kept else split, "one", **counts)
 
 
 @CHECKS("P07")

@@ -47,7 +47,7 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     cases = views(tree, scans)
     rows = []
     for claim in CLAIMS:
-        (found, turned), said = claim.settle(cases), claim.said
+        (found, turned), said = claim.settle(lambda one, *changed: one.evaluate(cases, *changed)), claim.said
         texts = (claim.id, said.location, claim.text, said.paper, found.ours, claim.tolerance, said.reason)
         rows.append((*texts, found.verdict, found.remark, said.apart, turned))
     return pd.DataFrame(rows, columns=list(COLUMNS))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import FEWEST, Motion, motion_of, stick_disappears
+from disc_model.analysis.classify import CLOSES, FEWEST, Motion, motion_of, stick_disappears
 from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -54,10 +54,11 @@ class Range(NamedTuple):
 
 @dataclass(frozen=True)
 class CaseView:
-    """One case, opened for reading."""
+    """One case, opened for reading; ``scaled``: parameters taken to be other multiples of what they were."""
 
     name: str
     node: xr.DataTree
+    scaled: tuple[tuple[str, float], ...] = ()
 
     def __getitem__(self, name: str) -> float:
         """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
@@ -65,7 +66,8 @@ class CaseView:
 
     @property
     def parameters(self) -> Parameters:
-        return Parameters.model_validate_json(self.node.attrs["parameters"])
+        p = Parameters.model_validate_json(self.node.attrs["parameters"])
+        return p.replace(**{name: factor * getattr(p, name) for name, factor in self.scaled}) if self.scaled else p
 
     @property
     def status(self) -> str:
@@ -235,10 +237,13 @@ def release_intervals(case: CaseView) -> Array:
     return intervals
 
 
-def late_motion(case: CaseView) -> tuple[Motion, str]:
-    """What the in-plane motion is within the events kept, see `disc_model.analysis.classify`; and that in words."""
+def late_motion(case: CaseView, closes: float = CLOSES) -> tuple[Motion, str]:
+    """What the in-plane motion is within the events kept, and that in words.
+
+    closes : s, see `disc_model.analysis.classify.motion_of`
+    """
     intervals = release_intervals(case)
-    motion = motion_of(intervals)
+    motion = motion_of(intervals, closes)
     if not motion.period:
         test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
         rate = f"{1 / intervals.mean():.1f} releases/s"
@@ -251,10 +256,16 @@ def late_motion(case: CaseView) -> tuple[Motion, str]:
     return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
 
-def is_kind(kind: Outcome, motion: Motion, besides: bool = True) -> tuple[bool | None, str]:
-    """Whether a motion is of a kind and what else is claimed, `besides`, is so; or why that is open."""
-    if besides and motion.kind is Outcome.UNDECIDED:
+def is_kind(kind: Outcome, motion: Motion, besides: bool = True, near: Motion | None = None) -> tuple[bool | None, str]:
+    """Whether a motion is of a kind and what else is claimed, `besides`, is so; or why that is open.
+
+    near : the motion with a parameter changed by 0.1 %, which must be of the kind, too, or not either
+    """
+    kinds = [motion.kind, (near or motion).kind]
+    if besides and Outcome.UNDECIDED in kinds:
         return None, "chaos"
+    if besides and kinds.count(kind) == 1:
+        return None, "neighbour"
     return besides and motion.kind is kind, ""
 
 
@@ -270,9 +281,8 @@ def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
     ]
 
 
-def nearby(motion: Motion, near: CaseView) -> list[dict[str, str]]:
+def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
     """What becomes of a motion that repeats where a spring is 0.1 % stiffer; nothing if its period stays."""
-    other, _ = late_motion(near)
     said = f"it repeats after {counted(other.period, 'release')}" if other.period else f"it is {other}"
     return [{"with": said}] if motion.period not in (0, other.period) else []
 

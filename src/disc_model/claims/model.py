@@ -31,6 +31,7 @@ UNDECIDED = "undecided"
 NOT_TESTABLE = "not testable"
 NOT_COMPUTED = "not computed"
 FOLDER = Path(__file__).parent
+PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k", "k_p", "m", "N", "Omega")
 PAPER = FOLDER.parent / "config" / "paper.yaml"
 
 
@@ -60,7 +61,7 @@ class Answer:
     Parameters
     ----------
     holds : whether the claim holds; None if the evidence does not decide it
-    why : in that case, which of the text's reasons for it applies
+    why : in that case, which of the text's reasons for it applies; none of them, if no evidence of this kind can
     values : what the sentences are filled with beside bounds and cases (each by its name, the first as ``case``, all as
         rows of ``cases``); a remark is added if the value of its name is true
     """
@@ -95,6 +96,7 @@ class Text(BaseModel):
     separates : those of them that the claim says something of after separation: without one it is not testable; true
         stands for all in which contact can be lost
     steady : those whose steady state it is about: one that has not come to it by its end decides nothing
+    computed : whether only their parameters count, so that it can be judged again with each of them changed
     scans : the grid studies that the check is given besides
     ours : what we found
     remark, remarks : what should be known besides: in any case; where the value of that name is true
@@ -114,6 +116,7 @@ class Text(BaseModel):
     cases: dict[str, float] = {}
     separates: Names = ()
     steady: Names = ()
+    computed: bool = False
     scans: tuple[str, ...] = ()
     ours: str
     remark: str = ""
@@ -125,6 +128,8 @@ class Text(BaseModel):
 
 RELATIVE = frozenset({"bounded", "factor", "part", "ratio", "share"})
 """Bounds without unit, which are compared with 1."""
+CHANGED = 1.001
+"""By how much a parameter is changed to see whether that turns a verdict."""
 
 
 @dataclass(frozen=True)
@@ -168,10 +173,15 @@ class Claim:
         except Missing as missing:
             return _without(missing)
 
-    def evaluate(self, cases: Mapping[str, CaseView]) -> Finding:
-        """Check the claim; without the evidence it needs, the verdict says what is missing."""
+    def evaluate(self, cases: Mapping[str, CaseView], changed: str = "") -> Finding:
+        """Check the claim; without the evidence it needs, the verdict says what is missing.
+
+        changed : a parameter that is taken to be 0.1 % larger
+        """
         try:
             needed = {name: _needed(cases, name, until) for name, until in self.said.cases.items()}
+            if changed:
+                needed = {name: replace(case, scaled=((changed, CHANGED),)) for name, case in needed.items()}
             for name in self.said.scans:
                 if name not in cases:
                     raise Missing(f"study {name} is not among those of this run")
@@ -185,35 +195,42 @@ class Claim:
         except Missing as missing:
             return _without(missing)
 
-    def settle(self, cases: Mapping[str, CaseView]) -> tuple[Finding, str]:
-        """What the claim comes to, undecided if a threshold halved or doubled turns it; and what turns it."""
-        found = self.evaluate(cases)
-        turned = self.turned_by(cases, found.verdict)
+    def settle(self, judge: Callable[..., Finding]) -> tuple[Finding, str]:
+        """What the claim comes to, undecided if a threshold halved or doubled turns it; and what turns it.
+
+        judge : what a claim, this one or with other thresholds, comes to; with a parameter changed if it is `computed`
+        """
+        found = judge(self)
+        turned = self.turned_by(judge, found.verdict)
         if turned not in ("", "stable") and found.verdict != UNDECIDED:
-            remark = "; ".join(filter(None, (f"it hangs on a threshold: {turned}", found.remark)))
+            remark = "; ".join(filter(None, (f"small changes turn it: {turned}", found.remark)))
             found = replace(found, verdict=UNDECIDED, remark=remark)
         return found, turned
 
-    def turned_by(self, cases: Mapping[str, CaseView], verdict: str) -> str:
-        """Which of its bounds, halved or doubled, turns this verdict of the claim, and into what; else "stable".
+    def turned_by(self, judge: Callable[..., Finding], verdict: str) -> str:
+        """Which of its bounds, halved or doubled, or which parameter, changed, turns this verdict; else "stable".
 
         Of shares and ratios between 0.5 and 2, what is halved or doubled is their distance from 1.
         """
-        if not self.said.bounds or verdict.startswith(NOT_COMPUTED):
+        if not (self.said.bounds or self.said.computed) or verdict.startswith(NOT_COMPUTED):
             return ""
-        turned = []
+        others = {}
         for name, bound in self.said.bounds.items():
             for factor in (0.5, 2.0):
                 other = 1 + factor * (bound - 1) if name in RELATIVE and 0.5 < bound < 2 else factor * bound
                 said = self.said.model_copy(update={"bounds": self.said.bounds | {name: other}})
-                found = replace(self, said=said).evaluate(cases).verdict
-                if found.replace(REMARK, HOLDS) != verdict.replace(REMARK, HOLDS):
-                    turned.append(f"{found} with {name} = {other:.4g}")
+                others[f"{name} = {other:.4g}"] = judge(replace(self, said=said)).verdict
+        if self.said.computed:
+            others |= {f"{name} 0.1 % larger": judge(self, name).verdict for name in PHYSICAL}
+        kind = verdict.replace(REMARK, HOLDS)
+        turned = [f"{other} with {name}" for name, other in others.items() if other.replace(REMARK, HOLDS) != kind]
         return "; ".join(turned) or "stable"
 
     def _found(self, answer: Answer, cases: Mapping[str, CaseView] | None = None) -> Finding:
         said, values = self.said, self.numbers | rows_of(cases or {}) | answer.values
-        if answer.holds is None:
+        if answer.holds is None and not answer.why:
+            remarks, verdict = [said.remark], NOT_TESTABLE
+        elif answer.holds is None:
             remarks, verdict = [said.undecided[answer.why]], UNDECIDED
         else:
             remarks = [*filter(None, [said.remark]), *(text for name, text in said.remarks.items() if values[name])]

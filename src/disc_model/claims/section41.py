@@ -21,13 +21,13 @@ FULL = 1.1
 """A section is full if its last points hold no more different ones than the last half of them, but for so much."""
 
 
-@CHECKS("F02a")
+@CHECKS("F02a", "F13g")
 def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
     if not case.separates:
         raise Absent(f"case {case.name}: no separation in {case['time_reached']:g} s")
     before = case["first_separation"]
     late = case.range_of("P", before - 20, before)
-    return Answer(late.width > factor * case.early.width, late=late)
+    return Answer(late.width > factor * case.early.width, late=late, count=case["n_separations"])
 
 
 @CHECKS("F02b")
@@ -51,17 +51,25 @@ def contact_is_lost_upward(case: CaseView, *, share: float) -> Answer:
 
 
 @CHECKS("F03b")
-def separations_are_short(case: CaseView, *, part: float) -> Answer:
-    durations, still_open = measures.separation_durations(case)
-    period = 1 / measures.rate_of(case, "separation")
-    return Answer(
-        max(durations.max(), still_open) < part * period,
-        median=1e3 * np.median(durations),
-        longest=1e3 * durations.max(),
-        period=1e3 * period,
-        percent=100 * measures.phase_share(case, "separation"),
-        lasting=[{"ms": 1e3 * still_open}] if still_open > 0 else [],
-    )
+def separations_are_short(*cases: CaseView, part: float) -> Answer:
+    found = []
+    for case in cases:
+        durations, still_open = measures.separation_durations(case)
+        longest, period = max(durations.max(), still_open), 1 / measures.rate_of(case, "separation")
+        found.append({"case": case, "ms": 1e3 * longest, "period": 1e3 * period, "percent": 100 * longest / period})
+    return Answer(max(row["percent"] for row in found) < 100 * part, longest=found)
+
+
+@CHECKS("F03c")
+def separations_end(*cases: CaseView, factor: float) -> Answer:
+    """Whether none goes on for much longer than any that has ended."""
+    lasting, count = [], 0
+    for case in cases:
+        durations, still_open = measures.separation_durations(case)
+        count += durations.size
+        if still_open > factor * durations.max():
+            lasting.append({"case": case, "ms": 1e3 * still_open})
+    return Answer(not lasting, count=count, lasting=lasting)
 
 
 @CHECKS("F04", "F06", "F12")
@@ -72,19 +80,19 @@ def releases_regularly(case: CaseView, *, within: float) -> Answer:
 
 
 @CHECKS("F05", "F07", "F28")
-def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown: float) -> Answer:
+def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown: float, closes: float) -> Answer:
     """Whether the in-plane motion is quasi-periodic.
 
     ``other`` has the same parameters and another start, ``near`` the same start and a spring 0.1 % stiffer.
     """
-    motion, _ = measures.late_motion(case)
+    motion, beside = (measures.late_motion(each, closes)[0] for each in (case, near))
     length = measures.release_intervals(case)[: motion.period].sum() if motion.period else 0.0
     return Answer(
-        *is_kind(Outcome.QUASI_PERIODIC, motion),
+        *is_kind(Outcome.QUASI_PERIODIC, motion, near=beside),
         longer=length > shown,
         within=0 < length <= shown,
         irregular=motion.kind is Outcome.IRREGULAR,
-        nearby=measures.nearby(motion, near),
+        nearby=measures.nearby(motion, beside),
         another=motion.kind is not Outcome.UNDECIDED and measures.another_motion((case, other)),
     )
 
@@ -93,6 +101,13 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
 def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
     stick, (motion, _) = measures.phase_share(case, "stick"), measures.late_motion(case)
     return Answer(stick > share, percent=100 * stick, motion=motion, modulated=not motion.period)
+
+
+@CHECKS("S41s")
+def bonded_cases_stick(*cases: CaseView, share: float) -> Answer:
+    shares = [measures.phase_share(case, "stick") for case in cases]
+    rows = [{"case": case, "percent": 100 * stick} for case, stick in zip(cases, shares, strict=True)]
+    return Answer(min(shares) > share, sticks=rows)
 
 
 @CHECKS("F09")
@@ -218,7 +233,7 @@ def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
 @CHECKS("C6")
 def should_be_considered(*cases: CaseView) -> Answer:
     """No computation of one system decides on many."""
-    return Answer(None, "many", ranges=_ranges(cases))
+    return Answer(None, ranges=_ranges(cases))
 
 
 @CHECKS("A1")

@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.claims import measures
 from disc_model.claims.disc import moving_load_speed
-from disc_model.claims.measures import CaseView, Range
+from disc_model.claims.measures import Absent, CaseView, Range
 from disc_model.claims.model import CHECKS, Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
@@ -63,9 +63,16 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     )
 
 
+@CHECKS("F14d")
+def very_different(*cases: CaseView, factor: float) -> Answer:
+    rows = [{"case": case, "motion": measures.late_motion(case)[0]} for case in cases]
+    below, above = (case.late.width for case in cases)
+    return Answer(above > factor * below, motions=rows)
+
+
 @CHECKS("S42w")
-def one_speed_divides(study: xr.Dataset, *, within: float) -> Answer:
-    """Whether no window of separation wider than ``within`` has speeds above it at which contact is kept."""
+def can_separate_above(study: xr.Dataset, *, within: float) -> Answer:
+    """Whether there is a speed above which contact is lost somewhere; windows wider than ``within`` are a remark."""
     study = _scanned(study).isel(horizon=-1)
     rows: list[dict[str, Any]] = []
     for N in study["N"].values:
@@ -73,7 +80,12 @@ def one_speed_divides(study: xr.Dataset, *, within: float) -> Answer:
         ends = np.flatnonzero(flag_names(kinds) == "ends")
         windows = [Range(*speeds.values[[i - 1, i]]) for i in ends if speeds[i] - speeds[i - 1] > within]
         rows += [{"N": N, "windows": windows}] if windows else []
-    return Answer(not rows, loads=rows, again=bool(rows), count=study.sizes["N"], horizon=float(study["horizon"]))
+    lowest = study["critical_speed"].values
+    found = np.isfinite(lowest)
+    if not found.any():
+        raise Absent("no separation at any preload and speed")
+    speeds, horizon = measures.extent(lowest[found]), float(study["horizon"])
+    return Answer(True, loads=rows, speeds=speeds, some=found.sum(), count=found.size, horizon=horizon)
 
 
 def _scanned(study: xr.Dataset) -> xr.Dataset:

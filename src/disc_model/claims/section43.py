@@ -9,12 +9,15 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from disc_model.analysis.classify import closure, irregularity, separation_location
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
 from disc_model.claims.disc import BASE, moving_load_speed
 from disc_model.claims.measures import (
+    STRETCH,
+    Array,
     CaseView,
     between_only,
     first_separation,
@@ -26,9 +29,14 @@ from disc_model.claims.measures import (
 from disc_model.claims.model import CHECKS, Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
+from disc_model.parameters import Parameters
 
-STIFFNESSES = {"k": (50, 60, 70, 80, 90, 100, 110, 130, 148, 200), "k_p": (20, 30, 36, 47, 55, 63, 73, 84, 130, 200)}
-"""Of the springs normal to the disc and in its plane, kN/m: between those that the paper tries."""
+STIFFENED = {
+    "E": (1e9, "GPa", (100, 150, 200)),
+    "k": (1e3, "kN/m", (20, 30, 50, 60, 70, 80, 90, 100, 110, 130, 148, 200)),
+    "k_p": (1e3, "kN/m", (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)),
+}
+"""Disc and springs with their units and values: those that the paper tries, and others between them."""
 SPEEDS = (7.5, 8.75, 10, 12.6, 15, 20, 30, 50)
 """rad/s, at which twice the disc's damping is tried."""
 GREW = 1.02
@@ -70,6 +78,14 @@ def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
     )
 
 
+@CHECKS("S43Ns")
+def stable_while_it_sticks(stuck: CaseView, large: CaseView) -> Answer:
+    """Stick alone is damped; the largest preload at which the slider is released is another system."""
+    holds = stuck["time_slip"] == 0 and not stuck.separates
+    released = large.separates or _grew(large) or not growth_or_nan(large.parameters) < 0
+    return Answer(None if holds and released else holds, "released")
+
+
 @CHECKS("S43s")
 def stick_longer(*cases: CaseView) -> Answer:
     small, large = (100 * measures.cycle_of(case.parameters).stick_fraction for case in cases)
@@ -96,15 +112,21 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     )
 
 
-@CHECKS("S43D")
-def more_disc_damping(case: CaseView) -> Answer:
-    rates = [measures.cycle_of(case.parameters.replace(D_star=value)).growth_rate for value in (0.0, 1e-5, 2e-5)]
-    return Answer(rates[0] > rates[1] > rates[2], rates=[said_rate(rate, "/s") for rate in rates])
+@CHECKS("S43D", "C4c")
+def damping_stabilises(case: CaseView, **damper: float) -> Answer:
+    """Whether a damper, and as much again, lowers the growth of every cycle that grows, on a grid of loads and speeds."""
+    ((name, value),) = damper.items()
+    effects = [_effect_of(case, name, little, little + value) for little in (0.0, value)]
+    growing, lowered = (sum(effect[key] for effect in effects) for key in ("growing", "lowered_growing"))
+    raised = [place for effect in effects for place in effect["places"]]
+    return Answer(
+        growing == lowered > 0, growing=growing, lowered=lowered, raised=[{"where": raised}] if raised else []
+    )
 
 
-def _grew(case: CaseView) -> bool:
+def _grew(case: CaseView, factor: float = GREW) -> bool:
     """Whether the contact force ranges wider at the end than at first."""
-    return GREW * case.early.width < case.late.width
+    return factor * case.early.width < case.late.width
 
 
 @CHECKS("F16", "F20")
@@ -126,12 +148,18 @@ def separates(case: CaseView) -> Answer:
 
 @CHECKS("S43N")
 def preload(*cases: CaseView) -> Answer:
-    """Larger preloads than those that the paper tries may be unstable again: that is a remark."""
-    largest, again = cases[3], cases[4:]
-    beyond = [{"case": again[0], "onset": first_separation(*again)}] if again[0].separates else []
-    if largest.separates or _grew(largest):
-        beyond.append({"case": largest, "onset": largest.onset})
-    return Answer(between_only(cases[:3]), loads=rows(cases[:3]), beyond=beyond)
+    return Answer(between_only(cases), loads=rows(cases))
+
+
+@CHECKS("S43Nl")
+def only_between(
+    small: CaseView, middle: CaseView, large: CaseView, largest: CaseView, *again: CaseView, factor: float
+) -> Answer:
+    """Whether preloads are stable that are larger, too, than those that the paper tries."""
+    unstable = [case.separates or _grew(case, factor) for case in (small, middle, large, largest)]
+    beyond = [{"case": again[0], "first": first_separation(*again)}, {"case": largest, "first": largest.first}]
+    holds = unstable == [False, True, False, False] and not again[0].separates
+    return Answer(holds, loads=rows((small, middle, large)), beyond=beyond)
 
 
 @CHECKS("S43z")
@@ -147,18 +175,18 @@ def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
 
 
 @CHECKS("S43d")
-def disc_damping(*cases: CaseView) -> Answer:
+def disc_damping(*cases: CaseView, factor: float) -> Answer:
     rates = {speed: growth_or_nan(cases[1].parameters.replace(Omega=float(speed))) for speed in SPEEDS}
     said = [f"{speed:g}: {said_rate(rate)}" for speed, rate in rates.items()]
-    stable = [not case.separates and not _grew(case) for case in cases]
+    stable = [not case.separates and not _grew(case, factor) for case in cases]
     holds = all(stable) if len({*stable}) == 1 else None
     return Answer(holds, "speed", rates=said)
 
 
 @CHECKS("F19")
-def inplane_damping(without: CaseView, case: CaseView) -> Answer:
-    periodic = measures.late_motion(case)[0].period > 0
-    return Answer(not without.separates and case.separates and periodic, **_effect_of(case, "c_p"))
+def inplane_damping(without: CaseView, case: CaseView, *, closes: float) -> Answer:
+    periodic = measures.late_motion(case, closes)[0].period > 0
+    return Answer(not without.separates and case.separates and periodic, **_effect_of(case, "c_p", 0.0, case["c_p"]))
 
 
 @CHECKS("F19d")
@@ -178,40 +206,37 @@ def disc_repeats(case: CaseView, *, within: float) -> Answer:
 
 @CHECKS("F21")
 def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
-    end = case["time_reached"]
-    third, last = (case.range_of("P", a * end, b * end) for a, b in ((0.5, 0.75), (0.75, 1.0)))
-    motion, _ = measures.late_motion(case)
-    within = max(third.width, last.width) < bounded * min(third.width, last.width)
-    return Answer(
-        *is_kind(Outcome.IRREGULAR, motion, not case.separates and last.width > factor * case.early.width and within),
-        last=last,
-    )
+    count = int(case["time_reached"] / (4 * STRETCH))
+    widths = case.last_widths("P", STRETCH, 2 * count)
+    last, before = float(np.median(widths[:count])), float(np.median(widths[count:]))
+    grown = last > factor * case.early.width
+    return Answer(not case.separates and grown and last < bounded * before, last=last, before=before, most=max(widths))
 
 
 @CHECKS("F21q")
-def seems_quasi_periodic(case: CaseView) -> Answer:
-    return Answer(*is_kind(Outcome.QUASI_PERIODIC, measures.late_motion(case)[0]))
+def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
+    return Answer(*is_kind(Outcome.QUASI_PERIODIC, measures.late_motion(case, closes)[0]))
 
 
 @CHECKS("S43k")
 def normal_stiffness(*cases: CaseView) -> Answer:
     times = [case["first_separation"] for case in cases[:3]]
-    base, stiff = cases[2:]
     sooner = bool(np.all(np.diff(times) > 0))  # false if one does not separate
-    return Answer(sooner and not stiff.separates and not _grew(stiff), between=_between(base, "k", 20, 50))
+    return Answer(sooner and not cases[3].separates and not _grew(cases[3]))
 
 
 @CHECKS("F22")
-def soft_inplane(case: CaseView, near: CaseView) -> Answer:
-    motion, _ = measures.late_motion(case)
-    repeats, nearby = motion.period > 0, measures.nearby(motion, near)
-    return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates), repeats=repeats, nearby=nearby)
+def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
+    motion, beside = (measures.late_motion(each, closes)[0] for each in (case, near))
+    repeats, nearby = motion.period > 0, measures.nearby(motion, beside)
+    return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates, beside), repeats=repeats, nearby=nearby)
 
 
 @CHECKS("S43kp")
 def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
-    return Answer(sooner and not stiff.separates and not _grew(stiff), between=_between(base, "k_p", 50))
+    faster = growth_or_nan(base.parameters) > growth_or_nan(soft.parameters)
+    return Answer(sooner and faster and not stiff.separates and not _grew(stiff))
 
 
 @CHECKS("F23")
@@ -260,22 +285,43 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
 
 
 @CHECKS("C4N")
-def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
-    """Whether from some preload on all separate with the damper that do not without."""
-    study = study.sel(normalization="as_published").sortby("N")
-    outcome = flag_names(study["outcome"].sel(c_p=[0.0, c_p]).transpose("c_p", "N"))
+def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> Answer:
+    """Whether from some preload on all separate with the damper that do not without: the largest of these decide."""
+    loads, damping, apart = _separations(study)
+    without, damped = apart[:, damping == 0][:, 0], apart[:, damping == c_p][:, 0]
+    newly, spared = damped & ~without, without & ~damped
+    largest = newly[~without][-int(few) :]
+    return Answer(
+        bool(largest.all()) if len({*largest}) == 1 else None,
+        "some",
+        N=measures.extent(loads),
+        compared=measures.extent(loads[~without][-int(few) :]),
+        Omega=json.loads(study.attrs["base"])["Omega"],
+        newly=[f"{N:g}" for N in loads[newly]] or ["none"],
+        spared=[f"{N:g}" for N in loads[spared]] or ["none"],
+    )
+
+
+def _separations(study: xr.Dataset) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Preloads, dampers in the disc's plane, and whether the static start separates: (N,), (c_p,), (N, c_p)."""
+    study = study.sel(normalization="as_published").sortby(["N", "c_p"])
+    outcome = flag_names(study["outcome"].transpose("N", "c_p"))
     if np.any(outcome == "failed"):
         raise Missing("study map_c_p has points that failed")
-    without, damped = outcome == "separation"
-    loads, newly, spared = study["N"].values, damped & ~without, without & ~damped
-    said = {name: [f"{N:g}" for N in loads[at]] or ["none"] for name, at in (("newly", newly), ("spared", spared))}
-    return Answer(bool(newly[-1]), N=measures.extent(loads), Omega=json.loads(study.attrs["base"])["Omega"], **said)
+    return study["N"].values, study["c_p"].values, outcome == "separation"
 
 
-@CHECKS("C4c")
-def vertical_damping(case: CaseView) -> Answer:
-    effect = _effect_of(case, "c")
-    return Answer(effect["lowered"] == effect["points"] - effect["without"] > 0, **effect)
+@CHECKS("C4m")
+def not_monotonous(*evidence: Any) -> Answer:
+    """Whether each of three parameters makes stable what is unstable somewhere, and unstable what is stable."""
+    *cases, study = evidence
+    loads, _, apart = _separations(study)
+    changes = {"newly": apart & ~apart[:, :1], "spared": ~apart & apart[:, :1]}
+    rates, said = _stiffened(cases[0].parameters.replace(Omega=50, N=300), "k_p")
+    signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
+    counts = {name: [f"{N:g}" for N in loads[at.any(axis=1)]] or ["none"] for name, at in changes.items()}
+    both = all(at.any() for at in changes.values())
+    return Answer(between_only(cases) and both and {-1, 1} <= signs, loads=rows(cases), rates=said, **counts)
 
 
 @CHECKS("C4")
@@ -286,23 +332,23 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
         not without.separates and any(damped) and not small.separates,
         large=rows((without, weak, shown, strong)),
         not_all=not all(damped),
-        **_effect_of(shown, "c_p"),
+        **_effect_of(shown, "c_p", 0.0, shown["c_p"]),
     )
 
 
 @CHECKS("S43E")
-def elasticity(*cases: CaseView) -> Answer:
-    points = [case.parameters for case in cases]
-    *rates, soft, base = [measures.cycle_of(p).growth_rate for p in (*points, points[-1].replace(E=150e9))]
-    monotonous = rates[0] > rates[1] > rates[2]
-    return Answer(
-        monotonous and rates[2] < 0,
-        discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases[:3]],
-        order="" if monotonous else "not monotonous: ",
-        state="stable" if rates[0] < 0 else "unstable",
-        soft=soft,
-        base=base,
-    )
+def stiffer_disc(*cases: CaseView) -> Answer:
+    by_speed = {speed: _stiffened(cases[0].parameters.replace(Omega=speed, E=BASE.E), "E") for speed in (11, 20)}
+    falls = [bool(np.all(np.diff(rates) < 0)) for rates, _ in by_speed.values()]
+    rates = [{"Omega": speed, "said": said} for speed, (_, said) in by_speed.items()]
+    return Answer(all(falls), discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases], rates=rates)
+
+
+@CHECKS("S43kg")
+def stiffer_spring(case: CaseView) -> Answer:
+    by_speed = {speed: _stiffened(case.parameters.replace(Omega=speed), "k") for speed in (20, 50)}
+    falls = [not np.any(np.diff(rates[np.isfinite(rates)]) >= 0) for rates, _ in by_speed.values()]
+    return Answer(all(falls), rates=[{"Omega": speed, "said": said} for speed, (_, said) in by_speed.items()])
 
 
 @CHECKS("C4E")
@@ -373,43 +419,53 @@ def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     return Answer(min(shares) <= share, shares="; ".join(said), another=another)
 
 
-def _effect_of(case: CaseView, damper: str) -> dict[str, Any]:
-    """At how many loads and speeds a damper lowers growth, raises it, or ends a stable cycle.
+@CHECKS("C1")
+def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
+    """Whether some separate for which sliding without friction is stable."""
+    from disc_model.stability.sliding import steady_sliding
 
-    Where it leaves no stick-slip cycle near the start, the motion is steady sliding, whose growth is compared.
+    smooth = [steady_sliding(case.parameters.replace(mu_s=0.0, mu_k=0.0)).growth_rate for case in cases]
+    said = [{"case": case, "rate": said_rate(rate, "/s")} for case, rate in zip(cases, smooth, strict=True)]
+    stable = [rate < growth for rate in smooth]
+    return Answer(any(case.separates and calm for case, calm in zip(cases, stable, strict=True)), smooth=said)
+
+
+def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[str, Any]:
+    """At how many loads and speeds more of a damper lowers growth, raises it, or ends a stable cycle.
+
+    Where it leaves no stick-slip cycle near the start, the motion is steady sliding, whose growth is compared if the
+    damper is that in the disc's plane; ``growing`` counts cycles that grow with little of it and are there with much.
     """
     from disc_model.stability.sliding import steady_sliding
 
     loads_and_speeds = [*product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))]
-    lowered, slides, ended, lost, raised = 0, 0, 0, 0, []
+    found = {"lowered": 0, "slides": 0, "ended": 0, "growing": 0, "lowered_growing": 0}
+    places = []
     for N, speed in loads_and_speeds:
         p = case.parameters.replace(N=N, Omega=speed)
-        without, damped = growth_or_nan(p.replace(**{damper: 0.0})), growth_or_nan(p)
+        without, damped = (growth_or_nan(p.replace(**{damper: value})) for value in (little, much))
         gone = math.isnan(damped)
-        rate = steady_sliding(p).growth_rate if gone and damper == "c_p" else damped
-        lowered += rate < without
-        slides += gone and rate < without
-        ended += gone and without < 0 and not rate < without
-        lost += math.isnan(rate)
+        rate = steady_sliding(p.replace(**{damper: much})).growth_rate if gone and damper == "c_p" else damped
+        found["lowered"] += rate < without
+        found["slides"] += gone and rate < without
+        found["ended"] += gone and without < 0 and not rate < without
+        found["growing"] += without > 0 and not gone
+        found["lowered_growing"] += without > 0 and damped < without
         if not gone and rate > without:
-            raised.append(f"{measures.place(N, speed)}: {without:+.4f} to {rate:+.4f}/s")
-    return {
+            places.append(f"{measures.place(N, speed)}: {without:+.4f} to {rate:+.4f}/s")
+    return found | {
         "points": len(loads_and_speeds),
-        "value": case[damper],
-        "lowered": lowered,
-        "slides": [{"count": slides}] if slides else [],
-        "raised": [{"count": len(raised), "where": "; ".join(raised)}] if raised else [],
-        "ended": [{"count": ended}] if ended else [],
-        "without": lost,
+        "value": much,
+        "places": places,
+        "slides": [{"count": found["slides"]}] if found["slides"] else [],
+        "raised": [{"count": len(places), "where": "; ".join(places)}] if places else [],
+        "ended": [{"count": found["ended"]}] if found["ended"] else [],
     }
 
 
-def _between(case: CaseView, spring: str, *speeds: float) -> list[dict[str, Any]]:
-    """Growth at stiffnesses of a spring between those of the paper, at some speeds; nothing if it only falls."""
-    found, falls = [], True
-    for speed in speeds:
-        stiffened = [case.parameters.replace(Omega=speed, **{spring: 1e3 * k}) for k in STIFFNESSES[spring]]
-        rates = np.array([growth_or_nan(p) for p in stiffened])
-        falls &= not np.any(np.diff(rates[np.isfinite(rates)]) > 0)
-        found.append({"Omega": speed, "rates": [*map(said_rate, rates)], "stiffnesses": [*STIFFNESSES[spring]]})
-    return [] if falls else found
+def _stiffened(p: Parameters, name: str) -> tuple[Array, str]:
+    """Growth rates for the values of `STIFFENED`, 1/s; and that in words."""
+    unit, symbol, values = STIFFENED[name]
+    rates = np.array([growth_or_nan(p.replace(**{name: unit * value})) for value in values])
+    said = ", ".join(map(said_rate, rates))
+    return rates, f"{said} per second for {', '.join(map(str, values))} {symbol}"

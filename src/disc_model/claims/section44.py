@@ -63,7 +63,7 @@ def drive(case: CaseView, *, level: float) -> Answer:
 
 
 @CHECKS("T2c")
-def follow(*cases: CaseView) -> Answer:
+def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     rows, off, away, near = [], [], [], []
     for case in cases:
@@ -74,13 +74,12 @@ def follow(*cases: CaseView) -> Answer:
         near += [_from_natural(case, line) <= 4 * case["Omega"] / (2 * np.pi) for line in found]
         lines = [line.frequency for line in found]
         rows.append({"case": case, "rate": rate, "lines": lines})
-    combined = [each <= COMBINED for each in off]
+    combined = [each <= within for each in off]
     return Answer(
         all(near) and not any(combined),
         tried=rows,
         combined=sum(combined),
         count=len(combined),
-        within=COMBINED,
         worst=max(off),
         near=sum(near),
         farthest=max(away),
@@ -88,11 +87,11 @@ def follow(*cases: CaseView) -> Answer:
 
 
 @CHECKS("T2d")
-def inplane_pair(case: CaseView) -> Answer:
+def inplane_pair(case: CaseView, *, within: float) -> Answer:
     rate, drive = stick_slip_rate(case), case["Omega"] / (2 * np.pi)
     found = measures.loudest(measures.lines(case, *EARLY, above=40, below=100, apart=1.0), 2)
     pair, split = sorted(line.frequency for line in found), [rate - drive, rate + drive]
-    return Answer(len(pair) == 2 and np.allclose(pair, split, atol=COMBINED, rtol=0), rate=rate, pair=pair, split=split)
+    return Answer(len(pair) == 2 and np.allclose(pair, split, atol=within, rtol=0), rate=rate, pair=pair, split=split)
 
 
 @CHECKS("T2f")
@@ -122,12 +121,32 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
 
 
 @CHECKS("C5")
-def vertical_branch(case: CaseView, *, level: float) -> Answer:
-    vertical = float(np.sqrt(case["k"] / case["m"])) / (2 * np.pi)
-    every = measures.lines(case, *EARLY, above=0.5 * case["Omega"] / (2 * np.pi))
-    line = measures.strongest(case, measures.stretch(case, *EARLY), vertical, SEARCHED)
-    relative = line.amplitude / max(each.amplitude for each in every)
-    return Answer(relative > level, vertical=vertical, frequency=line.frequency, relative=relative)
+def vertical_branch(*cases: CaseView, within: float) -> Answer:
+    """Whether separations repeat at the frequency of slider and spring on the disc, and follow it if that is stiffer."""
+    found = []
+    for pair in zip(cases[::2], cases[1::2], strict=True):
+        rates = [1 / float(np.diff(measures.times_of(case, "separation")).mean()) for case in pair]
+        modes = [_natural(case)[0] for case in pair]
+        rise, of_mode = rates[1] / rates[0] - 1, modes[1] / modes[0] - 1
+        found.append({"case": pair[0], "rate": rates[0], "mode": modes[0], "follows": rise / of_mode})
+        spring = 2 * of_mode / (pair[1]["k"] / pair[0]["k"] - 1)
+    p = cases[0].parameters
+    return Answer(
+        all(abs(row["follows"] - 1) <= within for row in found),
+        pairs=found,
+        without=float(np.sqrt(p.k / p.m)) / (2 * np.pi),
+        spring=100 * spring,
+    )
+
+
+@CHECKS("C5h")
+def inplane_contribution(case: CaseView, *, share: float) -> Answer:
+    rate = stick_slip_rate(case)
+    found = measures.lines(case, *EARLY, above=LOW, below=HIGH, floor=1e-3)
+    power = sum(line.amplitude**2 for line in found)
+    made = [line for line in found if _from_combination(case, line, rate) <= COMBINED]
+    percent = 100 * sum(line.amplitude**2 for line in made) / power
+    return Answer(percent > 100 * share, percent=percent, made=len(made), count=len(found), rate=rate, low=LOW)
 
 
 @CHECKS("F24")
@@ -163,30 +182,43 @@ def new_lines(case: CaseView, *, factor: float, floor: float) -> Answer:
 
 
 @CHECKS("F25c")
-def higher(case: CaseView, *, factor: float) -> Answer:
+def higher(case: CaseView, bonded: CaseView, *, factor: float, floor: float) -> Answer:
     first = case["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_c", first, 60), LATE)
-    before, after, late = (_power_share(case, *span) for span in spans)
-    return Answer(after > factor * before, high=HIGH, low=LOW, before=before, after=after, late=late)
+    (before, after, late), ignored = ([_power_share(each, *span) for span in spans] for each in (case, bonded))
+    here, there = (b > max(factor * a, floor) for a, b in ((before, after), ignored[:2]))
+    return Answer(*_beside(here, there), high=HIGH, low=LOW, before=before, after=after, late=late, ignored=ignored)
+
+
+def _beside(here: bool, there: bool) -> tuple[bool | None, str]:
+    """What changes with separation, undecided if it changes without separation, too."""
+    return None if here and there else here, "control"
 
 
 @CHECKS("F25d")
-def steady_lines(case: CaseView, *, part: float, within: float) -> Answer:
-    before, after = _fuzziness(case, *LATER), _fuzziness(case, *LATE)
-    first, second = (
-        measures.lines(case, "spectrum_d", *span, above=LOW, floor=1e-2) for span in ((100, 105), (105, 110))
-    )
-    drift = max(min(abs(a.frequency - b.frequency) for b in second) for a in first)
-    return Answer(after < part * before and drift < within, after=100 * after, before=100 * before, drift=drift)
+def steady_lines(*pair: CaseView, part: float, within: float) -> Answer:
+    rows, found = [], []
+    for case in pair:
+        before, after = _fuzziness(case, *LATER), _fuzziness(case, *LATE)
+        first, second = (
+            measures.lines(case, "spectrum_d", *span, above=LOW, floor=1e-2) for span in ((100, 105), (105, 110))
+        )
+        drift = max(min(abs(a.frequency - b.frequency) for b in second) for a in first)
+        found.append(after < part * before and drift < within)
+        rows.append({"case": case, "before": 100 * before, "after": 100 * after, "drift": drift})
+    return Answer(*_beside(*found), stretches=rows)
 
 
 @CHECKS("F26")
-def slider_settles(case: CaseView, *, part: float) -> Answer:
-    first = case["first_separation"]
+def slider_settles(*pair: CaseView, part: float) -> Answer:
+    first = pair[0]["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_d", 100, 100 + first - 50))
-    before, after = (_fuzziness(case, *span, name="psi") for span in spans)
-    periodic = measures.late_motion(case)[0].period > 0
-    return Answer(after < part * before and periodic, before=100 * before, after=100 * after)
+    rows, found = [], []
+    for case in pair:
+        before, after = (_fuzziness(case, *span, name="psi") for span in spans)
+        found.append(after < part * before)
+        rows.append({"case": case, "before": 100 * before, "after": 100 * after})
+    return Answer(*_beside(*found), stretches=rows)
 
 
 @CHECKS("F26b")
@@ -231,32 +263,28 @@ def natural_lines(case: CaseView, *, share: float) -> Answer:
     )
     ours, counted = (_natural_share(case, lines, rate) for lines in (found, every))
     return Answer(
-        ours > share,
+        None if counted <= share < ours else ours > share,
+        "drive",
         low=LOW,
         lines=[line.frequency for line in found],
         percent=100 * ours,
         lowest=_natural(case)[0],
         rate=rate,
         counted=100 * counted,
-        with_drive=counted <= share < ours,
-        coupled=ours > share,
     )
 
 
 @CHECKS("F27c")
-def fuzz_stays(case: CaseView, *, part: float, factor: float) -> Answer:
-    first = case["first_separation"]
+def fuzz_stays(*pair: CaseView, part: float, factor: float, floor: float) -> Answer:
+    first = pair[0]["first_separation"]
     spans = (("spectrum_d", first - 4, first), ("spectrum_d", first, first + 4))
-    before, after = (_fuzziness(case, *span) for span in spans)
-    high_before, high_after = (_power_share(case, *span) for span in spans)
-    return Answer(
-        after > before / part and high_after > factor * high_before,
-        before=100 * before,
-        after=100 * after,
-        high=HIGH,
-        high_before=high_before,
-        high_after=high_after,
-    )
+    rows, found = [], []
+    for case in pair:
+        before, after = (100 * _fuzziness(case, *span) for span in spans)
+        low, high = (_power_share(case, *span) for span in spans)
+        found.append(after > before / part and high > max(factor * low, floor))
+        rows.append({"case": case, "before": before, "after": after, "high_before": low, "high_after": high})
+    return Answer(*_beside(*found), stretches=rows, high=HIGH)
 
 
 @CHECKS("F29")
@@ -266,6 +294,18 @@ def no_high_line(case: CaseView, *, share: float) -> Answer:
     spans = (("spectrum_d", 465, 475), ("spectrum_late", 1490, 1500))
     first, last = (_power_share(case, *span, omega / (2 * np.pi)) for span in spans)
     return Answer(max(first, last) < share, omega=omega, low=LOW, first=first, last=last, base=base)
+
+
+@CHECKS("F29c")
+def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> Answer:
+    """Whether weak lines of one stretch are not there in the next."""
+    first, second = (
+        measures.lines(case, "spectrum_d", *span, above=LOW, below=600, floor=floor)
+        for span in ((465, 470), (470, 475))
+    )
+    weak = [line for line in first if line.amplitude < 0.1 * max(each.amplitude for each in first)]
+    moved = [line for line in weak if min(abs(line.frequency - other.frequency) for other in second) > apart]
+    return Answer(len(moved) > part * len(weak), moved=len(moved), count=len(weak))
 
 
 @CHECKS("F29b")

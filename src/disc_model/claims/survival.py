@@ -313,7 +313,7 @@ def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     for model in MODELS:
         found = evidence(model, cases, grids)
         for one in CONCLUSIONS:
-            judged = one.judge(found)
+            judged, _ = one.settle(lambda claim, found=found: claim.judge(found))
             rows.append((one.id, model.name, judged.verdict, judged.ours, judged.remark))
     return pd.DataFrame(rows, columns=["conclusion", "model", "verdict", "ours", "remark"])
 
