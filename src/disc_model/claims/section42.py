@@ -84,8 +84,8 @@ def can_separate_above(study: xr.Dataset, *, within: float) -> Answer:
     found = np.isfinite(lowest)
     if not found.any():
         raise Absent("no separation at any preload and speed")
-    speeds, horizon = measures.extent(lowest[found]), float(study["horizon"])
-    return Answer(True, loads=rows, speeds=speeds, some=found.sum(), count=found.size, horizon=horizon)
+    begins, horizon = measures.extent(lowest[found]), float(study["horizon"])
+    return Answer(True, loads=rows, begins=begins, some=found.sum(), count=found.size, horizon=horizon)
 
 
 def _scanned(study: xr.Dataset) -> xr.Dataset:

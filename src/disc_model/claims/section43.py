@@ -114,7 +114,7 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
 
 @CHECKS("S43D", "C4c")
 def damping_stabilises(case: CaseView, **damper: float) -> Answer:
-    """Whether a damper, and as much again, lowers the growth of every cycle that grows, on a grid of loads and speeds."""
+    """Whether a damper, and as much again, lowers the growth of all cycles that grow, on a grid of loads and speeds."""
     ((name, value),) = damper.items()
     effects = [_effect_of(case, name, little, little + value) for little in (0.0, value)]
     growing, lowered = (sum(effect[key] for effect in effects) for key in ("growing", "lowered_growing"))

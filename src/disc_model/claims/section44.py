@@ -122,7 +122,7 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
 
 @CHECKS("C5")
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
-    """Whether separations repeat at the frequency of slider and spring on the disc, and follow it if that is stiffer."""
+    """Whether separations repeat at the frequency of slider and spring on the disc, and follow a stiffer spring."""
     found = []
     for pair in zip(cases[::2], cases[1::2], strict=True):
         rates = [1 / float(np.diff(measures.times_of(case, "separation")).mean()) for case in pair]
