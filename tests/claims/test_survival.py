@@ -337,13 +337,13 @@ def test_each_model_is_judged_by_its_own_data() -> None:
             contact_compliance="residual" if model.compliant else 0.0,
             contact_force=model.contact_force,
         )
-        node = case(stick=5e-4 if i != 1 else 0.01).node
+        node = case(stick=(1e-4, 0.01, 1e-4, 5e-4)[i]).node
         cases[f"/case{i}"] = node.to_dataset().assign_attrs(parameters=p.canonical_json)
         cases[f"/case{i}/events"] = node["events"].to_dataset()
     table = judge(xr.DataTree.from_dict(cases), grids)
     verdicts = table.pivot(index="conclusion", columns="model", values="verdict")[[model.name for model in MODELS]]
     assert [*verdicts.loc["Onset"]] == [HOLDS, HOLDS, FAILS, UNDECIDED]
-    assert [*verdicts.loc["Stick vanishes"]] == [HOLDS, FAILS, HOLDS, HOLDS]
+    assert [*verdicts.loc["Stick vanishes"]] == [HOLDS, FAILS, HOLDS, UNDECIDED]  # half a bound is as good
     assert verdicts.loc["Critical speed"].str.startswith(NOT_COMPUTED).all()
     page = page_of(table)
     assert [heading for heading, _, _ in page.sections] == ["At a glance", *BY_TITLE]

@@ -324,6 +324,17 @@ def test_one_further_frequency_is_judged_with_half_the_bound_as_well() -> None:
     assert "with several = 1" in BY_NAME["F29b"].settle(lambda one: one.evaluate(cases))[1]
 
 
+def test_a_parameter_changed_by_a_thousandth_may_turn_a_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Growth rates were judged at one value of every parameter."""
+    cases, claim = views(made_up.made_up(some("S43E100", "F02", "S43E200"))), BY_NAME["S43E"]
+    judge = lambda one, *changed: one.evaluate(cases, *changed)  # noqa: E731
+    assert claim.settle(judge)[1] == "stable"
+    told = made_up.cycle_as_told
+    monkeypatch.setattr(measures, "cycle_of", lambda p: (told if p.k == 5e4 else made_up.cycle_to_the_contrary)(p))
+    found, turned = claim.settle(judge)
+    assert (found.verdict, turned) == (UNDECIDED, "does not hold with k 0.1 % larger")
+
+
 def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.MonkeyPatch) -> None:
     """Motions that repeat after 45 and 180 releases used to be called irregular."""
     cases = views(made_up.made_up(some("F02", "F07", "F22", "F02free", "F07free", "F02k", "F07k", "F22k")))
