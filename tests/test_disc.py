@@ -190,6 +190,14 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
             "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,2,nan\n",
             "amplitude_per_sqrt_kg='nan': must be finite (mode 1)",
         ),
+        (
+            "diameters,frequency_Hz,amplitude_per_sqrt_kg,shape_at_0.1_m,shape_at_.05_m\n1,x,3,4,inf\n",
+            "frequency_Hz='x': must be a number (mode 1)",
+        ),
+        (
+            "diameters,frequency_Hz,amplitude_per_sqrt_kg,shape_at_0.1_m,shape_at_.05_m\n1,2,3,4,inf\n",
+            "shape_at_.05_m='inf': must be finite (mode 1)",
+        ),
         # `modes` showed a negative residual
         (
             "# static_compliance_m_per_N: 1e-9\ndiameters,omega_rad_per_s,amplitude_per_sqrt_kg\n1,1e3,1\n",

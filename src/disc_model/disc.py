@@ -79,22 +79,18 @@ def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
 
 def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Disc:
     """The disc of a table; what is wrong with a number is told of its column, mode and cell."""
-    shapes: dict[float, list[float]] = {}
-    for at, name in enumerate(names):
-        target, factor = COLUMNS.get(name, ("", 1.0))
-        numbers = [_value(name, i, row[at], factor) for i, row in enumerate(rows, 1)]
-        if target:
-            values[target] = numbers
-        else:
-            shapes[float(SHAPE.fullmatch(name)[1])] = numbers  # type: ignore[index]
-    if shapes:
-        values["radii"] = sorted(shapes)
-        values["shapes"] = list(zip(*(shapes[radius] for radius in sorted(shapes)), strict=True))
+    radii = {float(match[1]): at for at, name in enumerate(names) if (match := SHAPE.fullmatch(name))}
+    places: dict[tuple[str, ...], int] = {}
+    for at, (target, factor) in ((at, COLUMNS[name]) for at, name in enumerate(names) if name in COLUMNS):
+        places[target,] = at
+        values[target] = [_number(row[at], factor) for row in rows]
+    if radii:
+        values |= {"radii": sorted(radii), "shapes": [[_number(row[radii[r]]) for r in sorted(radii)] for row in rows]}
+        places |= {("shapes", str(i)): radii[r] for i, r in enumerate(sorted(radii))}
     try:
         disc = Disc(**values)
     except ParameterError as error:
-        columns = {COLUMNS[name][0]: at for at, name in enumerate(names) if name in COLUMNS}
-        raise ParameterError(*(_of_table(fault, columns, names, rows) for fault in error.faults)) from None
+        raise ParameterError(*(_of_table(fault, places, names, rows) for fault in error.faults)) from None
     static, modal = disc.static_compliance, math.fsum(np.square(np.divide(disc.amplitude, disc.omega)).tolist())
     if static is not None and static < modal * (1 - 1e-9):  # both may be one sum, rounded
         rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
@@ -102,10 +98,18 @@ def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Di
     return disc
 
 
-def _of_table(fault: Fault, columns: dict[str, int], names: list[str], rows: list[list[str]]) -> Fault:
-    if len(fault.path) != 2 or fault.path[0] not in columns:
+def _number(cell: str, factor: float = 1.0) -> float | str:
+    """What is no number is left for `Disc` to refuse."""
+    try:
+        return float(cell) * factor
+    except ValueError:
+        return cell
+
+
+def _of_table(fault: Fault, places: dict[tuple[str, ...], int], names: list[str], rows: list[list[str]]) -> Fault:
+    if len(fault.path) < 2 or (at := places.get((fault.path[0], *fault.path[2:]))) is None:
         return fault
-    at, i = columns[fault.path[0]], int(fault.path[1])
+    i = int(fault.path[1])
     unit = " rad/s" if names[at] == "frequency_Hz" and "within" in fault.rule else ""
     return Fault((names[at],), shown(rows[i][at]), f"{fault.rule}{unit} (mode {i + 1})")
 
@@ -124,10 +128,8 @@ def disc_table(p: Parameters) -> str:
     lines.append(",".join(names))
     with np.errstate(invalid="ignore"):
         ratios = modal_damping(p) / (2 * modes.omega) if p.disc is None else p.disc.damping_ratio
-    for row in zip(
-        modes.diameters, modes.circles, modes.omega, modes.psi, ratios, *zip(*shapes, strict=True), strict=True
-    ):
-        lines.append(",".join(str(value) for value in row))
+    columns = (modes.diameters, modes.circles, modes.omega, modes.psi, ratios, *zip(*shapes, strict=True))
+    lines += [",".join(map(str, row)) for row in zip(*columns, strict=True)]
     return "\n".join(lines) + "\n"
 
 
@@ -171,13 +173,6 @@ def _column_faults(names: list[str]) -> list[Fault]:
             rule = f"must have one column {wanted}" + (f", and not {count}" if count else "")
             faults.append(Fault(("columns",), "", rule))
     return faults
-
-
-def _value(name: str, i: int, cell: str, factor: float) -> float:
-    try:
-        return float(cell) * factor
-    except ValueError:
-        raise ParameterError(Fault((name,), shown(cell), f"must be a number (mode {i})")) from None
 
 
 def _fault(path: object, rule: str) -> ParameterError:
