@@ -239,6 +239,7 @@ def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
     code, out, _ = command.run("floquet", "--N", "0", "--Omega", "0")
     assert code == 1
     assert "advice" in out
+    assert "steady sliding      The disc is not driven" in out  # a growth rate of nan was printed
 
 
 STUDY = """\

@@ -91,7 +91,8 @@ def floquet(
         ]
     else:
         lines.append(("advice", cycle.status.advice))
-    lines.append(("steady sliding", f"growth rate {sliding.growth_rate:.6g} 1/s"))
+    slides = math.isfinite(sliding.growth_rate)
+    lines.append(("steady sliding", f"growth rate {sliding.growth_rate:.6g} 1/s" if slides else sliding.message))
     tell(lines)
     if not found:
         raise typer.Exit(1)
