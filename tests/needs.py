@@ -60,6 +60,6 @@ RIVALS = Need("heyoka and scikit-sundae (pip: -r requirements-bench.lock)", modu
 FINITE_ELEMENTS = Need("scikit-fem (pip: -r requirements-bench.lock)", modules=("skfem",))
 UNIVERSAL_FILES = Need("pyuff (pip: pyuff)", modules=("pyuff",))
 PYTHONS = {
-    version: Need(f"Python {version} (pip: uv, then uv python install {version})")
-    for version in ("3.11", "3.12", "3.13")
+    one: Need(f"Python {one} (Debian: python{one}-venv; pip: uv, then uv python install {one})")
+    for one in ("3.11", "3.12", "3.13")
 }

@@ -33,6 +33,12 @@ def paradox() -> tuple[Parameters, State]:
 
 OUTCOMES: dict[str, tuple[dict[str, Any], float, Outcome]] = {
     "a stable cycle keeps the start": ({"N": 50, "Omega": 15}, 1000, Outcome.QUIET),
+    # slow growth was taken for rest
+    "growth by 0.014/s, bounded in the end": ({"N": 200, "Omega": 11}, 1000, Outcome.GROWING),
+    "growth by 0.019/s": ({"N": 200, "Omega": 20}, 1000, Outcome.SEPARATION),
+    "growth by 0.0018/s": ({"N": 50, "Omega": 45}, 1000, Outcome.GROWING),
+    "growth by 0.0035/s": ({"N": 200, "Omega": 10, "D_star": 2e-5}, 1000, Outcome.GROWING),
+    "a fall for 20 s, then growth": ({"N": 600, "Omega": 7, "normalization": "orthonormal"}, 1000, Outcome.GROWING),
     "slow growth goes on until the horizon": ({"N": 100, "Omega": 20}, 1000, Outcome.GROWING),
     "without a cycle": ({"N": 385, "Omega": 15.1}, 100, Outcome.SEPARATION),
     "steady sliding": ({"N": 50, "Omega": 15, "c_p": 0.5}, 1000, Outcome.STEADY_SLIDING),

@@ -21,24 +21,6 @@ def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.nd
     return table.arrays, [words[i] for i in table.arrays["outcome"]]
 
 
-SLOW_GROWTH = [
-    {"N": 200, "Omega": 11},  # +0.0140/s, bounded in the end
-    {"N": 200, "Omega": 20},  # +0.0188/s
-    {"N": 100, "Omega": 20},  # +0.0008/s: hardly doubled after 1000 s
-    {"N": 50, "Omega": 45},  # +0.0018/s
-    {"N": 600, "Omega": 7, "normalization": "orthonormal"},  # falls for 20 s, then grows at +0.009/s
-    {"N": 200, "Omega": 10, "D_star": 2e-5},  # +0.0035/s
-]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("case", SLOW_GROWTH, ids=str)
-def test_slow_growth_is_never_taken_for_rest(case: dict[str, float]) -> None:
-    found, words = outcomes([Parameters(**case)])
-    assert np.isnan(found["settling_time"][0])
-    assert words in (["growing"], ["separation"])
-
-
 QUIET = [
     {"N": 385, "Omega": 15},  # -0.105/s, next to a fold
     {"N": 50, "Omega": 15},  # -0.0083/s
