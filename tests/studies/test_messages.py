@@ -15,6 +15,7 @@ import pytest
 
 from disc_model import Disc, ParameterError, Parameters, Poincare, Record, Window, cli
 from disc_model.figures.kinds import PLOTS
+from disc_model.plausibility import doubts
 from disc_model.studies.study import StudyError, parse_study
 from disc_model.truncation import read_asked
 from tests.trees import places, planted
@@ -63,11 +64,15 @@ def faults_beside(plot: dict[str, Any], role: str, other: dict[str, Any]) -> lis
 MADE = {one.__name__: one for one in (Parameters, Window, Poincare, Record, Disc)} | {
     "read_asked": lambda **v: read_asked(v)
 }
-CHECKED = {"figure": faults_of_figure, "figure beside": faults_beside}
+CHECKED = {
+    "figure": faults_of_figure,
+    "figure beside": faults_beside,
+    "doubts": lambda **given: list(doubts(Parameters(**given)).values()),
+}
 
 
 def faults_of_value(value: dict[str, dict[str, Any]]) -> list[str]:
-    """Of what is made with these arguments, or of a figure."""
+    """Of what is made with these arguments, or of a figure; or what is doubted in parameters that are right."""
     [(what, given)] = value.items()
     if what in CHECKED:
         return CHECKED[what](**given)
