@@ -106,6 +106,7 @@ def number(value: Any) -> Any:
     """
     if isinstance(value, Unfit):
         kind = "without a unit" if value.unit == "1" else f"in {value.unit}, or with a unit of its kind"
+        kind += ", such as rpm; Hz may mean turns or radians" * (value.unit == "rad/s")
         raise ValueError(f"must be a number {kind}")
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")

@@ -21,6 +21,29 @@ def test_lines_are_found_with_frequency_and_amplitude() -> None:
     assert [line.amplitude for line in found] == pytest.approx(list(KNOWN.values()), rel=0.02)
 
 
+@pytest.mark.parametrize(
+    ("time", "values", "fault"),
+    [
+        (np.delete(TIME, 20_000), signal(KNOWN)[1:], "time: must rise in even steps"),
+        (TIME[::-1], signal(KNOWN), "time: must rise in even steps"),
+        (np.where(TIME[5] == TIME, np.nan, TIME), signal(KNOWN), "time: must rise in even steps"),
+        (TIME, np.where(TIME[5] == TIME, np.nan, signal(KNOWN)), "values: must be finite"),
+        (TIME[1:], signal(KNOWN), "values: must be two or more, one for each time"),
+    ],
+)
+def test_a_measured_signal_with_gaps_had_lines_elsewhere_or_none(
+    time: np.ndarray, values: np.ndarray, fault: str
+) -> None:
+    for spectrum in (spectra.lines, spectra.time_frequency):
+        with pytest.raises(ValueError, match=fault):
+            spectrum(time, values)
+
+
+def test_rounded_times_are_even() -> None:
+    [line] = spectra.lines(TIME.round(4), signal({F_S: 1.0}))  # 3.00025 as 3.0002
+    assert line.frequency == pytest.approx(F_S, abs=0.005)
+
+
 SHORT = np.arange(10_000) / 1000.0
 NEAR, WITHIN = 206.0, 2.0
 

@@ -181,6 +181,13 @@ def test_portraits_and_sections_show_all_samples() -> None:
     assert disc.get_xlabel().startswith("Disc at")
 
 
+def test_the_title_of_a_section_lay_over_its_legend(tmp_path: Path) -> None:
+    figure = asked("poincare", title="Above the critical speed")
+    save(figure, tmp_path / "section.png")
+    [legend] = figure.legends
+    assert not legend.get_window_extent().overlaps(figure._suptitle.get_window_extent())
+
+
 @pytest.mark.parametrize("kind", CASE_PLOTS)
 def test_what_a_case_lacks_is_said(kind: str) -> None:
     """A case that stops at its first separation ended the job of a history in an IndexError."""

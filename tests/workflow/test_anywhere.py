@@ -71,9 +71,10 @@ def test_a_run_ends_with_what_it_came_to(elsewhere: Path) -> None:
     (elsewhere / "results" / "mine" / "figures" / "growth.pdf").unlink()
     said = disc_model(elsewhere, "study", "mine.yaml").stderr.splitlines()
     closing = said.index("mine: 2 figures in results/mine/figures")
-    assert said[closing + 1 : closing + 3] == [
-        "0 of 4 points have no result",
-        "The target `explorer` makes a page to look at every point: results/mine/explorer.html",
+    assert said[closing + 1 : closing + 4] == [
+        "4 of 4 points have a result",
+        "The same command with the target `explorer` makes a page of every point: results/mine/explorer.html",
+        "(disc-model study ... --target explorer, or snakemake ... explorer)",
     ]
 
 

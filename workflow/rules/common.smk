@@ -181,8 +181,9 @@ def closing_lines():
         failed = {file: file.read_text().count("\n") for file in lists}
         points = sum(GRIDS[name].n_points for name in ASKED)
         reasons = ", ".join(str(file) for file, count in failed.items() if count)
-        yield f"{sum(failed.values())} of {points} points have no result{f': see {reasons}' * bool(reasons)}"
-        yield f"The target `explorer` makes a page to look at every point: {RESULTS}/explorer.html"
+        yield f"{points - sum(failed.values())} of {points} points have a result{f', for others see {reasons}' * bool(reasons)}"
+        yield f"The same command with the target `explorer` makes a page of every point: {RESULTS}/explorer.html"
+        yield "(disc-model study ... --target explorer, or snakemake ... explorer)"
 
 
 def case_file(case):

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from scipy.signal import ShortTimeFFT, find_peaks
 from scipy.signal.windows import blackmanharris, hann
 
+from disc_model.errors import ParameterError
+
 Array = NDArray[np.float64]
 
 AROUND = (1.0, 6.0)
@@ -54,9 +56,17 @@ class TimeFrequency(NamedTuple):
     power: Array
 
 
-def rate_of(time: Array) -> float:
-    """Sampling rate of uniform samples, Hz."""
-    return float((len(time) - 1) / (time[-1] - time[0]))
+def rate_of(time: Array, values: Array) -> float:
+    """Sampling rate (Hz) of uniform samples, both of shape (n,); raises ParameterError unless they are such."""
+    if np.ndim(time) != 1 or np.shape(values) != np.shape(time) or np.size(time) < 2:
+        raise ParameterError("values: must be two or more, one for each time")
+    if not np.all(np.isfinite(values)):
+        raise ParameterError("values: must be finite")
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    # a missing sample shifts times by half a step or more, rounded times are off by less
+    if not step > 0 or not np.all(np.abs(time - np.linspace(time[0], time[-1], len(time))) < 0.45 * step):
+        raise ParameterError("time: must rise in even steps; resample an uneven signal first")
+    return float(1 / step)
 
 
 def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
@@ -67,10 +77,11 @@ def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
     frequency, amplitude : Hz and the signal's unit, shape (len(time) // 2 + 1,); a sine of amplitude 1 has a line of
         height 1, less what falls between two bins (at most 0.8 dB)
     """
+    rate = rate_of(time, values)
     window = blackmanharris(len(time), sym=False)
     transform = np.fft.rfft((values - np.mean(values)) * window)
     amplitude: Array = 2 * np.abs(transform) / window.sum()
-    frequency: Array = np.asarray(np.fft.rfftfreq(len(time), 1 / rate_of(time)), dtype=np.float64)
+    frequency: Array = np.asarray(np.fft.rfftfreq(len(time), 1 / rate), dtype=np.float64)
     return frequency, amplitude
 
 
@@ -186,7 +197,7 @@ def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: floa
     half a window before the last. A sine of amplitude 1 has power 1/2. Raises ValueError if the samples are shorter
     than the window.
     """
-    rate = rate_of(time)
+    rate = rate_of(time, values)
     length, step = round(window * rate), max(1, round(hop * rate))
     if len(values) < length + 2 * step:
         raise ValueError(f"{len(values) / rate:g} s of samples are too few for a window of {window:g} s")

@@ -121,7 +121,7 @@ def passages(run: Summary) -> dict[str, str]:
     first = run["prices"]["first_separation"]["series (this package)"]
     cycle = run["prices"]["growth_rate"]["series, from the cycle itself"]
     return {
-        "first_separation": f"{1e3 * first['seconds']:.0f} ms",
+        "first_separation": f"{1e3 * first['seconds']:.0f} ms with `{first['at']}`",
         "cycle": f"{1e3 * cycle['seconds']:.2g} ms",
         "speed": _speed(run),
         "prices": TEXTS["prices"].text,

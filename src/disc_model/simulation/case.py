@@ -146,7 +146,7 @@ class Record(Checked):
 
     Parameters
     ----------
-    windows : uniform samples
+    windows : uniform samples; one `Window`, or several
     poincare : samples at the drive's period
     events : whether to keep the table of events (they are counted in any case)
     audit_every_step : audit both energy balances on every step instead of every 256th
@@ -157,6 +157,11 @@ class Record(Checked):
     poincare: Poincare | None = None
     events: bool = True
     audit_every_step: bool = False
+
+    @field_validator("windows", mode="before")
+    @classmethod
+    def _several(cls, windows: Any) -> Any:
+        return (windows,) if isinstance(windows, Window) else windows
 
     def resolved(self, start: float, t_end: float) -> Record:
         """With absolute times in all windows, for a run from ``start`` to ``t_end``.

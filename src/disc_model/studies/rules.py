@@ -37,7 +37,7 @@ def _tree(rule: str) -> ast.Expression:
             if isinstance(node, ast.Constant) and not isinstance(node.value, str):
                 node.value = number(node.value)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise ValueError("must compare values, such as mu_k <= mu_s") from None
+        raise ValueError("must compare values in SI, without units, such as mu_k <= mu_s") from None
     return tree
 
 

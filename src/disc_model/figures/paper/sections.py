@@ -79,7 +79,7 @@ def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool)
     if found.divided_by_separation:
         title = f"First separation at {first:.2f} s:"
     blank = ax.scatter([], [], s=0, label=title)
-    figure.legend(handles=[blank, *handles], loc="outside upper right", ncols=len(handles) + 1, handletextpad=0.2)
+    figure.legend(handles=[blank, *handles], loc="outside lower right", ncols=len(handles) + 1, handletextpad=0.2)
 
 
 def portrait(
