@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from disc_model.engine import lanes
+from disc_model.engine.compile import helper, inlined
 from disc_model.engine.packing import packed
 from tests.engine.compiled import kernel
 
@@ -52,6 +53,32 @@ def test_kernels_read_every_entry_of_a_packed_tuple_and_write_into_its_arrays() 
     assert counts[0] == 9
     _entries(outer._replace(inner=inner._replace(factor=2.0), holds=False), out)
     assert (out[6], out[11]) == (0.0, 6.0)
+
+
+@helper
+def _third(x):  # type: ignore[no-untyped-def]
+    return x / 3.0
+
+
+@inlined
+def _thirds(x):  # type: ignore[no-untyped-def]
+    return 2.0 * _third(x)
+
+
+@kernel
+def _with_thirds(x):  # type: ignore[no-untyped-def]
+    return _thirds(x)
+
+
+@pytest.mark.compiled
+def test_helpers_of_inlined_helpers_are_not_forced_into_them() -> None:
+    """Numba hands that order on: the engine became one function, and LLVM took three times as long."""
+    assert _with_thirds(6.0) == 4.0
+    forced = [
+        any("alwaysinline" in made.library.get_llvm_str() for made in part.overloads.values())
+        for part in (_third, _thirds)
+    ]
+    assert forced == [False, True]
 
 
 @kernel

@@ -90,7 +90,7 @@ NO_EQUATION = {
             "usual_denominator _enter_separation enter_slip break_loose lose_contact _begin_contact touch_down"
         ),
         "engine/stepping.py": "_expand_slip _expand_stick expand _sooner first_switch advance_time",
-        "engine/variational.py": "_step _count fly",
+        "engine/variational.py": "_step _count _fly",
     },
     "sizes by which balances and distances are judged": {
         "engine/audit.py": "audit_step book",

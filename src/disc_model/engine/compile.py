@@ -36,9 +36,10 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     return made
 
 
-def helper(function: Callable[..., Any], **further: object) -> Callable[..., Any]:
+def helper(function: Callable[..., Any], forceinline: bool = False) -> Callable[..., Any]:
     """Compile a part of kernels."""
-    part: Any = numba.njit(**(RULES | _MERGED | further))(function)
+    # said in either case: a helper would take it over from the inlined one that was being compiled
+    part: Any = numba.njit(**(RULES | _MERGED), forceinline=forceinline)(function)
     if part is not function:  # which it is where compilation is switched off
         _make_part(part, numba.njit(**RULES)(function))
     return part

@@ -10,6 +10,11 @@ from __future__ import annotations
 import llvmlite.binding as llvm
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.typed_passes import InlineOverloads, NopythonRewrites
+from numba.core.untyped_passes import InlineClosureLikes, LiteralUnroll, WithLifting
+
+# Passes for what no helper contains: closures, expressions of whole arrays, ``with``, loops over mixed tuples.
+NEEDLESS = {InlineClosureLikes, InlineOverloads, LiteralUnroll, NopythonRewrites, WithLifting}
 
 
 class _Codegen:
@@ -81,7 +86,10 @@ class _Compiler(CompilerBase):
         if state.library is None:
             state.library = self.library(state.targetctx.codegen(), state.func_id.func_qualname)
             state.library.enable_object_caching()
-        return [DefaultPassBuilder.define_nopython_pipeline(state)]
+        passes = DefaultPassBuilder.define_nopython_pipeline(state)
+        passes.passes = [each for each in passes.passes if each[0] not in NEEDLESS]
+        passes.finalize()
+        return [passes]
 
 
 class HelperCompiler(_Compiler):

@@ -12,7 +12,7 @@ from .lanes import WIDTH, mul, splat, store
 from .laws import PSI as ANGLE
 from .laws import TINY, stepped
 from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME, is_compliant
-from .outcomes import LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
+from .outcomes import CONSISTENT, LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
 from .packing import packed
 from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_gradient, switch_times
 from .stepping import advance_time, expand, first_switch, step_size
@@ -86,13 +86,9 @@ def _count(state, cause, log):
         log[STICKS] += 1.0
 
 
-@kernel
-def fly(model, s, state, t, course):
-    """Carry ``state`` and, if asked, the columns ``t.now`` to the end of a flight; returns how it ended.
-
-    At the last release the columns are projected onto the section (their switch time is t.tau, the state still in
-    stick); a flight that ends at ``t_max`` is left as it is then.  ``t.log`` is added to.
-    """
+@helper
+def _fly(model, s, state, t, course):
+    """See ``fly``."""
     order, tangent = course.order, course.tangent
     x, log = state.x, t.log
     in_a_row = 0
@@ -180,14 +176,9 @@ def release_angle(model, state):
     return i.psi - margin.real / (margin.imag / TINY)
 
 
-@kernel
-def section_map(model, s, state, t, course, section, start):
-    """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it.
-
-    A point of the section is given by its modal coordinates; f is 0 and psi follows from the release condition.
-    ``t.parameters`` may hold changes of parameters in the columns from n on.  Returns how the flight ended; ``t.log``
-    is set.
-    """
+@helper
+def _leave_section(model, s, state, t, course, section, start):
+    """Put ``state`` and, if asked, the columns right behind the release at ``start``.  Returns CONSISTENT or an end."""
     rows, scale, R = section.rows, section.scale, n_rows_of(model)
     t.log[:] = 0.0
     state.x[:] = 0.0
@@ -214,10 +205,43 @@ def section_map(model, s, state, t, course, section, start):
         return LOST_CONTACT
     if course.tangent:
         slider_rows(model, state, t)
-    outcome = fly(model, s, state, t, course)
-    for i in range(len(rows)):
-        section.end[i] = coordinate(model, state, rows[i]) * scale[i]
+    return CONSISTENT
+
+
+@kernel
+def _flight(model, s, state, t, course, section, start, from_section):
+    """Both ``fly`` and ``section_map``: apart, each would be compiled with nearly all of the engine."""
+    if from_section:
+        outcome = _leave_section(model, s, state, t, course, section, start)
+        if outcome != CONSISTENT:
+            return outcome
+    outcome = _fly(model, s, state, t, course)
+    for i in range(len(section.rows)):
+        section.end[i] = coordinate(model, state, section.rows[i]) * section.scale[i]
         if course.tangent:
             for c in range(t.columns):
-                section.jacobian[i, c] = t.now[((c // WIDTH) * R + rows[i]) * WIDTH + c % WIDTH] * scale[i]
+                at = ((c // WIDTH) * n_rows_of(model) + section.rows[i]) * WIDTH + c % WIDTH
+                section.jacobian[i, c] = t.now[at] * section.scale[i]
     return outcome
+
+
+_NOWHERE = Section(np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros((0, 0)))
+
+
+def fly(model, s, state, t, course):
+    """Carry ``state`` and, if asked, the columns ``t.now`` to the end of a flight; returns how it ended.
+
+    At the last release the columns are projected onto the section (their switch time is t.tau, the state still in
+    stick); a flight that ends at ``t_max`` is left as it is then.  ``t.log`` is added to.
+    """
+    return _flight(model, s, state, t, course, _NOWHERE, _NOWHERE.end, False)
+
+
+def section_map(model, s, state, t, course, section, start):
+    """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it.
+
+    A point of the section is given by its modal coordinates; f is 0 and psi follows from the release condition.
+    ``t.parameters`` may hold changes of parameters in the columns from n on.  Returns how the flight ended; ``t.log``
+    is set.
+    """
+    return _flight(model, s, state, t, course, section, start, True)
