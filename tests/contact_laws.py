@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Ramp, plate_modes
-from disc_model.engine import laws, layout, machine, switches
+from disc_model.engine import event_loop, laws, layout, transitions
 from disc_model.flexibility import contact_give
 from disc_model.simulation.result import engine_case, write_state
 from tests.references import stored, taylor
@@ -71,8 +71,8 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
     s, state = layout.build_series(model, order), layout.build_state(model)
     write_state(engine_case(p), start, state)
     if rates:
-        machine.set_course(model, state)
-    machine.expand(model, s, state, order)
+        event_loop.set_course(model, state)
+    event_loop.expand(model, s, state, order)
     powers = np.array([float(model.unit) ** k for k in range(order + 1)])
 
     def compare(own, wanted, rtol=1e-10, degree=order):
@@ -82,8 +82,8 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
     case, sign, width, n0 = (
         engine_case(p),
         np.sign(plate_modes(p)["psi"].to_numpy()),
-        len(model.force),
-        len(model.force0),
+        len(model.mode_amplitude),
+        len(model.mode_amplitude0),
     )
     rows = [x[: (order + 1) * n].reshape(-1, n) for x, n in ((s.z, width), (s.e, width), (s.y, n0), (s.g, n0)) if n]
     own = np.concatenate(rows, axis=1)[:, case.places]
@@ -110,7 +110,7 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
         compare(s.switch, p.mu_s * press - pull, 1e-9)
         compare(s.switch2, p.mu_s * press + pull, 1e-9)
         held = np.array([pull[0], press[0]], float)
-        i, _ = switches.instant(model, state)
-        np.testing.assert_allclose(laws.grip(model, i, laws.vertical_in_stick(model, i)), held, rtol=1e-10)
-        force = switches.force_in_stick(model, state, switches.stick_force(model, state))
+        i, _ = transitions.instant(model, state)
+        np.testing.assert_allclose(laws.stick_loads(model, i, laws.vertical_in_stick(model, i)), held, rtol=1e-10)
+        force = transitions.force_in_stick(model, state, transitions.stick_force(model, state))
         assert force == pytest.approx(float(step.R[0]), rel=1e-10)

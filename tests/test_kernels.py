@@ -20,7 +20,7 @@ def test_an_example_is_what_the_compiler_takes_for_its_kind(kind: str) -> None:
     assert HALF == PAIRS_OF_A_BLOCK
     task, law, *wide = kind.split("-")
     model = engine_case(example(kind)).model
-    assert (len(model.more_blocks) == 1, len(model.give) == 1, len(model.normal) == 1) == (
+    assert (len(model.more_blocks) == 1, len(model.compliance) == 1, len(model.normal) == 1) == (
         bool(wide),
         law.startswith("compliant"),
         law.endswith("normal"),

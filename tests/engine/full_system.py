@@ -16,7 +16,7 @@ class Full:
     def __init__(self, p: Parameters, start: State, tol: float = 1e-14, scalars: int = 2):
         case, self.order, self.tol = engine_case(p), series_order(tol), tol
         self.model = case.model
-        width, n0 = len(self.model.force), len(self.model.force0)
+        width, n0 = len(self.model.mode_amplitude), len(self.model.mode_amplitude0)
         used, single = np.flatnonzero(self.model.shift), np.arange(n0)
         rows = [used, width + used, 2 * width + single, 2 * width + n0 + single, 2 * (width + n0) + np.arange(scalars)]
         self.rows = np.concatenate(rows)
@@ -48,5 +48,6 @@ class Full:
         return out[::8][self.rows]
 
     def fly(self, duration, tangent=True):
-        course = variational.Course(self.order, self.tol, 2.0, duration, 0, may_separate=True, tangent=tangent)
-        return variational.fly(self.model, self.series, self.state, self.tangent, course)
+        limits = (self.order, self.tol, 2.0, duration, 0)
+        course = variational.IntegrationLimits(*limits, may_separate=True, tangent=tangent)
+        return variational.integrate(self.model, self.series, self.state, self.tangent, course)

@@ -10,7 +10,7 @@ import numba
 import pytest
 
 import disc_model.engine
-from disc_model.engine import cache, machine
+from disc_model.engine import cache, event_loop
 
 ENGINE = Path(disc_model.engine.__file__).parent
 KERNEL = """
@@ -154,4 +154,4 @@ dm.floquet(p)
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not done.stdout
     assert not done.stderr  # kernels from the cache are no news
-    assert Path(machine.run.stats.cache_path).name.startswith("engine-")
+    assert Path(event_loop.run.stats.cache_path).name.startswith("engine-")

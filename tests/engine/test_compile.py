@@ -8,7 +8,7 @@ import numba
 import numpy as np
 import pytest
 
-from disc_model.engine import lanes
+from disc_model.engine import simd
 from disc_model.engine.compile import helper, inlined
 from disc_model.engine.packing import packed
 from tests.engine.compiled import kernel
@@ -99,4 +99,4 @@ def test_an_array_with_gaps_is_not_packed() -> None:
 def test_what_fits_into_one_register_is_asked_of_the_compiler(cpu, features, expected, monkeypatch) -> None:  # type: ignore[no-untyped-def]
     monkeypatch.setattr(numba.core.config, "CPU_NAME", cpu)
     monkeypatch.setattr(numba.core.config, "CPU_FEATURES", features)
-    assert lanes.in_one_register() is expected
+    assert simd.in_one_register() is expected

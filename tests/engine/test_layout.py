@@ -19,8 +19,8 @@ def case(compliance: float) -> Parameters:
 def test_the_closed_form_of_stick_knows_the_places_of_the_state(compliance: float) -> None:
     """At rest under the preload all modes of cos and those without diameter are bent, and on a compliant contact u."""
     model = engine_case(case(compliance)).model
-    disc, width, n0 = layout.build_state(model).disc, len(model.force), len(model.force0)
-    bent = [*np.flatnonzero(model.force), *range(2 * width, 2 * width + n0)]
+    disc, width, n0 = layout.build_state(model).disc, len(model.mode_amplitude), len(model.mode_amplitude0)
+    bent = [*np.flatnonzero(model.mode_amplitude), *range(2 * width, 2 * width + n0)]
     if compliance:
         bent.append(2 * (width + n0))
     assert len(model.modes.rest) == len(disc)
@@ -33,8 +33,8 @@ def test_scales_are_of_a_motion_under_the_preload(compliance: float) -> None:
     p = case(compliance)
     given = engine_case(p)
     model = given.model
-    omega = np.sqrt(np.append(model.stiffness[model.force != 0], model.stiffness0))
-    force = np.append(model.force[model.force != 0], model.force0)
+    omega = np.sqrt(np.append(model.stiffness[model.mode_amplitude != 0], model.stiffness0))
+    force = np.append(model.mode_amplitude[model.mode_amplitude != 0], model.mode_amplitude0)
     each = [p.N * shape**2 / rate for shape, rate in zip(force, omega, strict=True)]
     # sums of the same terms: rounding alone
     assert model.slider_scale == pytest.approx(sum(each) + p.N * compliance / model.unit, rel=1e-12)

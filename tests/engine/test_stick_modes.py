@@ -5,19 +5,19 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.engine import layout
-from disc_model.engine.switches import stick_force
+from disc_model.engine.transitions import stick_force
 from disc_model.simulation.result import engine_case
 
 P = Parameters(N=300, Omega=5, n_diameters=2, c=20.0, D_star=1e-2)
 
 
-def excited(model: layout.Model, mode: int, angle: float) -> layout.State:
+def excited(model: layout.Model, mode: int, angle: float) -> layout.EngineState:
     """The static equilibrium with one mode at amplitude one and an angle, as small as the force is linear."""
     state = layout.build_state(model)
     n, length = len(model.modes.gain), len(state.disc)
     leave = model.modes.leave.reshape(2 * n, length)
     state.disc[:] = model.modes.rest + np.cos(angle) * leave[mode] + np.sin(angle) * leave[n + mode]
-    if model.give:
+    if model.compliance:
         slider = 2 * (len(state.z) + len(state.y))  # u and u' stand behind the disc
         state.x[layout.U : layout.U_VELOCITY + 1] = state.disc[slider : slider + 2]
     return state

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes
-from disc_model.engine import outcomes, saltation, switches, tangent
+from disc_model.engine import exit_codes, saltation, tangent, transitions
 from disc_model.simulation.result import engine_case
 from disc_model.stability.return_map import PARAMETERS, parameter_change
 from tests.contact_laws import COMPILES, LAWS
@@ -170,7 +170,7 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
         return flat(run.state())
 
     engine, sizes = disturbances.run(), disturbances.sizes
-    assert engine.fly(float(span)) == outcomes.TIME_OVER
+    assert engine.fly(float(span)) == exit_codes.TIME_OVER
     if not p.contact_compliance and kinds[-1] != "separation":
         sizes[2:4] = np.inf  # u and u' are the disc's
     got, expected = disturbances.read(engine) / sizes, disturbances.expected(end) / sizes
@@ -192,7 +192,7 @@ def test_when_contact_is_lost(switch: str) -> None:
     engine = disturbances.run()
     t = engine.tangent
     saltation.rates(engine.model, engine.state, t.before)
-    rate = saltation.switch_times(engine.model, engine.state, t, switches.CONTACT_LOST)
+    rate = saltation.event_times(engine.model, engine.state, t, transitions.CONTACT_LOST)
     np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), disturbances.expected(numerator), rtol=1e-8)
 
 

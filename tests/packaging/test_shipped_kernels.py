@@ -70,7 +70,7 @@ def _of_another_numba(copy: Copy) -> None:
 
 
 def _damaged(copy: Copy) -> None:
-    [kernel] = copy.kernels.glob("machine.run.*")
+    [kernel] = copy.kernels.glob("event_loop.run.*")
     kernel.write_bytes(kernel.read_bytes()[:-1] + b"?")
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes, steady_sliding
-from disc_model.engine import outcomes
+from disc_model.engine import exit_codes
 from disc_model.simulation.result import State
 from disc_model.stability.sliding import SlidingStatus
 from tests.contact_laws import COMPILES, LAWS
@@ -26,7 +26,7 @@ def check_against_flow(p: Parameters, apart: float) -> None:
     start = State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
     run, duration = Full(p, start, scalars=4 if p.contact_compliance else 2), 1e-3
     before = run.coordinates
-    assert run.fly(duration) == outcomes.TIME_OVER
+    assert run.fly(duration) == exit_codes.TIME_OVER
     np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
     flow = np.linalg.eigvals(run.columns)
     expected = np.exp(sliding.eigenvalues * duration)

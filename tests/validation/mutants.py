@@ -42,7 +42,7 @@ RAMPS = ("tests/simulation/test_ramps.py", "tests/validation/test_ramps.py")
 EQUATIONS = ("tests/validation/test_equations.py", LAWS)
 STICK = (
     "tests/validation/test_equations.py",
-    *(f"tests/engine/test_{name}.py" for name in ("stick_modes", "coasting")),
+    *(f"tests/engine/test_{name}.py" for name in ("stick_modes", "stick_propagator")),
 )
 DERIVATIVES = ("tests/engine/test_variational.py",)
 SECTION = ("tests/stability/test_return_map.py", *DERIVATIVES)
@@ -59,10 +59,10 @@ MODULES = {
     "engine/audit.py": (*EQUATIONS, *RAMPS),
     "engine/series.py": (*EQUATIONS, *RAMPS),
     "engine/contact_series.py": (LAWS, *RAMPS),
-    "engine/coasting.py": STICK,
+    "engine/stick_propagator.py": STICK,
     "engine/stick_modes.py": STICK,
     "engine/laws.py": (*EQUATIONS, *DERIVATIVES),
-    "engine/switches.py": (*EQUATIONS, *DERIVATIVES),
+    "engine/transitions.py": (*EQUATIONS, *DERIVATIVES),
     "engine/saltation.py": DERIVATIVES,
     "engine/tangent.py": DERIVATIVES,
     "engine/variational.py": SECTION,
@@ -86,14 +86,14 @@ NO_EQUATION = {
         "simulation/result.py": "series_order",
     },
     "which phase follows, and when: tests/validation/test_robustness.py": {
-        "engine/switches.py": (
-            "usual_denominator _enter_separation enter_slip break_loose lose_contact _begin_contact touch_down"
+        "engine/transitions.py": (
+            "usual_denominator _enter_separation enter_slip release lose_contact _begin_contact reattach"
         ),
-        "engine/stepping.py": "_expand_slip _expand_stick expand _sooner first_switch advance_time",
-        "engine/variational.py": "_step _count _fly",
+        "engine/stepping.py": "_expand_slip _expand_stick expand _sooner first_event advance_time",
+        "engine/variational.py": "_step _count _integrate",
     },
     "sizes by which balances and distances are judged": {
-        "engine/audit.py": "audit_step book",
+        "engine/audit.py": "audit_step accumulate_residuals",
         "benchmarks/methods/physics.py": "Physics.distance Physics._energy",
     },
     "a processor has one of these, as its registers are": {
@@ -131,9 +131,9 @@ EQUIVALENT: dict[str, str] = {
     "engine/stick_modes.py:_compliant_eigenmodes: 1.0 -> 2.0": "the scale of u is free",
     "engine/stick_modes.py:_decomposed: rates.imag > 0.0 -> rates.imag <= 0.0": "the conjugate is the same mode",
     "engine/stick_modes.py:_decomposed: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
-    "engine/switches.py:_rounding: + i.m * size -> -": "a size, without abs() as it is never negative",
-    "engine/switches.py:_rounding: - model.u_0 -> +": "a size",
-    "engine/switches.py:_deflection_size: mul(..., load(state.z, b)) -> -": "a size",
+    "engine/transitions.py:_rounding: + i.m * size -> -": "a size, without abs() as it is never negative",
+    "engine/transitions.py:_rounding: - model.u_0 -> +": "a size",
+    "engine/transitions.py:_deflection_size: mul(..., load(state.z, b)) -> -": "a size",
     "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
     "stability/sliding.py:_jacobian: + p.m * weight * (2 * l * beta - 2 * l ** 2 * p.Omega * a) -> -": (
         "zero at the equilibrium, where beta = l Omega a"

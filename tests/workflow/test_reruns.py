@@ -133,7 +133,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
     ("source", "jobs"),
     [
         (
-            "src/disc_model/engine/machine.py",
+            "src/disc_model/engine/event_loop.py",
             lambda project: everything(project) | {"compile:simulate-rigid_vertical", "compile:floquet-rigid_vertical"},
         ),
         ("src/disc_model/plate.py", everything),

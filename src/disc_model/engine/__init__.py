@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import machine, variational  # and with them all that is compiled
+from . import event_loop, variational  # and with them all that is compiled
 from .cache import source_hash
 
-__all__ = ["machine", "source_hash", "variational"]
+__all__ = ["event_loop", "source_hash", "variational"]

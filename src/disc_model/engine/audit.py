@@ -15,7 +15,7 @@ import numpy as np
 from . import layout
 from .compile import helper
 from .dense_output import force_at, move_to
-from .switches import disc_point, slider_motion, spring_force
+from .transitions import disc_point, inplane_force_per_radius, slider_motion
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
@@ -42,12 +42,12 @@ def transverse_energy(model, state, phase):
     if phase != layout.SEPARATION:
         if layout.is_compliant(model):
             w, _, _ = disc_point(model, state)
-            energy += (w - u) ** 2 / layout.give_of(model.give)
+            energy += (w - u) ** 2 / layout.compliance_of(model.compliance)
         else:
             u, v, _ = disc_point(model, state)
     for j in range(len(model.shift)):
         energy += state.e[j] ** 2 + model.stiffness[j] * state.z[j] ** 2
-    for j in range(len(model.force0)):
+    for j in range(len(model.mode_amplitude0)):
         energy += state.g[j] ** 2 + model.stiffness0[j] * state.y[j] ** 2
     raised = u - model.u_0
     return 0.5 * energy + 0.5 * model.m * v * v + 0.5 * model.k * raised**2 + layout.load_now(model, state) * raised
@@ -63,20 +63,20 @@ def inplane_energy(model, state):
 @helper
 def _powers_in(model, state, phase, direction, P):
     """Power into the transverse and the in-plane motion, and the sums of the moduli of their parts, W."""
-    u, v, slope = slider_motion(model, state)
-    f, F, Omega = state.x[layout.SPEED], spring_force(model, state), layout.drive_now(model, state)
+    u, v, dw_dtheta = slider_motion(model, state)
+    f, F, Omega = state.x[layout.SPEED], inplane_force_per_radius(model, state), layout.drive_now(model, state)
     lost = model.c * v * v
     for j in range(len(model.shift)):
         lost += model.damping[j] * state.e[j] ** 2
-    for j in range(len(model.force0)):
+    for j in range(len(model.mode_amplitude0)):
         lost += model.damping0[j] * state.g[j] ** 2
-    driven = P * f * slope
+    driven = P * f * dw_dtheta
     supplied = Omega * model.r_0**2 * F
     rubbed = model.mu_k * model.r_0 * P * direction * f if phase == layout.SLIP else 0.0
     if layout.is_normal(model):
         # P is R: V = R (1 - s mu_k B / r_0) is what acts vertically, and R B / r_0 acts in the plane
         rubbed += driven
-        driven *= 1.0 - direction * model.mu_k * slope / model.r_0
+        driven *= 1.0 - direction * model.mu_k * dw_dtheta / model.r_0
     damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
     if layout.is_ramped(model):
         driven += layout.ramp_of(model.ramp, 3) * (u - model.u_0)
@@ -103,14 +103,14 @@ def audit_step(model, s, order, x_end, phase, direction, probe, audit):
     move_to(model, s, order, x_end, phase, probe)
     residual_t = transverse_energy(model, probe, phase) - start_t - work_t
     residual_p = inplane_energy(model, probe) - start_p - work_p
-    book(audit, residual_t, residual_p, size_t + abs(start_t), size_p + abs(start_p))
+    accumulate_residuals(audit, residual_t, residual_p, size_t + abs(start_t), size_p + abs(start_p))
     audit[TRANSVERSE_TURNOVER] += size_t
     audit[INPLANE_TURNOVER] += size_p
     audit[STEPS] += 1.0
 
 
 @helper
-def book(audit, residual_t, residual_p, size_t, size_p):
+def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
     """Enter residuals whose natural sizes are ``size_t`` and ``size_p``."""
     audit[TRANSVERSE] += residual_t
     audit[INPLANE] += residual_p
@@ -123,12 +123,13 @@ def book(audit, residual_t, residual_p, size_t, size_p):
 
 
 @helper
-def audit_impact(model, before, impulse, slope, state, audit):
+def audit_impact(model, before, impulse, dw_dtheta, state, audit):
     """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it.
 
     The normal force changes f: what the slope takes from the motion in the plane beyond p f B is lost.
     """
-    expected = -0.5 * impulse**2 * (model.compliance + 1.0 / model.m) + impulse * state.x[layout.SPEED] * slope
+    lost, f = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m), state.x[layout.SPEED]
+    expected = -lost + impulse * f * dw_dtheta
     after = transverse_energy(model, state, layout.SEPARATION)
-    book(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)
+    accumulate_residuals(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)
     audit[TRANSVERSE_TURNOVER] += abs(expected)

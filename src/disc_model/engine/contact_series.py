@@ -1,6 +1,6 @@
 """Taylor coefficients in contact beyond the paper: a compliant contact, a force normal to the bent disc, or both.
 
-Compliant: V = (w - u) / give is one of the state, so that each order of V is known before its convolutions begin.
+Compliant: V = (w - u) / compliance is one of the state, so that each order of V is known before its convolutions begin.
 Normal: with beta = B / r_0 and s = sgn(f), the disc feels V = R (1 - s mu_k beta) in slip, the slider's motion in the
 plane is held back by R (s mu_k + beta), and stick holds while abs(r_0 F - beta V) <= mu_s (V + r_0 F beta); products of
 series with beta are the price.  Rigid stick moves as under the vertical force.
@@ -9,16 +9,15 @@ series with beta are the price.  Rigid stick moves as under the vertical force.
 from __future__ import annotations
 
 from .compile import inlined
-from .lanes import WIDTH, add, fma, item, mul, splat, total
 from .laws import slip_denominator
 from .layout import (
+    AMPLITUDE_ROW,
     DOWN,
     DRIVE_SERIES,
-    FORCE_ROW,
+    DW_DTHETA,
     LOAD_SERIES,
     P_SERIES,
     PSI_SERIES,
-    SLOPE,
     SLOPE_SERIES,
     SWITCH,
     SWITCH2,
@@ -26,7 +25,7 @@ from .layout import (
     UP,
     V_SERIES,
     F,
-    give_of,
+    compliance_of,
     is_normal,
     is_ramped,
 )
@@ -43,24 +42,25 @@ from .series import (
     _order_zero,
     _row,
     _set_e,
-    _set_switch,
+    _set_event_function,
     _stick_order,
     _z,
     drive,
     lane_count,
     load_at,
 )
+from .simd import WIDTH, add, fma, item, mul, splat, total
 
 
 @inlined
 def _deflection(model, s, k):
     """w of order k."""
-    width, n, lanes = lane_count(model), len(model.force0), splat(0.0)
+    width, n, lanes = lane_count(model), len(model.mode_amplitude0), splat(0.0)
     for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, FORCE_ROW, b), _z(s, k * width + b), lanes)
+        lanes = fma(_row(model, AMPLITUDE_ROW, b), _z(s, k * width + b), lanes)
     w = total(lanes)
     for j in range(n):
-        w += model.force0[j] * s.y[k * n + j]
+        w += model.mode_amplitude0[j] * s.y[k * n + j]
     return w
 
 
@@ -69,7 +69,7 @@ def _slope(model, s, k):
     """beta = B / r_0 of order k."""
     width, lanes = lane_count(model), splat(0.0)
     for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, SLOPE, b), _z(s, k * width + b), lanes)
+        lanes = fma(_row(model, DW_DTHETA, b), _z(s, k * width + b), lanes)
     return total(lanes) / model.r_0
 
 
@@ -78,24 +78,24 @@ def _disc_velocity(model, s):
     """Order 0 of the disc's velocity under the slider, but for f_0 B."""
     width, lanes = lane_count(model), splat(0.0)
     for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, FORCE_ROW, b), _e(s, width, b), lanes)
+        lanes = fma(_row(model, AMPLITUDE_ROW, b), _e(s, width, b), lanes)
     v = total(lanes)
-    for j in range(len(model.force0)):
-        v += model.force0[j] * s.g[j]
+    for j in range(len(model.mode_amplitude0)):
+        v += model.mode_amplitude0[j] * s.g[j]
     return v
 
 
 @inlined
 def _closing(model, s, k, e, carried):
     """Order k of the disc's velocity under the slider as the order before leaves it: without V_{k-1} and f_k."""
-    width, n = lane_count(model), len(model.force0)
-    lanes = fma(_row(model, FORCE_ROW, 0), e, mul(_row(model, SLOPE, 0), carried))
+    width, n = lane_count(model), len(model.mode_amplitude0)
+    lanes = fma(_row(model, AMPLITUDE_ROW, 0), e, mul(_row(model, DW_DTHETA, 0), carried))
     for b in range(WIDTH, width, WIDTH):
-        lanes = fma(_row(model, FORCE_ROW, b), _e(s, width, k * width + b), lanes)
-        lanes = fma(_row(model, SLOPE, b), _kept(s, _CARRIED, width, b), lanes)
+        lanes = fma(_row(model, AMPLITUDE_ROW, b), _e(s, width, k * width + b), lanes)
+        lanes = fma(_row(model, DW_DTHETA, b), _kept(s, _CARRIED, width, b), lanes)
     v = total(lanes)
     for j in range(n):
-        v += item(model.force0, j) * item(s.g, k * n + j)
+        v += item(model.mode_amplitude0, j) * item(s.g, k * n + j)
     return v
 
 
@@ -148,7 +148,7 @@ def compliant_slip_series(model, s, order, direction):
 
     Fills ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``.
     """
-    width, stiffness, friction = lane_count(model), 1.0 / give_of(model.give), direction * model.mu_k
+    width, stiffness, friction = lane_count(model), 1.0 / compliance_of(model.compliance), direction * model.mu_k
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
     e, carried, e_last, z_last = _e(s, width, 0), splat(0.0), splat(0.0), splat(0.0)
@@ -157,7 +157,7 @@ def compliant_slip_series(model, s, order, direction):
         f = s.slider[F + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
         # ahead of the modes: their sum would be what every order waits for
-        w = (closing + f * slope - impulse * model.compliance) * s.slider[UP + k]
+        w = (closing + f * slope - impulse * model.inverse_effective_mass) * s.slider[UP + k]
         if is_normal(model):
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             if k == 0:
@@ -186,14 +186,14 @@ def compliant_slip_series(model, s, order, direction):
         impulse = V * s.slider[UP + k]
     _set_e(s, width, order * width, e)
     _last_force(model, s, order, impulse)
-    _set_switch(s, order, direction)
+    _set_event_function(s, order, direction)
     return ratio
 
 
 @inlined
 def compliant_stick_series(model, s, order):
     """Stick on a compliant contact; ``P`` is V.  Fills both release functions."""
-    width, stiffness, lightness, impulse = lane_count(model), 1.0 / give_of(model.give), 1.0 / model.m, 0.0
+    width, stiffness, lightness, impulse = lane_count(model), 1.0 / compliance_of(model.compliance), 1.0 / model.m, 0.0
     for k in range(order + 1):
         s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
@@ -216,7 +216,7 @@ def compliant_stick_series(model, s, order):
 
 @inlined
 def release_series(model, s, order):
-    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``laws.grip``.
+    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``laws.stick_loads``.
 
     Where nothing but the slope pulls at a slider that may leave the disc, over their common factor V: mu_s +/- beta.
     """
@@ -257,7 +257,7 @@ def normal_slip_series(model, s, order, direction):
         R_k D = (N + k (u - u_0) + c u' + m A + B F)_k + h_k ((1 + m S2) s mu_k - beta_0)
     """
     width = lane_count(model)
-    f0, friction, mobility = s.slider[F], direction * model.mu_k, 1.0 + model.m * model.compliance
+    f0, friction, mobility = s.slider[F], direction * model.mu_k, 1.0 + model.m * model.inverse_effective_mass
     s.slider[U_SERIES], s.slider[V_SERIES], slope = _disc_point(model, s)
     beta = slope / model.r_0
     s.slider[SLOPE_SERIES] = beta
@@ -286,16 +286,16 @@ def normal_slip_series(model, s, order, direction):
                 part, pending = add(part, more), add(pending, left)
             single = _axisymmetric(model, s, k, impulse)
             by_speed = by_f + by_f_rate * s.slider[DOWN + k]
-            inertia = total(part) + single + f * by_speed + impulse * model.damped_compliance
+            inertia = total(part) + single + f * by_speed + impulse * model.damped_inverse_mass
         spring = _spring(model, s, k)
         top = _weight(model, s, k) + model.m * inertia + slope * spring
         R = (top + h * (mobility * friction - beta)) * inverse
         V = R * (1.0 - friction * beta) - friction * h
         s.slider[P_SERIES + k] = R
         rate = spring * lightness - ((friction + beta) * R + h) * lever
-        _move_slider(model, s, k, rate, inertia + rate * slope - model.compliance * V)
+        _move_slider(model, s, k, rate, inertia + rate * slope - model.inverse_effective_mass * V)
         impulse = V * s.slider[UP + k]
     _set_e(s, width, order * width, e)
     _last_force(model, s, order, impulse)
-    _set_switch(s, order, direction)
+    _set_event_function(s, order, direction)
     return denominator

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from .coasting import coast_to
 from .compile import inlined
-from .lanes import WIDTH, fma, load, splat, store
 from .layout import (
     DRIVE,
     DRIVE_SERIES,
@@ -25,7 +23,9 @@ from .layout import (
 )
 from .polynomial import value, value_by_halves
 from .series import lane_count
-from .switches import force_in_stick, stick_force
+from .simd import WIDTH, fma, load, splat, store
+from .stick_propagator import coast_to
+from .transitions import force_in_stick, stick_force
 
 # Stands for the order of a series where stick has no series but its closed form.
 COAST = 0
@@ -34,7 +34,7 @@ COAST = 0
 @inlined
 def _modes_at(model, s, order, x, state):
     """Modal displacements and velocities at x; even and odd powers do not wait for each other."""
-    width, n, at, square = lane_count(model), len(model.force0), splat(x), splat(x * x)
+    width, n, at, square = lane_count(model), len(model.mode_amplitude0), splat(x), splat(x * x)
     for b in range(0, width, WIDTH):
         i = order * width + b
         z, e = load(s.modes, i), load(s.modes, E * width + i)

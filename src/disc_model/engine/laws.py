@@ -19,7 +19,7 @@ TINY = 1e-100
 class Instant(NamedTuple):
     """The numbers on which laws depend, and by which they are differentiated.
 
-    The first eight are parameters of the model, the others are of a state.  ``give`` is 0 in rigid contact.
+    The first eight are parameters of the model, the others are of a state.  ``compliance`` is 0 in rigid contact.
     """
 
     N: float
@@ -29,23 +29,23 @@ class Instant(NamedTuple):
     k_p: float
     c_p: float
     Omega: float
-    give: float
+    compliance: float
     psi: float
     f: float
     w: float  # displacement of the disc under the slider
     w_velocity: float  # its velocity in the slider's frame
-    slope: float  # B = dw/dtheta there
+    dw_dtheta: float  # B = dw/dtheta there
     free: float  # A: acceleration of the disc there but for the contact force and f'
     u: float  # of the slider, where that is a state of its own: without contact, or on a compliant one
     u_velocity: float
 
 
 # Where its entries of a state stand; those of the model stand before them.
-PSI, F, W, W_VELOCITY, SLOPE, FREE, U, U_VELOCITY, N_ENTRIES = range(8, 17)
+PSI, F, W, W_VELOCITY, DW_DTHETA, FREE, U, U_VELOCITY, N_ENTRIES = range(8, 17)
 
 
 @inlined
-def spring_force(i):
+def inplane_force_per_radius(i):
     """F = k_p psi + c_p (Omega - f): the force in the plane over r_0, N/m."""
     return i.k_p * i.psi + i.c_p * (i.Omega - i.f)
 
@@ -59,7 +59,7 @@ def free_force(model, i):
 @inlined
 def stick_numerator(model, i):
     """The vertical contact force V in stick (f = 0), in rigid contact times 1 + m S2."""
-    return (i.w - i.u) / i.give if is_compliant(model) else free_force(model, i)
+    return (i.w - i.u) / i.compliance if is_compliant(model) else free_force(model, i)
 
 
 @inlined
@@ -67,21 +67,21 @@ def vertical_in_stick(model, i):
     """Vertical contact force V in stick (f = 0)."""
     if is_compliant(model):
         return stick_numerator(model, i)
-    return stick_numerator(model, i) / (1.0 + i.m * model.compliance)
+    return stick_numerator(model, i) / (1.0 + i.m * model.inverse_effective_mass)
 
 
 @inlined
-def slip_denominator(model, m, direction, slope):
+def slip_denominator(model, m, direction, dw_dtheta):
     """The denominator of the contact force in slip."""
     friction = direction * model.mu_k
     if is_normal(model):
-        beta = slope / model.r_0
+        beta = dw_dtheta / model.r_0
         if is_compliant(model):
             return 1.0 - friction * beta
-        return (1.0 + m * model.compliance) * (1.0 - friction * beta) + (friction + beta) * beta
+        return (1.0 + m * model.inverse_effective_mass) * (1.0 - friction * beta) + (friction + beta) * beta
     if is_compliant(model):
         return 1.0
-    return 1.0 + m * model.compliance + friction * slope / model.r_0
+    return 1.0 + m * model.inverse_effective_mass + friction * dw_dtheta / model.r_0
 
 
 @inlined
@@ -89,7 +89,7 @@ def slip_numerator(model, i):
     """The contact force in slip, P, or R under the normal force, times its denominator."""
     if is_compliant(model):
         return stick_numerator(model, i)
-    return free_force(model, i) + i.slope * spring_force(i)
+    return free_force(model, i) + i.dw_dtheta * inplane_force_per_radius(i)
 
 
 @inlined
@@ -97,31 +97,31 @@ def slip_rates(model, i, direction, force):
     """Vertical force V on the disc, and f', under the contact force of slip."""
     friction = direction * model.mu_k
     if is_normal(model):
-        beta = i.slope / model.r_0
+        beta = i.dw_dtheta / model.r_0
         V, held = force * (1.0 - friction * beta), (friction + beta) * force
     else:
         V, held = force, friction * force
-    return V, (spring_force(i) - held / model.r_0) / i.m
+    return V, (inplane_force_per_radius(i) - held / model.r_0) / i.m
 
 
 @inlined
-def grip(model, i, V):
+def stick_loads(model, i, V):
     """Pull and press of stick under the vertical force V: friction holds while abs(pull) <= mu_s press.
 
     Under the normal force both are in units of 1 / (1 + (B / r_0)^2): T and R have that in common.
     """
-    pull, press = model.r_0 * spring_force(i), V
+    pull, press = model.r_0 * inplane_force_per_radius(i), V
     if is_normal(model):
-        press = press + spring_force(i) * i.slope
-        pull = pull - i.slope / model.r_0 * V
+        press = press + inplane_force_per_radius(i) * i.dw_dtheta
+        pull = pull - i.dw_dtheta / model.r_0 * V
     return pull, press
 
 
 @inlined
 def impact(model, i):
     """Plastic impact (Eqs. 29-37): the impulse, and f after it, of which the slope takes its share if it is normal."""
-    lever = i.slope / (i.m * model.r_0**2) if is_normal(model) else 0.0 * i.slope  # of the type of an entry
-    p = (i.w_velocity - i.u_velocity) / (model.compliance + 1.0 / i.m + i.slope * lever)
+    lever = i.dw_dtheta / (i.m * model.r_0**2) if is_normal(model) else 0.0 * i.dw_dtheta  # of the type of an entry
+    p = (i.w_velocity - i.u_velocity) / (model.inverse_effective_mass + 1.0 / i.m + i.dw_dtheta * lever)
     return p, i.f - p * lever
 
 
@@ -135,9 +135,9 @@ def stepped(i, entry):
     """An instant with a complex step in one entry."""
     return Instant(
         _step(i.N, entry == 0), _step(i.k, entry == 1), _step(i.c, entry == 2), _step(i.m, entry == 3),
-        _step(i.k_p, entry == 4), _step(i.c_p, entry == 5), _step(i.Omega, entry == 6), _step(i.give, entry == 7),
+        _step(i.k_p, entry == 4), _step(i.c_p, entry == 5), _step(i.Omega, entry == 6), _step(i.compliance, entry == 7),
         _step(i.psi, entry == PSI), _step(i.f, entry == F),
         _step(i.w, entry == W), _step(i.w_velocity, entry == W_VELOCITY),
-        _step(i.slope, entry == SLOPE), _step(i.free, entry == FREE),
+        _step(i.dw_dtheta, entry == DW_DTHETA), _step(i.free, entry == FREE),
         _step(i.u, entry == U), _step(i.u_velocity, entry == U_VELOCITY),
     )  # fmt: skip

@@ -15,14 +15,14 @@ from typing import NamedTuple
 import numpy as np
 
 from .compile import inlined
-from .lanes import WIDTH, aligned, aligned_pieces
 from .packing import packed
+from .simd import WIDTH, aligned, aligned_pieces
 from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
 
 # Rows of Model.lanes.
-SHIFT, STIFFNESS, DAMPING, FORCE_ROW, SLOPE, BEND, MINUS_FORCE_DAMPING, MINUS_FORCE_STIFFNESS = range(8)
+SHIFT, STIFFNESS, DAMPING, AMPLITUDE_ROW, DW_DTHETA, BEND, MINUS_AMPLITUDE_DAMPING, MINUS_AMPLITUDE_STIFFNESS = range(8)
 
 # Coefficients that a series has room for; rows of Series.modes where e and scratch begin (z begins at 0); where the
 # slider's series begin in Series.slider, and where that ends.
@@ -46,7 +46,7 @@ class Model(NamedTuple):
     that one pointer; the others are views of it.  ``more_blocks`` is (0, 0) if there is one block of lanes, and
     (number of further blocks,) otherwise: the length of a tuple is known when kernels are compiled, so the usual case
     has no loop over blocks.
-    Likewise ``give`` is () if contact is rigid, else (compliance,), ``normal`` is () if the contact force is vertical,
+    Likewise ``compliance`` is () if contact is rigid, else (m/N,), ``normal`` is () if the contact force is vertical,
     else (True,), and ``ramp`` is () while Omega and N are constant, else what `on_ramp` puts there: the paper's model
     has no more to hand from kernel to kernel than it needs.
     """
@@ -56,12 +56,12 @@ class Model(NamedTuple):
     shift: np.ndarray  # +l in a-lanes, -l in b-lanes
     stiffness: np.ndarray  # omega^2
     damping: np.ndarray  # 2 xi omega
-    force: np.ndarray  # psi_l in a-lanes, 0 in b-lanes
-    slope: np.ndarray  # l psi_l in b-lanes, 0 in a-lanes: sum(slope z) = dw/dtheta under the slider
+    mode_amplitude: np.ndarray  # psi_l in a-lanes, 0 in b-lanes
+    dw_dtheta: np.ndarray  # l psi_l in b-lanes, 0 in a-lanes: sum(dw_dtheta z) = dw/dtheta under the slider
     bend: np.ndarray  # -l^2 psi_l in a-lanes: sum(bend z) = d2w/dtheta2 there
     stiffness0: np.ndarray
     damping0: np.ndarray
-    force0: np.ndarray
+    mode_amplitude0: np.ndarray
     N: float
     Omega: float
     k: float
@@ -73,15 +73,15 @@ class Model(NamedTuple):
     mu_k: float
     r_0: float
     u_0: float  # static displacement of the slider, m
-    compliance: float  # S2 = sum psi_l^2, 1/kg
-    damped_compliance: float  # sum 2 xi_l omega_l psi_l^2, 1/(kg s)
+    inverse_effective_mass: float  # S2 = sum psi_l^2, 1/kg
+    damped_inverse_mass: float  # sum 2 xi_l omega_l psi_l^2, 1/(kg s)
     unit: float  # time unit of the series, s
     free_unit: float  # one radian of the fastest motion out of contact, time units; not used in rigid contact
     velocity_scale: float  # m/s times sqrt(kg): what a modal velocity is compared with
     slider_scale: float  # m/s: what u' is compared with in separation
     speed_scale: float  # rad/s: what f is compared with
     bonded: bool
-    give: tuple[float, ...]  # compliance of the contact, m/N
+    compliance: tuple[float, ...]  # compliance of the contact, m/N
     normal: tuple[bool, ...]
     ramp: tuple[float, ...]  # begin (s), angle of the drive point there (rad), rates of Omega (rad/s^2) and N (N/s)
     modes: StickModes  # closed form of stick
@@ -90,17 +90,17 @@ class Model(NamedTuple):
 @inlined
 def is_compliant(model):
     """Whether contact is compliant: a constant for the compiler."""
-    return len(model.give) == 1
+    return len(model.compliance) == 1
 
 
 @inlined
-def give_of(give):
-    """Compliance of the contact from ``Model.give``, m/N; 0 if it is rigid.
+def compliance_of(compliance):
+    """Compliance of the contact from ``Model.compliance``, m/N; 0 if it is rigid.
 
     The compiler drops a branch unseen if its condition is the length of an argument.
     """
-    if len(give) == 1:
-        return give[0]
+    if len(compliance) == 1:
+        return compliance[0]
     return 0.0
 
 
@@ -175,7 +175,7 @@ class Series(NamedTuple):
 
 
 @packed
-class State(NamedTuple):
+class EngineState(NamedTuple):
     """Where the system is.  z to g are views of ``disc``; ``x`` holds the slider's scalars, at the indices below."""
 
     disc: np.ndarray  # z, e, y, g, perhaps room for u, u'; padded to whole blocks of lanes
@@ -186,7 +186,7 @@ class State(NamedTuple):
     x: np.ndarray
 
 
-# Indices into State.x.  KNOWN: multiplicity of the root that the switch function is known to have now; COASTED: 1 if
+# Indices into State.x.  KNOWN: multiplicity of the root that the event function is known to have now; COASTED: 1 if
 # stick has already been followed in closed form as far as that goes; the time is TIME + TIME_LOW, added up with
 # compensation so that event times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
 TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, COASTED, DRIVE, LOAD, SCALARS = range(14)
@@ -204,47 +204,47 @@ def pair_lanes(n_pairs):
 
 
 def disc_size(width, n_single, compliant):
-    """Length of ``State.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes.
+    """Length of ``EngineState.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes.
 
     On a compliant contact u, u' have room behind them, for the closed form of stick.
     """
     return padded(2 * (width + n_single) + (2 if compliant else 0))
 
 
-def build_model(diameters, omega, psi, damping, slider, *, bonded, give=0.0, normal=False) -> Model:
+def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.0, normal=False) -> Model:
     """Constants of a case.
 
     diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`; none
-    for a rigid disc.  slider: N to r_0 of the model.  give: compliance of the contact, m/N, 0 if it is rigid; normal:
+    for a rigid disc.  slider: N to r_0 of the model.  compliance: of the contact, m/N, 0 if it is rigid; normal:
     whether its force is.
     """
     N, k, c, m = (slider[name] for name in ("N", "k", "c", "m"))
     diameters = np.asarray(diameters)
     pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)
     width, lane = lanes_for(len(pairs)), pair_lanes(len(pairs))
-    lanes = aligned((MINUS_FORCE_STIFFNESS + 1) * width)
+    lanes = aligned((MINUS_AMPLITUDE_STIFFNESS + 1) * width)
     rows = lanes.reshape(-1, width)
     rows[SHIFT, lane], rows[SHIFT, lane + HALF] = diameters[pairs], -diameters[pairs]
     rows[STIFFNESS, lane] = rows[STIFFNESS, lane + HALF] = omega[pairs] ** 2
     rows[DAMPING, lane] = rows[DAMPING, lane + HALF] = damping[pairs]
-    rows[FORCE_ROW, lane] = psi[pairs]
-    rows[SLOPE, lane + HALF] = diameters[pairs] * psi[pairs]
+    rows[AMPLITUDE_ROW, lane] = psi[pairs]
+    rows[DW_DTHETA, lane + HALF] = diameters[pairs] * psi[pairs]
     rows[BEND, lane] = -(diameters[pairs] ** 2) * psi[pairs]
-    rows[MINUS_FORCE_DAMPING] = -rows[FORCE_ROW] * rows[DAMPING]
-    rows[MINUS_FORCE_STIFFNESS] = -rows[FORCE_ROW] * rows[STIFFNESS]
+    rows[MINUS_AMPLITUDE_DAMPING] = -rows[AMPLITUDE_ROW] * rows[DAMPING]
+    rows[MINUS_AMPLITUDE_STIFFNESS] = -rows[AMPLITUDE_ROW] * rows[STIFFNESS]
     more, S2 = width // WIDTH - 1, float(np.sum(psi**2))
     stiffest = max(k, slider["k_p"])
-    unit = _time_unit(omega, (1 / m + S2) / give if give else 0.0, stiffest / m)
+    unit = _time_unit(omega, (1 / m + S2) / compliance if compliance else 0.0, stiffest / m)
     free_unit = min(_time_unit(omega, 0.0, stiffest / m) / unit, MOST_FREE)
     modes = no_modes()
     if not normal:
         modes = build_stick_modes(
             (omega[pairs], damping[pairs], psi[pairs], lane, lane + HALF, width),
             (omega[single], damping[single], psi[single], 2 * width + np.arange(len(single)), len(single)),
-            slider=2 * (width + len(single)), length=disc_size(width, len(single), give > 0.0),
-            N=N, k=k, c=c, m=m, unit=unit, give=give,
+            slider=2 * (width + len(single)), length=disc_size(width, len(single), compliance > 0.0),
+            N=N, k=k, c=c, m=m, unit=unit, compliance=compliance,
         )  # fmt: skip
-    views = dict(zip(("shift", "stiffness", "damping", "force", "slope", "bend"), rows, strict=False))
+    views = dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta", "bend"), rows, strict=False))
     return Model(
         lanes=lanes,
         more_blocks=(more,) if more else (0, 0),
@@ -252,17 +252,17 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, give=0.0, nor
         **slider,
         stiffness0=omega[single] ** 2,
         damping0=damping[single],
-        force0=psi[single],
-        u_0=-N * (float(np.sum(psi**2 / omega**2)) + give),
-        compliance=S2,
-        damped_compliance=float(np.sum(damping * psi**2)),
+        mode_amplitude0=psi[single],
+        u_0=-N * (float(np.sum(psi**2 / omega**2)) + compliance),
+        inverse_effective_mass=S2,
+        damped_inverse_mass=float(np.sum(damping * psi**2)),
         unit=unit,
         free_unit=free_unit,
         velocity_scale=N * float(np.max(np.abs(psi) / omega, initial=0.0)),
-        slider_scale=N * (float(np.sum(psi**2 / omega)) + give / unit),
+        slider_scale=N * (float(np.sum(psi**2 / omega)) + compliance / unit),
         speed_scale=slider["Omega"],
         bonded=bonded,
-        give=(give,) if give else (),
+        compliance=(compliance,) if compliance else (),
         normal=(True,) if normal else (),
         ramp=(),
         modes=modes,
@@ -297,7 +297,7 @@ def _time_unit(omega, contact, slider) -> float:
 
 def build_series(model: Model, order: int) -> Series:
     """Empty series of degree ``order`` for ``model``."""
-    width, n0 = len(model.shift), len(model.force0)
+    width, n0 = len(model.shift), len(model.mode_amplitude0)
     modes, slider, y, g, amplitudes, roots = aligned_pieces(
         (2 * ROWS + 5) * width, _SLIDER_END, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
         ROOT_ROWS * (padded(order + 1) + WIDTH),
@@ -311,14 +311,14 @@ def build_series(model: Model, order: int) -> Series:
     )
 
 
-def build_state(model: Model) -> State:
-    """The published start: static equilibrium under the preload, in stick, spring relaxed."""
-    width, n0 = len(model.force), len(model.force0)
-    disc = aligned(disc_size(width, n0, len(model.give) == 1))
+def build_state(model: Model) -> EngineState:
+    """The static start: equilibrium under the preload, in stick, spring relaxed."""
+    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
+    disc = aligned(disc_size(width, n0, len(model.compliance) == 1))
     z, e, y, g = np.split(disc[: 2 * (width + n0)], [width, 2 * width, 2 * width + n0])
-    np.divide(-model.N * model.force, model.stiffness, out=z, where=model.stiffness > 0)
-    np.divide(-model.N * model.force0, model.stiffness0, out=y, where=model.stiffness0 > 0)
+    np.divide(-model.N * model.mode_amplitude, model.stiffness, out=z, where=model.stiffness > 0)
+    np.divide(-model.N * model.mode_amplitude0, model.stiffness0, out=y, where=model.stiffness0 > 0)
     x = np.zeros(SCALARS)
     x[U] = model.u_0
     x[PHASE] = STICK
-    return State(disc, z, e, y, g, x)
+    return EngineState(disc, z, e, y, g, x)

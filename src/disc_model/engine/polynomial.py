@@ -1,6 +1,6 @@
 """First root of a polynomial on an interval, without missing any.
 
-A switch function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` is the multiplicity of the root it is
+An event function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` is the multiplicity of the root it is
 known to have at x = 0, divided out.  Most steps are settled by a bound; the rest by the Bernstein form, whose sign
 changes count roots from above: none means no root, one means exactly one, more means halve and look again, left
 half first (Descartes' rule, de Casteljau's algorithm).
@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from .compile import helper, inlined
-from .lanes import WIDTH, add, fma, item, load, maximum, minimum, mul, put, splat, spread, store, total
 from .layout import ROWS
+from .simd import WIDTH, add, fma, item, load, maximum, minimum, mul, put, splat, spread, store, total
 
 NO_ROOT = -1.0
 # Halley's method ends at a step of this size, relative to the root.

@@ -1,6 +1,6 @@
-"""Small changes carried through a switch: the saltation matrix, applied to columns.
+"""Small changes carried through an event: the saltation matrix, applied to columns.
 
-At a switch h = 0 the columns turn with the jump of the vector field: with dtau = -dh / h' the change of the switch's
+At an event h = 0 the columns turn with the jump of the vector field: with dtau = -dh / h' the change of the event's
 time, J the Jacobian of the jump and v the rates before and after,
 
     dx(after) = J (dx(before) + v(before) dtau) - v(after) dtau.
@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from . import laws
 from .compile import helper, inlined, kernel
-from .lanes import WIDTH, fma, load, mul, splat, store, sub, total
-from .laws import FREE, N_ENTRIES, PSI, SLOPE, U_VELOCITY, W_VELOCITY, F, U, W
+from .laws import DW_DTHETA, FREE, N_ENTRIES, PSI, U_VELOCITY, W_VELOCITY, F, U, W
 from .layout import DIRECTION, HALF, PHASE, SEPARATION, SLIP, SPEED, STICK, is_compliant
-from .switches import disc_point, instant, switch_function
+from .simd import WIDTH, fma, load, mul, splat, store, sub, total
 from .tangent import (
-    D_GIVE,
+    D_COMPLIANCE,
     D_K,
     F_ROW,
     LOAD,
@@ -28,31 +27,32 @@ from .tangent import (
     point_change,
     slider_row,
 )
+from .transitions import disc_point, event_function, instant
 
 
 @kernel
 def rates(model, state, out):
     """Rates of all rows in the state's phase, into the first lane of ``out`` ([row][8])."""
-    width, n0 = len(model.force), len(model.force0)
+    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     phase, direction = state.x[PHASE], state.x[DIRECTION]
     i, _ = instant(model, state)
     f, V, rate_f = i.f, 0.0, 0.0
     if phase == STICK:
         V = laws.vertical_in_stick(model, i)
     elif phase == SLIP:
-        force = laws.slip_numerator(model, i) / laws.slip_denominator(model, i.m, direction, i.slope)
+        force = laws.slip_numerator(model, i) / laws.slip_denominator(model, i.m, direction, i.dw_dtheta)
         V, rate_f = laws.slip_rates(model, i, direction, force)
     else:
-        rate_f = laws.spring_force(i) / i.m
+        rate_f = laws.inplane_force_per_radius(i) / i.m
     for j in range(width):
         other = j + HALF if j % WIDTH < HALF else j - HALF
         out[j * WIDTH] = state.e[j] + model.shift[j] * f * state.z[other]
         rate = model.shift[j] * f * state.e[other] - model.damping[j] * state.e[j] - model.stiffness[j] * state.z[j]
-        out[(width + j) * WIDTH] = rate - model.force[j] * V
+        out[(width + j) * WIDTH] = rate - model.mode_amplitude[j] * V
     for j in range(n0):
         out[(2 * width + j) * WIDTH] = state.g[j]
         rate = -model.damping0[j] * state.g[j] - model.stiffness0[j] * state.y[j]
-        out[(2 * width + n0 + j) * WIDTH] = rate - model.force0[j] * V
+        out[(2 * width + n0 + j) * WIDTH] = rate - model.mode_amplitude0[j] * V
     out[slider_row(model, PSI_ROW) * WIDTH] = model.Omega - f
     out[slider_row(model, F_ROW) * WIDTH] = rate_f
     u, v = (i.u, i.u_velocity) if is_compliant(model) or phase == SEPARATION else (i.w, i.w_velocity)
@@ -62,8 +62,8 @@ def rates(model, state, out):
 
 @inlined
 def _free_change(model, state, x, at, q, parameters, changes):
-    """Change of A, ``switches.Instant.free`` (lanes)."""
-    width, n0, f = len(model.force), len(model.force0), state.x[SPEED]
+    """Change of A, ``transitions.Instant.free`` (lanes)."""
+    width, n0, f = len(model.mode_amplitude), len(model.mode_amplitude0), state.x[SPEED]
     df, acceleration = load(x, at + slider_row(model, F_ROW) * WIDTH), splat(0.0)
     for j in range(width):
         if model.shift[j] > 0.0:
@@ -75,14 +75,14 @@ def _free_change(model, state, x, at, q, parameters, changes):
             if changes:
                 part = sub(part, mul(splat(state.z[j]), load(parameters, q + (N_SCALARS + j) * WIDTH)))
                 part = sub(part, mul(splat(state.e[j]), load(parameters, q + (N_SCALARS + width + j) * WIDTH)))
-            acceleration = fma(splat(model.force[j]), part, acceleration)
+            acceleration = fma(splat(model.mode_amplitude[j]), part, acceleration)
     for j in range(n0):
         y, g = load(x, at + (2 * width + j) * WIDTH), load(x, at + (2 * width + n0 + j) * WIDTH)
         part = fma(splat(-model.stiffness0[j]), y, mul(splat(-model.damping0[j]), g))
         if changes:
             part = sub(part, mul(splat(state.y[j]), load(parameters, q + (N_SCALARS + 2 * width + j) * WIDTH)))
             part = sub(part, mul(splat(state.g[j]), load(parameters, q + (N_SCALARS + 2 * width + n0 + j) * WIDTH)))
-        acceleration = fma(splat(model.force0[j]), part, acceleration)
+        acceleration = fma(splat(model.mode_amplitude0[j]), part, acceleration)
     return acceleration
 
 
@@ -95,13 +95,13 @@ def _put_changes(model, state, t, x, c, changes):
     at, q, slider = c * n_rows_of(model), c * n_inputs(model), c * n_rows_of(model) + slider_row(model, 0) * WIDTH
     for entry in range(N_SCALARS):
         store(t.change, entry * WIDTH, load(t.parameters, q + entry * WIDTH) if changes else splat(0.0))
-    _, _, slope = disc_point(model, state)
-    dw, dv, d_slope = point_change(model, x, at, state.x[SPEED], slope)
+    _, _, dw_dtheta = disc_point(model, state)
+    dw, dv, d_slope = point_change(model, x, at, state.x[SPEED], dw_dtheta)
     store(t.change, PSI * WIDTH, load(x, slider + PSI_ROW * WIDTH))
     store(t.change, F * WIDTH, load(x, slider + F_ROW * WIDTH))
     store(t.change, W * WIDTH, dw)
     store(t.change, W_VELOCITY * WIDTH, dv)
-    store(t.change, SLOPE * WIDTH, d_slope)
+    store(t.change, DW_DTHETA * WIDTH, d_slope)
     store(t.change, FREE * WIDTH, _free_change(model, state, x, at, q, t.parameters, changes))
     store(t.change, U * WIDTH, load(x, slider + U_ROW * WIDTH))
     store(t.change, U_VELOCITY * WIDTH, load(x, slider + V_ROW * WIDTH))
@@ -125,35 +125,35 @@ def _set_derivative(model, i, t, row, entry, value):
     derivative = value.imag / laws.TINY
     if entry == D_K:
         derivative += model.u_0 * t.gradient[row * N_ENTRIES + LOAD]
-    elif entry == D_GIVE:
-        derivative *= i.give
+    elif entry == D_COMPLIANCE:
+        derivative *= i.compliance
     t.gradient[row * N_ENTRIES + entry] = derivative
 
 
 @helper
-def switch_gradient(model, state, t, cause):
-    """Derivatives of the switch function of ``cause``, into ``t.gradient``."""
+def event_gradient(model, state, t, cause):
+    """Derivatives of the event function of ``cause``, into ``t.gradient``."""
     i, _ = instant(model, state)
     slipping = state.x[PHASE] == SLIP
     for entry in range(N_ENTRIES):
-        _set_derivative(model, i, t, 0, entry, switch_function(model, laws.stepped(i, entry), cause, slipping))
+        _set_derivative(model, i, t, 0, entry, event_function(model, laws.stepped(i, entry), cause, slipping))
 
 
 @inlined
-def switch_change(model, state, t, x, c, changes):
-    """Change of the switch function of ``t.gradient`` (lanes); other arguments as of ``_put_changes``."""
+def event_change(model, state, t, x, c, changes):
+    """Change of the event function of ``t.gradient`` (lanes); other arguments as of ``_put_changes``."""
     _put_changes(model, state, t, x, c, changes)
     return _change(t, 0)
 
 
 @helper
-def switch_times(model, state, t, cause):
-    """``t.tau``: change of the time of the switch ``cause`` for every column.  Returns the switch function's rate."""
+def event_times(model, state, t, cause):
+    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate."""
     C = t.columns
-    switch_gradient(model, state, t, cause)
-    rate = total(switch_change(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
+    event_gradient(model, state, t, cause)
+    rate = total(event_change(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
     for c in range(0, C, WIDTH):
-        store(t.tau, c, mul(splat(-1.0 / rate), switch_change(model, state, t, t.now, c, c >= t.plain)))
+        store(t.tau, c, mul(splat(-1.0 / rate), event_change(model, state, t, t.now, c, c >= t.plain)))
     return rate
 
 
@@ -172,7 +172,7 @@ def shift(model, t, rates_at, sign):
 @helper
 def impact_change(model, state, t):
     """Jacobian of the plastic impact, applied to the columns; ``state`` is the one before."""
-    width, n0 = len(model.force), len(model.force0)
+    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     i, _ = instant(model, state)
     for entry in range(N_ENTRIES):
         p, f = laws.impact(model, laws.stepped(i, entry))
@@ -184,10 +184,10 @@ def impact_change(model, state, t):
         store(t.now, block + slider_row(model, F_ROW) * WIDTH, _change(t, 1))
         for j in range(width):
             at = block + (width + j) * WIDTH
-            store(t.now, at, sub(load(t.now, at), mul(splat(model.force[j]), dp)))
+            store(t.now, at, sub(load(t.now, at), mul(splat(model.mode_amplitude[j]), dp)))
         for j in range(n0):
             at = block + (2 * width + n0 + j) * WIDTH
-            store(t.now, at, sub(load(t.now, at), mul(splat(model.force0[j]), dp)))
+            store(t.now, at, sub(load(t.now, at), mul(splat(model.mode_amplitude0[j]), dp)))
 
 
 @helper

@@ -1,7 +1,7 @@
 """Uniform samples from the dense output.
 
-A sample that falls on a switch shows the side before it.  The time of a switch is rounded, and another way to the same
-switch rounds it elsewhere; "on" therefore means no later than `SAME_INSTANT` of the clock after it.
+A sample that falls on an event shows the side before it.  The time of an event is rounded, and another way to the same
+event rounds it elsewhere; "on" therefore means no later than `SAME_INSTANT` of the clock after it.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import math
 from . import layout
 from .compile import helper
 from .dense_output import force_at, move_to
-from .switches import disc_point
+from .transitions import disc_point
 
 # Columns of a row of samples.
 ROW = ("sampler", "time", "P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity", "phase")
@@ -29,11 +29,11 @@ def point_motion(model, state, angle):
         if j % layout.WIDTH < layout.HALF:
             turn = model.shift[j] * angle
             cosine, sine = math.cos(turn), math.sin(turn)
-            w += model.force[j] * (state.z[j] * cosine + state.z[j + layout.HALF] * sine)
-            velocity += model.force[j] * (state.e[j] * cosine + state.e[j + layout.HALF] * sine)
-    for j in range(len(model.force0)):
-        w += model.force0[j] * state.y[j]
-        velocity += model.force0[j] * state.g[j]
+            w += model.mode_amplitude[j] * (state.z[j] * cosine + state.z[j + layout.HALF] * sine)
+            velocity += model.mode_amplitude[j] * (state.e[j] * cosine + state.e[j + layout.HALF] * sine)
+    for j in range(len(model.mode_amplitude0)):
+        w += model.mode_amplitude0[j] * state.y[j]
+        velocity += model.mode_amplitude0[j] * state.g[j]
     return w, velocity
 
 
@@ -58,7 +58,7 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
 def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
     """Append a row for every sample time within the step that starts at ``state`` and lasts ``x_end`` units.
 
-    A sample at the end of the step, to rounding, is this step's: of the two sides of a switch it shows the first.
+    A sample at the end of the step, to rounding, is this step's: of the two sides of an event it shows the first.
     samplers: shape (n, 5), columns first time, interval, number of samples, theta, end of run; progress: shape (n,),
     samples taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
     """

@@ -4,8 +4,8 @@ The tests hold them against a reference written mode by mode, tests/references/t
 
 The contact force of order k needs a sum over all modes, and everything of order k + 1 needs the contact force: a chain
 that would leave the arithmetic units idle.  It is broken in two ways.  The sum is taken over what is known before
-P_{k-1} is; the share of P_{k-1} in it is a known constant (``damped_compliance``).  And the terms of the sum that stem
-from order k - 1 are gathered while that order is dealt with ("pending").
+P_{k-1} is; the share of P_{k-1} in it is a known constant (``damped_inverse_mass``).  And the terms of the sum that
+stem from order k - 1 are gathered while that order is dealt with ("pending").
 
 The convolutions of f with z and e, nearly all of the work, are done for two orders at once, so that each coefficient
 is loaded once for two products.
@@ -21,21 +21,20 @@ where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k
 from __future__ import annotations
 
 from .compile import inlined
-from .lanes import ONE_REGISTER, WIDTH, add, fma, item, load, mul, put, splat, spread, store, sub, swap_halves, total
 from .layout import (
+    AMPLITUDE_ROW,
     BEND,
     DAMPING,
     DOWN,
     DRIVE_SERIES,
-    FORCE_ROW,
+    DW_DTHETA,
     LOAD_SERIES,
-    MINUS_FORCE_DAMPING,
-    MINUS_FORCE_STIFFNESS,
+    MINUS_AMPLITUDE_DAMPING,
+    MINUS_AMPLITUDE_STIFFNESS,
     P_SERIES,
     PSI_SERIES,
     SCRATCH,
     SHIFT,
-    SLOPE,
     STIFFNESS,
     SWITCH,
     SWITCH2,
@@ -46,6 +45,7 @@ from .layout import (
     F,
     is_ramped,
 )
+from .simd import ONE_REGISTER, WIDTH, add, fma, item, load, mul, put, splat, spread, store, sub, swap_halves, total
 
 # Rows of the scratch array: inner terms (e, z) of a pair's second order, s_k, and the constants C and f_0 bend.
 _E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT = range(5)
@@ -111,17 +111,17 @@ def _keep(s, row, width, b, v):
 @inlined
 def _disc_point(model, s):
     """u, u' and the slope B of the disc under the slider, from the coefficients 0."""
-    width, u, v, slope = lane_count(model), splat(0.0), splat(0.0), splat(0.0)
+    width, u, v, dw_dtheta = lane_count(model), splat(0.0), splat(0.0), splat(0.0)
     for b in range(0, width, WIDTH):
-        force, z = _row(model, FORCE_ROW, b), _z(s, b)
+        force, z = _row(model, AMPLITUDE_ROW, b), _z(s, b)
         u = fma(force, z, u)
         v = fma(force, _e(s, width, b), v)
-        slope = fma(_row(model, SLOPE, b), z, slope)
-    B = total(slope)
+        dw_dtheta = fma(_row(model, DW_DTHETA, b), z, dw_dtheta)
+    B = total(dw_dtheta)
     u0, v0 = total(u), total(v) + s.slider[F] * B
-    for j in range(len(model.force0)):
-        u0 += model.force0[j] * s.y[j]
-        v0 += model.force0[j] * s.g[j]
+    for j in range(len(model.mode_amplitude0)):
+        u0 += model.mode_amplitude0[j] * s.y[j]
+        v0 += model.mode_amplitude0[j] * s.g[j]
     return u0, v0, B
 
 
@@ -197,7 +197,7 @@ def _inner_terms(s, width, b, k, e_last, z_last):
 @inlined
 def _pending(model, s, width, b, e, z, carried):
     """A block's share of u'' of an order, as far as the order before knows it (lanes)."""
-    known = fma(_kept(s, _BENT, width, b), carried, mul(_row(model, MINUS_FORCE_STIFFNESS, b), z))
+    known = fma(_kept(s, _BENT, width, b), carried, mul(_row(model, MINUS_AMPLITUDE_STIFFNESS, b), z))
     return fma(_kept(s, _CORIOLIS, width, b), e, known)
 
 
@@ -210,10 +210,10 @@ def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
     for order k + 1.  What waits for P comes last in every sum: that chain sets the pace.
     """
     e_inner, z_inner = _inner_terms(s, width, b, k, e_last, z_last)
-    part = mul(_row(model, SLOPE, b), fma(splat(s.slider[DOWN + k]), z_inner, e_inner))
+    part = mul(_row(model, DW_DTHETA, b), fma(splat(s.slider[DOWN + k]), z_inner, e_inner))
     shift, damping, at = _row(model, SHIFT, b), _row(model, DAMPING, b), k * width + b
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
-    e = fma(splat(-impulse), _row(model, FORCE_ROW, b), e)
+    e = fma(splat(-impulse), _row(model, AMPLITUDE_ROW, b), e)
     turned = swap_halves(fma(f, _z(s, b), carried))
     z_next = mul(fma(shift, turned, e), up)
     carried = fma(first, z_next, fma(f, _z(s, width + b), z_inner))
@@ -248,8 +248,8 @@ def _order_zero(model, s, width, b, f0):
     _set_z(s, width + b, z_next)
     _set_e(s, width, width + b, e_next)
     _keep(s, _CARRIED, width, b, carried)
-    minus_force_damping = _row(model, MINUS_FORCE_DAMPING, b)
-    _keep(s, _CORIOLIS, width, b, fma(splat(2.0 * f0), _row(model, SLOPE, b), minus_force_damping))
+    minus_force_damping = _row(model, MINUS_AMPLITUDE_DAMPING, b)
+    _keep(s, _CORIOLIS, width, b, fma(splat(2.0 * f0), _row(model, DW_DTHETA, b), minus_force_damping))
     _keep(s, _BENT, width, b, mul(first, _row(model, BEND, b)))
     return _pending(model, s, width, b, e_next, z_next, carried)
 
@@ -266,16 +266,16 @@ def _first_order(model, s, width, f0):
         pending = add(pending, _order_zero(model, s, width, b, f0))
         z, e = _z(s, b), _e(s, width, b)
         now = add(now, _pending(model, s, width, b, e, z, zero))
-        by_e = fma(_row(model, SLOPE, b), e, by_e)
+        by_e = fma(_row(model, DW_DTHETA, b), e, by_e)
         by_z = fma(_row(model, BEND, b), z, by_z)
-        by_z1 = fma(_row(model, SLOPE, b), _z(s, width + b), by_z1)
+        by_z1 = fma(_row(model, DW_DTHETA, b), _z(s, width + b), by_z1)
     return now, pending, by_e, by_z, by_z1
 
 
 @inlined
 def _axisymmetric_mode(model, s, k, n, j, impulse):
     """Mode j of n without nodal diameter, order k: it only feels P.  Returns its part of u'' without P_{k-1}."""
-    at, up, force, damping = k * n + j, s.slider[UP + k], item(model.force0, j), item(model.damping0, j)
+    at, up, force, damping = k * n + j, s.slider[UP + k], item(model.mode_amplitude0, j), item(model.damping0, j)
     g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
     part = -force * (damping * g + pull)
     g -= force * impulse
@@ -288,7 +288,7 @@ def _axisymmetric_mode(model, s, k, n, j, impulse):
 @inlined
 def _axisymmetric(model, s, k, impulse):
     """Modes without nodal diameter, order k.  Returns their part of u'' without P_{k-1}."""
-    n = len(model.force0)
+    n = len(model.mode_amplitude0)
     if n == 1:  # the usual case; a loop costs as much again
         return _axisymmetric_mode(model, s, k, 1, 0, impulse)
     part = 0.0
@@ -300,17 +300,17 @@ def _axisymmetric(model, s, k, impulse):
 @inlined
 def _last_force(model, s, order, impulse):
     """Put the last contact force into the velocities of the highest order."""
-    width, n, q = lane_count(model), len(model.force0), splat(impulse)
+    width, n, q = lane_count(model), len(model.mode_amplitude0), splat(impulse)
     for b in range(0, width, WIDTH):
         at = order * width + b
-        store(s.modes, E * width + at, sub(_e(s, width, at), mul(q, _row(model, FORCE_ROW, b))))
+        store(s.modes, E * width + at, sub(_e(s, width, at), mul(q, _row(model, AMPLITUDE_ROW, b))))
     for j in range(n):
-        s.g[order * n + j] -= model.force0[j] * impulse
+        s.g[order * n + j] -= model.mode_amplitude0[j] * impulse
 
 
 @inlined
-def _set_switch(s, order, direction):
-    """The switch function of slip, and the order to which P is not known."""
+def _set_event_function(s, order, direction):
+    """The event function of slip, and the order to which P is not known."""
     for j in range(0, order + 1, WIDTH):
         store(s.switch, j, mul(splat(direction), load(s.f, j)))
     # what an earlier step in another phase may have left
@@ -321,17 +321,18 @@ def _set_switch(s, order, direction):
 def slip_series(model, s, order, direction):
     """Slip with sgn(f) = ``direction``.  Returns the denominator of P, whose zero is Painleve's paradox.
 
-    Fills ``s`` (coefficients 0 are given) up to degree ``order``, P up to ``order - 1``, and the switch function
+    Fills ``s`` (coefficients 0 are given) up to degree ``order``, P up to ``order - 1``, and the event function
     direction * f.
     """
     width = lane_count(model)
     f0, psi = s.slider[F], s.slider[PSI_SERIES]
-    u, v, slope = _disc_point(model, s)
+    u, v, dw_dtheta = _disc_point(model, s)
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
     friction = direction * model.mu_k / model.r_0
-    denominator = 1.0 + model.m * model.compliance + friction * slope
+    denominator = 1.0 + model.m * model.inverse_effective_mass + friction * dw_dtheta
     inverse, braking = 1.0 / denominator, friction / model.m
-    recoil, spring, damper = model.compliance + braking * slope, model.k_p / model.m, model.c_p / model.m
+    recoil = model.inverse_effective_mass + braking * dw_dtheta
+    spring, damper = model.k_p / model.m, model.c_p / model.m
 
     now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
     coriolis = total(by_e)
@@ -340,7 +341,7 @@ def slip_series(model, s, order, direction):
     acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
     pull = spring * psi + damper * (drive(model, s) - f0)
     vertical = load_at(model, s) + model.k * (u - model.u_0) + model.c * v
-    P = (vertical + model.m * (acceleration + slope * pull)) * inverse
+    P = (vertical + model.m * (acceleration + dw_dtheta * pull)) * inverse
     s.slider[P_SERIES] = P
     psi = (drive(model, s) - f0) * s.slider[UP]
     e, carried, e_last, z_last = (
@@ -349,11 +350,11 @@ def slip_series(model, s, order, direction):
         _e(s, width, 0),
         _z(s, width),
     )
-    by_u, by_v, by_pull, weight = inverse * model.k, inverse * model.c, inverse * model.m * slope, inverse * model.m
+    by_u, by_v, by_pull, weight = inverse * model.k, inverse * model.c, inverse * model.m * dw_dtheta, inverse * model.m
     for k in range(1, order + 1):
         up = s.slider[UP + k - 1]
         impulse, f_hat = P * up, pull * up
-        u, v = v * up, acceleration * up + f_hat * slope - recoil * impulse
+        u, v = v * up, acceleration * up + f_hat * dw_dtheta - recoil * impulse
         f = f_hat - braking * impulse
         s.slider[F + k], s.slider[PSI_SERIES + k] = f, psi
         s.slider[U_SERIES + k], s.slider[V_SERIES + k] = u, v
@@ -368,7 +369,7 @@ def slip_series(model, s, order, direction):
             part, pending = add(part, more), add(pending, left)
         by_speed = by_f + by_f_rate * s.slider[DOWN + k]
         single = _axisymmetric(model, s, k, impulse)
-        acceleration = total(part) + (single + f * by_speed + impulse * model.damped_compliance)
+        acceleration = total(part) + (single + f * by_speed + impulse * model.damped_inverse_mass)
         pull = spring * psi - damper * f
         P = weight * acceleration + (by_u * u + by_v * v + by_pull * pull)
         psi = -f * s.slider[UP + k]
@@ -380,14 +381,14 @@ def slip_series(model, s, order, direction):
         s.slider[P_SERIES + k] = P
     _set_e(s, width, order * width, e)
     _last_force(model, s, order, P * s.slider[UP + order - 1])
-    _set_switch(s, order, direction)
+    _set_event_function(s, order, direction)
     return denominator
 
 
 @inlined
 def _stick_pending(model, b, e, z):
     """As ``_pending`` in stick, where f = 0."""
-    return fma(_row(model, MINUS_FORCE_DAMPING, b), e, mul(_row(model, MINUS_FORCE_STIFFNESS, b), z))
+    return fma(_row(model, MINUS_AMPLITUDE_DAMPING, b), e, mul(_row(model, MINUS_AMPLITUDE_STIFFNESS, b), z))
 
 
 @inlined
@@ -395,7 +396,7 @@ def _stick_order(model, s, b, k, impulse, e, z):
     """One block of order k in stick, from e_k without P_{k-1} and z_k.  Returns its pending share, e_{k+1}, z_{k+1}."""
     width, up = lane_count(model), splat(s.slider[UP + k])
     at, damping = k * width + b, _row(model, DAMPING, b)
-    e = fma(splat(-impulse), _row(model, FORCE_ROW, b), e)
+    e = fma(splat(-impulse), _row(model, AMPLITUDE_ROW, b), e)
     z_next = mul(e, up)
     e_next = sub(splat(0.0), mul(fma(damping, e, mul(_row(model, STIFFNESS, b), z)), up))
     _set_e(s, width, at, e)
@@ -410,9 +411,9 @@ def stick_series(model, s, order):
     width, zero = lane_count(model), splat(0.0)
     u, v, _ = _disc_point(model, s)
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
-    inverse = 1.0 / (1.0 + model.m * model.compliance)
+    inverse = 1.0 / (1.0 + model.m * model.inverse_effective_mass)
     weight = model.m * inverse
-    by_force = inverse * (model.m * model.damped_compliance - model.c * model.compliance)
+    by_force = inverse * (model.m * model.damped_inverse_mass - model.c * model.inverse_effective_mass)
     pending, impulse, vertical = zero, 0.0, load_at(model, s) + model.k * (u - model.u_0) + model.c * v
     for b in range(0, width, WIDTH):
         pending = add(pending, _stick_pending(model, b, _e(s, width, b), _z(s, b)))
@@ -425,13 +426,13 @@ def stick_series(model, s, order):
             pending = add(pending, more)
         single, up = _axisymmetric(model, s, k, impulse), s.slider[UP + k]
         modes = total(part)
-        acceleration = modes + (single + impulse * model.damped_compliance)
+        acceleration = modes + (single + impulse * model.damped_inverse_mass)
         P = impulse * by_force + (weight * modes + (vertical + model.m * single) * inverse)
         s.slider[P_SERIES + k] = P
         s.slider[SWITCH + k] = s.slider[SWITCH2 + k] = model.mu_s * P
         impulse = P * up
         u, v_hat = v * up, acceleration * up
-        v = v_hat - model.compliance * impulse
+        v = v_hat - model.inverse_effective_mass * impulse
         s.slider[U_SERIES + k + 1], s.slider[V_SERIES + k + 1] = u, v
         s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
         # without P_k, whose share is in by_force
@@ -460,7 +461,7 @@ def stick_series(model, s, order):
 @inlined
 def separation_series(model, s, order):
     """No contact: P = 0, disc and slider each for themselves.  Fills the gap u - w."""
-    width, n = lane_count(model), len(model.force0)
+    width, n = lane_count(model), len(model.mode_amplitude0)
     f0, driven, weight = s.slider[F], drive(model, s), load_at(model, s) - model.k * model.u_0
     pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (driven - f0)
     e, carried, e_last, z_last = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
@@ -482,10 +483,10 @@ def separation_series(model, s, order):
         _axisymmetric(model, s, k, 0.0)
         w = splat(0.0)
         for b in range(0, width, WIDTH):
-            w = fma(_row(model, FORCE_ROW, b), _z(s, k * width + b), w)
+            w = fma(_row(model, AMPLITUDE_ROW, b), _z(s, k * width + b), w)
         gap = s.slider[U_SERIES + k] - total(w)
         for j in range(n):
-            gap -= model.force0[j] * s.y[k * n + j]
+            gap -= model.mode_amplitude0[j] * s.y[k * n + j]
         s.slider[SWITCH + k], s.slider[P_SERIES + k] = gap, 0.0
         up = s.slider[UP + k]
         s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up

@@ -1,4 +1,4 @@
-"""One step of the motion: its series, how far that reaches, and the switch that ends the phase within it."""
+"""One step of the motion: its series, how far that reaches, and the event that ends the phase within it."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ import math
 
 import numpy as np
 
-from . import switches
+from . import transitions
 from .compile import inlined
 from .contact_series import compliant_slip_series, compliant_stick_series, normal_slip_series, release_series
 from .dense_output import load_state
-from .lanes import WIDTH, absolute, largest, load, maximum, splat
 from .layout import (
     DIRECTION,
     DRIVE,
@@ -30,6 +29,7 @@ from .layout import (
 )
 from .polynomial import NO_ROOT, first_root, set_powers
 from .series import drive, lane_count, load_at, separation_series, slip_series, stick_series
+from .simd import WIDTH, absolute, largest, load, maximum, splat
 
 # Longest step, in radians of the fastest motion: beyond it the terms of the series cancel more digits than they add.
 LONGEST_STEP = 8.0
@@ -39,7 +39,7 @@ TYPICAL_STEP = 3.0
 @inlined
 def _size(model, s, k):
     """Largest modulus among the modal velocities of order k."""
-    width, n, biggest = lane_count(model), len(model.force0), splat(0.0)
+    width, n, biggest = lane_count(model), len(model.mode_amplitude0), splat(0.0)
     for j in range(k * width, (k + 1) * width, WIDTH):
         biggest = maximum(biggest, absolute(load(s.modes, E * width + j)))
     size = largest(biggest)
@@ -110,12 +110,12 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
-def _expand_slip(give, normal, model, s, order, direction):
+def _expand_slip(compliance, normal, model, s, order, direction):
     """Series of slip under the model's law of contact.  Returns the denominator of the contact force.
 
     give, normal: the model's; the compiler drops a branch unseen if its condition is the length of an argument.
     """
-    if len(give) == 1:
+    if len(compliance) == 1:
         return compliant_slip_series(model, s, order, direction)
     if len(normal) == 1:
         return normal_slip_series(model, s, order, direction)
@@ -123,9 +123,9 @@ def _expand_slip(give, normal, model, s, order, direction):
 
 
 @inlined
-def _expand_stick(give, normal, model, s, order):
+def _expand_stick(compliance, normal, model, s, order):
     """Series of stick, likewise."""
-    if len(give) == 1:
+    if len(compliance) == 1:
         compliant_stick_series(model, s, order)
     else:
         stick_series(model, s, order)
@@ -139,10 +139,10 @@ def expand(model, s, state, order):
     load_state(model, s, state)
     phase = state.x[PHASE]
     if phase == SLIP:
-        denominator = _expand_slip(model.give, model.normal, model, s, order, state.x[DIRECTION])
-        return denominator / switches.usual_denominator(model)
+        denominator = _expand_slip(model.compliance, model.normal, model, s, order, state.x[DIRECTION])
+        return denominator / transitions.usual_denominator(model)
     if phase == STICK:
-        _expand_stick(model.give, model.normal, model, s, order)
+        _expand_stick(model.compliance, model.normal, model, s, order)
     else:
         separation_series(model, s, order)
     return 1.0
@@ -150,7 +150,7 @@ def expand(model, s, state, order):
 
 @inlined
 def _sooner(s, c, known, n, x_end, cause, later):
-    """Where a switch function ends the phase, and this ``cause``; (x_end, ``later``) if it does not until then."""
+    """Where an event function ends the phase, and this ``cause``; (x_end, ``later``) if it does not until then."""
     x = first_root(c, known, n, x_end, s.powers, s.roots)
     if x == NO_ROOT:
         return x_end, later
@@ -159,35 +159,35 @@ def _sooner(s, c, known, n, x_end, cause, later):
 
 
 @inlined
-def first_switch(model, s, state, order, x_end):
+def first_event(model, s, state, order, x_end):
     """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
     phase, known, known_force = state.x[PHASE], int(state.x[KNOWN]), 0
     if is_compliant(model):
-        known, known_force = known % switches.TOUCHING, known // switches.TOUCHING
+        known, known_force = known % transitions.TOUCHING, known // transitions.TOUCHING
     set_powers(s.powers, x_end)
     if phase == SEPARATION:
-        return _sooner(s, s.switch, known, order, x_end, switches.GAP_CLOSED, switches.NOTHING)
+        return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
     if phase == SLIP:
-        x_end, cause = _sooner(s, s.switch, known, order, x_end, switches.AT_REST, switches.NOTHING)
+        x_end, cause = _sooner(s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING)
         if not model.bonded:
-            x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, switches.CONTACT_LOST, cause)
+            x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
         return x_end, cause
-    cause, known_release = switches.NOTHING, known_force
-    if not model.bonded and switches.never_pulled(model, state):
+    cause, known_release = transitions.NOTHING, known_force
+    if not model.bonded and transitions.never_pulled(model, state):
         # P = 0 and the friction limit coincide, and it is contact that ends
-        x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, switches.CONTACT_LOST, cause)
+        x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
         if not is_normal(model):
             return x_end, cause
         # the slope of the disc may pull: P is no factor of the release functions here
         known_release = 0
-    x_end, cause = _sooner(s, s.switch, known_release, order - 1, x_end, switches.RELEASE_FORWARD, cause)
+    x_end, cause = _sooner(s, s.switch, known_release, order - 1, x_end, transitions.RELEASE_FORWARD, cause)
     # under the vertical force the pull only grows; the slope of a disc that bends can turn it, and so can a drive that
     # slows down, by its damper
     if is_normal(model) or is_ramped(model) or s.switch2[0] < s.switch[0]:
-        x_end, cause = _sooner(s, s.switch2, known_release, order - 1, x_end, switches.RELEASE_BACKWARD, cause)
+        x_end, cause = _sooner(s, s.switch2, known_release, order - 1, x_end, transitions.RELEASE_BACKWARD, cause)
     if not model.bonded and (model.mu_s == 0.0 or (is_compliant(model) and is_normal(model))):
         # friction may hold although contact ends: without any, or on a slope so steep that it holds the slider down
-        x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, switches.CONTACT_LOST, cause)
+        x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
     return x_end, cause
 
 

@@ -1,4 +1,4 @@
-"""The modes of stick, in which the closed form of ``coasting`` moves.
+"""The modes of stick, in which the closed form of ``stick_propagator`` moves.
 
 With f = 0, disc and slider are one linear system.  In deviations d from the static equilibrium,
 
@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .lanes import WIDTH, aligned
 from .packing import packed
+from .simd import WIDTH, aligned
 
 # exp(lambda x) is the product of tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the rest;
 # with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_COAST bounds the table, and the samples that
@@ -70,13 +70,13 @@ def _eigenmodes(frequencies, dampings, shapes, k, c, m, unit):
     )
 
 
-def _compliant_eigenmodes(frequencies, dampings, shapes, k, c, m, unit, give):
+def _compliant_eigenmodes(frequencies, dampings, shapes, k, c, m, unit, compliance):
     """As `_eigenmodes` for a compliant contact: the last of d is the slider's u."""
     omega, damping, psi = np.array(frequencies), np.array(dampings), np.array(shapes)
     stretch = np.append(psi, -1.0)
     mass = np.append(np.ones(len(omega)), m)
-    stiffness = np.diag(np.append(omega**2, k)) + np.outer(stretch, stretch) / give
-    scale = np.append(omega, np.sqrt((1.0 / give + k) / m)) * unit
+    stiffness = np.diag(np.append(omega**2, k)) + np.outer(stretch, stretch) / compliance
+    scale = np.append(omega, np.sqrt((1.0 / compliance + k) / m)) * unit
     return _decomposed(stiffness / mass[:, None], np.diag(np.append(damping, c / m)), scale, unit)
 
 
@@ -110,42 +110,42 @@ def _decomposed(stiffness, damping, scale, unit):
     return decay + 1j * rates.imag, vectors, to_modes
 
 
-def build_stick_modes(pairs, single, *, slider, length, N, k, c, m, unit, give) -> StickModes:
+def build_stick_modes(pairs, single, *, slider, length, N, k, c, m, unit, compliance) -> StickModes:
     """Modes of stick for the model of `layout.build_model`.
 
-    pairs : of the diametral modes: omega, damping, psi, places of a and b in `State.disc`, how far on are velocities
+    pairs : of the diametral modes: omega, damping, psi, places of a, b in `EngineState.disc`, how far on are velocities
     single : of the axisymmetric modes: omega, damping, psi, their places, how far on are velocities
-    slider : place of u in `State.disc`, u' being the next, where contact is compliant
-    length : of `State.disc`
+    slider : place of u in `EngineState.disc`, u' being the next, where contact is compliant
+    length : of `EngineState.disc`
     """
     omega, damping, psi = (np.concatenate([pairs[i], single[i], pairs[i]]) for i in range(3))
     n, held = len(omega), len(pairs[0]) + len(single[0])
     shape = np.where(np.arange(n) < held, psi, 0.0)
-    if not (n or give) or n > MOST_MODES or not (omega > 0.0).all():
+    if not (n or compliance) or n > MOST_MODES or not (omega > 0.0).all():
         return no_modes()
     place = np.concatenate([pairs[3], single[3], pairs[4]])
     after = np.concatenate([pairs[3] + pairs[5], single[3] + single[4], pairs[4] + pairs[5]])
-    if give:
+    if compliance:
         place, after = np.append(place, slider), np.append(after, slider + 1)
     numbers = (tuple(a.tolist()) for a in (omega, damping, shape, np.concatenate([place, after])))
-    modes = _under_unit_load(*numbers, length, float(k), float(c), float(m), float(unit), float(give))
+    modes = _under_unit_load(*numbers, length, float(k), float(c), float(m), float(unit), float(compliance))
     return modes._replace(rest=N * modes.rest, offset=N * modes.offset)
 
 
 @lru_cache(maxsize=256)
-def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, unit, give) -> StickModes:
-    """`StickModes` for N = 1, the same for many cases; ``places`` of (d, d') in `State.disc`."""
+def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, unit, compliance) -> StickModes:
+    """`StickModes` for N = 1, the same for many cases; ``places`` of (d, d') in `EngineState.disc`."""
     system = (frequencies, dampings, shapes, k, c, m, unit)
-    modes = _compliant_eigenmodes(*system, give) if give else _eigenmodes(*system)
+    modes = _compliant_eigenmodes(*system, compliance) if compliance else _eigenmodes(*system)
     if modes is None:
         return no_modes()
     omega, damping, shape, where = (np.array(a) for a in (frequencies, dampings, shapes, places))
     rest = aligned(length)
     rest[where[: len(omega)]] = -shape / omega**2
     # dP of a unit change of each displacement and velocity
-    if give:
-        rest[where[len(omega)]] = -(np.sum((shape / omega) ** 2) + give)
-        force = np.concatenate([shape / give, [-1.0 / give], np.zeros(len(omega) + 1)])
+    if compliance:
+        rest[where[len(omega)]] = -(np.sum((shape / omega) ** 2) + compliance)
+        force = np.concatenate([shape / compliance, [-1.0 / compliance], np.zeros(len(omega) + 1)])
     else:
         force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
     rates, vectors, to_modes = modes
@@ -153,7 +153,7 @@ def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, uni
 
 
 def _packed(rates, vectors, to_modes, where, rest, force) -> StickModes:
-    """Modes (see `_eigenmodes`) as lanes; ``where`` the displacements and velocities stand in `State.disc`."""
+    """Modes (see `_eigenmodes`) as lanes; ``where`` the displacements and velocities stand in `EngineState.disc`."""
     n, length = len(rates), len(rest)
     enter = np.zeros((length, 2, padded(n)))
     enter[where, 0, :n], enter[where, 1, :n] = to_modes.real.T, to_modes.imag.T

@@ -17,20 +17,20 @@ from typing import NamedTuple
 import numpy as np
 
 from .compile import helper, inlined
-from .lanes import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 from .laws import N_ENTRIES, slip_denominator
-from .layout import HALF, SEPARATION, SLIP, STICK, Model, give_of, is_compliant, is_normal
+from .layout import HALF, SEPARATION, SLIP, STICK, Model, compliance_of, is_compliant, is_normal
 from .packing import packed
+from .simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 
 # Entries of ``Tangent.log``; ``variational`` says what they are.
 LOG_SIZE = 16
 
-# Rows of the slider in a column, behind those of the disc, which stand in the order of ``State.disc``.
+# Rows of the slider in a column, behind those of the disc, which stand in the order of ``EngineState.disc``.
 PSI_ROW, F_ROW, U_ROW, V_ROW, N_SLIDER_ROWS = range(5)
 
-# Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N - k u_0; D_GIVE:
+# Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N - k u_0; D_COMPLIANCE:
 # relative); after them stiffness and damping of all lanes and of the axisymmetric modes.
-LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, D_GIVE, N_SCALARS = range(9)
+LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, D_COMPLIANCE, N_SCALARS = range(9)
 
 
 @packed
@@ -39,15 +39,15 @@ class Tangent(NamedTuple):
 
     series: np.ndarray  # [block][order][row][8]
     force: np.ndarray  # [block][order][8] of P (R under the normal force)
-    slope: np.ndarray  # [block][order][8] of B
-    base_slope: np.ndarray  # [order], B of the motion
+    dw_dtheta: np.ndarray  # [block][order][8] of B
+    base_dw_dtheta: np.ndarray  # [order], B of the motion
     now: np.ndarray  # [block][row][8]
     parameters: np.ndarray  # [block][row][8], changes of parameters
-    before: np.ndarray  # [row][8], rates before a switch in the first lane
+    before: np.ndarray  # [row][8], rates before an event in the first lane
     after: np.ndarray
     change: np.ndarray  # [entry of an Instant][8], of a block of columns
     gradient: np.ndarray  # [2][entry], derivatives of laws
-    tau: np.ndarray  # [column], change of a switch's time
+    tau: np.ndarray  # [column], change of an event's time
     log: np.ndarray
     columns: int
     plain: int  # columns before this one carry no change of a parameter
@@ -60,28 +60,29 @@ def longest_step(order: int, tolerance: float) -> float:
 
 def n_rows(model: Model) -> int:
     """Number of rows of a column."""
-    return 2 * len(model.force) + 2 * len(model.force0) + N_SLIDER_ROWS
+    return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + N_SLIDER_ROWS
 
 
 def build_tangent(model: Model, columns: int, order: int, plain: int | None = None) -> Tangent:
     """Work space for ``columns`` columns; the first ``plain`` (all by default) carry no changes of parameters."""
     columns = WIDTH * -(-columns // WIDTH)
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
-    rows, parameters = n_rows(model), N_SCALARS + 2 * len(model.force) + 2 * len(model.force0)
+    rows, parameters = n_rows(model), N_SCALARS + 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0)
     order_size = (order + 2) * columns
-    series, force, slope, now, changes, before, after, change, gradient, tau, log, base_slope = aligned_pieces(
+    series, force, dw_dtheta, now, changes, before, after, change, gradient, tau, log, base_dw_dtheta = aligned_pieces(
         order_size * rows, order_size, order_size, rows * columns, parameters * columns,
         rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
     )  # fmt: skip
     return Tangent(
-        series, force, slope, base_slope, now, changes, before, after, change, gradient, tau, log, columns, plain
-    )
+        series, force, dw_dtheta, base_dw_dtheta,
+        now, changes, before, after, change, gradient, tau, log, columns, plain,
+    )  # fmt: skip
 
 
 @inlined
 def slider_row(model, row):
     """Where a row of the slider, ``PSI_ROW`` to ``V_ROW``, stands in a column; ``N_SLIDER_ROWS``: where columns end."""
-    return 2 * len(model.force) + 2 * len(model.force0) + row
+    return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + row
 
 
 @inlined
@@ -117,28 +118,28 @@ def _convolve(s, t, origin, R, k, j, width, f_row):
 @inlined
 def _motion_slope(model, s, t, order):
     """B of the motion, all orders."""
-    width = len(model.force)
+    width = len(model.mode_amplitude)
     for k in range(order + 1):
-        slope = 0.0
+        dw_dtheta = 0.0
         for j in range(width):
-            slope += model.slope[j] * s.z[k * width + j]
-        t.base_slope[k] = slope
+            dw_dtheta += model.dw_dtheta[j] * s.z[k * width + j]
+        t.base_dw_dtheta[k] = dw_dtheta
 
 
 @inlined
 def point_change(model, x, at, f, B):
     """du, d(u'), dB of the disc under the slider from columns x; f, B of the motion."""
-    width, n0 = len(model.force), len(model.force0)
+    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     zero = splat(0.0)
     du, dv, dB = zero, zero, zero
     for j in range(width):
         if model.shift[j] > 0.0:
-            force = splat(model.force[j])
+            force = splat(model.mode_amplitude[j])
             du = fma(force, load(x, at + j * WIDTH), du)
             dv = fma(force, load(x, at + (width + j) * WIDTH), dv)
-            dB = fma(splat(model.slope[j + HALF]), load(x, at + (j + HALF) * WIDTH), dB)
+            dB = fma(splat(model.dw_dtheta[j + HALF]), load(x, at + (j + HALF) * WIDTH), dB)
     for j in range(n0):
-        force = splat(model.force0[j])
+        force = splat(model.mode_amplitude0[j])
         du = fma(force, load(x, at + (2 * width + j) * WIDTH), du)
         dv = fma(force, load(x, at + (2 * width + n0 + j) * WIDTH), dv)
     df = load(x, at + slider_row(model, F_ROW) * WIDTH)
@@ -151,7 +152,7 @@ def _diametral_rates(model, s, t, block, k, phase, R):
 
     Returns their share of d(u'') and dB of order k + 1 (lanes).
     """
-    width, origin = len(model.force), block * len(t.base_slope) * R * WIDTH
+    width, origin = len(model.mode_amplitude), block * len(t.base_dw_dtheta) * R * WIDTH
     f_row, q = slider_row(model, F_ROW), block * n_inputs(model) * WIDTH
     here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
     up, free, dB = splat(s.up[k]), splat(0.0), splat(0.0)
@@ -177,15 +178,15 @@ def _diametral_rates(model, s, t, block, k, phase, R):
             store(t.series, there + i * WIDTH, db_next)
             store(t.series, there + (width + j) * WIDTH, rate_p)
             store(t.series, there + (width + i) * WIDTH, mul(rate_q, up))
-            free = fma(splat(model.force[j]), rate_p, free)
-            dB = fma(splat(model.slope[i]), db_next, dB)
+            free = fma(splat(model.mode_amplitude[j]), rate_p, free)
+            dB = fma(splat(model.dw_dtheta[i]), db_next, dB)
     return free, dB
 
 
 @inlined
 def _axisymmetric_rates(model, s, t, block, k, R):
     """As ``_diametral_rates`` for the modes without nodal diameter.  Returns their share of d(u'')."""
-    width, n0, origin = len(model.force), len(model.force0), block * len(t.base_slope) * R * WIDTH
+    width, n0, origin = len(model.mode_amplitude), len(model.mode_amplitude0), block * len(t.base_dw_dtheta) * R * WIDTH
     q, here, there = block * n_inputs(model) * WIDTH, origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
     up, free = splat(s.up[k]), splat(0.0)
     for j in range(n0):
@@ -198,7 +199,7 @@ def _axisymmetric_rates(model, s, t, block, k, R):
             rate = sub(rate, fma(d_stiffness, splat(s.y[k * n0 + j]), mul(d_damping, splat(s.g[k * n0 + j]))))
         store(t.series, there + y * WIDTH, mul(dg, up))
         store(t.series, there + g * WIDTH, rate)
-        free = fma(splat(model.force0[j]), rate, free)
+        free = fma(splat(model.mode_amplitude0[j]), rate, free)
     return free
 
 
@@ -228,38 +229,39 @@ def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
 @inlined
 def _path_change(s, t, block, k, R, f_row):
     """Change of f B without f'_k B_0, order k + 1: what the slope of the disc adds to d(u') (lanes)."""
-    orders = len(t.base_slope)
+    orders = len(t.base_dw_dtheta)
     origin, chain = block * orders * R * WIDTH, block * orders * WIDTH
-    carried = mul(splat(s.f[k + 1]), load(t.slope, chain))
+    carried = mul(splat(s.f[k + 1]), load(t.dw_dtheta, chain))
     for i in range(k + 1):
-        carried = fma(splat(s.f[i]), load(t.slope, chain + (k + 1 - i) * WIDTH), carried)
-        carried = fma(splat(t.base_slope[k + 1 - i]), load(t.series, origin + (i * R + f_row) * WIDTH), carried)
+        carried = fma(splat(s.f[i]), load(t.dw_dtheta, chain + (k + 1 - i) * WIDTH), carried)
+        carried = fma(splat(t.base_dw_dtheta[k + 1 - i]), load(t.series, origin + (i * R + f_row) * WIDTH), carried)
     return carried
 
 
 @inlined
 def _leverage_change(model, s, t, block, k):
     """Change of beta R of order k without beta_0 dR_k, beta being B / r_0 (lanes)."""
-    chain = block * len(t.base_slope) * WIDTH
-    change = mul(splat(s.P[0]), load(t.slope, chain + k * WIDTH))
+    chain = block * len(t.base_dw_dtheta) * WIDTH
+    change = mul(splat(s.P[0]), load(t.dw_dtheta, chain + k * WIDTH))
     for i in range(1, k + 1):
-        change = fma(splat(t.base_slope[i]), load(t.force, chain + (k - i) * WIDTH), change)
-        change = fma(splat(s.P[i]), load(t.slope, chain + (k - i) * WIDTH), change)
+        change = fma(splat(t.base_dw_dtheta[i]), load(t.force, chain + (k - i) * WIDTH), change)
+        change = fma(splat(s.P[i]), load(t.dw_dtheta, chain + (k - i) * WIDTH), change)
     return mul(splat(1.0 / model.r_0), change)
 
 
 @inlined
 def _compliant_change(model, s, t, block, k, R, friction):
-    """Change of V = (w - u) / give of order k (lanes); ``friction``: sgn(f) mu_k in slip, else 0."""
-    at = (block * len(t.base_slope) + k) * R * WIDTH
+    """Change of V = (w - u) / compliance of order k (lanes); ``friction``: sgn(f) mu_k in slip, else 0."""
+    at = (block * len(t.base_dw_dtheta) + k) * R * WIDTH
     dw, _, _ = point_change(model, t.series, at, 0.0, 0.0)
-    change = mul(splat(1.0 / give_of(model.give)), sub(dw, load(t.series, at + slider_row(model, U_ROW) * WIDTH)))
+    compression = sub(dw, load(t.series, at + slider_row(model, U_ROW) * WIDTH))
+    change = mul(splat(1.0 / compliance_of(model.compliance)), compression)
     if block * WIDTH >= t.plain:
         V = s.P[k]
         if is_normal(model):
             for i in range(k + 1):
-                V -= friction * t.base_slope[i] / model.r_0 * s.P[k - i]
-        d_give = load(t.parameters, block * n_inputs(model) * WIDTH + D_GIVE * WIDTH)
+                V -= friction * t.base_dw_dtheta[i] / model.r_0 * s.P[k - i]
+        d_give = load(t.parameters, block * n_inputs(model) * WIDTH + D_COMPLIANCE * WIDTH)
         change = sub(change, mul(splat(V), d_give))
     return change
 
@@ -271,14 +273,14 @@ def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, verti
     friction: sgn(f) mu_k; denominator: of the contact force; free: of u'' without forces (rigid contact); vertical and
     pull: see ``_slider_forces``.
     """
-    beta, mobility, h = t.base_slope[0] / model.r_0, 1.0 + model.m * model.compliance, splat(0.0)
+    beta, mobility, h = t.base_dw_dtheta[0] / model.r_0, 1.0 + model.m * model.inverse_effective_mass, splat(0.0)
     if is_normal(model):
         h = _leverage_change(model, s, t, block, k)
     if is_compliant(model):
         V = _compliant_change(model, s, t, block, k, R, friction)
         force = mul(splat(1.0 / denominator), fma(splat(friction), h, V))
     else:
-        top = fma(splat(t.base_slope[0]), pull, fma(splat(model.m), free, vertical))
+        top = fma(splat(t.base_dw_dtheta[0]), pull, fma(splat(model.m), free, vertical))
         force = mul(splat(1.0 / denominator), fma(splat(mobility * friction - beta), h, top))
         V = sub(mul(splat(1.0 - friction * beta), force), mul(splat(friction), h))
     held = mul(splat(friction), force)
@@ -290,27 +292,27 @@ def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, verti
 @inlined
 def _apply_force(model, s, t, block, k, R, P):
     """Velocities of order k + 1, once the change P of the vertical contact force of order k is known."""
-    width, n0, up = len(model.force), len(model.force0), splat(s.up[k])
-    there = (block * len(t.base_slope) + k + 1) * R * WIDTH
+    width, n0, up = len(model.mode_amplitude), len(model.mode_amplitude0), splat(s.up[k])
+    there = (block * len(t.base_dw_dtheta) + k + 1) * R * WIDTH
     for j in range(width):
         if model.shift[j] > 0.0:
             e = there + (width + j) * WIDTH
-            store(t.series, e, mul(up, sub(load(t.series, e), mul(splat(model.force[j]), P))))
+            store(t.series, e, mul(up, sub(load(t.series, e), mul(splat(model.mode_amplitude[j]), P))))
     for j in range(n0):
         g = there + (2 * width + n0 + j) * WIDTH
-        store(t.series, g, mul(up, sub(load(t.series, g), mul(splat(model.force0[j]), P))))
+        store(t.series, g, mul(up, sub(load(t.series, g), mul(splat(model.mode_amplitude0[j]), P))))
 
 
 @helper
 def tangent_series(model, s, t, order, phase, direction):
     """Taylor coefficients of all columns along the step whose series is ``s``, from ``t.now``."""
-    R, orders = n_rows_of(model), len(t.base_slope)
+    R, orders = n_rows_of(model), len(t.base_dw_dtheta)
     psi_row, f_row = slider_row(model, PSI_ROW), slider_row(model, F_ROW)
     u_row, v_row = slider_row(model, U_ROW), slider_row(model, V_ROW)
     _motion_slope(model, s, t, order)
-    B0 = t.base_slope[0]
+    B0 = t.base_dw_dtheta[0]
     friction = direction * model.mu_k / model.r_0 if phase == SLIP else 0.0
-    inverse = 1.0 / (1.0 + model.m * model.compliance + friction * B0)
+    inverse = 1.0 / (1.0 + model.m * model.inverse_effective_mass + friction * B0)
     other_law = is_compliant(model) or is_normal(model)
     lightness = splat(1.0 / model.m)
     for block in range(t.columns // WIDTH):
@@ -320,13 +322,13 @@ def tangent_series(model, s, t, order, phase, direction):
         du, dv, dB = point_change(model, t.now, at, s.f[0], B0)
         if is_compliant(model) or phase == SEPARATION:
             du, dv = load(t.now, at + u_row * WIDTH), load(t.now, at + v_row * WIDTH)
-        store(t.slope, chain, dB)
+        store(t.dw_dtheta, chain, dB)
         for k in range(order):
             up = splat(s.up[k])
             here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
             free, dB = _diametral_rates(model, s, t, block, k, phase, R)
             free = add(free, _axisymmetric_rates(model, s, t, block, k, R))
-            store(t.slope, chain + (k + 1) * WIDTH, dB)
+            store(t.dw_dtheta, chain + (k + 1) * WIDTH, dB)
             dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
             pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
             P, V, rate_f = splat(0.0), splat(0.0), splat(0.0)
@@ -340,7 +342,7 @@ def tangent_series(model, s, t, order, phase, direction):
                 if is_compliant(model):
                     acceleration = mul(lightness, sub(V, vertical))
                 else:
-                    acceleration = fma(splat(B0), rate_f, sub(free, mul(splat(model.compliance), V)))
+                    acceleration = fma(splat(B0), rate_f, sub(free, mul(splat(model.inverse_effective_mass), V)))
             elif is_compliant(model):
                 P = V = _compliant_change(model, s, t, block, k, R, 0.0)
                 acceleration = mul(lightness, sub(V, vertical))
@@ -349,7 +351,7 @@ def tangent_series(model, s, t, order, phase, direction):
                     free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
                     vertical = fma(splat(B0), pull, vertical)
                 P = V = mul(splat(inverse), fma(splat(model.m), free, vertical))
-                acceleration = sub(free, mul(splat(model.compliance), P))
+                acceleration = sub(free, mul(splat(model.inverse_effective_mass), P))
                 if phase == SLIP:
                     rate_f = mul(lightness, sub(pull, mul(splat(friction), P)))
                     acceleration = fma(splat(B0), rate_f, acceleration)
@@ -367,7 +369,7 @@ def tangent_at(model, t, order, x):
     """``t.now`` at x (time units) of the step."""
     size, at = n_rows_of(model) * WIDTH, splat(x)
     for block in range(t.columns // WIDTH):
-        origin, now = block * len(t.base_slope) * size, block * size
+        origin, now = block * len(t.base_dw_dtheta) * size, block * size
         for i in range(0, size, WIDTH):
             j = origin + order * size + i
             value = load(t.series, j)

@@ -8,15 +8,16 @@ import numpy as np
 
 from .compile import helper, inlined, kernel
 from .dense_output import state_at
-from .lanes import WIDTH, mul, splat, store
+from .exit_codes import CONSISTENT, LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
 from .laws import PSI as ANGLE
 from .laws import TINY, stepped
 from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME, is_compliant
-from .outcomes import CONSISTENT, LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
 from .packing import packed
-from .saltation import impact_change, rates, rest, shift, slider_rows, switch_change, switch_gradient, switch_times
-from .stepping import advance_time, expand, first_switch, step_size
-from .switches import (
+from .saltation import event_change, event_gradient, event_times, impact_change, rates, rest, shift, slider_rows
+from .simd import WIDTH, mul, splat, store
+from .stepping import advance_time, expand, first_event, step_size
+from .tangent import PSI_ROW, n_rows_of, slider_row, tangent_at, tangent_series
+from .transitions import (
     AT_REST,
     GAP_CLOSED,
     MAX_EVENTS_IN_A_ROW,
@@ -25,11 +26,10 @@ from .switches import (
     RELEASE_BACKWARD,
     RELEASE_FORWARD,
     change_phase,
+    event_function,
     instant,
     stick_force,
-    switch_function,
 )
-from .tangent import PSI_ROW, n_rows_of, slider_row, tangent_at, tangent_series
 
 # What a flight counts, entries of ``Tangent.log``.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
@@ -37,7 +37,7 @@ DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVER
 )
 
 
-class Course(NamedTuple):
+class IntegrationLimits(NamedTuple):
     """What ends a flight, and how finely it is computed."""
 
     order: int  # of the series
@@ -61,18 +61,18 @@ class Section(NamedTuple):
 
 @helper
 def _step(model, s, state, order, tolerance, left):
-    """Expand and find the first switch within ``left`` time units: (length, cause); nan or -1 is failure."""
+    """Expand and find the first event within ``left`` time units: (length, cause); nan or -1 is failure."""
     if expand(model, s, state, order) <= PAINLEVE_MARGIN:
         return -1.0, NOTHING
     x_end = step_size(model, s, order, tolerance, state.x[PHASE])
     if not x_end > 0.0:
         return np.nan, NOTHING
-    return first_switch(model, s, state, order, min(x_end, left))
+    return first_event(model, s, state, order, min(x_end, left))
 
 
 @helper
 def _count(state, cause, log):
-    """Count a switch that was carried out."""
+    """Count an event that was carried out."""
     phase = state.x[PHASE]
     if cause == RELEASE_FORWARD:
         log[RELEASES] += 1.0
@@ -87,8 +87,8 @@ def _count(state, cause, log):
 
 
 @helper
-def _fly(model, s, state, t, course):
-    """See ``fly``."""
+def _integrate(model, s, state, t, course):
+    """See ``integrate``."""
     order, tangent = course.order, course.tangent
     x, log = state.x, t.log
     in_a_row = 0
@@ -125,7 +125,7 @@ def _fly(model, s, state, t, course):
             x[SPEED] = 0.0
         if tangent:
             rates(model, state, t.before)
-            switch_times(model, state, t, cause)
+            event_times(model, state, t, cause)
             shift(model, t, t.before, 1.0)
             if cause == GAP_CLOSED and not is_compliant(model):
                 impact_change(model, state, t)
@@ -170,9 +170,9 @@ def _place(model, state, row, value):
 
 @kernel
 def release_angle(model, state):
-    """psi at which stick is released forwards: the switch function is linear in it."""
+    """psi at which stick is released forwards: the event function is linear in it."""
     i, _ = instant(model, state)
-    margin = switch_function(model, stepped(i, ANGLE), RELEASE_FORWARD, False)
+    margin = event_function(model, stepped(i, ANGLE), RELEASE_FORWARD, False)
     return i.psi - margin.real / (margin.imag / TINY)
 
 
@@ -192,10 +192,10 @@ def _leave_section(model, s, state, t, course, section, start):
         t.now[:] = 0.0
         for i in range(len(rows)):
             t.now[((i // WIDTH) * R + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
-        switch_gradient(model, state, t, RELEASE_FORWARD)
+        event_gradient(model, state, t, RELEASE_FORWARD)
         by_psi = splat(-1.0 / t.gradient[ANGLE])
         for c in range(0, t.columns, WIDTH):
-            dpsi = mul(by_psi, switch_change(model, state, t, t.now, c, c >= t.plain))
+            dpsi = mul(by_psi, event_change(model, state, t, t.now, c, c >= t.plain))
             store(t.now, c * R + slider_row(model, PSI_ROW) * WIDTH, dpsi)
     if change_phase(model, state, RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
@@ -210,12 +210,12 @@ def _leave_section(model, s, state, t, course, section, start):
 
 @kernel
 def _flight(model, s, state, t, course, section, start, from_section):
-    """Both ``fly`` and ``section_map``: apart, each would be compiled with nearly all of the engine."""
+    """Both ``integrate`` and ``section_map``: apart, each would be compiled with nearly all of the engine."""
     if from_section:
         outcome = _leave_section(model, s, state, t, course, section, start)
         if outcome != CONSISTENT:
             return outcome
-    outcome = _fly(model, s, state, t, course)
+    outcome = _integrate(model, s, state, t, course)
     for i in range(len(section.rows)):
         section.end[i] = coordinate(model, state, section.rows[i]) * section.scale[i]
         if course.tangent:
@@ -228,10 +228,10 @@ def _flight(model, s, state, t, course, section, start, from_section):
 _NOWHERE = Section(np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros((0, 0)))
 
 
-def fly(model, s, state, t, course):
+def integrate(model, s, state, t, course):
     """Carry ``state`` and, if asked, the columns ``t.now`` to the end of a flight; returns how it ended.
 
-    At the last release the columns are projected onto the section (their switch time is t.tau, the state still in
+    At the last release the columns are projected onto the section (their event time is t.tau, the state still in
     stick); a flight that ends at ``t_max`` is left as it is then.  ``t.log`` is added to.
     """
     return _flight(model, s, state, t, course, _NOWHERE, _NOWHERE.end, False)

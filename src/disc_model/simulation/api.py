@@ -15,7 +15,7 @@ import numpy as np
 
 from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import PHASES
-from disc_model.engine import audit, layout, machine, outcomes
+from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.compile import compiled_for
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
 from disc_model.parameters import (
@@ -66,12 +66,12 @@ STEPS_PER_PAUSE = 100_000
 
 _EVENTS_ALONE = Record()
 _STATUS = {
-    outcomes.TIME_OVER: Status.OK,
-    outcomes.STOPPED: Status.STOPPED,
-    outcomes.STEP_LIMIT: Status.STEP_LIMIT,
-    outcomes.NO_SOLUTION: Status.PARADOX,
-    outcomes.STALLED: Status.STALLED,
-    outcomes.NON_FINITE: Status.NON_FINITE,
+    exit_codes.TIME_OVER: Status.OK,
+    exit_codes.STOPPED: Status.STOPPED,
+    exit_codes.STEP_LIMIT: Status.STEP_LIMIT,
+    exit_codes.NO_SOLUTION: Status.PARADOX,
+    exit_codes.STALLED: Status.STALLED,
+    exit_codes.NON_FINITE: Status.NON_FINITE,
 }
 
 
@@ -134,9 +134,9 @@ def simulate(
         run.restore(contents)
         log.info("goes on at t = %.9g s from checkpoint %s", run.time, kept.path)
     code = run.advance()
-    if code == outcomes.PAUSED or callable(progress):  # a short run has nothing to show, and does without
+    if code == exit_codes.PAUSED or callable(progress):  # a short run has nothing to show, and does without
         with simulating(progress, t_end) as tell:
-            while code == outcomes.PAUSED:
+            while code == exit_codes.PAUSED:
                 if kept is not None and kept.due:
                     kept.save(run.contents())
                 tell(run.time)
@@ -179,7 +179,7 @@ class _Run:
         if initial_state is not None:
             anew = write_state(case, initial_state, self.state, self.key)
         start = self.time
-        self.collector = Collector(p, record, start, t_end, longest_step=machine.LONGEST_COAST * model.unit)
+        self.collector = Collector(p, record, start, t_end, longest_step=event_loop.LONGEST_COAST * model.unit)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
         self.max_steps = _step_limit(model, t_end - start) if max_steps is None else min(max_steps, MOST_STEPS)
         self.pause_after = _pause_after(model, record.audit_every_step)
@@ -230,21 +230,21 @@ class _Run:
         began = clock.perf_counter()
         place = int(self.place[0])
         code = self.engine(*self._arguments())
-        if code == outcomes.TIME_OVER and self.pieces[place].end < self.t_end:
+        if code == exit_codes.TIME_OVER and self.pieces[place].end < self.t_end:
             self._enter(place + 1)
-            code = outcomes.PAUSED
+            code = exit_codes.PAUSED
         self.collector.drain(self.workspace.counters)
         self.wall_time[0] += clock.perf_counter() - began
         return code
 
     def _arguments(self) -> tuple[Any, ...]:
-        """What `machine.run` is given."""
+        """What `event_loop.run` is given."""
         work, keep = self.workspace, self.collector
-        limits = machine.Limits(
+        limits = event_loop.Limits(
             self.order, self.tolerance, min(self.t_end, self.pieces[self.place[0]].end), self.stop_at is not None,
             self.max_steps, self.pause_after, self.audit_every,
         )  # fmt: skip
-        kept = machine.Kept(
+        kept = event_loop.RunBuffers(
             work.counters, work.phase_times, work.sums,
             keep.samplers, keep.sampled, keep.rows, keep.capacity, keep.event_rows,
         )  # fmt: skip
@@ -294,10 +294,10 @@ class _Run:
 
 def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]], told: bool) -> Callable[..., int]:
     """The engine, compiled for models of this kind: it decides the types of all ``arguments`` of a run."""
-    kind = (len(model.more_blocks), len(model.give), len(model.normal), len(model.ramp))
+    kind = (len(model.more_blocks), len(model.compliance), len(model.normal), len(model.ramp))
     if kind not in _ENGINES:
         with compiling(told):
-            _ENGINES[kind] = compiled_for(machine.run, arguments())
+            _ENGINES[kind] = compiled_for(event_loop.run, arguments())
     return _ENGINES[kind]
 
 
@@ -364,11 +364,11 @@ def _pause_after(model: layout.Model, audit_every_step: bool) -> int:
     return max(1, STEPS_PER_PAUSE // cost)
 
 
-def _message(status: Status, state: layout.State, model: layout.Model) -> str:
+def _message(status: Status, state: layout.EngineState, model: layout.Model) -> str:
     time, phase = state.x[layout.TIME], PHASES[int(state.x[layout.PHASE])]
     text = f"{status}: at t = {time:.9g} s in {phase}"
     if status is Status.PARADOX:
-        slope = float(np.dot(model.slope, state.z))
+        slope = float(np.dot(model.dw_dtheta, state.z))
         text += f", psi = {state.x[layout.PSI]:.6g} rad, f = {state.x[layout.SPEED]:.6g} rad/s, slope B = {slope:.6g}"
     return text
 
@@ -384,9 +384,9 @@ def _statistics(work: Workspace, audit_every_step: bool, wall: float) -> dict[st
     count, total = work.counters.tolist(), work.sums.tolist()
     stick, slip, separation = work.phase_times.tolist()
     return {
-        "steps": count[machine.STEPS],
-        "events": count[machine.EVENTS],
-        "separations": count[machine.SEPARATIONS],
+        "steps": count[event_loop.STEPS],
+        "events": count[event_loop.EVENTS],
+        "separations": count[event_loop.SEPARATIONS],
         "time_stick": stick,
         "time_slip": slip,
         "time_separation": separation,

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.provenance import source_hash, versions
-from disc_model.engine import machine, sampling
+from disc_model.engine import event_loop, sampling
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters, canonical_json, content_key, is_number
 from disc_model.plate import mode_arrays
@@ -210,7 +210,7 @@ class Collector:
         self.samplers: Array = np.array([(*grid, t_end) for grid in grids]) if grids else np.zeros((0, 5))
         self.sampled = np.zeros(len(grids), np.int64)
         self.rows = np.empty((self.capacity + per_step, len(sampling.ROW)))
-        self.event_rows = np.empty((SMALL_BUFFER, len(machine.EVENT_ROW)))
+        self.event_rows = np.empty((SMALL_BUFFER, len(event_loop.EVENT_ROW)))
         self._keep_events = record.events
         # what was kept, in the order in which it came: arrays are added to these lists and nothing else
         self._events: list[Array] = []
@@ -239,19 +239,19 @@ class Collector:
 
     def drain(self, counters: NDArray[np.int64]) -> None:
         """Take over what the buffers hold and empty them."""
-        n_events, n_rows = int(counters[machine.EVENT_ROWS]), int(counters[machine.SAMPLE_ROWS])
-        counters[machine.EVENT_ROWS] = counters[machine.SAMPLE_ROWS] = 0
+        n_events, n_rows = int(counters[event_loop.EVENT_ROWS]), int(counters[event_loop.SAMPLE_ROWS])
+        counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
         if n_events:
-            self._take_events(self.event_rows[:n_events], separated=counters[machine.SEPARATIONS] > 0)
-        if n_events > len(self.event_rows) - machine.MAX_EVENTS_PER_STEP:  # it was full
-            self.event_rows = np.empty((BUFFER, len(machine.EVENT_ROW)))
+            self._take_events(self.event_rows[:n_events], separated=counters[event_loop.SEPARATIONS] > 0)
+        if n_events > len(self.event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # it was full
+            self.event_rows = np.empty((BUFFER, len(event_loop.EVENT_ROW)))
         rows = self.rows[:n_rows]
         for i in range(len(self.sampled)):
             self._take(i, rows[rows[:, 0] == i])
 
     def _take_events(self, events: Array, separated: bool) -> None:
         if separated and math.isnan(self.first_separation):
-            lost = np.flatnonzero(events[:, 1] == machine.LOSS_OF_CONTACT)
+            lost = np.flatnonzero(events[:, 1] == event_loop.LOSS_OF_CONTACT)
             if lost.size:
                 self.first_separation = float(events[lost[0], 0])
         if self._keep_events:
@@ -281,7 +281,7 @@ class Collector:
         """All events kept, shape (n, len(EVENT_ROW))."""
         if len(self._events) == 1:
             return self._events[0]
-        return np.concatenate([np.zeros((0, len(machine.EVENT_ROW))), *self._events])
+        return np.concatenate([np.zeros((0, len(event_loop.EVENT_ROW))), *self._events])
 
     def finish(self) -> tuple[tuple[dict[str, Array], ...], dict[str, Array] | None]:
         """Samples of each window, and the Poincare samples."""

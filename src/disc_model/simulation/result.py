@@ -19,8 +19,8 @@ from disc_model import errors
 from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.engine import layout
 from disc_model.engine.audit import N_SUMS
-from disc_model.engine.machine import EVENT_ROW, N_COUNTERS
-from disc_model.engine.switches import TOUCHING
+from disc_model.engine.event_loop import EVENT_ROW, N_COUNTERS
+from disc_model.engine.transitions import TOUCHING
 from disc_model.errors import Fault, ParameterError, Status, shown
 from disc_model.flexibility import contact_give
 from disc_model.parameters import RESIDUAL, Parameters, is_number
@@ -356,11 +356,11 @@ class Workspace(NamedTuple):
 
     state, probe : where the run is, and where it looks ahead
     series : of one step; the next begins them anew
-    counters, phase_times, sums : as in `machine.Kept`
+    counters, phase_times, sums : as in `event_loop.RunBuffers`
     """
 
-    state: layout.State
-    probe: layout.State
+    state: layout.EngineState
+    probe: layout.EngineState
     series: layout.Series
     counters: np.ndarray
     phase_times: np.ndarray
@@ -374,13 +374,13 @@ class EngineCase(NamedTuple):
     key, amplitudes : what states of the case carry as `case_key` and `mode_amplitudes`
     present : of a, b, alpha and beta of all modes, in this order, the numbers of those that there are: modes without
         nodal diameter have no b and beta
-    places : of these in `layout.State.disc`
-    point : u, u' (but for the slope's share) and slope B of the disc under the slider from `layout.State.disc`
+    places : of these in `layout.EngineState.disc`
+    point : u, u' (but for the slope's share) and slope B of the disc under the slider from `layout.EngineState.disc`
     idle : workspaces that no run uses now, by the order of their series; all that changes here
     """
 
     model: layout.Model
-    start: layout.State
+    start: layout.EngineState
     key: str
     amplitudes: np.ndarray
     present: np.ndarray
@@ -402,7 +402,7 @@ def engine_case(p: Parameters) -> EngineCase:
         modal_damping(p),
         {name: getattr(p, name) for name in names},
         bonded=p.contact == "bonded",
-        give=contact_give(p) if p.contact_compliance == RESIDUAL else float(p.contact_compliance),
+        compliance=contact_give(p) if p.contact_compliance == RESIDUAL else float(p.contact_compliance),
         normal=p.contact_force == "normal",
     )
     pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)
@@ -417,12 +417,12 @@ def engine_case(p: Parameters) -> EngineCase:
 
 def _point(model: layout.Model) -> np.ndarray:
     """See `EngineCase`."""
-    width, n0 = len(model.force), len(model.force0)
-    point = np.zeros((3, layout.disc_size(width, n0, len(model.give) == 1)))
+    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
+    point = np.zeros((3, layout.disc_size(width, n0, len(model.compliance) == 1)))
     u, v, slope = point[:, : 2 * (width + n0)]
-    u[:width], u[2 * width : 2 * width + n0] = model.force, model.force0
-    v[width : 2 * width], v[2 * width + n0 :] = model.force, model.force0
-    slope[:width] = model.slope
+    u[:width], u[2 * width : 2 * width + n0] = model.mode_amplitude, model.mode_amplitude0
+    v[width : 2 * width], v[2 * width + n0 :] = model.mode_amplitude, model.mode_amplitude0
+    slope[:width] = model.dw_dtheta
     return point
 
 
@@ -449,7 +449,7 @@ def give_back(case: EngineCase, order: int, workspace: Workspace) -> None:
     case.idle.setdefault(order, []).append(workspace)
 
 
-def read_state(case: EngineCase, state: layout.State, key: str = "") -> State:
+def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> State:
     """The engine's state as a `State`; key: of the case if it is not its own, as on ramps."""
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
@@ -458,7 +458,7 @@ def read_state(case: EngineCase, state: layout.State, key: str = "") -> State:
     x = state.x.tolist()
     phase, f = int(x[layout.PHASE]), x[layout.SPEED]
     u, v = x[layout.U], x[layout.U_VELOCITY]
-    if phase != layout.SEPARATION and len(case.model.give) != 1:
+    if phase != layout.SEPARATION and len(case.model.compliance) != 1:
         u, v, slope = case.point.dot(state.disc).tolist()
         v += f * slope
     return State(
@@ -480,7 +480,7 @@ def read_state(case: EngineCase, state: layout.State, key: str = "") -> State:
     )
 
 
-def write_state(case: EngineCase, given: State, state: layout.State, key: str = "") -> bool:
+def write_state(case: EngineCase, given: State, state: layout.EngineState, key: str = "") -> bool:
     """Put ``given`` into the engine's state; key: of the case if it is not its own, as on ramps.
 
     Returns
@@ -499,7 +499,7 @@ def write_state(case: EngineCase, given: State, state: layout.State, key: str = 
     state.disc.fill(0.0)
     state.x.fill(0.0)
     state.disc[case.places] = np.concatenate((given.a, given.b, given.alpha, given.beta))[case.present]
-    if given.phase != "separation" and len(case.model.give) != 1:  # on a compliant contact u is a state of its own
+    if given.phase != "separation" and len(case.model.compliance) != 1:  # else u is a state of its own
         _check_height(case, given.u, state)
     x = state.x
     x[layout.TIME], x[layout.TIME_LOW] = given.time, given.time_low
@@ -511,7 +511,7 @@ def write_state(case: EngineCase, given: State, state: layout.State, key: str = 
     return bool(given.known) and given.case_key != (key or case.key) and _forget_switch(case, state)
 
 
-def _forget_switch(case: EngineCase, state: layout.State) -> bool:
+def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
     """Look at a state at a switch of another case: what vanishes in that case need not in this one.
 
     A slider that touches the disc, and neither leaves nor hits it, is put into contact, where the engine is to find out
@@ -519,7 +519,7 @@ def _forget_switch(case: EngineCase, state: layout.State) -> bool:
     """
     x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
     w, velocity, slope = case.point.dot(state.disc)
-    f, compliant, known = x[layout.SPEED], len(case.model.give) == 1, x[layout.KNOWN]
+    f, compliant, known = x[layout.SPEED], len(case.model.compliance) == 1, x[layout.KNOWN]
     opening = x[layout.U_VELOCITY] - velocity - f * slope
     touches = abs(x[layout.U] - w) <= SAME_HEIGHT * sizes[0]
     rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(f) * sizes[2])
@@ -540,7 +540,7 @@ SAME_AMPLITUDE = 1e-9
 """Of the largest amplitude: modes computed on two processors differ by 1e-13 of it at most, as measured."""
 
 
-def _check_height(case: EngineCase, u: float, state: layout.State) -> None:
+def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None:
     """In contact the disc says where the slider is: another u would be passed over in silence."""
     row = case.point[0]
     w = float(row.dot(state.disc))
@@ -555,7 +555,7 @@ def _faults(given: State, case: EngineCase) -> list[str]:
     faults: list[str] = []
     n_modes = len(case.amplitudes)
     # contact and its force can begin at once where contact is compliant
-    highest_known = 7 if len(case.model.give) == 1 else 3
+    highest_known = 7 if len(case.model.compliance) == 1 else 3
 
     def add(name: str, rule: str, value: object = None) -> None:
         faults.append(Fault(("initial_state", name), "" if value is None else shown(value), rule))

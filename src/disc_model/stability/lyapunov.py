@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import layout, outcomes, saltation, tangent, variational
+from disc_model.engine import exit_codes, layout, saltation, tangent, variational
 from disc_model.errors import StatusBase, broken, refuse, shown
 from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
 from disc_model.progress import compiling
@@ -151,15 +151,16 @@ def lyapunov_exponents(
             columns[:, 0] = along
     steps = max(_BLOCKS, math.ceil(duration / interval))
     longest = longest_step(model, order, 10 * tolerance)
-    course = variational.Course(order, tolerance, longest, duration / steps, 0, may_separate=True, tangent=True)
+    length = duration / steps
+    course = variational.IntegrationLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
     logs, status = np.full((steps, count), -math.inf), LyapunovStatus.OK
     done = 0
     for i in range(-steps, steps):
         if i == 0:
             t.log[:] = 0.0
-        code = variational.fly(model, series, state, t, course)
-        if code != outcomes.TIME_OVER or not np.all(np.isfinite(columns)):
-            status = LyapunovStatus.NON_FINITE if code == outcomes.TIME_OVER else LyapunovStatus(ENDS[code])
+        code = variational.integrate(model, series, state, t, course)
+        if code != exit_codes.TIME_OVER or not np.all(np.isfinite(columns)):
+            status = LyapunovStatus.NON_FINITE if code == exit_codes.TIME_OVER else LyapunovStatus(ENDS[code])
             break
         _bind(model, state, t)
         growth, left = _orthonormalise(columns, rows, metric, left, vanished)
@@ -264,21 +265,21 @@ def _is_within(value: object, least: float) -> bool:
 
 def _coordinates(model: layout.Model) -> NDArray[np.intp]:
     """Rows of a column but for those of lanes that hold no mode, in which rounding would stay for ever."""
-    lanes, width = np.flatnonzero(model.shift), len(model.force)
+    lanes, width = np.flatnonzero(model.shift), len(model.mode_amplitude)
     return np.concatenate([lanes, width + lanes, np.arange(2 * width, tangent.n_rows(model))])
 
 
 def _metric(model: layout.Model) -> Array:
     """Square roots of twice the energy of a unit of each row of a column: (rows,)."""
-    one, one0 = np.ones(len(model.force)), np.ones(len(model.force0))
+    one, one0 = np.ones(len(model.mode_amplitude)), np.ones(len(model.mode_amplitude0))
     slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
-    contact = 1 / model.give[0] if len(model.give) == 1 else 0.0
+    contact = 1 / model.compliance[0] if len(model.compliance) == 1 else 0.0
     height = [math.sqrt(model.k + contact or model.m), math.sqrt(model.m)]
     stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
     return np.concatenate([np.sqrt(stiffness), one, np.sqrt(model.stiffness0), one0, slider, height])
 
 
-def _bind(model: layout.Model, state: layout.State, t: tangent.Tangent) -> None:
+def _bind(model: layout.Model, state: layout.EngineState, t: tangent.Tangent) -> None:
     """Set u, u' of columns to those of the disc in rigid contact; between switches they are not carried along there."""
     if state.x[layout.PHASE] != layout.SEPARATION:
         saltation.slider_rows(model, state, t)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import layout, outcomes, switches, variational
+from disc_model.engine import exit_codes, layout, transitions, variational
 from disc_model.engine import tangent as columns
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
@@ -44,15 +44,15 @@ COARSE, COARSE_ORDER, COLUMNS_COARSE = 1e-9, 20, 1e-5
 USUAL_RATE = 1.25
 """Times that of the disc's highest frequency: so fast a rate, as of all published cases, needs no shorter steps."""
 
-RETURNED = outcomes.RETURNED
+RETURNED = exit_codes.RETURNED
 ENDS = {
-    outcomes.RETURNED: "returned",
-    outcomes.TIME_OVER: "time_over",
-    outcomes.NO_SOLUTION: "paradox",
-    outcomes.STALLED: "stalled",
-    outcomes.NON_FINITE: "non_finite",
-    outcomes.LOST_CONTACT: "lost_contact",
-    outcomes.OFF_SECTION: "off_section",
+    exit_codes.RETURNED: "returned",
+    exit_codes.TIME_OVER: "time_over",
+    exit_codes.NO_SOLUTION: "paradox",
+    exit_codes.STALLED: "stalled",
+    exit_codes.NON_FINITE: "non_finite",
+    exit_codes.LOST_CONTACT: "lost_contact",
+    exit_codes.OFF_SECTION: "off_section",
 }
 
 
@@ -82,7 +82,7 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     """What a unit of a parameter, one of `PARAMETERS`, changes in the equations: a column of `Tangent.parameters`."""
     if name in ("E", "D_star") and (p.disc is not None or (name == "D_star" and p.damping_ratio is not None)):
         raise ParameterError(Fault(("parameter",), shown(name), "must be a parameter that the case has"))
-    width, n0 = len(model.force), len(model.force0)
+    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
     scalars, *modal = np.split(change, columns.N_SCALARS + np.cumsum([0, width, width, n0]))
     stiffness, damping, stiffness0, damping0 = modal
@@ -102,9 +102,9 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
             damping[:], damping0[:] = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
         # u_0 and the residual flexibility are proportional to 1 / E
         residual = p.contact_compliance == RESIDUAL
-        given = 0.0 if residual or not model.give else model.give[0]
+        given = 0.0 if residual or not model.compliance else model.compliance[0]
         scalars[columns.LOAD] = model.k * (model.u_0 + model.N * given) / p.E
-        scalars[columns.D_GIVE] = -1.0 / p.E if residual else 0.0
+        scalars[columns.D_COMPLIANCE] = -1.0 / p.E if residual else 0.0
     elif name == "D_star":
         damping[:], damping0[:] = model.stiffness / p.D, model.stiffness0 / p.D
     else:
@@ -159,7 +159,7 @@ class ReturnMap:
         self.order = series_order(flights)
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
-        width, n0 = len(model.force), len(model.force0)
+        width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
         self._slider = 2 * width + 2 * n0  # where columns hold psi, f, u, u'
         used = np.flatnonzero(model.shift)
         omega, omega0 = np.sqrt(model.stiffness[used]), np.sqrt(model.stiffness0)
@@ -168,10 +168,10 @@ class ReturnMap:
         self.scale = np.concatenate([omega, np.ones(len(used)), omega0, np.ones(n0)])
         l, l0 = np.abs(model.shift[used]).astype(np.int64), np.zeros(n0, np.int64)
         self.diameters = np.concatenate([l, l, l0, l0])
-        if len(model.give) == 1:
+        if len(model.compliance) == 1:
             rows = np.append(rows, self._slider + np.array([columns.U_ROW, columns.V_ROW]))
             # the energy of the slider between its spring and the contact
-            self.scale = np.append(self.scale, np.sqrt([1 / model.give[0] + model.k, model.m]))
+            self.scale = np.append(self.scale, np.sqrt([1 / model.compliance[0] + model.k, model.m]))
         self.size = n = len(rows)
         self._first = layout.WIDTH * -(-n // layout.WIDTH)
         self._names = parameters
@@ -208,7 +208,7 @@ class ReturnMap:
         order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
         finest = COLUMNS_COARSE if coarse else 10 * tolerance
         longest = longest_step(self.model, order, finest) if tangent else math.inf
-        course = variational.Course(
+        course = variational.IntegrationLimits(
             order, tolerance, longest, int(releases) * self.longest, int(releases), bool(may_separate), bool(tangent)
         )
         start = np.array(x, dtype=float)
@@ -227,10 +227,10 @@ class ReturnMap:
     def next_release(self, start: State) -> tuple[int, Array]:
         """The point of the section that the motion from `start` reaches first, and how it got there (`RETURNED`)."""
         write_state(self._case, start, self._state)
-        course = variational.Course(
+        course = variational.IntegrationLimits(
             self.order, self.tolerance, math.inf, self.longest, 1, may_separate=True, tangent=False
         )
-        code: int = variational.fly(self.model, self._series, self._state, self._tangent, course)
+        code: int = variational.integrate(self.model, self._series, self._state, self._tangent, course)
         return code, self._coordinates()
 
     def point(self, state: State) -> Array:
@@ -247,7 +247,7 @@ class ReturnMap:
         """Contact force in stick at the point `x` of the section, N: P, or R under the normal force."""
         self._place(x)
         state, model = self._state, self.model
-        return float(switches.force_in_stick(model, state, switches.stick_force(model, state)))
+        return float(transitions.force_in_stick(model, state, transitions.stick_force(model, state)))
 
     def _place(self, x: Array) -> None:
         """Put the work space's state onto the point `x` of the section."""

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from disc_model.engine.machine import EVENT_ROW, LOSS_OF_CONTACT
+from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.ramps import values_at

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
-from disc_model.engine.machine import EVENT_ROW, LOSS_OF_CONTACT
+from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record

@@ -1,4 +1,4 @@
-"""The phase machine: expand, find the first switch, move there, change phase, record; until the end.
+"""The phase machine: expand, find the first event, move there, change phase, record; until the end.
 
 The loop runs wholly inside one compiled function and hands back control when a buffer is full, so that memory
 does not grow with the simulated time and callers can show progress.  Where it pauses has no influence on results.
@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import layout, switches
+from . import layout, transitions
 from .audit import audit_impact, audit_step, transverse_energy
-from .coasting import LONGEST_COAST, coast_length
 from .compile import inlined, kernel
 from .dense_output import COAST, move_to
-from .outcomes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
+from .exit_codes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
 from .sampling import sample_step
-from .stepping import advance_time, expand, first_switch, set_course, step_size
+from .stepping import advance_time, expand, first_event, set_course, step_size
+from .stick_propagator import LONGEST_COAST, coast_length
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
@@ -42,7 +42,7 @@ class Limits(NamedTuple):
     audit_every: int  # steps
 
 
-class Kept(NamedTuple):
+class RunBuffers(NamedTuple):
     """What a run writes beside its state."""
 
     counters: np.ndarray  # shape (N_COUNTERS,)
@@ -56,16 +56,16 @@ class Kept(NamedTuple):
 
 
 @inlined
-def _record(model, state, kind, kept):
+def _record(model, state, kind, buffers):
     """Count an event and, if events are kept, append its row."""
-    counters, rows = kept.counters, kept.event_rows
+    counters, rows = buffers.counters, buffers.event_rows
     counters[EVENTS] += 1
     if kind == LOSS_OF_CONTACT:
         counters[SEPARATIONS] += 1
     if len(rows) == 0:
         return
     row, x = rows[counters[EVENT_ROWS]], state.x
-    u, v, _ = switches.slider_motion(model, state)
+    u, v, _ = transitions.slider_motion(model, state)
     row[0] = x[layout.TIME] + x[layout.TIME_LOW]
     row[1], row[2], row[3] = kind, x[layout.PHASE], x[layout.DIRECTION]
     row[4], row[5], row[6], row[7], row[8] = x[layout.PSI], x[layout.SPEED], u, v, x[layout.FORCE]
@@ -74,98 +74,107 @@ def _record(model, state, kind, kept):
 
 @inlined
 def _kind(state, cause):
-    """Kind of the event that a switch was, from the state after it."""
-    if cause == switches.GAP_CLOSED:
+    """Kind of the event of a cause, from the state after it."""
+    if cause == transitions.GAP_CLOSED:
         return REATTACHMENT
-    if cause == switches.CONTACT_LOST:
+    if cause == transitions.CONTACT_LOST:
         return LOSS_OF_CONTACT
-    if cause == switches.AT_REST:
+    if cause == transitions.AT_REST:
         return SLIP_TO_STICK if state.x[layout.PHASE] == layout.STICK else SLIP_REVERSAL
     return STICK_TO_SLIP
 
 
 @inlined
-def _switch(model, state, cause, at_once, kept):
-    """Carry out the switch and record its events; ``at_once``: after no time.  Returns its outcome."""
-    came_from, before, velocity, slope = state.x[layout.DIRECTION], 0.0, 0.0, 0.0
-    hits = cause == switches.GAP_CLOSED and not layout.is_compliant(model)
+def _apply_event(model, state, cause, at_once, buffers):
+    """Carry out the event and record its events; ``at_once``: after no time.  Returns its outcome."""
+    came_from, before, velocity, dw_dtheta = state.x[layout.DIRECTION], 0.0, 0.0, 0.0
+    hits = cause == transitions.GAP_CLOSED and not layout.is_compliant(model)
     if hits:
         before, velocity = transverse_energy(model, state, layout.SEPARATION), state.x[layout.U_VELOCITY]
-        _, _, slope = switches.disc_point(model, state)
-    outcome = switches.change_phase(model, state, cause, at_once)
+        _, _, dw_dtheta = transitions.disc_point(model, state)
+    outcome = transitions.change_phase(model, state, cause, at_once)
     if hits:
-        audit_impact(model, before, model.m * (state.x[layout.U_VELOCITY] - velocity), slope, state, kept.audit)
+        audit_impact(model, before, model.m * (state.x[layout.U_VELOCITY] - velocity), dw_dtheta, state, buffers.audit)
     if outcome == NO_SOLUTION:
         return outcome
     kind = _kind(state, cause)
     lost = state.x[layout.PHASE] == layout.SEPARATION and kind != LOSS_OF_CONTACT
     if not (kind == SLIP_REVERSAL and state.x[layout.DIRECTION] == came_from) and not (kind == SLIP_REVERSAL and lost):
-        _record(model, state, kind, kept)
+        _record(model, state, kind, buffers)
     if lost:
-        _record(model, state, LOSS_OF_CONTACT, kept)
+        _record(model, state, LOSS_OF_CONTACT, buffers)
     return outcome
 
 
 @inlined
-def _move(model, s, state, probe, order, x_end, audit_every, kept):
+def _move(model, s, state, probe, order, x_end, audit_every, buffers):
     """Carry the state and the clock over a step, or a coast (order ``COAST``), auditing and sampling on the way."""
-    x, phase, counters = state.x, state.x[layout.PHASE], kept.counters
+    x, phase, counters = state.x, state.x[layout.PHASE], buffers.counters
     counters[STEPS] += 1
     counters[FROM_AUDIT] += 1
     if counters[FROM_AUDIT] >= audit_every:
         counters[FROM_AUDIT] = 0
-        audit_step(model, s, order, x_end, phase, x[layout.DIRECTION], probe, kept.audit)
-    if len(kept.samplers) > 0:
+        audit_step(model, s, order, x_end, phase, x[layout.DIRECTION], probe, buffers.audit)
+    if len(buffers.samplers) > 0:
         counters[SAMPLE_ROWS] = sample_step(
-            model, s, order, state, x_end, kept.samplers, kept.sampled, probe, kept.sample_rows, counters[SAMPLE_ROWS]
+            model,
+            s,
+            order,
+            state,
+            x_end,
+            buffers.samplers,
+            buffers.sampled,
+            probe,
+            buffers.sample_rows,
+            counters[SAMPLE_ROWS],
         )
     move_to(model, s, order, x_end, phase, state)
     x[layout.KNOWN], x[layout.FORCE], x[layout.COASTED] = 0.0, 0.0, 1.0 if x_end < LONGEST_COAST else 0.0
     advance_time(x, x_end * model.unit)
     set_course(model, state)
-    kept.phase_times[int(phase)] += x_end * model.unit
+    buffers.phase_times[int(phase)] += x_end * model.unit
 
 
 @inlined
-def _full(kept):
+def _full(buffers):
     """Whether a buffer has no room for what a step may bring."""
-    counters, rows = kept.counters, len(kept.event_rows)
+    counters, rows = buffers.counters, len(buffers.event_rows)
     events = rows > 0 and counters[EVENT_ROWS] > rows - MAX_EVENTS_PER_STEP
-    return events or counters[SAMPLE_ROWS] > kept.sample_capacity
+    return events or counters[SAMPLE_ROWS] > buffers.sample_capacity
 
 
 @kernel
-def run(model, s, state, probe, limits, kept):
-    """Advance ``state`` until a reason to return: see ``outcomes``.  ``probe`` is a state to work with."""
-    x, counters, order = state.x, kept.counters, limits.order
+def run(model, s, state, probe, limits, buffers):
+    """Advance ``state`` until a reason to return: see ``exit_codes``.  ``probe`` is a state to work with."""
+    x, counters, order = state.x, buffers.counters, limits.order
     pause = counters[STEPS] + limits.pause_after
     set_course(model, state)
     while True:
         if counters[STEPS] >= limits.max_steps:
             return STEP_LIMIT
-        if _full(kept) or counters[STEPS] >= pause:
+        if _full(buffers) or counters[STEPS] >= pause:
             return PAUSED
         left = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
         if x[layout.PHASE] == layout.STICK and x[layout.COASTED] == 0.0:
             x_end = min(coast_length(model, s, state), left)
             if x_end > 0.0:
-                _move(model, s, state, probe, COAST, x_end, limits.audit_every, kept)
+                _move(model, s, state, probe, COAST, x_end, limits.audit_every, buffers)
                 if x_end >= left:
                     return TIME_OVER
                 continue
-        if expand(model, s, state, order) <= switches.PAINLEVE_MARGIN:
+        if expand(model, s, state, order) <= transitions.PAINLEVE_MARGIN:
             return NO_SOLUTION
         x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
         if not x_end > 0.0:
             return NON_FINITE
-        x_end, cause = first_switch(model, s, state, order, min(x_end, left))
+        x_end, cause = first_event(model, s, state, order, min(x_end, left))
         before = x[layout.TIME]
-        _move(model, s, state, probe, order, x_end, limits.audit_every, kept)
-        if cause != switches.NOTHING:
+        _move(model, s, state, probe, order, x_end, limits.audit_every, buffers)
+        if cause != transitions.NOTHING:
             counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[layout.TIME] == before else 0
-            if counters[IN_A_ROW] > switches.MAX_EVENTS_IN_A_ROW:
+            if counters[IN_A_ROW] > transitions.MAX_EVENTS_IN_A_ROW:
                 return STALLED
-            if _switch(model, state, cause, x_end == 0.0, kept) == NO_SOLUTION:
+            if _apply_event(model, state, cause, x_end == 0.0, buffers) == NO_SOLUTION:
                 return NO_SOLUTION
             if limits.stop_at_first and counters[SEPARATIONS] > 0:
                 return STOPPED

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes, simulate
-from disc_model.engine import layout, outcomes, switches
+from disc_model.engine import exit_codes, layout, transitions
 from disc_model.simulation.result import engine_case
 from disc_model.stability.return_map import ReturnMap
 
@@ -47,7 +47,7 @@ def test_a_slider_at_rest_on_a_still_drive_lands_in_stick() -> None:
 
 @pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="the limit is a constant of compiled code")
 def test_switches_without_the_clock_moving_end_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(switches, "MAX_EVENTS_IN_A_ROW", 0)
+    monkeypatch.setattr(transitions, "MAX_EVENTS_IN_A_ROW", 0)
     # stick cannot hold from the start
     result = simulate(Parameters(N=200, Omega=10, k_p=0, c_p=100, n_diameters=1), 0.1)
     assert result.status == "stalled"
@@ -72,10 +72,10 @@ def outcome(map_: ReturnMap, x: np.ndarray, **how) -> int:
 
 def test_flights_say_how_they_end() -> None:
     map_, x = wild()
-    assert outcome(map_, x) == outcomes.LOST_CONTACT
-    assert outcome(map_, x, may_separate=True) == outcomes.RETURNED
-    assert outcome(map_, -5 * map_.static) == outcomes.OFF_SECTION  # P would be negative
-    assert outcome(map_, np.full(map_.size, math.nan)) != outcomes.RETURNED
+    assert outcome(map_, x) == exit_codes.LOST_CONTACT
+    assert outcome(map_, x, may_separate=True) == exit_codes.RETURNED
+    assert outcome(map_, -5 * map_.static) == exit_codes.OFF_SECTION  # P would be negative
+    assert outcome(map_, np.full(map_.size, math.nan)) != exit_codes.RETURNED
 
 
 def test_a_flight_into_a_paradox_has_no_solution() -> None:
@@ -84,16 +84,16 @@ def test_a_flight_into_a_paradox_has_no_solution() -> None:
     x = map_.static.copy()
     # coordinates: a, b of the pair, then their velocities, then the axisymmetric mode
     x[1] = start.b[1] * map_.scale[1]
-    assert outcome(map_, x) == outcomes.NO_SOLUTION
+    assert outcome(map_, x) == exit_codes.NO_SOLUTION
     slipping = start.replace(phase="slip", direction=1, f=10.0)
-    assert map_.next_release(slipping)[0] == outcomes.NO_SOLUTION
+    assert map_.next_release(slipping)[0] == exit_codes.NO_SOLUTION
 
 
 def test_a_flight_that_overflows_is_not_finite() -> None:
     map_ = ReturnMap(P)
     start = simulate(P, 1e-6).final_state
     with np.errstate(all="ignore"):
-        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == outcomes.NON_FINITE
+        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == exit_codes.NON_FINITE
 
 
 @pytest.mark.parametrize(("gap", "known"), [(1e-16, 1), (1e-13, 0)])
@@ -103,8 +103,8 @@ def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known:
     here = layout.build_state(case.model)
     here.disc[:] = 0.0
     # two modes that lift the disc by 1 cm each, one up, one down
-    here.z[0], here.z[1] = 0.01 / case.model.force[0], -0.01 / case.model.force[1]
-    w, _, _ = switches.disc_point(case.model, here)
+    here.z[0], here.z[1] = 0.01 / case.model.mode_amplitude[0], -0.01 / case.model.mode_amplitude[1]
+    w, _, _ = transitions.disc_point(case.model, here)
     here.x[layout.U] = w + gap
-    switches.lose_contact(case.model, here)
+    transitions.lose_contact(case.model, here)
     assert here.x[layout.KNOWN] == known

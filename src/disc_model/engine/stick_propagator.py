@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 
 from .compile import helper, inlined
-from .lanes import WIDTH, add, fma, load, mul, splat, spread, store, sub
 from .layout import PHASE, PSI, SPEED, STICK, U_VELOCITY, U, is_compliant
+from .simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
 from .stick_modes import DEGREE, LONGEST_COAST, QUANTUM
 
 # A coast is worth its cost from about the length of a usual step (time units).
@@ -71,7 +71,7 @@ def coast_length(model, s, state):
     """How long (time units) stick is sure to last, 0 if that is not worth a coast; ``coast_to`` may then be asked."""
     if len(model.modes.gain) == 0:
         return 0.0
-    states = 2 * (len(model.shift) + len(model.force0))
+    states = 2 * (len(model.shift) + len(model.mode_amplitude0))
     if is_compliant(model):
         state.disc[states], state.disc[states + 1] = state.x[U], state.x[U_VELOCITY]
         states += 2
@@ -94,7 +94,7 @@ def coast_to(model, s, x, state):
     """Fill ``state`` with stick at x (time units) from where ``coast_length`` was asked."""
     _leave_modes(model.modes, s.amplitudes, x, state.disc)
     if is_compliant(model):
-        states = 2 * (len(model.shift) + len(model.force0))
+        states = 2 * (len(model.shift) + len(model.mode_amplitude0))
         state.x[U], state.x[U_VELOCITY] = state.disc[states], state.disc[states + 1]
     state.x[PHASE], state.x[SPEED] = STICK, 0.0
     state.x[PSI] = s.psi[0] + model.Omega * model.unit * x

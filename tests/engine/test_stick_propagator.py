@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.engine import coasting, contact_series, dense_output, layout, outcomes, series, stick_modes
-from disc_model.engine.switches import stick_force
+from disc_model.engine import contact_series, dense_output, exit_codes, layout, series, stick_modes, stick_propagator
+from disc_model.engine.transitions import stick_force
 from disc_model.simulation.api import _Run
 from disc_model.simulation.result import engine_case
 from tests.contact_laws import COMPILES, by_series
@@ -22,13 +22,13 @@ VARIANTS = {
 COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
 
 
-def _coast(model: layout.Model, s: layout.Series, state: layout.State, x: float) -> float:
-    length = coasting.coast_length(model, s, state)
-    coasting.coast_to(model, s, x, state)
+def _coast(model: layout.Model, s: layout.Series, state: layout.EngineState, x: float) -> float:
+    length = stick_propagator.coast_length(model, s, state)
+    stick_propagator.coast_to(model, s, x, state)
     return float(length)
 
 
-def _lively(model: layout.Model, seed: int = 1) -> layout.State:
+def _lively(model: layout.Model, seed: int = 1) -> layout.EngineState:
     """Stick with every mode in motion."""
     state, rng = layout.build_state(model), np.random.default_rng(seed)
     used = model.stiffness > 0
@@ -83,10 +83,10 @@ def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed:
     model = engine_case(p).model
     s, state = layout.build_series(model, ORDER), _lively(model, seed)
     length = _coast(model, s, state, 0.0)
-    assert coasting.SHORTEST_COAST <= length < stick_modes.LONGEST_COAST
+    assert stick_propagator.SHORTEST_COAST <= length < stick_modes.LONGEST_COAST
     swing, lowest = 0.0, np.inf
     for x in np.linspace(0.0, length, 500):
-        coasting.coast_to(model, s, x, state)
+        stick_propagator.coast_to(model, s, x, state)
         P = stick_force(model, state)
         pull = p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega)
         lowest = min(lowest, p.mu_s * P - abs(pull))
@@ -163,7 +163,7 @@ def test_samples_of_a_coast_fit_their_buffer() -> None:
     room, width = run.collector.rows.shape
     run.collector.rows = np.full((4 * room, width), np.nan)
     pauses = 0
-    while run.advance() == outcomes.PAUSED:
+    while run.advance() == exit_codes.PAUSED:
         pauses += 1
     assert pauses >= 1
     assert np.isnan(run.collector.rows[room:]).all()

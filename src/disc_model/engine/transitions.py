@@ -1,10 +1,10 @@
-"""What happens at a switch: contact force, impact, and which phase comes next (docs/model.md, Contact and switches)."""
+"""What happens at an event: contact force, impact, and which phase comes next (docs/model.md, Contact and events)."""
 
 from __future__ import annotations
 
 from . import laws
 from .compile import helper, inlined
-from .lanes import WIDTH, absolute, add, load, mul, splat, total
+from .exit_codes import CONSISTENT, NO_SOLUTION
 from .laws import Instant
 from .layout import (
     COASTED,
@@ -19,18 +19,18 @@ from .layout import (
     STICK,
     U_VELOCITY,
     U,
+    compliance_of,
     drive_now,
-    give_of,
     is_compliant,
     is_normal,
     load_now,
 )
-from .outcomes import CONSISTENT, NO_SOLUTION
+from .simd import WIDTH, absolute, add, load, mul, splat, total
 
 # What can end a step.
 NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
 
-# More switches than this without the clock moving end a motion: a guard, not a tuned interval.
+# More events than this without the clock moving end a motion: a guard, not a tuned interval.
 MAX_EVENTS_IN_A_ROW = 200
 # Below this share of its value without friction the denominator of P counts as zero: Painleve's paradox.
 PAINLEVE_MARGIN = 1e-6
@@ -44,24 +44,24 @@ TOUCHING = 4
 def disc_point(model, state):
     """u, u' and the slope B = dw/dtheta of the disc under the slider."""
     f = state.x[SPEED]
-    u, v, slope = 0.0, 0.0, 0.0
+    u, v, dw_dtheta = 0.0, 0.0, 0.0
     for j in range(len(model.shift)):
-        u += model.force[j] * state.z[j]
-        v += model.force[j] * state.e[j]
-        slope += model.slope[j] * state.z[j]
-    for j in range(len(model.force0)):
-        u += model.force0[j] * state.y[j]
-        v += model.force0[j] * state.g[j]
-    return u, v + f * slope, slope
+        u += model.mode_amplitude[j] * state.z[j]
+        v += model.mode_amplitude[j] * state.e[j]
+        dw_dtheta += model.dw_dtheta[j] * state.z[j]
+    for j in range(len(model.mode_amplitude0)):
+        u += model.mode_amplitude0[j] * state.y[j]
+        v += model.mode_amplitude0[j] * state.g[j]
+    return u, v + f * dw_dtheta, dw_dtheta
 
 
 @inlined
 def slider_motion(model, state):
     """u, u' of the slider, which in rigid contact are the disc's; slope B of the disc under it."""
-    u, v, slope = disc_point(model, state)
+    u, v, dw_dtheta = disc_point(model, state)
     if is_compliant(model) or state.x[PHASE] == SEPARATION:
         u, v = state.x[U], state.x[U_VELOCITY]
-    return u, v, slope
+    return u, v, dw_dtheta
 
 
 @inlined
@@ -70,12 +70,12 @@ def _free_acceleration(model, state):
     f, acceleration, size = state.x[SPEED], 0.0, 0.0
     for j in range(len(model.shift)):
         a = -model.damping[j] * state.e[j] - (model.stiffness[j] + (model.shift[j] * f) ** 2) * state.z[j]
-        # 2 l f beta_l: slope is l psi_l in the lanes of b
-        part = model.force[j] * a + 2.0 * f * model.slope[j] * state.e[j]
+        # 2 l f beta_l: dw_dtheta is l psi_l in the lanes of b
+        part = model.mode_amplitude[j] * a + 2.0 * f * model.dw_dtheta[j] * state.e[j]
         acceleration += part
         size += abs(part)
-    for j in range(len(model.force0)):
-        part = -model.force0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
+    for j in range(len(model.mode_amplitude0)):
+        part = -model.mode_amplitude0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
         acceleration += part
         size += abs(part)
     return acceleration, size
@@ -84,35 +84,35 @@ def _free_acceleration(model, state):
 @inlined
 def instant(model, state):
     """The numbers on which the laws of contact depend; size of the terms of A."""
-    x, (w, velocity, slope), (free, size) = state.x, disc_point(model, state), _free_acceleration(model, state)
+    x, (w, velocity, dw_dtheta), (free, size) = state.x, disc_point(model, state), _free_acceleration(model, state)
     return Instant(
         load_now(model, state), model.k, model.c, model.m, model.k_p, model.c_p, drive_now(model, state),
-        give_of(model.give), x[PSI], x[SPEED], w, velocity, slope, free, x[U], x[U_VELOCITY],
+        compliance_of(model.compliance), x[PSI], x[SPEED], w, velocity, dw_dtheta, free, x[U], x[U_VELOCITY],
     ), size  # fmt: skip
 
 
 @inlined
-def spring_force(model, state):
-    """F, see ``laws.spring_force``."""
+def inplane_force_per_radius(model, state):
+    """F, see ``laws.inplane_force_per_radius``."""
     i, _ = instant(model, state)
-    return laws.spring_force(i)
+    return laws.inplane_force_per_radius(i)
 
 
 @inlined
 def never_pulled(model, state):
     """Whether the drive neither pulls at the slider in stick nor ever will."""
-    return model.k_p * model.Omega == 0.0 and spring_force(model, state) == 0.0
+    return model.k_p * model.Omega == 0.0 and inplane_force_per_radius(model, state) == 0.0
 
 
 @inlined
 def _deflection_size(model, state):
     """Size of w - u on a compliant contact: of the modes' shares of w, which may be a difference of far larger ones."""
     sizes = splat(0.0)
-    for b in range(0, len(model.force), WIDTH):
-        sizes = add(sizes, absolute(mul(load(model.force, b), load(state.z, b))))
+    for b in range(0, len(model.mode_amplitude), WIDTH):
+        sizes = add(sizes, absolute(mul(load(model.mode_amplitude, b), load(state.z, b))))
     size = total(sizes) + abs(state.x[U])
-    for j in range(len(model.force0)):
-        size += abs(model.force0[j] * state.y[j])
+    for j in range(len(model.mode_amplitude0)):
+        size += abs(model.mode_amplitude0[j] * state.y[j])
     return size
 
 
@@ -120,7 +120,7 @@ def _deflection_size(model, state):
 def _rounding(model, state, i, size):
     """How much of V in stick, or of the numerator of P where B F is rounded too, may be rounding."""
     if is_compliant(model):
-        return ROUNDING * _deflection_size(model, state) / i.give
+        return ROUNDING * _deflection_size(model, state) / i.compliance
     return ROUNDING * (i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * size)
 
 
@@ -137,24 +137,24 @@ def force_in_stick(model, state, V):
     if not is_normal(model):
         return V
     i, _ = instant(model, state)
-    _, press = laws.grip(model, i, V)
-    return press / (1.0 + (i.slope / model.r_0) ** 2)
+    _, press = laws.stick_loads(model, i, V)
+    return press / (1.0 + (i.dw_dtheta / model.r_0) ** 2)
 
 
 @inlined
 def usual_denominator(model):
     """The denominator of the contact force in slip without friction."""
-    return 1.0 if is_compliant(model) else 1.0 + model.m * model.compliance
+    return 1.0 if is_compliant(model) else 1.0 + model.m * model.inverse_effective_mass
 
 
 @inlined
 def slip_force(model, state, direction):
     """Contact force in slip (P, or R under the normal force), its denominator, and how much of it may be rounding."""
     i, size = instant(model, state)
-    denominator = laws.slip_denominator(model, i.m, direction, i.slope)
+    denominator = laws.slip_denominator(model, i.m, direction, i.dw_dtheta)
     noise = _rounding(model, state, i, size)
     if not is_compliant(model):
-        noise += ROUNDING * abs(i.slope * laws.spring_force(i))
+        noise += ROUNDING * abs(i.dw_dtheta * laws.inplane_force_per_radius(i))
     return laws.slip_numerator(model, i) / denominator, denominator, noise / abs(denominator)
 
 
@@ -164,16 +164,16 @@ def impact(model, state):
     i, _ = instant(model, state)
     p, state.x[SPEED] = laws.impact(model, i)
     for j in range(len(model.shift)):
-        state.e[j] -= model.force[j] * p
-    for j in range(len(model.force0)):
-        state.g[j] -= model.force0[j] * p
+        state.e[j] -= model.mode_amplitude[j] * p
+    for j in range(len(model.mode_amplitude0)):
+        state.g[j] -= model.mode_amplitude0[j] * p
     state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
     return p
 
 
 @inlined
-def switch_function(model, i, cause, slipping):
-    """What vanishes at a switch of an instant; slipping: whether it ends slip."""
+def event_function(model, i, cause, slipping):
+    """What vanishes at an event of an instant; slipping: whether it ends slip."""
     if cause == AT_REST:
         return i.f
     if cause == GAP_CLOSED:
@@ -182,7 +182,7 @@ def switch_function(model, i, cause, slipping):
         if is_compliant(model):
             return i.w - i.u
         return laws.slip_numerator(model, i) if slipping else laws.stick_numerator(model, i)
-    pull, press = laws.grip(model, i, laws.vertical_in_stick(model, i))
+    pull, press = laws.stick_loads(model, i, laws.vertical_in_stick(model, i))
     return model.mu_s * press - (1.0 if cause == RELEASE_FORWARD else -1.0) * pull
 
 
@@ -229,24 +229,24 @@ def enter_slip(model, state, direction):
         # slip or vanishes, as (1 + m S2 + s mu_k B / r_0) f' m = (1 + m S2) (|F| - mu_k P_stick / r_0), is rounding.
         resistance = bound = model.mu_k
         if is_normal(model):
-            _, _, slope = disc_point(model, state)
-            resistance += direction * slope / model.r_0
-            bound += abs(slope) / model.r_0
-        F, friction = spring_force(model, state), resistance * P / model.r_0
+            _, _, dw_dtheta = disc_point(model, state)
+            resistance += direction * dw_dtheta / model.r_0
+            bound += abs(dw_dtheta) / model.r_0
+        F, friction = inplane_force_per_radius(model, state), resistance * P / model.r_0
         rounding = ROUNDING * abs(F) + bound * noise / model.r_0
         state.x[KNOWN] = 2 if direction * F - friction <= rounding else 1
     return CONSISTENT
 
 
 @helper
-def break_loose(model, state, direction, at_once):
+def release(model, state, direction, at_once):
     """Friction holds the slider no longer: slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION.
 
     at_once: stick has not lasted at all, so that the spring may pull harder than friction can hold.
     """
     outcome = enter_slip(model, state, direction)
     if state.x[PHASE] == SLIP and model.mu_s == model.mu_k and not at_once:
-        # no jump of friction: f' = 0, whatever the error of the switch's time makes of it
+        # no jump of friction: f' = 0, whatever the error of the event's time makes of it
         state.x[KNOWN] = 2
     return outcome
 
@@ -264,12 +264,12 @@ def lose_contact(model, state):
 
 
 @helper
-def come_to_rest(model, state):
+def stop_slip(model, state):
     """f has reached zero: stick if friction can hold the spring, else slip to the side of the spring's pull."""
     state.x[SPEED] = 0.0
     i, _ = instant(model, state)
     P = laws.vertical_in_stick(model, i)
-    pull, press = laws.grip(model, i, P)
+    pull, press = laws.stick_loads(model, i, P)
     if abs(pull) < model.mu_s * press:
         _enter_stick(state, force_in_stick(model, state, P))
         return CONSISTENT
@@ -281,7 +281,7 @@ def come_to_rest(model, state):
 def _begin_contact(model, state):
     """A compliant contact begins: no impact, and the force rises from zero.  Returns CONSISTENT or NO_SOLUTION."""
     x = state.x
-    f, F = x[SPEED], spring_force(model, state)
+    f, F = x[SPEED], inplane_force_per_radius(model, state)
     if f == 0.0 and F == 0.0:
         _enter_stick(state, 0.0)
         x[KNOWN] = TOUCHING
@@ -296,24 +296,24 @@ def _begin_contact(model, state):
 
 
 @helper
-def touch_down(model, state):
+def reattach(model, state):
     """The gap has closed: impact, then contact."""
     if is_compliant(model):
         return _begin_contact(model, state)
     impact(model, state)
     f = state.x[SPEED]
     if f == 0.0:
-        return come_to_rest(model, state)
+        return stop_slip(model, state)
     return enter_slip(model, state, 1.0 if f > 0.0 else -1.0)
 
 
 @inlined
 def change_phase(model, state, cause, at_once):
-    """Carry out a switch, of a phase that may have ended ``at_once``.  Returns CONSISTENT or NO_SOLUTION."""
+    """Carry out an event, of a phase that may have ended ``at_once``.  Returns CONSISTENT or NO_SOLUTION."""
     if cause == GAP_CLOSED:
-        return touch_down(model, state)
+        return reattach(model, state)
     if cause == AT_REST:
-        return come_to_rest(model, state)
+        return stop_slip(model, state)
     if cause == CONTACT_LOST:
         return lose_contact(model, state)
-    return break_loose(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0, at_once)
+    return release(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0, at_once)
