@@ -1,5 +1,6 @@
 """How kernels, their helpers and what they are handed are compiled."""
 
+import gc
 import math
 from typing import NamedTuple
 
@@ -79,6 +80,13 @@ def test_helpers_of_inlined_helpers_are_not_forced_into_them() -> None:
         for part in (_third, _thirds)
     ]
     assert forced == [False, True]
+
+
+@pytest.mark.compiled
+def test_garbage_is_collected_after_a_compilation_that_fails() -> None:
+    with pytest.raises(numba.TypingError):
+        _with_thirds("six")
+    assert gc.isenabled()
 
 
 @kernel

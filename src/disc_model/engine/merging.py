@@ -7,6 +7,8 @@ is then optimised and turned into machine code as one.
 
 from __future__ import annotations
 
+import gc
+
 import llvmlite.binding as llvm
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
@@ -98,3 +100,13 @@ class HelperCompiler(_Compiler):
 
 class KernelCompiler(_Compiler):
     library = KernelLibrary
+
+    def compile_extra(self, function):
+        # nearly all that a compilation makes is needed until it ends: to look for garbage took a tenth of the time
+        collects = gc.isenabled()
+        gc.disable()
+        try:
+            return super().compile_extra(function)
+        finally:
+            if collects:
+                gc.enable()
