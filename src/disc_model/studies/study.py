@@ -1007,7 +1007,7 @@ class _Grid:
     def _out_of_reach(self, options: SensitivityOptions, dims: Sequence[Dimension]) -> Iterator[str]:
         """Rules that ends of the distributions break at any point; those between parameters hold if all corners do."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
-        wanted = [dim for dim in self._needed([*options.distributions, *RELATED, "disc"]) if dim in dims]
+        wanted = [dim for dim in self._needed([*options.distributions, *RELATED]) if dim in dims]
         for point in points(wanted, self.document.where, self.base):
             here = case_of({**self.base, **point}, self.document.discs)
             ends: dict[str, list[float]] = {}
