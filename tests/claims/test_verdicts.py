@@ -90,7 +90,7 @@ WORLDS = {
     ),
     "a slider that lowers both of a pair": a_disc(
         "P06",
-        slider_at_rest_frequencies=lambda p: np.concatenate([plate_modes(p)["omega"] - shift for shift in (9, 3)]),
+        coupled_natural_frequencies=lambda p: np.concatenate([plate_modes(p)["omega"] - shift for shift in (9, 3)]),
     ),
     "a plate without mass and stiffness": a_disc(
         "E17", plate_modes=lambda p: plate_modes(p).assign(omega=np.sqrt(p.D))
