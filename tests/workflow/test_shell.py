@@ -24,8 +24,8 @@ study: mine
 quantity: floquet
 base: {N: 200, Omega: 20}
 axes:
-  mu_s: {start: 0.3, stop: 0.6, count: 61}
-  mu_k: {start: 0.05, stop: 0.3, count: 51}
+  mu_s: {start: 0.3, stop: 0.6, count: 241}
+  mu_k: {start: 0.05, stop: 0.3, count: 201}
 figures:
   growth: {kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}
 """
@@ -57,10 +57,9 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
     moments = random.Random(27)
     with shell(["bash", "--norc", "-i"], tmp_path, PATH=PATH, PS1=PROMPT) as terminal:
         terminal.wait_for(PROMPT)
-        terminal.type("disc-model study -j2 --until compile\n")
-        terminal.wait_for("(100%) done", 600)
+        terminal.type("disc-model study -j2 --snakemake '--until compile'\n")
+        assert "Error" not in terminal.wait_for(PROMPT, 600)  # as its closing lines asked for what was not made
         for _ in range(20):
-            terminal.wait_for(PROMPT)
             terminal.type("disc-model study -j2\n")
             terminal.wait_for(moments.choice(["study file: mine.yaml", "rule compute_batch:"]))
             terminal.read(moments.uniform(0.0, 4.0))
@@ -69,6 +68,7 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
             assert not list((tmp_path / ".snakemake").glob("locks/*")), said
             terminal.type("echo ended with $?\n")
             terminal.wait_for("ended with 130")
+            terminal.wait_for(PROMPT)
 
 
 def test_the_lock_of_a_killed_run_is_told_with_the_command_that_removes_it(tmp_path: Path) -> None:
