@@ -12,7 +12,7 @@ import disc_model
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, State, Window, simulate
 from disc_model.data import dataset
 from disc_model.stability.bifurcation import bifurcation_samples
-from disc_model.stability.branch import Steps
+from disc_model.stability.branch import StepControl
 from disc_model.stability.continuation import continue_border, continue_cycle
 from disc_model.stability.curves import stability_curves
 from disc_model.stability.lyapunov import lyapunov_exponents
@@ -112,7 +112,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (continue_border, PLANE | {"kind": "fold"}, {"guess": "None"}),
     (
-        Steps,
+        StepControl,
         {},
         dict.fromkeys(("growth", "easy", "sharpest"), " ".join(HOSTILE)) | {"scale": "None", "max_points": "huge"},
     ),

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import Disc, Parameters, is_number
-from disc_model.plausibility import ImplausibleValue, tell_doubts
+from disc_model.plausibility import ImplausibleValue, warn_of_doubts
 
 if TYPE_CHECKING:
     from skfem import MeshQuad
@@ -139,7 +139,7 @@ def disc_of_section(
             (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
         )
     )
-    tell_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
+    warn_of_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
     highest = math.tau * highest_Hz
     found: list[tuple[float, int, int, float, list[float]]] = []
     for l in range(61):

@@ -51,7 +51,7 @@ _warn = partial(warnings.warn, category=ImplausibleValue, stacklevel=5)  # where
 _told: set[str] = set()
 
 
-def tell_doubts(p: Parameters, tell: Callable[[str], object] = _warn) -> None:
+def warn_of_doubts(p: Parameters, tell: Callable[[str], object] = _warn) -> None:
     """Tell what is implausible about a case, once in a process by each rule; by a warning, if nothing else is said."""
     for kind, text in doubts(p).items():
         if kind not in _told:

@@ -5,7 +5,7 @@ import math
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import register, scenes, work_precision
+from disc_model.benchmarks import registry, scenes, work_precision
 from disc_model.benchmarks.methods import METHODS, RunStatus
 from disc_model.benchmarks.methods.base import Method, MethodResult
 from disc_model.benchmarks.scenes import answer
@@ -31,7 +31,7 @@ class Known(Method):
 
     def _solve(self, problem, value, budget):
         self.tried.append(value)
-        name = next(name for name in register.SCENES if scenes.problem(name).start is problem.start)
+        name = next(name for name in registry.SCENES if scenes.problem(name).start is problem.start)
         times_longer = problem.span / scenes.problem(name).span
         right, off = answer(name), self.error(value)
         kinds = right.kinds if off < 1e-2 else ("slip_reversal",) * len(right.kinds)

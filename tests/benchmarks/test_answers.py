@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import failure_maps
-from disc_model.benchmarks.answers import measure, modelled, questions, simulated, words
+from disc_model.benchmarks.answers import measure, modelled, questions, report, simulated
 from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, AnswerVerdict, Found, verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
@@ -194,12 +194,12 @@ def test_errors_of_models_are_against_the_richest_and_those_of_methods_against_t
 
 
 def test_it_is_written_and_drawn(dataset: xr.Dataset) -> None:
-    text = words.to_markdown(dataset)
+    text = report.to_markdown(dataset)
     assert dataset.attrs["machine"] in text
     assert "| late | tol=1 | - | - | 2 | wrong | none: no separation within 55 s |" in text
     assert "## First separation\n\nRight to 0.1 s." in text
-    models = [p for p in words.points(dataset, "first_separation") if p.line == "rigid"]
-    assert words.right_numbers(models) == "4, 8"
+    models = [p for p in report.points(dataset, "first_separation") if p.line == "rigid"]
+    assert report.right_numbers(models) == "4, 8"
     figure = figures.answers(dataset)
     shown = ("first_separation", "onset", "growth_rate")
     assert [ax.get_xlabel() for ax in figure.axes] == [figures.ANSWERS[name] for name in shown]

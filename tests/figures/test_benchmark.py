@@ -10,7 +10,7 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.answers import measure
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.register import SCENES
+from disc_model.benchmarks.registry import SCENES
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
 from tests.benchmarks.conftest import dataset, known

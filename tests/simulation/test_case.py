@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Record, Window, simulate
-from disc_model.simulation import kept
+from disc_model.simulation import recorder
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 
@@ -78,7 +78,7 @@ GREEDY = {
 @pytest.mark.parametrize("what", GREEDY)
 def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch):
     """Bins, samples of a step and sections were not counted: they ended in a MemoryError."""
-    monkeypatch.setattr(kept, "_memory", lambda: 5e5)
+    monkeypatch.setattr(recorder, "_memory", lambda: 5e5)
     kept_, place = GREEDY[what]
     p = P.replace(Omega=1e300) if what == "sections" else P
     with pytest.raises(ParameterError, match=rf"^record\.{place}: must fit into memory: .* GB of samples in all"):

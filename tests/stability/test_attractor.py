@@ -12,9 +12,9 @@ from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import perturb, simulate, static_start
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.course import Reached, Stretch, come_to, growing, late_stretch
-from disc_model.stability.attractor.many import Basins, random_perturbation
-from disc_model.stability.attractor.near import Near, cycle_of_static_start, follows
+from disc_model.stability.attractor.classification import Basins, random_perturbation
+from disc_model.stability.attractor.neighbourhood import NearCycle, cycle_of_static_start, follows
+from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome, growing
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -72,7 +72,7 @@ OUTCOMES: dict[str, tuple[dict[str, Any], float, Outcome]] = {
 @pytest.mark.parametrize("which", OUTCOMES)
 def test_each_outcome_is_told(which: str) -> None:
     values, horizon, outcome = OUTCOMES[which]
-    found = come_to(Parameters(**values), horizon)
+    found = find_outcome(Parameters(**values), horizon)
     assert found.outcome is outcome
     assert math.isfinite(found.first_separation) == (outcome is Outcome.SEPARATION)
 
@@ -80,7 +80,7 @@ def test_each_outcome_is_told(which: str) -> None:
 @pytest.mark.compiled
 def test_a_departure_by_multipliers_ends_as_the_simulated_one() -> None:
     p = Parameters(N=300, Omega=20)
-    found, whole = come_to(p, 400), come_to(p, 400, furthest=0.0)
+    found, whole = find_outcome(p, 400), find_outcome(p, 400, furthest=0.0)
     assert found.outcome is whole.outcome is Outcome.SEPARATION
     # a tenth of the distance (AGREES) is a growth of ln(1.1) / 0.046 s = 2 s
     assert found.first_separation == pytest.approx(whole.first_separation, abs=2)
@@ -105,7 +105,7 @@ REST = {
 @pytest.mark.parametrize("which", REST)
 def test_what_looks_like_rest_is_followed(which: str) -> None:
     N, Omega, outcome = REST[which]
-    found = come_to(Parameters(N=N, Omega=Omega), 1000)
+    found = find_outcome(Parameters(N=N, Omega=Omega), 1000)
     assert found.outcome is outcome
     assert found.time == (1000 if outcome is Outcome.GROWING else found.first_separation) > 150
 
@@ -114,10 +114,10 @@ def test_what_looks_like_rest_is_followed(which: str) -> None:
 def test_a_start_far_from_a_cycle_follows_it_once_it_has_come_near() -> None:
     """Beside the fold the motion from the start is not linear: its size tells."""
     near = cycle_of_static_start(Parameters(N=385, Omega=15))
-    assert isinstance(near, Near)
+    assert isinstance(near, NearCycle)
     at = near.map.static
     assert not follows(near, at)
-    assert near.own
+    assert near.follows_cycle
     assert 1 < near.waited < 20
     # the distance is the one that is left by then
     *_, later = near.map.returns(at, round(near.waited / near.cycle.period))
@@ -130,7 +130,7 @@ def test_a_motion_that_has_arrived_follows_its_cycle_however_fast_others_come_to
     """What is left after a strong decay is roundings: they do not decay, and the motion was said to be elsewhere."""
     p = SMALL if rate == -50 else Parameters(N=50, Omega=15)
     near = cycle_of_static_start(p)
-    assert isinstance(near, Near)
+    assert isinstance(near, NearCycle)
     assert follows(near, near.x + 1e-12 * near.distance)
 
 
@@ -138,7 +138,7 @@ def test_a_motion_that_has_arrived_follows_its_cycle_however_fast_others_come_to
 def test_a_start_of_ones_own_is_followed_to_what_it_comes_to() -> None:
     """At 385 N and 15 rad/s a kick of 0.2 mm dies out and one of 0.3 mm leads to separation."""
     p = Parameters(N=385, Omega=15)
-    small, large = (come_to(p, 300, start=perturb(p, static_start(p), u=kick)) for kick in (2e-4, 3e-4))
+    small, large = (find_outcome(p, 300, start=perturb(p, static_start(p), u=kick)) for kick in (2e-4, 3e-4))
     assert (small.outcome, large.outcome) == (Outcome.QUIET, Outcome.SEPARATION)
     assert 0 < small.simulated < 100
     assert 0 < small.distance < 0.1
@@ -147,27 +147,27 @@ def test_a_start_of_ones_own_is_followed_to_what_it_comes_to() -> None:
 @pytest.mark.compiled
 def test_a_motion_that_has_long_been_on_its_cycle_is_quiet() -> None:
     """What the map's coarse flights leave out was larger than what was left of the motion's distance."""
-    found = come_to(Parameters(N=200, Omega=20, c=0.5), 300, early=False)
+    found = find_outcome(Parameters(N=200, Omega=20, c=0.5), 300, early=False)
     assert (found.outcome, found.simulated) == (Outcome.QUIET, 300.0)
 
 
 @pytest.mark.parametrize("late", [0.0, 0.5, 4.0])
 def test_what_is_not_left_early_is_followed_to_the_horizon_and_judged_there(late: float) -> None:
-    found = come_to(SMALL, 8.0, tol=1e-9, early=False, late=late)
+    found = find_outcome(SMALL, 8.0, tol=1e-9, early=False, late=late)
     assert (found.outcome, found.simulated, found.time) == (Outcome.QUIET, 8.0, 8.0)
-    assert (found.stretch is None) == (late == 0)
-    if found.stretch is not None:
+    assert (found.segment is None) == (late == 0)
+    if found.segment is not None:
         assert found.cycle is not None
-        assert found.stretch.stick_fraction == pytest.approx(found.cycle.stick_fraction, abs=0.05)
-        assert found.stretch.P_min < SMALL.N < found.stretch.P_max
+        assert found.segment.stick_fraction == pytest.approx(found.cycle.stick_fraction, abs=0.05)
+        assert found.segment.P_min < SMALL.N < found.segment.P_max
 
 
 def test_a_simulation_that_fails_says_so() -> None:
     p, start = paradox()
-    found = come_to(p, 1.0, start=start)
+    found = find_outcome(p, 1.0, start=start)
     assert (found.outcome, found.status.value) == (None, "paradox")
     assert found.message
-    failed, nothing = late_stretch(p, start, 0.1, 0.05, 1e-8)
+    failed, nothing = final_segment(p, start, 0.1, 0.05, 1e-8)
     assert (failed.status.value, nothing) == ("paradox", None)
 
 
@@ -201,14 +201,14 @@ long motion. At the 1304 points of the former coarse maps there was none."""
 def test_shortcuts_agree_with_brute_force() -> None:
     """Points spread over four planes: simulated throughout, to a horizon at which all outcomes occur."""
     horizon, points, simulated = 400.0, 0, 0.0
-    disagree: list[tuple[dict[str, float], Reached, float]] = []
+    disagree: list[tuple[dict[str, float], OutcomeResult, float]] = []
     for number, plane in enumerate(PLANES):
         varied = {name: bounds for name, bounds in plane.items() if isinstance(bounds, tuple)}
         for share in qmc.Halton(len(varied), seed=number).random(10):
             at = {name: a + s * (b - a) for (name, (a, b)), s in zip(varied.items(), share, strict=True)}
             p = Parameters(**{**plane, **at})
-            found = come_to(p, horizon)
-            whole = come_to(p, horizon, early=False)
+            found = find_outcome(p, horizon)
+            whole = find_outcome(p, horizon, early=False)
             points, simulated = points + 1, simulated + found.simulated
             if math.isfinite(whole.first_separation) != (found.outcome is Outcome.SEPARATION):
                 disagree.append((at, found, whole.first_separation))
@@ -251,14 +251,14 @@ def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alon
     assert random_perturbation(P14, start, 0.0, (1, 0, 5)) is start
 
 
-def same(one: Reached, other: Reached) -> bool:
+def same(one: OutcomeResult, other: OutcomeResult) -> bool:
     if one.outcome != other.outcome or one.attractor is None or other.attractor is None:
         return False
-    ranges = [reached.attractor.stretch.range for reached in (one, other) if reached.attractor is not None]
+    ranges = [reached.attractor.segment.range for reached in (one, other) if reached.attractor is not None]
     return one.outcome is Outcome.QUIET or math.isclose(*ranges, rel_tol=0.05)
 
 
-def compared(p: Parameters, starts: range, horizon: float, longer: float) -> list[tuple[Reached, Reached]]:
+def compared(p: Parameters, starts: range, horizon: float, longer: float) -> list[tuple[OutcomeResult, OutcomeResult]]:
     """What kicks come to as it is judged early, and at the end of a longer horizon."""
     early, late = Basins(p, horizon), Basins(p, longer, near=0)
     kicks = [random_perturbation(p, static_start(p), energy, (3, i)) for i in starts for energy in (0.05, 0.3, 2.0)]
@@ -298,9 +298,9 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     quiet, separating = Basins(P14, 100.0).known
     assert (separating.kind, separating.releases) == (Outcome.SEPARATING, 1)
     # one separation more or less in a leg of five seconds
-    assert separating.period * separating.stretch.separation_rate == pytest.approx(1, abs=1 / (5 * 135))
+    assert separating.period * separating.segment.separation_rate == pytest.approx(1, abs=1 / (5 * 135))
     assert separating.growth_rate < 0
-    assert (quiet.kind, quiet.stretch.separation_rate) == (Outcome.QUIET, 0)
+    assert (quiet.kind, quiet.segment.separation_rate) == (Outcome.QUIET, 0)
     assert quiet.growth_rate == pytest.approx(-0.0674, rel=1e-2)
     assert quiet.points is not None
 
@@ -320,7 +320,7 @@ def test_a_motion_that_comes_to_steady_sliding_is_told() -> None:
     assert Basins(p, 100.0).reached(static_start(p)).outcome is Outcome.STEADY_SLIDING
 
 
-def stretch(**changes: float) -> Stretch:
+def stretch(**changes: float) -> Segment:
     """Of a separating motion, for tests of what is said of one."""
     shares = {"stick_fraction": 0.25, "slip_fraction": 0.65, "separation_fraction": 0.10, "separation_rate": 135.0}
-    return Stretch(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)
+    return Segment(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)

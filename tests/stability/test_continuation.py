@@ -10,7 +10,7 @@ from disc_model.simulation.result import State
 from disc_model.stability import branch as branch_module
 from disc_model.stability import continuation
 from disc_model.stability import cycle as cycle_module
-from disc_model.stability.branch import CycleProblem, Lost, Steps
+from disc_model.stability.branch import CorrectorFailed, CycleProblem, StepControl
 from disc_model.stability.continuation import (
     BORDER,
     continue_border,
@@ -45,7 +45,7 @@ def test_a_branch_goes_round_its_fold():
 
 
 def test_a_branch_may_begin_the_other_way_and_stop_short():
-    branch = continue_cycle(P, "Omega", (12.0, 17.0), direction=-1, steps=Steps(max_points=3))
+    branch = continue_cycle(P, "Omega", (12.0, 17.0), direction=-1, steps=StepControl(max_points=3))
     assert branch.ended == "the number of points allowed is reached"
     assert branch.values[:, 0] == pytest.approx(sorted(branch.values[:, 0], reverse=True))
     by_load = continue_cycle(P, "N", (250.0, 320.0), direction=-1)
@@ -62,13 +62,13 @@ def test_a_branch_may_begin_the_other_way_and_stop_short():
     ],
 )
 def test_where_a_branch_ends_is_said(start, bounds, why):
-    branch = continue_cycle(P.replace(Omega=start), "Omega", bounds, direction=-1, steps=Steps(shortest=1e-3))
+    branch = continue_cycle(P.replace(Omega=start), "Omega", bounds, direction=-1, steps=StepControl(shortest=1e-3))
     assert why in branch.ended
 
 
 def test_a_fold_that_cannot_be_located_ends_the_branch(monkeypatch):
     def lost(*_):
-        raise Lost("Newton's method does not converge")
+        raise CorrectorFailed("Newton's method does not converge")
 
     monkeypatch.setattr(continuation, "_locate_fold", lost)
     branch = continue_cycle(P, "Omega", (12.0, 17.0))
@@ -93,7 +93,7 @@ def test_a_fold_that_cannot_be_located_ends_the_branch(monkeypatch):
 def test_where_there_is_no_cycle_the_corrector_is_lost(Omega, why):
     problem = CycleProblem(P, ("Omega",), None, 1e-12)
     z = np.array([1.0, 0, 0, Omega / problem.scales[0]])
-    with pytest.raises(Lost, match=why):
+    with pytest.raises(CorrectorFailed, match=why):
         problem.correct(z, np.eye(4)[3:], z[3:])
 
 
@@ -101,7 +101,7 @@ def test_a_singular_matrix_is_no_convergence():
     """Rows that ask for nothing used to end in an error of numpy's."""
     problem = CycleProblem(P, ("Omega", "N"), None, 1e-12)
     z = problem.unknowns(cycle_at(15, 300))
-    with pytest.raises(Lost, match="its matrix is singular"):
+    with pytest.raises(CorrectorFailed, match="its matrix is singular"):
         problem.correct(z, np.zeros((2, 5)), np.ones(2))
 
 

@@ -10,7 +10,7 @@ from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import Outcome
 from disc_model.errors import DiscModelError
 from disc_model.stability import return_map as return_map_module
-from disc_model.stability.attractor.near import cycle_near
+from disc_model.stability.attractor.neighbourhood import cycle_near
 from disc_model.stability.cycle import (
     CycleError,
     CycleStatus,
@@ -116,12 +116,12 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     x = map_.point(result.state)
     away = x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0]
     found = cycle_near(map_, away, (1e-4, 6))
-    assert found.own
+    assert found.follows_cycle
     assert found.cycle.releases == 1  # not six times around
     assert found.kind is Outcome.QUIET
     assert found.cycle.growth_rate == pytest.approx(result.growth_rate, rel=1e-6)
     assert not floquet(P).stable
-    assert not cycle_near(ReturnMap(P), ReturnMap(P).point(floquet(P).state), (0.0, 1)).own
+    assert not cycle_near(ReturnMap(P), ReturnMap(P).point(floquet(P).state), (0.0, 1)).follows_cycle
 
 
 def test_no_cycle_near_a_state_is_said():

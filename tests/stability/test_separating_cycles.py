@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, floquet, simulate
 from disc_model.simulation.result import State
-from disc_model.stability.branch import Steps
+from disc_model.stability.branch import StepControl
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.return_map import PATIENT, ReturnMap, multipliers
@@ -84,7 +84,7 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     """N = 385 N, two releases: up to 15.9717 rad/s, where a stop is grazed and left out."""
     p, time, *_ = LOCKED["2 releases"]
     late = settled(p, time)
-    branch = continue_cycle(p, "Omega", (14.0, 18.0), guess=late, releases=2, steps=Steps(step=1e-2))
+    branch = continue_cycle(p, "Omega", (14.0, 18.0), guess=late, releases=2, steps=StepControl(step=1e-2))
     end = float(branch.values[-1, 0])
     assert end == pytest.approx(15.97174, abs=1e-4)
     assert branch.ended.startswith("the order of switches changes: separations 2 to ")
@@ -117,7 +117,7 @@ def test_the_locking_of_45_releases() -> None:
     ends = []
     for direction in (-1, 1):
         branch = continue_cycle(
-            p, "Omega", (19.9, 20.1), guess=late, releases=45, steps=Steps(step=1e-4), direction=direction
+            p, "Omega", (19.9, 20.1), guess=late, releases=45, steps=StepControl(step=1e-4), direction=direction
         )
         assert "a further stop" in branch.ended or "the omission of a stop" in branch.ended
         assert np.all(branch.growth_rate < -0.1)

@@ -138,7 +138,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ),
         ("src/disc_model/plate.py", everything),
         ("src/disc_model/simulation/api.py", everything),
-        ("src/disc_model/stability/attractor/course.py", whole_map),
+        ("src/disc_model/stability/attractor/outcome.py", whole_map),
         ("src/disc_model/studies/grids/quantities/floquet.py", whole_growth),
         ("src/disc_model/studies/grids/quantities/hysteresis.py", lambda _: set()),
         ("src/disc_model/studies/grids/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),

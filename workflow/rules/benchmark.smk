@@ -1,6 +1,6 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
-from disc_model.benchmarks.register import RIVALS, SCENES
+from disc_model.benchmarks.registry import RIVALS, SCENES
 
 BENCH = "results/bench"
 MEASURED = [

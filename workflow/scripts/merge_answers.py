@@ -5,7 +5,7 @@ from pathlib import Path
 import xarray as xr
 
 from disc_model.benchmarks.answers.measure import merged
-from disc_model.benchmarks.answers.words import to_markdown
+from disc_model.benchmarks.answers.report import to_markdown
 from disc_model.data.dataset import load_inputs, save
 from disc_model.errors import script
 

@@ -10,7 +10,7 @@ from disc_model.data.dataset import save
 from disc_model.errors import script
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.simulation.kept import SET_ASIDE
+from disc_model.simulation.recorder import SET_ASIDE
 from disc_model.studies.modes import choose
 
 

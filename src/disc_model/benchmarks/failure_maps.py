@@ -18,7 +18,7 @@ from disc_model.benchmarks import scenes
 from disc_model.benchmarks.answers import simulated
 from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, AnswerStatus, Found, verdict
 from disc_model.benchmarks.grid import measured
-from disc_model.benchmarks.machine import machine, one_core
+from disc_model.benchmarks.hardware import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics

@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.benchmarks.answers import words
+from disc_model.benchmarks.answers import report
 from disc_model.benchmarks.answers.measure import LINES, Row
 from disc_model.benchmarks.answers.questions import QUESTIONS, AnswerVerdict
 from disc_model.benchmarks.methods import METHODS
@@ -57,15 +57,15 @@ def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset
         "glue": _glue(points),
         "whole_call": _whole_call(points),
         "stiff": _stiff(points),
-        "models": {name: _models(words.points(answers, name)) for name in asked},
-        "prices": {name: _prices(words.points(answers, name)) for name in asked},
+        "models": {name: _models(report.points(answers, name)) for name in asked},
+        "prices": {name: _prices(report.points(answers, name)) for name in asked},
     }
 
 
 def _models(found: list[Row]) -> dict[str, str]:
     """By contact of a reduced model, the numbers of nodal diameters with which it answers rightly."""
-    lines = {model: [p for p in found if p.line == model] for model in words.MODELS}
-    return {model: words.right_numbers(line) for model, line in lines.items() if line}
+    lines = {model: [p for p in found if p.line == model] for model in report.MODELS}
+    return {model: report.right_numbers(line) for model, line in lines.items() if line}
 
 
 def _own(points: pd.DataFrame) -> dict[str, dict[str, Any]]:
@@ -76,9 +76,9 @@ def _own(points: pd.DataFrame) -> dict[str, dict[str, Any]]:
 
 def _prices(found: list[Row]) -> dict[str, dict[str, Any]]:
     """By line in words: its cheapest right answer, and where it answers wrongly without a warning."""
-    right = {p.line: p for p in words.cheapest_right(found)}
+    right = {p.line: p for p in report.cheapest_right(found)}
     table: dict[str, dict[str, Any]] = {}
-    for line, label in {p.line: p.label for p in found if p.line not in words.MODELS}.items():
+    for line, label in {p.line: p.label for p in found if p.line not in report.MODELS}.items():
         wrong = [p.setting for p in found if p.line == line and p.verdict is AnswerVerdict.WRONG]
         best = right.get(line)
         table[label] = {"seconds": best.seconds if best else None, "at": best.at if best else None, "wrong": wrong}
@@ -186,13 +186,13 @@ def page(run: Summary) -> str:
     """The page of the benchmark."""
     lines = dict.fromkeys(label for table in run["prices"].values() for label in table)
     rows = [[label, *(_price(table.get(label)) for table in run["prices"].values())] for label in lines]
-    for model in words.MODELS:
+    for model in report.MODELS:
         found = (run["models"][name].get(model) for name in run["prices"])
         rows.append([LINES[model][0], *("-" if right is None else right or "no number" for right in found)])
     head = (
         "method",
         *(
-            f"{own.title}, to {words.within(own.enough, own.units)}"
+            f"{own.title}, to {report.within(own.enough, own.units)}"
             for own in (QUESTIONS[name] for name in run["prices"])
         ),
     )

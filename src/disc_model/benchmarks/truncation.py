@@ -19,7 +19,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks.grid import measured
-from disc_model.benchmarks.machine import machine
+from disc_model.benchmarks.hardware import machine
 from disc_model.data.variables import Variable
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters

@@ -19,9 +19,9 @@ import xarray as xr
 
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.grid import measured
-from disc_model.benchmarks.machine import machine, one_core
+from disc_model.benchmarks.hardware import machine, one_core
 from disc_model.benchmarks.methods import METHODS, RunStatus
-from disc_model.benchmarks.register import SCENES
+from disc_model.benchmarks.registry import SCENES
 from disc_model.benchmarks.scenes import JUDGED, VERDICT, Verdict
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions

@@ -19,7 +19,7 @@ from disc_model.disc import read_disc
 from disc_model.errors import Fault, ParameterError, shown
 from disc_model.parameters import Parameters, in_si
 from disc_model.parameters import number as number_of
-from disc_model.plausibility import tell_doubts
+from disc_model.plausibility import warn_of_doubts
 from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
 
 ANY = "VALUE"
@@ -109,7 +109,7 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
         faults += (Fault.of(("disc",), case["disc"], str(fault)) for fault in inner)
     try:
         p, asked = read_asked(given)
-        tell_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
+        warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
         if asked is None:
             return p, None
         choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)
@@ -148,7 +148,7 @@ def table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], **col
     return made
 
 
-def tell(lines: Iterable[tuple[str, str]]) -> None:
+def print_rows(lines: Iterable[tuple[str, str]]) -> None:
     """Print lines of a name and what is said of it."""
     for name, text in lines:
         typer.echo(f"{name:<20}{text}")

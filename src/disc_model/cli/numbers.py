@@ -14,8 +14,8 @@ from disc_model.cli.case import (
     disc_words,
     number,
     parameters_of,
+    print_rows,
     table,
-    tell,
     with_case_options,
 )
 from disc_model.disc import disc_table
@@ -42,7 +42,7 @@ def modes(
     if csv:
         typer.echo(disc_table(parameters), nl=False)
         return
-    tell(choice_lines(choice))
+    print_rows(choice_lines(choice))
     found = mode_arrays(parameters)
     ratios = modal_damping(parameters) / (2 * found.omega)
     rows = [
@@ -93,7 +93,7 @@ def floquet(
         lines.append(("advice", cycle.status.advice))
     slides = math.isfinite(sliding.growth_rate)
     lines.append(("steady sliding", f"growth rate {sliding.growth_rate:.6g} 1/s" if slides else sliding.message))
-    tell(lines)
+    print_rows(lines)
     if not found:
         raise typer.Exit(1)
 

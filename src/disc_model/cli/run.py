@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from disc_model.cli.case import case_lines, number, parameters_of, tell, with_case_options
+from disc_model.cli.case import case_lines, number, parameters_of, print_rows, with_case_options
 from disc_model.errors import Fault, ParameterError, broken, refuse, shown
 from disc_model.parameters import TOLERANCES, Parameters, limits_rule
 
@@ -86,7 +86,7 @@ def run(
     complete = result.status.complete
     if save is not None:
         result.save(save, list(windows) or None)
-        tell([("saved", str(save))])
+        print_rows([("saved", str(save))])
     if plot is not None:
         reached = float(result.final_state.time)
         if 0 < reached < end and not windows:  # the end to be shown is elsewhere than was thought
@@ -171,7 +171,7 @@ def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) 
         elif not may_be_file(path):
             yield f"{name}={str(path)!r}: {NAME_RULE}"
     if checkpoint is not None:
-        from disc_model.simulation.kept import faults
+        from disc_model.simulation.recorder import faults
 
         yield from faults(checkpoint, 0)
 
@@ -196,7 +196,7 @@ def _save_plot(result: Result, path: Path) -> None:
         quicklook(result).savefig(path, dpi=150)
     except OSError as error:
         raise ParameterError(f"plot={str(path)!r}: cannot be written ({error.strerror})") from None
-    tell([("figure", str(path))])
+    print_rows([("figure", str(path))])
 
 
 def _print_summary(result: Result, choice: ModeChoice | None) -> None:
@@ -224,4 +224,4 @@ def _print_summary(result: Result, choice: ModeChoice | None) -> None:
     ]
     if not result.status.complete:
         lines.append(("advice", result.status.advice))
-    tell(lines)
+    print_rows(lines)

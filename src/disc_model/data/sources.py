@@ -42,12 +42,12 @@ BESIDES = {
 }
 """Modules that are imported and decide no result, with the reason."""
 
-_BENCHMARK = "case benchmarks.methods benchmarks.grid benchmarks.machine benchmarks.scenes"
+_BENCHMARK = "case benchmarks.methods benchmarks.grid benchmarks.hardware benchmarks.scenes"
 _REFERENCES = (
     "benchmarks/data/benchmark_reference.json benchmarks/data/separating_start.json benchmarks/data/answers.json"
 )
 _QUESTIONS = (
-    "truncation benchmarks.register benchmarks.answers.questions benchmarks.answers.simulated analysis.classify "
+    "truncation benchmarks.registry benchmarks.answers.questions benchmarks.answers.simulated analysis.classify "
     "analysis.sobol " + _REFERENCES
 )
 _TEXTS = "benchmarks.texts benchmarks/texts.yaml data.texts"
@@ -56,7 +56,9 @@ _ANSWERS = "benchmarks.answers.measure benchmarks.answers.modelled benchmarks.tr
 KINDS = {
     # shared
     "dataset": Kind("data.dataset data.variables errors parameters plate flexibility"),
-    "case": Kind("dataset engine simulation.api simulation.case simulation.kept simulation.ramps simulation.result"),
+    "case": Kind(
+        "dataset engine simulation.api simulation.case simulation.recorder simulation.ramps simulation.result"
+    ),
     "cycle": Kind("case stability.cycle stability.return_map stability.sliding"),
     "settled": Kind("cycle stability.attractor stability.lyapunov analysis.classify"),
     "continuation": Kind("cycle stability.branch stability.continuation stability.grazing"),
@@ -102,10 +104,10 @@ KINDS = {
     "build_explorer": Kind("figure explorer explorer/static"),
     # the benchmark
     "measure_work_precision": Kind(
-        f"{_BENCHMARK} benchmarks.register {_TEXTS} benchmarks.table benchmarks.work_precision {_REFERENCES}"
+        f"{_BENCHMARK} benchmarks.registry {_TEXTS} benchmarks.table benchmarks.work_precision {_REFERENCES}"
     ),
     "measure": Kind(f"{_BENCHMARK} {_ANSWERS} benchmarks.failure_maps"),
-    "merge_answers": Kind(f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.words"),
+    "merge_answers": Kind(f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.report"),
     "report_truncation": Kind(f"dataset benchmarks.truncation_pages {_TEXTS}"),
 }
 """By name."""

@@ -45,10 +45,10 @@ class Outcome(enum.StrEnum):
     """contact is lost before the horizon, and what comes after is not asked"""
 
 
-LASTING = ("failed", *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)))
+LONG_TERM_OUTCOMES = ("failed", *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)))
 """The flags of what motions come to that are followed as long as it takes; `failed`: not computed."""
 _SETTLED = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
-COURSES = ("failed", *(word for word in Outcome if word not in _SETTLED))
+OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _SETTLED))
 """Of those followed to a horizon, or until they separate."""
 
 

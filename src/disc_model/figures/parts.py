@@ -114,7 +114,7 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
 
 
 @contextmanager
-def or_say_why(*axes: Axes) -> Iterator[None]:
+def blank_if_missing(*axes: Axes) -> Iterator[None]:
     """Where a case does not hold what the panels show, they stay empty but for the reason."""
     try:
         yield

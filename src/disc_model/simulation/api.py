@@ -32,8 +32,8 @@ from disc_model.plate import mode_arrays
 from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
 from disc_model.simulation.case import CaseSpec, Record, Start, Window
-from disc_model.simulation.kept import Checkpoint, Collector, Contents, faults, identity
 from disc_model.simulation.ramps import Ramp
+from disc_model.simulation.recorder import Checkpoint, Collector, Contents, faults, identity
 from disc_model.simulation.result import (
     Result,
     State,

@@ -25,7 +25,7 @@ from disc_model.errors import Fault, ParameterError, Status, shown
 from disc_model.flexibility import contact_give
 from disc_model.parameters import RESIDUAL, Parameters, is_number
 from disc_model.plate import modal_damping, mode_arrays
-from disc_model.plausibility import tell_doubts
+from disc_model.plausibility import warn_of_doubts
 from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import RAMPED, Ramp, values_at
 
@@ -392,7 +392,7 @@ class EngineCase(NamedTuple):
 @lru_cache(maxsize=CASES)
 def engine_case(p: Parameters) -> EngineCase:
     """The engine's constants of a case; what equal parameters have found before is found again."""
-    tell_doubts(p)
+    warn_of_doubts(p)
     modes = mode_arrays(p)
     names = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0")
     model = layout.build_model(

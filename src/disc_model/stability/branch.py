@@ -48,7 +48,7 @@ CORRECTIONS = 8
 """Newton steps allowed to a corrector before the arclength is halved."""
 
 
-class Lost(Exception):
+class CorrectorFailed(Exception):
     """The corrector found no cycle, or the motion no return; the message says which."""
 
 
@@ -88,7 +88,7 @@ class CycleProblem:
         try:
             return self.base.replace(**dict(zip(self.names, map(float, values), strict=True)))
         except ParameterError as error:
-            raise Lost(str(error)) from None
+            raise CorrectorFailed(str(error)) from None
 
     def state(self, z: Array) -> State:
         """The motion's state, at the end of stick, of which z are the unknowns."""
@@ -103,23 +103,23 @@ class CycleProblem:
     def evaluate(self, z: Array) -> CyclePoint:
         p = self.case(z)
         if min(p.Omega, p.N, p.k_p) <= 0:
-            raise Lost("the drive, the preload or the in-plane spring vanishes")
+            raise CorrectorFailed("the drive, the preload or the in-plane spring vanishes")
         map_ = ReturnMap(p, self.tol, self.names, patience=PATIENT if self.order else 1.0)
         x = z[: self.n] * self.size / self.scale * map_.scale
         releases = self.order.releases if self.order else 1
         flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=self.order is not None)
         if flight.outcome != RETURNED:
-            raise Lost(f"the motion does not return: {ENDS[flight.outcome]}")
+            raise CorrectorFailed(f"the motion does not return: {ENDS[flight.outcome]}")
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)
-            raise Lost(f"{REORDERED}: {', '.join(changes)}")
+            raise CorrectorFailed(f"{REORDERED}: {', '.join(changes)}")
         # into the reference's coordinates: they differ where E is free
         turn = self.scale / map_.scale
         jacobian = jacobian * turn[:, None] / turn[None, :]
         residual = (end - x) * turn / self.size
         if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(by)) and np.all(np.isfinite(residual))):
-            raise Lost("the variational equations are singular: a switch is grazed")
+            raise CorrectorFailed("the variational equations are singular: a switch is grazed")
         parameters = by * turn[:, None] * self.scales[None, :] / self.size
         return CyclePoint(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
 
@@ -138,7 +138,7 @@ class CycleProblem:
                 break
             last = error
             point = self.evaluate(point.z - newton_step(np.vstack([point.by, rows]), right))
-        raise Lost("Newton's method does not converge")
+        raise CorrectorFailed("Newton's method does not converge")
 
     def leading_diameters(self, jacobian: Array) -> int:
         """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector."""
@@ -153,11 +153,11 @@ class CycleProblem:
 
 
 def newton_step(matrix: Array, right: Array) -> Array:
-    """Solution of a linear system; raises `Lost` if it has none, or more than one."""
+    """Solution of a linear system; raises `CorrectorFailed` if it has none, or more than one."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:
-        raise Lost("Newton's method does not converge: its matrix is singular") from None
+        raise CorrectorFailed("Newton's method does not converge: its matrix is singular") from None
 
 
 def default_scale(p: Parameters, name: str) -> float:
@@ -167,7 +167,7 @@ def default_scale(p: Parameters, name: str) -> float:
 
 
 # ----------------------------------------------------------------------------------------------------
-# The walk
+# The continue_curve
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,7 +231,7 @@ def check(
     wrong = broken(
         (free, "name" if count == 1 else "names", names, f"must be {count} of {', '.join(PARAMETERS)}"),
         (within, "bounds", bounds, "must be two ascending finite numbers" + ", by name" * (count > 1)),
-        (isinstance(steps, Steps), "steps", steps, "must be Steps"),
+        (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),  # type: ignore[arg-type]
     )
     refuse([*foreign_case(p), *wrong, *limits_faults("tol", tol, CYCLE_TOLERANCES), *more])
@@ -248,7 +248,7 @@ def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
         raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
     try:
         return problem.evaluate(problem.unknowns(cycle.state))
-    except Lost as lost:
+    except CorrectorFailed as lost:
         raise ParameterError(f"{rule}, but {lost}") from None
 
 
@@ -281,7 +281,7 @@ AnyPlace = TypeVar("AnyPlace", bound=Place)
 
 
 @dataclass(frozen=True)
-class Steps:
+class StepControl:
     """How a curve is followed.
 
     Parameters
@@ -317,10 +317,10 @@ class Steps:
         )
 
 
-def walk(
+def continue_curve(
     start: AnyPlace,
     take: Callable[[AnyPlace, float], AnyPlace],
-    steps: Steps,
+    steps: StepControl,
     *,
     meet: Callable[[AnyPlace, AnyPlace], None],
     leaves: Callable[[list[AnyPlace], float], str],
@@ -329,8 +329,8 @@ def walk(
 
     Parameters
     ----------
-    take : the next place at an arclength, its tangent either way; raises `Lost` where a shorter step may do
-    meet : is told of each step's two ends; raises `Lost` where the curve has to end at the first
+    take : the next place at an arclength, its tangent either way; raises `CorrectorFailed` where a shorter step may do
+    meet : is told of each step's two ends; raises `CorrectorFailed` where the curve has to end at the first
     leaves : why the curve ends at the last of the places, given also the last step's arclength; "" if it goes on
     """
     places, ds = [start], steps.step
@@ -339,7 +339,7 @@ def walk(
         try:
             new, ds = _step(take, here, ds, steps)
             meet(here, new)
-        except Lost as lost:
+        except CorrectorFailed as lost:
             return places, str(lost)
         places.append(new)
         if reason := leaves(places, ds):
@@ -350,7 +350,7 @@ def walk(
 
 
 def _step(
-    take: Callable[[AnyPlace, float], AnyPlace], here: AnyPlace, ds: float, steps: Steps
+    take: Callable[[AnyPlace, float], AnyPlace], here: AnyPlace, ds: float, steps: StepControl
 ) -> tuple[AnyPlace, float]:
     """The next place at arclength ``ds``, halved as often as it is lost, and that arclength."""
     while True:
@@ -358,9 +358,9 @@ def _step(
             new = take(here, ds)
             cosine = float(new.tangent @ here.tangent)
             if abs(cosine) < steps.sharpest:
-                raise Lost("the curve bends too sharply")
+                raise CorrectorFailed("the curve bends too sharply")
             return (new if cosine > 0 else replace(new, tangent=-new.tangent)), ds
-        except Lost:
+        except CorrectorFailed:
             ds /= 2
             if ds < steps.shortest:
                 raise

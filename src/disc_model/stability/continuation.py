@@ -22,16 +22,16 @@ from disc_model.simulation.result import State
 from disc_model.stability.branch import (
     REORDERED,
     Branch,
+    CorrectorFailed,
     CyclePoint,
     CycleProblem,
-    Lost,
     Place,
-    Steps,
+    StepControl,
     branch_of,
     check,
+    continue_curve,
     newton_step,
     starting_point,
-    walk,
 )
 from disc_model.stability.cycle import find_cycle, find_cycle_near, guess_faults
 from disc_model.stability.grazing import grazing
@@ -41,8 +41,8 @@ from disc_model.stability.return_map import Array, ComplexArray, Counts, multipl
 # One parameter
 
 
-CYCLE = Steps()
-BORDER = Steps(step=0.01, longest=0.05, shortest=1e-6, max_points=400, growth=1.4, easy=0.98, sharpest=0.8)
+CYCLE = StepControl()
+BORDER = StepControl(step=0.01, longest=0.05, shortest=1e-6, max_points=400, growth=1.4, easy=0.98, sharpest=0.8)
 """How borders are followed: each point costs several cycles."""
 UNLOCATED = "a fold that cannot be located"
 """How the reason for which a branch ends may begin."""
@@ -58,7 +58,7 @@ def continue_cycle(
     guess: State | Array | None = None,
     releases: int = 1,
     tol: float = 1e-12,
-    steps: Steps = CYCLE,
+    steps: StepControl = CYCLE,
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
@@ -97,14 +97,14 @@ def continue_cycle(
         if after.tangent[-1] * before.tangent[-1] < 0:
             try:
                 folds.append(_locate_fold(problem, before.point, after.point, before.tangent) * problem.scales[0])
-            except Lost as lost:
+            except CorrectorFailed as lost:
                 where = before.point.z[-1] * problem.scales[0]
-                raise Lost(f"{UNLOCATED} near {name}={where:.6g}: {lost}") from None
+                raise CorrectorFailed(f"{UNLOCATED} near {name}={where:.6g}: {lost}") from None
 
     def leaves(places: list[Place], ds: float) -> str:
         return "" if low <= places[-1].point.z[-1] <= high else f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
 
-    places, ended = walk(Place(point, tangent), partial(_next, problem), steps, meet=meet, leaves=leaves)
+    places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, meet=meet, leaves=leaves)
     if ended.startswith(REORDERED):
         last = places[-1].point
         ended += f"; {grazing(problem.case(last.z), problem.state(last.z), last.flight.period)}"
@@ -156,7 +156,7 @@ def _at_one(jacobian: Array, former: complex) -> tuple[float, complex]:
     values = np.linalg.eigvals(jacobian).astype(complex)
     real = values[values.imag == 0]
     if len(real) == 0:
-        raise Lost("no multiplier is real any more")
+        raise CorrectorFailed("no multiplier is real any more")
     mu = _nearest(real, former)
     return mu.real - 1.0, mu
 
@@ -171,7 +171,7 @@ def continue_border(
     direction: int = 1,
     guess: Array | None = None,
     tol: float = 1e-12,
-    steps: Steps = BORDER,
+    steps: StepControl = BORDER,
 ) -> Branch:
     """Follow a border of stability in two parameters.
 
@@ -200,7 +200,7 @@ def continue_border(
     try:
         point, mu = _reach(problem, point, test, mu)
         ways = _ways(problem, point, test, mu)
-    except Lost as lost:
+    except CorrectorFailed as lost:
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
     lead = ways.along[problem.n] if abs(ways.along[problem.n]) > 1e-12 else ways.along[problem.n + 1]
     tangent = ways.along * direction * math.copysign(1.0, lead)
@@ -215,7 +215,7 @@ def continue_border(
         return ""
 
     first, take = _OnCurve(point, tangent, mu, ways), partial(_next_on_border, problem, test)
-    places, ended = walk(first, take, steps, meet=lambda *_: None, leaves=leaves)
+    places, ended = continue_curve(first, take, steps, meet=lambda *_: None, leaves=leaves)
     return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), ended)
 
 
@@ -254,7 +254,7 @@ def _ways(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) -> 
         turns[i] = (ends[1][1] - ends[0][1]) / (2 * _DIFFERENCE)
     size = float(np.linalg.norm(slopes))
     if not size > 0:
-        raise Lost("the multiplier does not depend on the parameters")
+        raise CorrectorFailed("the multiplier does not depend on the parameters")
     along = np.array([-slopes[1], slopes[0]]) / size
     return _Ways(along @ basis, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
 
@@ -280,18 +280,18 @@ def _reach(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) ->
                 new = problem.correct(guess, rows, rows @ guess)
                 new_value, new_mu = test(new.jacobian, here.predicted(mu, move * 0.5**halvings))
                 break
-            except Lost:
+            except CorrectorFailed:
                 if halvings == 5:
                     raise
         point, value, mu = new, new_value, new_mu
-    raise Lost("no point of the curve was found near the first cycle")
+    raise CorrectorFailed("no point of the curve was found near the first cycle")
 
 
 def _next_on_border(problem: CycleProblem, test: Test, here: _OnCurve, ds: float) -> _OnCurve:
     """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
     expected = here.ways.predicted(here.mu, ds * here.tangent)
     if abs(expected - here.mu) > 2 * LARGEST_TURN:
-        raise Lost("the multiplier turns too fast")
+        raise CorrectorFailed("the multiplier turns too fast")
     guess = here.point.z + ds * here.tangent
     rows = here.tangent[None, :]
     point = problem.evaluate(guess)
@@ -309,4 +309,4 @@ def _next_on_border(problem: CycleProblem, test: Test, here: _OnCurve, ds: float
         last = error
         point = problem.evaluate(point.z - newton_step(np.vstack([point.by, gradient, rows]), right))
         value, found = test(point.jacobian, found)
-    raise Lost("Newton's method does not converge")
+    raise CorrectorFailed("Newton's method does not converge")

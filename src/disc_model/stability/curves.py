@@ -15,7 +15,7 @@ from disc_model.errors import ParameterError, broken
 from disc_model.parameters import Parameters, is_whole
 from disc_model.progress import compiling
 from disc_model.simulation.result import is_finite_array
-from disc_model.stability.branch import Steps, check
+from disc_model.stability.branch import StepControl, check
 from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
@@ -152,7 +152,7 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
     bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
     try:
         branch = continue_cycle(
-            case, name, bounds, direction=direction, tol=tol, steps=Steps(scale=abs(end - begin), max_points=40)
+            case, name, bounds, direction=direction, tol=tol, steps=StepControl(scale=abs(end - begin), max_points=40)
         )
     except ParameterError as error:
         notes.append(f"{name}={begin:.6g}: {error}")

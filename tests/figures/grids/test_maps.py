@@ -83,7 +83,7 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     followed = np.where(np.isfinite(growth), 1, 0)
     outcome = np.where(np.isnan(growth), "undecided", np.where(growth < 0, "quiet", "separation"))
     outcome[3, 0] = "growing"
-    codes = {"outcome": np.vectorize(regions.COURSES.index)(outcome)}
+    codes = {"outcome": np.vectorize(regions.OUTCOMES_TO_HORIZON.index)(outcome)}
     codes |= dict.fromkeys(("cycle", "branch_continues_first", "branch_continues_second"), followed)
     data = {
         name: (dims, values, {"flag_meanings": " ".join(regions.COLUMNS[name].variable.flags)})
@@ -126,7 +126,7 @@ def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
     study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
     for name, code in (
         ("cycle", regions.CYCLES.index("nearby_only")),  # another is near
-        ("outcome", regions.COURSES.index("quiet")),  # it is inferred to stay quiet
+        ("outcome", regions.OUTCOMES_TO_HORIZON.index("quiet")),  # it is inferred to stay quiet
     ):
         other = study.copy(deep=True)
         other[name][2:] = code

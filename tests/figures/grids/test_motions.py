@@ -8,7 +8,7 @@ import xarray as xr
 
 from disc_model.figures.grids import ramps as drawn
 from disc_model.figures.grids.growth_map import Curve, crossings
-from disc_model.stability.attractor.course import Reached
+from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import basins, ramps
 from tests.figures.grids.reading import crosses, draw, labels, lines
@@ -85,9 +85,9 @@ def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
         def __init__(self, p, *_, **__) -> None:
             self.least = {12: 9.0, 13: 0.5, 14: 0.05, 15: -1.0}[p.Omega]
 
-        def reached(self, energy: float) -> Reached:
+        def reached(self, energy: float) -> OutcomeResult:
             attractor = APART if energy > self.least else QUIET
-            return Reached(attractor.kind, 50.0, attractor=attractor)
+            return OutcomeResult(attractor.kind, 50.0, attractor=attractor)
 
     monkeypatch.setattr(basins, "Basins", Made)
     monkeypatch.setattr(basins, "random_perturbation", lambda p, state, energy, key: energy)

@@ -10,8 +10,8 @@ import pytest
 import xarray as xr
 
 from disc_model.errors import Status
-from disc_model.stability.attractor import course
-from disc_model.stability.attractor.course import Stretch
+from disc_model.stability.attractor import outcome as attractor_outcome
+from disc_model.stability.attractor.outcome import Segment
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import critical_speed
@@ -51,18 +51,18 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         first, horizon = math.inf if never else 2e5 / p.N - 50 * (p.Omega - 12), options.horizons[-1]
         return critical_speed.Motion(first if first <= horizon else math.nan, min(first, horizon), "ok", "")
 
-    def late_stretch(p, state, duration, late, tol):
+    def final_segment(p, state, duration, late, tol):
         """Separation begins at 14 rad/s on the way up, and stays down to 13."""
         apart = p.Omega >= 14 or (state is not None and state and p.Omega >= 13)
         share = 0.25 if apart else 0.0
-        values = dict.fromkeys(Stretch.__dataclass_fields__, 0.0)
-        found = Stretch(
+        values = dict.fromkeys(Segment.__dataclass_fields__, 0.0)
+        found = Segment(
             **values | {"separation_fraction": share, "slip_fraction": 1 - share, "separation_rate": 40 * share}
         )
         return SimpleNamespace(final_state=apart, status=Status.OK, message=""), found
 
     monkeypatch.setattr(critical_speed, "motion", motion)
-    monkeypatch.setattr(course, "late_stretch", late_stretch)
+    monkeypatch.setattr(attractor_outcome, "final_segment", final_segment)
 
 
 @pytest.fixture

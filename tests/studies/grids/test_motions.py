@@ -71,7 +71,7 @@ def test_a_history_of_the_cycle_repeats():
 
 def test_the_history_goes_on_from_the_late_stretch():
     """The contact force stays in the range that the dataset gives for the late stretch of a settled motion."""
-    row, _ = outcome.at(Point(Parameters(N=200, Omega=5)), OutcomeOptions(horizon=200))
+    row, _ = outcome.compute_point(Point(Parameters(N=200, Omega=5)), OutcomeOptions(horizon=200))
     assert row["outcome"] == "quiet"
     found = histories("outcome", [200], [5], horizon=200)
     # another phase of sampling finds extremes to a thousandth of the range

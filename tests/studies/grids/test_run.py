@@ -19,10 +19,10 @@ from tests.studies.grids.conftest import SCAN
 P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
 
 
-def quantity(at: Callable[..., object]) -> SimpleNamespace:
+def quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
     """A quantity that stands for a module."""
     columns = {"status": Column(*STATUS), "value": Column("1", "a number")}
-    return SimpleNamespace(COLUMNS=columns, coordinates=lambda options: {}, at=at)
+    return SimpleNamespace(COLUMNS=columns, coordinates=lambda options: {}, compute_point=compute_point)
 
 
 @pytest.mark.parametrize(
@@ -37,22 +37,22 @@ def quantity(at: Callable[..., object]) -> SimpleNamespace:
 def test_a_numerical_failure_is_the_status_of_its_point(fail, message) -> None:
     """One singular matrix used to end all points of a batch."""
 
-    def at(point: Point, options: None):
+    def compute_point(point: Point, options: None):
         N = point.parameters.N
         return {"status": "ok", "value": fail() if N == 0 else N}, ""
 
-    table = compute(quantity(at), [P, Q, P], None)
+    table = compute(quantity(compute_point), [P, Q, P], None)
     assert [STATUSES[i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
     np.testing.assert_array_equal(table.arrays["value"], [1.0, math.nan, 1.0])
     assert table.messages == ["", message, ""]
 
 
 def test_a_mistake_in_the_program_is_no_status() -> None:
-    def at(point: Point, options: None):
+    def compute_point(point: Point, options: None):
         raise KeyError("horizon")
 
     with pytest.raises(KeyError):
-        compute(quantity(at), [P], None)
+        compute(quantity(compute_point), [P], None)
 
 
 @pytest.mark.parametrize(

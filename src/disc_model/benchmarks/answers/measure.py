@@ -20,7 +20,7 @@ import xarray as xr
 
 from disc_model.benchmarks.answers import modelled, questions, simulated
 from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict, Found, verdict
-from disc_model.benchmarks.machine import machine, one_core
+from disc_model.benchmarks.hardware import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.data.dataset import json_attribute

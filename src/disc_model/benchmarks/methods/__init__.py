@@ -5,7 +5,7 @@
 
 They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS
 come with the extra `bench`; without them their `unavailable()` says so and `solve` raises `MethodUnavailable`.  Which
-there are is said in `disc_model.benchmarks.register`.
+there are is said in `disc_model.benchmarks.registry`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from __future__ import annotations
 from importlib import import_module
 
 from disc_model.benchmarks.methods.base import Method, MethodResult, MethodUnavailable, Problem, RunStatus
-from disc_model.benchmarks.register import RIVALS, Rival
+from disc_model.benchmarks.registry import RIVALS, Rival
 
 
 def _made(rival: Rival) -> Method:

@@ -109,7 +109,7 @@ MAP_TOLERANCES = decades(*range(-2, -12, -1))
 
 
 class Method(ABC):
-    """What integrates a problem; `disc_model.benchmarks.register` gives it its name and the packages that it needs.
+    """What integrates a problem; `disc_model.benchmarks.registry` gives it its name and the packages that it needs.
 
     Attributes
     ----------

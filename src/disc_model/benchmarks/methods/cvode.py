@@ -22,7 +22,7 @@ from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResu
 from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
-from disc_model.benchmarks.register import SCENES
+from disc_model.benchmarks.registry import SCENES
 
 STEPS_PER_LOOK = 5_000
 """Steps between two looks at the clock."""

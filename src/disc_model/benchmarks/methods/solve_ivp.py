@@ -13,7 +13,7 @@ from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import MAP_TOLERANCES, GaveUp, Meter, Method, MethodResult, Problem, decades
 from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
-from disc_model.benchmarks.register import SCENES
+from disc_model.benchmarks.registry import SCENES
 
 FLOOR = 2.3e-14
 """Least relative tolerance that scipy takes."""

@@ -54,9 +54,9 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     figure = new_figure(PAGE, 4.6)
     above, below = np.asarray(figure.subfigures(2, 1))
     axes = [*above.subplots(1, len(energies), sharey=True, squeeze=False)[0], *below.subplots(1, 2)]
-    fates = [fate for fate in COLOURS if (study["basin_fraction"].sel(attractor_class=fate) > 0).any()]
+    classes = [class_ for class_ in COLOURS if (study["basin_fraction"].sel(attractor_class=class_) > 0).any()]
     for ax, energy in zip(axes, energies, strict=False):
-        _shares(ax, study.sel(energy=energy), along, fates)
+        _shares(ax, study.sel(energy=energy), along, classes)
         ax.set_xlabel(label)
     axes[0].set_ylabel(f"Share of {study.sizes['start']} starts")
     _attractors(axes[-2], study, along)
@@ -69,18 +69,18 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
         ax.set_xlabel(label)
     options = json.loads(study.attrs["options"])
     said = SAID | {"undecided": f"undecided after {options['horizon']:g} s"}
-    patches = [Patch(color=COLOURS[fate], label=said.get(fate, fate)) for fate in fates]
+    patches = [Patch(color=COLOURS[class_], label=said.get(class_, class_)) for class_ in classes]
     figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
     parts.head(figure, study, plot.title)
     return figure
 
 
-def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, fates: list[str]) -> None:
+def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, classes: list[str]) -> None:
     """Bars one upon another."""
     low = np.zeros(len(along))
-    for fate in fates:
-        share = study["basin_fraction_by_energy"].sel(attractor_class=fate).values
-        ax.bar(along, share, 0.9 * np.diff(along).min(initial=1.0), low, color=COLOURS[fate], linewidth=0)
+    for class_ in classes:
+        share = study["basin_fraction_by_energy"].sel(attractor_class=class_).values
+        ax.bar(along, share, 0.9 * np.diff(along).min(initial=1.0), low, color=COLOURS[class_], linewidth=0)
         low = low + np.nan_to_num(share)
     ax.set(ylim=(0, 1))
 
@@ -90,8 +90,8 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     starts = study["attractor_starts"].transpose(..., "attractor").values
     ranges = 1e3 * study["attractor_range"].transpose(..., "attractor").values
     total = study.sizes["energy"] * study.sizes["start"]
-    for fate, colour in COLOURS.items():
-        point, number = np.nonzero((kinds == fate) & (starts > 0))
+    for class_, colour in COLOURS.items():
+        point, number = np.nonzero((kinds == class_) & (starts > 0))
         area = LARGEST * starts[point, number] / total
         ax.scatter(along[point], ranges[point, number], area, color=colour, linewidth=0, zorder=3)
     ax.set(ylabel="Range of the slider (mm)")

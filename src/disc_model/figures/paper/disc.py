@@ -106,7 +106,7 @@ def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
     above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
     discs = above.subplots(1, INSTANTS)
     circle = around.subplots()
-    with parts.or_say_why(*discs, circle):
+    with parts.blank_if_missing(*discs, circle):
         motion = motion_of(case)
         shown = _between_losses(motion)
         scale = _scale(motion)

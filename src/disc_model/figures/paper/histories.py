@@ -20,7 +20,7 @@ def history(
     (case,) = cases.values()
     figure = new_figure(COLUMN, 0.8 + 1.3 * len(variables))
     axes = figure.subplots(len(variables), 1, sharex=True, squeeze=False)[:, 0]
-    with parts.or_say_why(*axes):
+    with parts.blank_if_missing(*axes):
         found = dataset.group(case, window).sel(time=slice(None, until))
         time = found["time"].values
         if time.size < 2:  # the run ended before it
@@ -46,7 +46,7 @@ def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 10: range of the disc at r_0 and a fixed angle over the run, contact enforced and separable."""
     figure = new_figure(COLUMN, 2.4)
     ax = figure.subplots()
-    with parts.or_say_why(ax):
+    with parts.blank_if_missing(ax):
         ignored, separating = (parts.history(cases[name]) for name in ("F04", "F02"))
         label, factor, _ = parts.sampled("w_point", ignored, separating)
         for ranges, color, said in ((ignored, GREY, "separation ignored"), (separating, DISC, "with separation")):

@@ -40,7 +40,7 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
     case, *others = cases.values()
     figure = new_figure(PAGE, 2.75)
     slider, disc = figure.subplots(1, 2)
-    with parts.or_say_why(slider, disc):
+    with parts.blank_if_missing(slider, disc):
         samples = dataset.samples(case, window, at_least=1)
         first, end = float(case["first_separation"]), float(case["time_reached"])
         found = stages(samples["time"].values, samples["phase"].values, first, end)
@@ -89,7 +89,7 @@ def portrait(
     (case,) = cases.values()
     figure = new_figure(COLUMN, 2.7)
     ax = figure.subplots()
-    with parts.or_say_why(ax):
+    with parts.blank_if_missing(ax):
         samples = dataset.samples(case, window)
         (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
         _orbit(ax, samples["phase"].values, samples[x].values * in_x, samples[y].values * in_y)
@@ -102,7 +102,7 @@ def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
     figure = new_figure(PAGE, 2.6)
     axes = figure.subplots(1, len(cases), sharey=True, squeeze=False)[0]
     for ax, (name, case), letter in zip(axes, cases.items(), "abcd", strict=False):
-        with parts.or_say_why(ax):
+        with parts.blank_if_missing(ax):
             events = dataset.events(case)
             released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
             counts = np.arange(1, (len(released) - 1) // 2 + 1)

@@ -50,12 +50,12 @@ def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
     case = cases["F02"]
     figure = new_figure(PAGE, 2.3)
     whole, zoom = figure.subplots(1, 2)
-    with parts.or_say_why(whole):
+    with parts.blank_if_missing(whole):
         label = parts.show_run(whole, case, "P")
         _show_zero(whole, case)
         whole.set(xlabel="Time (s)", ylabel=label)
         parts.letter(whole, "a")
-    with parts.or_say_why(zoom):
+    with parts.blank_if_missing(zoom):
         _zoom(zoom, case)
     return figure
 
@@ -94,7 +94,7 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     case = cases["F02"]
     figure = new_figure(COLUMN, 3.2)
     both, gap = figure.subplots(2, 1, sharex=True, height_ratios=(2, 1))
-    with parts.or_say_why(both, gap):
+    with parts.blank_if_missing(both, gap):
         window = dataset.samples(case, "zoom")
         found = complete_separations(window)
         if not found:
@@ -123,7 +123,7 @@ def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
     case = cases["F23"]
     figure = new_figure(COLUMN, 2.5)
     ax = figure.subplots()
-    with parts.or_say_why(ax):
+    with parts.blank_if_missing(ax):
         window = dataset.samples(case, "zoom")
         start = float(window["time"][0])
         found = complete_separations(window)

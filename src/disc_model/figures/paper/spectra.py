@@ -85,7 +85,7 @@ def spectrogram_of(cases: Mapping[str, xr.DataTree], *, window: str, variable: s
     (case,) = cases.values()
     figure = new_figure(PAGE / 2, 2.7)
     ax = figure.subplots()
-    with parts.or_say_why(ax):
+    with parts.blank_if_missing(ax):
         spectrum(figure, ax, case, spectrum_in_time(case, window, variable), highest)
         ax.set_title(parts.sampled(variable, dataset.group(case, window))[0].partition(" (")[0])
     return figure
@@ -99,7 +99,7 @@ def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -
     case = cases["F13"]
     figure = new_figure(PAGE, 2.2)
     ax = figure.subplots()
-    with parts.or_say_why(ax):
+    with parts.blank_if_missing(ax):
         for name in WINDOWS:
             start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
             ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
@@ -131,7 +131,7 @@ def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
     axes = figure.subplots(2, len(WINDOWS), sharex="col", sharey="row")
     found: dict[str, TimeFrequency] = {}
     for name, column in zip(WINDOWS, axes.T, strict=True):
-        with parts.or_say_why(*column):
+        with parts.blank_if_missing(*column):
             found[name] = spectrum_in_time(case, name, "w_point")
     reference = max((float(each.power.max()) for each in found.values()), default=1.0)
     for name, column in zip(WINDOWS, axes.T, strict=True):
@@ -188,7 +188,7 @@ def response(
     panels = left.subplot_mosaic(layout)
     shown = right.subplots()
     marked = None
-    with parts.or_say_why(shown):
+    with parts.blank_if_missing(shown):
         found = spectrum_in_time(case, window, variable)
         marked = stretch(found)
         spectrum(right, shown, case, found, HIGHEST)
@@ -197,10 +197,10 @@ def response(
             p = Parameters.model_validate_json(case.attrs["parameters"])
             natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
             shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
-    with parts.or_say_why(panels["whole"]):
+    with parts.blank_if_missing(panels["whole"]):
         _whole_run(panels["whole"], case, variable, marked, until)
     for i, (name, start) in enumerate(zooms):
-        with parts.or_say_why(panels[f"zoom{i}"]):
+        with parts.blank_if_missing(panels[f"zoom{i}"]):
             _closer(panels[f"zoom{i}"], dataset.samples(case, name), variable, start, first=i == 0)
             parts.letter(panels[f"zoom{i}"], "cd"[i])
     return figure

@@ -50,7 +50,7 @@ class Motions:
     def coordinates(self, options: Any) -> dict[str, Any]:
         return {"sample": (np.arange(SAMPLES), Variable("1", "number of the sample"))}
 
-    def at(self, point: Point, options: Any) -> tuple[dict[str, Any], str]:
+    def compute_point(self, point: Point, options: Any) -> tuple[dict[str, Any], str]:
         """One history."""
         start = self.quantity.state_at(point, options).replace(time=0.0, time_low=0.0)
         p = point.parameters

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import COURSES, STABLE_CYCLES, Variable
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, STABLE_CYCLES, Variable
 from disc_model.errors import DiscModelError, Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
@@ -53,5 +53,5 @@ UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
 """What there is near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider sticks and
 slips, loss of contact at once, or unstable sliding."""
-SAMPLE_OUTCOMES = ("not_simulated", *COURSES)
+SAMPLE_OUTCOMES = ("not_simulated", *OUTCOMES_TO_HORIZON)
 DRAWS = ("A", "B")

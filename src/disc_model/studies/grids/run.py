@@ -99,7 +99,7 @@ def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Iterat
         key = tuple(others.values())
         if key not in tiles:
             made = [[_made(data, others | {first: y, second: x}) for x in columns] for y in rows]
-            tiles[key] = quantity.over(made, options, [(a, b) for a, b in data["tile"]["sampled"]])
+            tiles[key] = quantity.compute_tile(made, options, [(a, b) for a, b in data["tile"]["sampled"]])
         yield tiles[key][i][j]
 
 
@@ -159,7 +159,7 @@ def own_coordinates(quantity: Described, options: Any) -> dict[str, xr.Variable]
 class Tiled(Described, Protocol):
     """A quantity that needs a whole tile of a plane at once."""
 
-    def over(
+    def compute_tile(
         self, points: Sequence[Sequence[Made]], options: Any, sampled: Collection[tuple[int, int]]
     ) -> Sequence[Sequence[tuple[Row, str]]]:
         """Rows and messages of a tile, whose points are given by rows; those at the places `sampled` in any case."""
@@ -168,7 +168,7 @@ class Tiled(Described, Protocol):
 class Quantity(Described, Protocol):
     """A quantity of single points."""
 
-    def at(self, point: Point, options: Any) -> tuple[Row, str]:
+    def compute_point(self, point: Point, options: Any) -> tuple[Row, str]:
         """Values at one point by column (flags as words), and a message.
 
         Columns left out are missing, and so is what a list or array is shorter than its dimension; what it is longer
@@ -192,7 +192,7 @@ def _at(quantity: Quantity, point: Point | DiscModelError, options: Any) -> tupl
     try:
         if isinstance(point, DiscModelError):
             raise point
-        return quantity.at(point, options)
+        return quantity.compute_point(point, options)
     except NUMERICAL as error:
         return {"status": "failed"}, f"{type(error).__name__}: {error}"
 

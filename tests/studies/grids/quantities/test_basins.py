@@ -9,7 +9,7 @@ import pytest
 from disc_model.data.variables import Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor.course import Attractor, Reached
+from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 from disc_model.studies.document import BasinsOptions
 from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import basins
@@ -31,17 +31,17 @@ APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 class Made:
     """Of a start i, what is kicked by more than 0.02 (i + 1) J separates; further starts are as said."""
 
-    fates: ClassVar[dict[int, Reached]] = {}
+    classes: ClassVar[dict[int, OutcomeResult]] = {}
 
     def __init__(self, p, horizon, **_) -> None:
         self.known = [QUIET, APART]
 
-    def reached(self, state: tuple[float, int]) -> Reached:
+    def reached(self, state: tuple[float, int]) -> OutcomeResult:
         energy, i = state
-        if i in self.fates:
-            return self.fates[i]
+        if i in self.classes:
+            return self.classes[i]
         attractor = APART if energy > 0.02 * (i + 1) else QUIET
-        return Reached(attractor.kind, 50.0, attractor=attractor)
+        return OutcomeResult(attractor.kind, 50.0, attractor=attractor)
 
 
 @pytest.fixture
@@ -57,13 +57,13 @@ def found(**options):
 def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:
     """Three of ten: 0.108 to 0.603 (Wilson 1927, at 95 %)."""
     table = found(energies=[0.07], n_starts=10).arrays
-    fates = list(basins.FATES)
-    place = (0, fates.index("separating"))
+    classes = list(basins.CLASSES)
+    place = (0, classes.index("separating"))
     assert table["basin_fraction"][place] == 0.3
     assert table["basin_fraction_low"][place] == pytest.approx(0.1078, abs=1e-4)
     assert table["basin_fraction_high"][place] == pytest.approx(0.6032, abs=1e-4)
-    assert table["basin_fraction"][0, fates.index("quiet")] == 0.7
-    assert table["basin_fraction_low"][0, fates.index("undecided")] == pytest.approx(0, abs=1e-12)
+    assert table["basin_fraction"][0, classes.index("quiet")] == 0.7
+    assert table["basin_fraction_low"][0, classes.index("undecided")] == pytest.approx(0, abs=1e-12)
     assert table["basin_fraction_by_energy"][0, 0].sum() == 1
     assert table["attractor_starts"][0, :3].tolist() == [7, 3, 0]
     assert table["attractor_index"][0, 0].tolist() == [2, 2, 2, *[1] * 7]
@@ -78,16 +78,16 @@ def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: N
 
 
 def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    lost = Reached(None, 3.0, failed=SimpleNamespace(status=Status.PARADOX, message="paradox: at t = 3 s"))
-    monkeypatch.setattr(Made, "fates", {1: lost, 2: Reached(Outcome.UNDECIDED, 200.0)})
+    lost = OutcomeResult(None, 3.0, failed=SimpleNamespace(status=Status.PARADOX, message="paradox: at t = 3 s"))
+    monkeypatch.setattr(Made, "classes", {1: lost, 2: OutcomeResult(Outcome.UNDECIDED, 200.0)})
     table = found(energies=[0.1], n_starts=4)
-    fates = list(basins.FATES)
+    classes = list(basins.CLASSES)
     assert STATUSES[table.arrays["status"][0]] == "ok"
-    assert table.arrays["basin_fraction"][0, fates.index("failed")] == 0.25
-    assert table.arrays["basin_fraction"][0, fates.index("undecided")] == 0.25
+    assert table.arrays["basin_fraction"][0, classes.index("failed")] == 0.25
+    assert table.arrays["basin_fraction"][0, classes.index("undecided")] == 0.25
     assert table.messages == ["1 of 4 starts failed, such as paradox: at t = 3 s"]
     assert (table.arrays["attractor_index"][0, 0] > 0).tolist() == [True, False, False, True]
-    monkeypatch.setattr(Made, "fates", dict.fromkeys(range(4), lost))
+    monkeypatch.setattr(Made, "classes", dict.fromkeys(range(4), lost))
     assert STATUSES[found(energies=[0.1], n_starts=4).arrays["status"][0]] == "paradox"
 
 
@@ -115,4 +115,4 @@ def test_kicks_of_an_axis_are_starts_of_their_own() -> None:
     options = {"horizon": 200, "n_bisection_directions": 0}
     plane = computed(quantity="basins", options=options, base={"N": 385, "Omega": 15}, axes=axes)
     kinds = plane["kind"].squeeze().values
-    assert [basins.LASTING[kind] for kind in kinds] == ["quiet", "separating"]
+    assert [basins.LONG_TERM_OUTCOMES[kind] for kind in kinds] == ["quiet", "separating"]

@@ -62,7 +62,7 @@ def test_what_repeats_to_rounding_needs_no_cycle(period: int) -> None:
 def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]:
     """What the separating motion at 385 N settles to; one that is steady says nothing besides."""
     options = BifurcationOptions(section="event", samples=samples, **how)
-    values, message = bifurcation.at(Point(Parameters(N=385, Omega=Omega), Start(prerun=APART)), options)
+    values, message = bifurcation.compute_point(Point(Parameters(N=385, Omega=Omega), Start(prerun=APART)), options)
     assert (message == "") == (values["stationary"] == "yes")
     return values
 
@@ -71,7 +71,7 @@ def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]
 def test_a_motion_on_a_torus_has_no_period() -> None:
     """At rest there since 220 s, see `tests.stability.test_attractor`: the cycle within the torus is unstable."""
     options = BifurcationOptions(transient=300, section="event", max_transient=300, samples=50)
-    values, _ = bifurcation.at(Point(Parameters(N=516.666666667, Omega=12.734375)), options)
+    values, _ = bifurcation.compute_point(Point(Parameters(N=516.666666667, Omega=12.734375)), options)
     assert (values["separations"], values["period_events"], values["stationary"]) == (0, 0, "yes")
     assert values["kind"] is Outcome.QUASI_PERIODIC
 
@@ -81,7 +81,7 @@ def test_a_motion_on_a_torus_has_no_period() -> None:
 def test_a_slow_approach_to_a_cycle_is_not_taken_for_a_torus() -> None:
     """At 200 N disturbances die out by 0.009/s; the 0-1 test takes what is left of them for a torus."""
     options = BifurcationOptions(section="event", transient=120, max_transient=120)
-    values, _ = bifurcation.at(Point(Parameters(N=200, Omega=15), Start(prerun=APART)), options)
+    values, _ = bifurcation.compute_point(Point(Parameters(N=200, Omega=15), Start(prerun=APART)), options)
     assert (values["period_events"], values["kind"]) == (0, Outcome.SEPARATING)
 
 
@@ -119,7 +119,7 @@ def test_a_motion_that_repeats_after_a_thousand_separations_is_periodic() -> Non
     """It was said to have no period: a stretch of 5 s has 677 separations, and cycles were looked for in half of it."""
     start = Start(prerun={"parameters": {"N": 385, "Omega": 15.1, "c_p": 0}, "time": 70})
     options = BifurcationOptions(section="event", transient=120, max_transient=120)
-    values, _ = bifurcation.at(Point(Parameters(N=385, Omega=15, c_p=0.15), start), options)
+    values, _ = bifurcation.compute_point(Point(Parameters(N=385, Omega=15, c_p=0.15), start), options)
     assert (values["period_events"], values["stationary"], values["kind"]) == (1066, "yes", Outcome.SEPARATING)
     assert values["period_residual"] < 1e-8
 

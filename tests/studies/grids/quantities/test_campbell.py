@@ -77,13 +77,13 @@ def made_up(**changes: Any) -> xr.Dataset:
 
 
 def effects(cell: xr.Dataset, **options: Any) -> list[str]:
-    return campbell.of(cell, CampbellOptions(**options))["crossing_effect"]
+    return campbell.summarise(cell, CampbellOptions(**options))["crossing_effect"]
 
 
 def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not() -> None:
     """The line meets the mode at 10 rad/s; the window of 1 Hz is 0.1 rad/s there on either side."""
     peak = made_up()
-    found = campbell.of(peak, CampbellOptions())
+    found = campbell.summarise(peak, CampbellOptions())
     assert found["n_crossings"] == 1
     assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
     assert found["crossing_line"] == ["stick_slip"]
@@ -107,7 +107,7 @@ def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
     gone = made_up()
     for name in ("growth_rate", "stick_slip_frequency", "cycle_growth_rate"):
         gone[name][195:210] = np.nan
-    found = campbell.of(gone, CampbellOptions())
+    found = campbell.summarise(gone, CampbellOptions())
     assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
     assert effects(gone) == ["no_cycle"]
 
@@ -124,7 +124,7 @@ def test_the_rotation_meets_a_mode_at_its_critical_speed() -> None:
     speeds = np.linspace(500, 700, 401)
     cell = made_up(rotation_frequency=speeds / (2 * np.pi), stick_slip_frequency=np.full(401, 70.0))
     cell = cell.assign_coords(Omega=speeds)
-    found = campbell.of(cell, CampbellOptions())
+    found = campbell.summarise(cell, CampbellOptions())
     assert found["crossing_line"] == ["rotation"]
     assert found["crossing_Omega"][0] == pytest.approx(200 * np.pi, rel=1e-9)
 
@@ -135,7 +135,7 @@ def test_a_line_that_meets_the_cycles_frequency_and_not_slidings_is_a_crossing()
     locked = np.abs(speeds - 10) < 0.05
     own, mac = np.where(locked, 10 * speeds, 100.0), np.where(locked, 0.5, 0.9)
     cell = made_up(cycle_frequency=own, mac=mac, sliding_frequency=np.full((401, 1), 130.0))
-    found = campbell.of(cell, CampbellOptions())
+    found = campbell.summarise(cell, CampbellOptions())
     # where the multiplier is bound to the line it says nothing of the mode
     assert found["n_crossings"] == 1
     assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)

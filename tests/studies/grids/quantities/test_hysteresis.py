@@ -9,8 +9,8 @@ import xarray as xr
 
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor import course
-from disc_model.stability.attractor.course import Stretch
+from disc_model.stability.attractor import outcome as attractor_outcome
+from disc_model.stability.attractor.outcome import Segment
 from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import hysteresis
@@ -32,12 +32,12 @@ def test_hysteresis_is_the_gap_between_the_ways(sweep: xr.Dataset) -> None:
 
 
 def test_a_sweep_that_cannot_go_on_says_where(monkeypatch: pytest.MonkeyPatch) -> None:
-    def late_stretch(p, state, *_):
+    def final_segment(p, state, *_):
         failed = p.Omega > 13
         result = SimpleNamespace(status=Status.PARADOX if failed else Status.OK, message="why", final_state=state)
-        return result, None if failed else Stretch(1, 2, 3, 4, 0.5, 0.5, 0, 0)
+        return result, None if failed else Segment(1, 2, 3, 4, 0.5, 0.5, 0, 0)
 
-    monkeypatch.setattr(course, "late_stretch", late_stretch)
+    monkeypatch.setattr(attractor_outcome, "final_segment", final_segment)
     table = swept(200, SCAN)
     assert list(table.messages) == ["Omega=13.5: why"]
     statuses = [[hysteresis.STATUSES[i] for i in row] for row in table.arrays["sweep_status"][0]]
@@ -52,15 +52,15 @@ def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
 ) -> None:
     """Separation begins at 14 rad/s and persists to 13."""
 
-    def late_stretch(p, state, *_):
+    def final_segment(p, state, *_):
         down = bool(state) and (state == "down" or p.Omega == 15)
         failed = down and p.Omega == breaks_at
         rate = float(p.Omega >= (13 if down else 14))
         end = "down" if down or p.Omega == 15 else "up"
         result = SimpleNamespace(status=Status.STALLED if failed else Status.OK, message="why", final_state=end)
-        return result, None if failed else Stretch(1, 2, 3, 4, 0.5, 0.5, 0, rate)
+        return result, None if failed else Segment(1, 2, 3, 4, 0.5, 0.5, 0, rate)
 
-    monkeypatch.setattr(course, "late_stretch", late_stretch)
+    monkeypatch.setattr(attractor_outcome, "final_segment", final_segment)
     found = swept(200, SCAN).arrays
     assert found["onset_speed"][0] == 14.0
     assert found["offset_speed"][0] == pytest.approx(offset_speed, nan_ok=True)

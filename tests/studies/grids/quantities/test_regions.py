@@ -15,8 +15,8 @@ from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
-from disc_model.stability.attractor.course import Reached
-from disc_model.stability.attractor.near import Near
+from disc_model.stability.attractor.neighbourhood import NearCycle
+from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.stability.cycle import CycleStatus
 from disc_model.studies.document import RegionsOptions
 from disc_model.studies.grids.quantities import regions
@@ -44,13 +44,13 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
     """Motions that separate within an ellipse and stay quiet outside, of which multipliers say nothing; those asked."""
     asked: list[Parameters] = []
 
-    def come_to(p: Parameters, horizon: float, **_) -> Reached:
+    def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         asked.append(p)
-        return Reached(Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N)
+        return OutcomeResult(Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N)
 
     nothing = SimpleNamespace(status=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(regions, "cycle_of_static_start", lambda p: nothing)
-    monkeypatch.setattr(regions, "come_to", come_to)
+    monkeypatch.setattr(regions, "find_outcome", find_outcome)
     return asked
 
 
@@ -97,8 +97,8 @@ def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
     axis = [Parameters(N=N, Omega=20) for N in np.linspace(50, 600, 17)]
     rows = [[p.replace(Omega=Omega) for p in axis] for Omega in np.linspace(5, 50, 17)]
     options = RegionsOptions(horizon=10, initial_cell_size=4)
-    found = regions.over(rows, options, [])
-    mirrored = regions.over([row[::-1] for row in rows[::-1]], options, [])
+    found = regions.compute_tile(rows, options, [])
+    mirrored = regions.compute_tile([row[::-1] for row in rows[::-1]], options, [])
     assert [[row["outcome"] for row, _ in line] for line in found] == [
         [row["outcome"] for row, _ in line[::-1]] for line in mirrored[::-1]
     ]
@@ -132,14 +132,14 @@ def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:
 
 
 def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatch: pytest.MonkeyPatch) -> None:
-    come_to = regions.come_to
+    find_outcome = regions.find_outcome
 
-    def failing(p: Parameters, horizon: float, **how) -> Reached:
+    def failing(p: Parameters, horizon: float, **how) -> OutcomeResult:
         if p.Omega == 50 and p.N == 600:
             raise DiscModelError("no luck")
-        return come_to(p, horizon, **how)
+        return find_outcome(p, horizon, **how)
 
-    monkeypatch.setattr(regions, "come_to", failing)
+    monkeypatch.setattr(regions, "find_outcome", failing)
     study = computed(**raw()).isel(normalization=0)
     corner = study.sel(Omega=50, N=600)
     assert flag_names(corner["status"]) == "failed"
@@ -166,16 +166,16 @@ def tile_of(
         return round(p.N - 100), round(p.Omega - 10)
 
     monkeypatch.setattr(regions, "cycle_of_static_start", lambda p: start(*place(p)))
-    monkeypatch.setattr(regions, "come_to", lambda p, *_, **__: Reached(outcome(*place(p)), 1.0, None))
+    monkeypatch.setattr(regions, "find_outcome", lambda p, *_, **__: OutcomeResult(outcome(*place(p)), 1.0, None))
     monkeypatch.setattr(regions, "departs_after", lambda *_: False)
     points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]
     return regions._Tile(points, OPTIONS, [])
 
 
-def follows_one(stable: bool) -> Near:
+def follows_one(stable: bool) -> NearCycle:
     """A start that follows a cycle."""
     nothing = np.zeros(1)
-    return Near(SimpleNamespace(stable=stable), True, None, nothing, nothing, np.eye(1))  # type: ignore[arg-type]
+    return NearCycle(SimpleNamespace(stable=stable), True, None, nothing, nothing, np.eye(1))  # type: ignore[arg-type]
 
 
 NONE = SimpleNamespace(status=CycleStatus.NO_CYCLE)
@@ -186,7 +186,7 @@ def test_a_cycle_that_grows_is_not_filled_as_quiet(monkeypatch: pytest.MonkeyPat
     outcome = {(3, 3): "separation", (5, 5): "growing"}
     tile = tile_of(9, lambda *at: follows_one(at not in growing), lambda *at: outcome.get(at, "quiet"), monkeypatch)
     assert {place: tile.outcome(place) for place in outcome} == outcome
-    assert set(tile.fates) == growing
+    assert set(tile.results) == growing
 
 
 def test_where_the_start_follows_no_cycle_thin_strips_are_worked_out_and_wide_ones_filled(
@@ -194,8 +194,8 @@ def test_where_the_start_follows_no_cycle_thin_strips_are_worked_out_and_wide_on
 ) -> None:
     strip, block = {(1, 1), (3, 2), (5, 3), (7, 4)}, {(i, j) for i in range(3, 6) for j in range(6, 9)}
     tile = tile_of(9, lambda *at: NONE if at in strip | block else follows_one(True), lambda *_: "quiet", monkeypatch)
-    assert strip <= set(tile.fates)
-    assert len(block & set(tile.fates)) <= 1
+    assert strip <= set(tile.results)
+    assert len(block & set(tile.results)) <= 1
 
 
 def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -207,13 +207,13 @@ def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkey
     tile = tile_of(33, lambda *_: NONE, outcome, monkeypatch)
     there = [(i, j) for i in range(33) for j in range(33) if outcome(i, j) == "separation"]
     assert not any(i % 8 == 0 and j % 8 == 0 for i, j in there if i < 16)
-    said = tile.presumed | tile.filled | {place: tile.outcome(place) for place in tile.fates}
+    said = tile.presumed | tile.filled | {place: tile.outcome(place) for place in tile.results}
     found = {place for place, word in said.items() if word == "separation"}
     assert len(found & set(there)) > 0.9 * len(there)
     assert len(found - set(there)) < 0.1 * len(there)
-    assert len(tile.fates) < 0.4 * 33 * 33
+    assert len(tile.results) < 0.4 * 33 * 33
     quiet = tile_of(33, lambda *_: NONE, lambda *_: "quiet", monkeypatch)
-    assert len(quiet.fates) == 5 * 5
+    assert len(quiet.results) == 5 * 5
 
 
 def test_separations_that_all_corners_of_a_cell_miss_are_found_in_its_middle(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -223,7 +223,7 @@ def test_separations_that_all_corners_of_a_cell_miss_are_found_in_its_middle(mon
         return "growing" if i % 4 == 0 and j % 4 == 0 else "separation"
 
     tile = tile_of(9, lambda *_: NONE, outcome, monkeypatch)
-    assert all(tile.outcome((i, j)) == outcome(i, j) for i in range(9) for j in range(9) if (i, j) in tile.fates)
+    assert all(tile.outcome((i, j)) == outcome(i, j) for i in range(9) for j in range(9) if (i, j) in tile.results)
     assert sum(word == "growing" for word in (tile.filled | tile.presumed).values()) == 0
 
 

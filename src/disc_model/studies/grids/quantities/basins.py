@@ -14,17 +14,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.analysis.sobol import share
-from disc_model.data.variables import LASTING, Column, Variable
+from disc_model.data.variables import LONG_TERM_OUTCOMES, Column, Variable
 from disc_model.simulation.api import make_initial_state, static_start
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.course import Attractor, Reached
-from disc_model.stability.attractor.many import Basins, random_perturbation
+from disc_model.stability.attractor.classification import Basins, random_perturbation
+from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 from disc_model.studies.grids.points import STATUS, Point, listed
 
 if TYPE_CHECKING:
     from disc_model.studies.document import BasinsOptions
 
-FATES = (*LASTING[1:], LASTING[0])
+CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])
 """What a start can come to."""
 ROOM = 12
 """For attractors, those reached by most starts; there are seven at 10 rad/s and 385 N."""
@@ -47,7 +47,7 @@ def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Column
 
 COLUMNS = {
     "status": Column(*STATUS),
-    "kind": Column("1", "what the start comes to", LASTING, dims=_EACH),
+    "kind": Column("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
     "attractor_index": Column("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
     "simulated_time": Column("s", "simulated time until that was known", dims=_EACH),
     "lost_contact": Column("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
@@ -57,7 +57,7 @@ COLUMNS = {
     "critical_energy": Column("J", "least energy found that leads to lasting separation, by bisection"),
     "critical_energy_lower": Column("J", "greatest energy below it, in the same direction, that does not"),
     "critical_energy_sampled": Column("J", "least energy among the starts that come to lasting separation"),
-    "attractor_kind": Column("1", "what the attractor is", LASTING, dims=_KNOWN),
+    "attractor_kind": Column("1", "what the attractor is", LONG_TERM_OUTCOMES, dims=_KNOWN),
     "attractor_starts": Column("1", "number of starts that reach it", dims=_KNOWN, whole=True),
     "attractor_range": Column("m", "range of the slider's height on it", dims=_KNOWN),
     "attractor_separation_rate": Column("s-1", "separations per second on it", dims=_KNOWN),
@@ -73,12 +73,12 @@ def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
     return {
         "energy": (np.array(options.energies), Variable("J", "energy of the kick")),
         "start": (np.arange(options.n_starts), Variable("1", "number of the start")),
-        "attractor_class": (np.array(FATES), Variable("", "what the starts come to")),
+        "attractor_class": (np.array(CLASSES), Variable("", "what the starts come to")),
         "attractor": (np.arange(1, ROOM + 1), Variable("1", "number of the attractor")),
     }
 
 
-def at(point: Point, options: BasinsOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: BasinsOptions) -> tuple[dict[str, Any], str]:
     """Starts that fail have a status of their own share; the point fails if all do."""
     sample = _Sample(point, options)
     found = sample.found
@@ -117,7 +117,7 @@ class _Sample:
         all_of = [[self._outcome_of(energy, j, i) for j, energy in energies] for i in range(options.n_starts)]
         self.found = list(zip(*all_of, strict=True))
 
-    def _outcome_of(self, energy: float, j: int, i: int) -> Reached:
+    def _outcome_of(self, energy: float, j: int, i: int) -> OutcomeResult:
         """What a kick of any energy in the direction of a start comes to."""
         return self.basins.reached(random_perturbation(self.p, self.start, energy, (self.options.seed, j, i)))
 
@@ -159,10 +159,10 @@ class _Sample:
         return low, high
 
 
-def _shares(name: str, found: Sequence[Sequence[Reached]], confidence: float) -> dict[str, Any]:
-    """Shares of what each row comes to, with Wilson's intervals: shape (rows, fates)."""
+def _shares(name: str, found: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
+    """Shares of what each row comes to, with Wilson's intervals: shape (rows, classes)."""
     shares = [
-        [share(sum(reached.word == fate for reached in row), len(row), confidence=confidence) for fate in FATES]
+        [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]
         for row in found
     ]
     return dict(zip((name, f"{name}_low", f"{name}_high"), np.moveaxis(np.array(shares), -1, 0), strict=True))
@@ -177,7 +177,7 @@ def _described(starts: Counter[Attractor]) -> dict[str, Any]:
             "attractor_releases": attractor.releases,
             "attractor_period": attractor.period,
             "attractor_growth_rate": attractor.growth_rate,
-            **{f"attractor_{name}": getattr(attractor.stretch, name) for name in SHOWN},
+            **{f"attractor_{name}": getattr(attractor.segment, name) for name in SHOWN},
         }
         for attractor, count in starts.most_common()
     ]

@@ -10,13 +10,13 @@ import pandas as pd
 from scipy.stats import wasserstein_distance
 
 from disc_model.analysis.classify import closure, shortest_period
-from disc_model.data.variables import LASTING, PHASES, SCALARS, SERIES, Column, Outcome, Variable
+from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Column, Outcome, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate, state_after
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import Result, State
-from disc_model.stability.attractor.course import FIRST_LEG, at_rest
-from disc_model.stability.attractor.many import SAME, SMALLEST, Regularity, cycle_reached, regularity
+from disc_model.stability.attractor.classification import SAME, SMALLEST, Regularity, cycle_reached, regularity
+from disc_model.stability.attractor.outcome import FIRST_LEG, at_rest
 from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.return_map import case_faults
 from disc_model.studies.grids.points import STATUS, Point
@@ -35,7 +35,7 @@ COLUMNS = {
     "separations": Column("1", "number of separations, transient included", whole=True),
     "transient_time": Column("s", "time left out before the samples"),
     "stationary": Column("1", "whether two stretches of samples, at switches, were alike", STEADY),
-    "kind": Column("1", "what the motion has come to, at switches", LASTING),
+    "kind": Column("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
     "period_events": Column(
         "1", "number of switches after which the motion repeats, 0 if that is not shown", whole=True
     ),
@@ -50,7 +50,7 @@ def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
     return {"sample": (np.arange(options.samples), Variable("1", "number of the turn after the transient"))}
 
 
-def at(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
     """From the static start or the prepared one."""
     if options.section == "event":
         return _at_switches(point, options)
@@ -133,7 +133,7 @@ def _periodic(p: Parameters, stretch: Result, kind: str) -> Regularity:
     at = (stretch.events["kind"] == kind).to_numpy()
     intervals = np.diff(stretch.events["time"].to_numpy(dtype=float)[at])
     near = None if case_faults(p, "a cycle") else cycle_reached(p, stretch)
-    if near is not None and near.own:
+    if near is not None and near.follows_cycle:
         n = near.cycle.separations if kind == "separation" else near.cycle.releases
         if 0 < n < len(intervals):
             return Regularity(near.kind, n, closure(intervals, n), near.cycle.state)

@@ -16,9 +16,9 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.course import FIRST_LEG, late_stretch, sweep
-from disc_model.stability.attractor.many import cycle_reached
-from disc_model.stability.branch import Steps
+from disc_model.stability.attractor.classification import cycle_reached
+from disc_model.stability.attractor.outcome import FIRST_LEG, final_segment, sweep
+from disc_model.stability.branch import StepControl
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.return_map import ReturnMap
@@ -57,7 +57,7 @@ def coordinates(options: BranchesOptions) -> dict[str, tuple[Any, Variable]]:
     }
 
 
-def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
     """Sweep and branches; the point's own value of the parameter is not used."""
     values, unfollowed = options.scan.values, []
     rows: list[dict[str, Any]] = []
@@ -86,7 +86,7 @@ def at(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
             follow(own, False)
         leg = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state, record=Record())
         reached = cycle_reached(p, leg, options.releases) if leg.status.complete else None
-        if reached is not None and reached.own and reached.cycle.growth_rate < 0:
+        if reached is not None and reached.follows_cycle and reached.cycle.growth_rate < 0:
             follow(reached.cycle, True)
     sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
     known = {
@@ -102,7 +102,7 @@ def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> di
     p, name = cycle.parameters, options.parameter
     bounds = options.scan.values[0], options.scan.values[-1]
     near = cycle.state if reached else None
-    steps = Steps(longest=options.max_step, max_points=options.max_points)
+    steps = StepControl(longest=options.max_step, max_points=options.max_points)
     down, up = (
         continue_cycle(p, name, bounds, direction=way, steps=steps, guess=near, releases=cycle.releases if near else 1)
         for way in (-1, 1)
@@ -130,7 +130,7 @@ def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> di
 
 def _range(p: Parameters, state: State, period: float) -> float:
     """Of the slider's height over a period, m; nan if it cannot be simulated."""
-    _, stretch = late_stretch(p, state, period, period, 1e-10)
+    _, stretch = final_segment(p, state, period, period, 1e-10)
     return math.nan if stretch is None else stretch.range
 
 

@@ -38,7 +38,7 @@ def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
     return {"mode": (np.arange(1, options.modes + 1), Variable("1", "number of the mode, lowest frequency first"))}
 
 
-def at(point: Point, options: CampbellOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: CampbellOptions) -> tuple[dict[str, Any], str]:
     """Of this point; modes are numbered by their frequency here, whatever they are at its neighbours."""
     found = frequencies(point.parameters, tol=options.tol)
     cycle = found.cycle

@@ -16,7 +16,7 @@ import numpy as np
 
 from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor.course import Reached, come_to
+from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
 from disc_model.studies.grids.points import STATUS, Point, listed
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]
     }
 
 
-def at(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
     """Scan and bisect; the point's own Omega is not used."""
     p, scan = point.parameters, options.scan
     step = round((scan.stop - scan.start) / scan.intervals / options.precision)
@@ -112,15 +112,15 @@ class Motion(NamedTuple):
 def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
     """The motion from the static start, up to the longest horizon."""
     horizon, early = options.horizons[-1], options.early_end
-    found = come_to(case, horizon, tol=options.tol, furthest=FURTHEST, early=early)
+    found = find_outcome(case, horizon, tol=options.tol, furthest=FURTHEST, early=early)
     simulated = found.simulated
     if _doubtful(found, options.horizons):
-        found = come_to(case, horizon, tol=options.tol, furthest=0.0)
+        found = find_outcome(case, horizon, tol=options.tol, furthest=0.0)
         simulated += found.simulated
     return Motion(found.first_separation, simulated, found.status.value, found.message)
 
 
-def _doubtful(found: Reached, horizons: Sequence[float]) -> bool:
+def _doubtful(found: OutcomeResult, horizons: Sequence[float]) -> bool:
     """Whether a first separation, known to a fraction of the time of growth, lies too near to a horizon to be told."""
     if found.departed is None:
         return False

@@ -25,7 +25,7 @@ COLUMNS = {
 }
 
 
-def at(point: Point, options: FloquetOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: FloquetOptions) -> tuple[dict[str, Any], str]:
     """The cycle of this point, not started from a neighbour's."""
     cycle = floquet(point.parameters, tol=options.tol)
     leading = complex(cycle.multipliers[0]) if cycle.status is CycleStatus.OK else complex(math.nan, math.nan)

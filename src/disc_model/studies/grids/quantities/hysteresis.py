@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
-from disc_model.stability.attractor.course import sweep
+from disc_model.stability.attractor.outcome import sweep
 from disc_model.studies.grids.points import DIRECTION, STATUS, STATUSES, Point
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def coordinates(options: HysteresisOptions) -> dict[str, tuple[Any, Variable]]:
     }
 
 
-def at(point: Point, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
     """Sweep up and down; the point's own Omega is not used."""
     speeds = options.scan.values
     columns = {name: column for name, column in COLUMNS.items() if column.dims}

@@ -36,7 +36,7 @@ def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:
     return {"exponent_number": (np.arange(options.exponents), Variable("1", "number of the exponent, largest first"))}
 
 
-def at(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
     """From the static start or the prepared one."""
     found = lyapunov_exponents(
         point.parameters,

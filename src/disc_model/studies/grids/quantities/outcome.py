@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import COURSES, SCALARS, Column, Outcome
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Column, Outcome
 from disc_model.simulation.api import make_initial_state
 from disc_model.simulation.result import Result, State
-from disc_model.stability.attractor.course import Reached, Stretch, come_to, late_stretch
+from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome
 from disc_model.studies.grids.points import STATUS, Point
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ FEWEST = 4
 """Looks at a motion from which a rate is told."""
 COLUMNS = {
     "status": Column(*STATUS),
-    "outcome": Column("1", "what the motion comes to, or whether it separates", COURSES),
+    "outcome": Column("1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON),
     "first_separation": Column(*SCALARS["first_separation"]),
     "settling_time": Column("s", "time at which the motion was left because it had settled, nan if it was not"),
     "time_reached": Column(*SCALARS["time_reached"]),
@@ -39,7 +39,7 @@ COLUMNS = {
 }
 
 
-def at(point: Point, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
     """The late stretch of a point that separates lies ``after_separation`` later."""
     reached, result, late = _late(point, options)
     last = reached if result is None else result
@@ -71,10 +71,10 @@ def state_at(point: Point, options: OutcomeOptions) -> State:
     return state
 
 
-def _late(point: Point, options: OutcomeOptions) -> tuple[Reached, Result | None, Stretch | None]:
+def _late(point: Point, options: OutcomeOptions) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """What the motion has come to, the run that shows it if there is one beyond that, and the late stretch."""
     p = point.parameters
-    reached = come_to(
+    reached = find_outcome(
         p,
         options.horizon,
         tol=options.tol,
@@ -84,15 +84,15 @@ def _late(point: Point, options: OutcomeOptions) -> tuple[Reached, Result | None
         late=options.evaluation_time,
     )
     if reached.outcome is Outcome.SEPARATION:
-        return reached, *late_stretch(p, reached.state, options.after_separation, options.evaluation_time, options.tol)
-    if reached.outcome is None or reached.stretch is not None:
-        return reached, None, reached.stretch
+        return reached, *final_segment(p, reached.state, options.after_separation, options.evaluation_time, options.tol)
+    if reached.outcome is None or reached.segment is not None:
+        return reached, None, reached.segment
     # what the motion tends to is known exactly, or it is steady
     on = reached.state if reached.cycle is None else reached.cycle.state
-    return reached, *late_stretch(p, on, options.evaluation_time, options.evaluation_time, options.tol)
+    return reached, *final_segment(p, on, options.evaluation_time, options.evaluation_time, options.tol)
 
 
-def _rate(reached: Reached) -> float:
+def _rate(reached: OutcomeResult) -> float:
     """Growth rate of the changes over the last looks, 1/s; nan if there are too few."""
     t, d = np.array(reached.times[-FEWEST:]), np.array(reached.changes[-FEWEST:])
     return float(np.polyfit(t, np.log(d), 1)[0]) if len(t) == FEWEST and np.all(d > 0) else math.nan

@@ -38,7 +38,7 @@ def coordinates(options: RampsOptions) -> dict[str, tuple[Any, Variable]]:
     return {"rate": (np.array(options.rates.values), Variable("rad s-2", "rate of the speed's ramps"))}
 
 
-def at(point: Point, options: RampsOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: RampsOptions) -> tuple[dict[str, Any], str]:
     """A run for each rate; the point's own Omega is not used."""
     rows: list[dict[str, Any]] = []
     status, message = "ok", ""

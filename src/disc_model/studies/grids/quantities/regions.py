@@ -21,12 +21,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.data.variables import COURSES, SCALARS, Column, Outcome
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Column, Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.course import Reached, come_to
-from disc_model.stability.attractor.near import CYCLE_TOL, SAME_POINT, Near, cycle_of_static_start, departs_after
+from disc_model.stability.attractor.neighbourhood import (
+    CYCLE_TOL,
+    SAME_POINT,
+    NearCycle,
+    cycle_of_static_start,
+    departs_after,
+)
+from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
 from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import ReturnMap, newton
@@ -44,7 +50,7 @@ JOINED = ("no", "yes")
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 COLUMNS = {
     "status": Column(*STATUS),
-    "outcome": Column("1", "what the static start comes to, or whether it separates", COURSES),
+    "outcome": Column("1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON),
     "method": Column("1", "how the outcome is known; inferred: like that cell's corners", ORIGINS),
     "first_separation": Column(*SCALARS["first_separation"]),
     "simulated_time": Column("s", "simulated time"),
@@ -71,14 +77,14 @@ ANOTHER = 0.02
 SCATTERED = 1
 """Points without a cycle that have so many such neighbours at most lie on strips thinner than the grid."""
 SEPARATING = 5.0
-"""How long a motion is followed for its history, beyond where its fate was known, s."""
+"""How long a motion is followed for its history, beyond where its outcome was known, s."""
 MOST_CYCLES = 4
 """Cycles carried from point to point, at most."""
 GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
 CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
 
 
-def over(
+def compute_tile(
     points: Sequence[Sequence[Made]], options: RegionsOptions, sampled: Collection[Place]
 ) -> list[list[tuple[Row, str]]]:
     """Of a tile; the outcome is worked out at the places `sampled` in any case."""
@@ -88,7 +94,7 @@ def over(
 def state_at(point: Point, options: RegionsOptions) -> State:
     """What the motion has come to; raises `SimulationError` if it did not get there."""
     p = point.parameters
-    found = come_to(p, options.horizon, tol=options.tol)
+    found = find_outcome(p, options.horizon, tol=options.tol)
     if found.cycle is not None and found.cycle.stable:
         state = found.cycle.state
         assert state is not None
@@ -113,7 +119,7 @@ class _Tile:
         self.shape = len(points), len(points[0])
         places = product(range(self.shape[0]), range(self.shape[1]))
         self.starts = {place: self._start(place) for place in places}
-        self.fates: dict[Place, Reached | Exception] = {}
+        self.results: dict[Place, OutcomeResult | Exception] = {}
         self.filled: dict[Place, str] = {}
         self.presumed: dict[Place, str] = {}
         self.trends = {place: self._trend(place) for place in self.starts}
@@ -122,22 +128,22 @@ class _Tile:
         rows, columns = (_edges(size, options.initial_cell_size) for size in self.shape)
         known = -1
         # a cell may have to be divided for what has been found on its edge
-        while known < len(self.fates):
-            known = len(self.fates)
+        while known < len(self.results):
+            known = len(self.results)
             self.filled.clear()
             self.presumed.clear()
             for across, along in product(pairwise(rows), pairwise(columns)):
                 self._refine(across, along)
         self._check_what_is_filled()
 
-    def _start(self, place: Place) -> Near | FloquetResult | Exception:
+    def _start(self, place: Place) -> NearCycle | FloquetResult | Exception:
         point = self.points[place[0]][place[1]]
         return point if isinstance(point, Exception) else _tried(lambda: cycle_of_static_start(point))
 
-    def _own(self, place: Place) -> Near | None:
+    def _own(self, place: Place) -> NearCycle | None:
         """The cycle that the static start follows from its beginning."""
         start = self.starts[place]
-        return start if isinstance(start, Near) and start.own else None
+        return start if isinstance(start, NearCycle) and start.follows_cycle else None
 
     def _check_what_is_filled(self) -> None:
         """Work out what corners say little of.
@@ -155,17 +161,17 @@ class _Tile:
 
     def outcome(self, place: Place) -> str:
         """Of the static start at a point, worked out once."""
-        if place not in self.fates:
-            self.fates[place] = self._fate(place)
-        found = self.fates[place]
-        return found.word if isinstance(found, Reached) else "failed"
+        if place not in self.results:
+            self.results[place] = self._result(place)
+        found = self.results[place]
+        return found.word if isinstance(found, OutcomeResult) else "failed"
 
-    def _fate(self, place: Place) -> Reached | Exception:
+    def _result(self, place: Place) -> OutcomeResult | Exception:
         point, start = self.points[place[0]][place[1]], self.starts[place]
         if isinstance(start, Exception):
             return start
         assert isinstance(point, Parameters)
-        return _tried(lambda: come_to(point, self.options.horizon, tol=self.options.tol, near=start))
+        return _tried(lambda: find_outcome(point, self.options.horizon, tol=self.options.tol, near=start))
 
     def _trend(self, place: Place) -> str:
         """What multipliers say of a point: its outcome, or "" if they leave that open."""
@@ -183,13 +189,13 @@ class _Tile:
         if not undecided:
             return
         corners = [corner for corner in product(rows, columns) if not self.trends[corner]]
-        for place in corners or ([] if any(place in self.fates for place in undecided) else [_middle(undecided)]):
+        for place in corners or ([] if any(place in self.results for place in undecided) else [_middle(undecided)]):
             if place not in self.presumed:
                 self.outcome(place)
         # on the way from slow growth to separation there may be growth that is faster, and still no separation; and
         # where that is all that corners say, stripes of separation may lie between: these cells are divided once more
-        outcomes = {self.outcome(place) for place in undecided if place in self.fates}
-        outcomes |= {self.presumed[corner] for corner in corners if corner not in self.fates}
+        outcomes = {self.outcome(place) for place in undecided if place in self.results}
+        outcomes |= {self.presumed[corner] for corner in corners if corner not in self.results}
         outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
@@ -218,24 +224,24 @@ class _Tile:
         """The outcome at a corner, worked out or presumed."""
         if self.trends[place]:
             return self.trends[place]
-        return self.presumed[place] if place not in self.fates else self.outcome(place)
+        return self.presumed[place] if place not in self.results else self.outcome(place)
 
     def rows(self) -> list[list[tuple[Row, str]]]:
         others = self._others()
         self.followed = {place: self._follow(place) for place in self.starts}
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
-    def _follow(self, place: Place) -> _Followed | Near | None:
+    def _follow(self, place: Place) -> _Followed | NearCycle | None:
         """The cycle that the static start follows at a point, if that is known.
 
         Its own as long as it departs from that: where it has grown to is known at simulated points alone, and would
         stand out among their neighbours.
         """
-        own, found = self._own(place), self.fates.get(place)
+        own, found = self._own(place), self.results.get(place)
         leaves = own is None or (
-            isinstance(found, Reached) and found.outcome is Outcome.QUIET and found.cycle is not own.cycle
+            isinstance(found, OutcomeResult) and found.outcome is Outcome.QUIET and found.cycle is not own.cycle
         )
-        if isinstance(found, Reached) and leaves:
+        if isinstance(found, OutcomeResult) and leaves:
             if found.cycle is None or found.cycle.state is None:
                 return None
             map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
@@ -256,13 +262,13 @@ class _Tile:
         return "yes" if found is not None and np.linalg.norm(found.x - two.x) <= SAME_POINT * size else "no"
 
     def _row(self, place: Place, others: int) -> tuple[Row, str]:
-        start, found = self.starts[place], self.fates.get(place)
+        start, found = self.starts[place], self.results.get(place)
         if isinstance(start, Exception) or isinstance(found, Exception):
             error = start if isinstance(start, Exception) else found
             return {"status": "failed"}, f"{type(error).__name__}: {error}"
         row: dict[str, Any] = {"status": "ok", "other_cycles": others}
         message = ""
-        if isinstance(found, Reached):
+        if isinstance(found, OutcomeResult):
             row |= {
                 "status": found.status,
                 "outcome": found.word,
@@ -297,7 +303,7 @@ class _Tile:
 
         Along each row, both ways, a cycle that does not go on into the next point's own is looked for there.
         """
-        known = {place: [start.x] if isinstance(start, Near) else [] for place, start in self.starts.items()}
+        known = {place: [start.x] if isinstance(start, NearCycle) else [] for place, start in self.starts.items()}
         for i in range(self.shape[0]):
             ways = list(range(self.shape[1]))
             for way in (ways, ways[::-1]):
@@ -307,7 +313,7 @@ class _Tile:
 
     def _carry(self, known: dict[Place, list[Array]], before: Place, here: Place) -> None:
         start, there = self.starts[here], self.starts[before]
-        if not (isinstance(start, Near) and isinstance(there, Near)) or start.x.shape != there.x.shape:
+        if not (isinstance(start, NearCycle) and isinstance(there, NearCycle)) or start.x.shape != there.x.shape:
             return
         size = float(np.linalg.norm(start.map.static))
         # in units of the static deflection, which varies with the parameters
@@ -329,11 +335,11 @@ def _tried(compute: Callable[[], T]) -> T | Exception:
         return error
 
 
-def _without(start: Near | FloquetResult, found: Reached | None) -> str:
+def _without(start: NearCycle | FloquetResult, found: OutcomeResult | None) -> str:
     """What there is at a point whose motion follows no cycle."""
     if found is not None and found.outcome is Outcome.STEADY_SLIDING:
         return "steady_sliding"
-    if isinstance(start, Near):
+    if isinstance(start, NearCycle):
         return "nearby_only"
     if start.status is CycleStatus.AT_REST:
         return "at_rest"

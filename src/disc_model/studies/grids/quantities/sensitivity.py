@@ -19,7 +19,7 @@ from scipy.stats import qmc
 
 from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor.course import come_to
+from disc_model.stability.attractor.outcome import find_outcome
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.studies.grids.points import DRAWS, NUMERICAL, SAMPLE_CYCLES, SAMPLE_OUTCOMES, STATUS, Point
 
@@ -53,7 +53,7 @@ def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
     }
 
 
-def at(point: Point, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
     """The sample of this number about the point's own parameters."""
     p, names = point.parameters, sorted(options.distributions)
     shares = unit_draws(options.seed, len(names), point.sample)
@@ -159,7 +159,7 @@ def cycle_word(found: FloquetResult) -> str:
 def _followed(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
     """What becomes of the static start."""
     try:
-        found = come_to(p, options.horizon, tol=options.motion_tol)
+        found = find_outcome(p, options.horizon, tol=options.motion_tol)
     except NUMERICAL as error:
         return {"outcome": "failed"}, f"{type(error).__name__}: {error}"
     return {"outcome": found.word, "first_separation": found.first_separation}, found.message

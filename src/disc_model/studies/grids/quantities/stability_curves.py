@@ -43,7 +43,7 @@ def coordinates(options: StabilityCurvesOptions) -> dict[str, tuple[Any, Variabl
     }
 
 
-def at(point: Point, options: StabilityCurvesOptions) -> tuple[dict[str, Any], str]:
+def compute_point(point: Point, options: StabilityCurvesOptions) -> tuple[dict[str, Any], str]:
     """The curves of this plane; the point's own values of the two parameters are not used."""
     lines = options.y_lines
     margin = options.margin * (lines.stop - lines.start)

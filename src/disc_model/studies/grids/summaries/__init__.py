@@ -25,7 +25,7 @@ class Summary(Described, Protocol):
 
     OVER: str
 
-    def of(self, cell: xr.Dataset, options: Any) -> Row:
+    def summarise(self, cell: xr.Dataset, options: Any) -> Row:
         """Values by column, of a merged dataset of which only the dimension is left that the summary is over."""
 
 
@@ -52,7 +52,7 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
     others = [dim for dim in map(str, study["status"].dims) if dim != summary.OVER]
     sizes = [study.sizes[dim] for dim in others]
     cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*sizes)]
-    arrays = table_of(summary, [(summary.of(cell, checked), "") for cell in cells], checked).arrays
+    arrays = table_of(summary, [(summary.summarise(cell, checked), "") for cell in cells], checked).arrays
     variables = {}
     for name, column in summary.COLUMNS.items():
         values = arrays[name].reshape((*sizes, *arrays[name].shape[1:]))

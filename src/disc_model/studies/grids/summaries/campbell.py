@@ -71,7 +71,7 @@ class Crossing(NamedTuple):
     place: int
 
 
-def of(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
+def summarise(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
     """Over the speeds, which ascend."""
     cell = cell.transpose("Omega", ...)
     found = sorted(crossings(cell), key=lambda one: (one.Omega, one.mode, one.multiple))

@@ -62,7 +62,7 @@ def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
     }
 
 
-def of(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
+def summarise(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
     """Over the samples."""
     words = flag_names(cell["cycle"].transpose("sample", "variant"))
     drawn = words[:, : len(DRAWS)].ravel()

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from disc_model.benchmarks.machine import machine, one_core
+from disc_model.benchmarks.hardware import machine, one_core
 
 
 def test_the_machine_is_named() -> None:

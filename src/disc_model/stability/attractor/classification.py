@@ -23,17 +23,25 @@ from disc_model.plate import mode_arrays
 from disc_model.simulation.api import perturb, simulate, static_start
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State
-from disc_model.stability.attractor.course import FIRST_LEG, RATE, Attractor, Reached, Stretch, at_rest, stretch_of
-from disc_model.stability.attractor.near import (
+from disc_model.stability.attractor.neighbourhood import (
     CYCLE_TOL,
     LARGEST_PERIOD,
     NEAR,
     SAME_POINT,
-    Near,
+    NearCycle,
     cycle_near,
     cycle_of_static_start,
     follows,
     recurrence,
+)
+from disc_model.stability.attractor.outcome import (
+    FIRST_LEG,
+    RATE,
+    Attractor,
+    OutcomeResult,
+    Segment,
+    at_rest,
+    segment_of,
 )
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
@@ -76,26 +84,26 @@ class Basins:
         self.map = ReturnMap(p, CYCLE_TOL, patience=PATIENT)
         self.size = float(np.linalg.norm(self.map.static))
         found = cycle_of_static_start(p)
-        self.cycle = found if isinstance(found, Near) and found.cycle.stable else None
+        self.cycle = found if isinstance(found, NearCycle) and found.cycle.stable else None
         self.known: list[Attractor] = []
         if self.cycle is not None:
             assert self.cycle.cycle.state is not None
-            self.known.append(self._periodic(self.cycle, stretch_of(self._leg(self.cycle.cycle.state, FIRST_LEG))))
+            self.known.append(self._periodic(self.cycle, segment_of(self._leg(self.cycle.cycle.state, FIRST_LEG))))
         for kick in OWN_STARTS:
             start = static_start(p)
             self.reached(perturb(p, start, u=-kick * self.static) if kick else start)
 
-    def reached(self, state: State) -> Reached:
+    def reached(self, state: State) -> OutcomeResult:
         """What the motion from a state at time 0 comes to; an attractor that is new is known from now on."""
-        stretches: list[Stretch] = []
+        stretches: list[Segment] = []
         first, since, least = math.nan, -1, math.inf
         while True:
             result = self._leg(state, min(state.time + FIRST_LEG, self.horizon))
             state = result.final_state
             first = result.first_separation if math.isnan(first) else first
             if not result.status.complete:
-                return Reached(None, state.time, first_separation=first, failed=result)
-            stretches.append(stretch_of(result))
+                return OutcomeResult(None, state.time, first_separation=first, failed=result)
+            stretches.append(segment_of(result))
             over, found = state.time >= self.horizon, None
             if self.near:
                 nears, least = self._nears(stretches, state, least)
@@ -107,16 +115,16 @@ class Basins:
                 found = self._settled_on(result, stays)
                 since = len(stretches) - 1 if since < 0 else since
             if found is not None:
-                return Reached(found.kind, state.time, attractor=found, first_separation=first)
+                return OutcomeResult(found.kind, state.time, attractor=found, first_separation=first)
             if over:
-                return Reached(Outcome.UNDECIDED, state.time, first_separation=first)
+                return OutcomeResult(Outcome.UNDECIDED, state.time, first_separation=first)
 
     def _leg(self, state: State, end: float) -> Result:
         window = Window(start=max(end - WATCHED, state.time), stop=end, rate=RATE)
         record = Record(windows=(window,))
         return simulate(self.p, end, tol=self.tol, initial_state=state, record=record)
 
-    def _difference(self, one: Stretch, other: Stretch) -> float:
+    def _difference(self, one: Segment, other: Segment) -> float:
         """Largest relative difference of ranges, shares of the phases and separations per second.
 
         Shares below `SAME`, and less than two separations in a leg, differ by their difference over these.
@@ -128,7 +136,7 @@ class Basins:
         ]
         return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
 
-    def _nears(self, stretches: Sequence[Stretch], state: State, least: float) -> tuple[bool, float]:
+    def _nears(self, stretches: Sequence[Segment], state: State, least: float) -> tuple[bool, float]:
         """Whether the motion is near the quiet cycle and comes nearer as the multipliers say.
 
         least : distance at which it did not, given back with it; one that is not less is not tried
@@ -149,7 +157,7 @@ class Basins:
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
         if len(ranges) < NEARING or not others:
             return None
-        apart = [[_apart(value, attractor.stretch.range) for value in ranges] for attractor in others]
+        apart = [[_apart(value, attractor.segment.range) for value in ranges] for attractor in others]
         nearest = min(range(len(others)), key=lambda i: apart[i][-1])
         if any(distances[-1] <= 2 * self.near for i, distances in enumerate(apart) if i != nearest):
             return None
@@ -158,7 +166,7 @@ class Basins:
         ends = _left(ranges) <= (2 * last + SETTLED) * ranges[-1]
         return others[nearest] if last <= self.near and nearing and ends else None
 
-    def _settled(self, stretches: Sequence[Stretch]) -> bool:
+    def _settled(self, stretches: Sequence[Segment]) -> bool:
         last = stretches[-SETTLING:]
         if len(last) < SETTLING or any(self._difference(one, last[-1]) > SETTLED for one in last[:-1]):
             return False
@@ -183,16 +191,20 @@ class Basins:
 
     def _described(self, leg: Result) -> Attractor | None:
         """What a motion is on by now, undecided if that is no cycle nor rest; None near an unstable cycle."""
-        stretch = stretch_of(leg)
+        stretch = segment_of(leg)
         calm = at_rest(self.p, leg, self.tol)
         if calm is not None:
             return Attractor(calm, stretch)
         near = cycle_reached(self.p, leg, LARGEST_PERIOD)
         if near is not None and not near.cycle.stable and self._stays(near):
             return None
-        return self._periodic(near, stretch) if near is not None and near.own else Attractor(Outcome.UNDECIDED, stretch)
+        return (
+            self._periodic(near, stretch)
+            if near is not None and near.follows_cycle
+            else Attractor(Outcome.UNDECIDED, stretch)
+        )
 
-    def _stays(self, near: Near) -> bool:
+    def _stays(self, near: NearCycle) -> bool:
         """Whether a motion hardly moves on the section over a period of the cycle near it, as on a torus it would."""
         at = near.x + near.distance
         return bool(np.linalg.norm(near.moved(at, 1)[0] - at) <= SMALLEST * self.size)
@@ -202,15 +214,15 @@ class Basins:
         if one.points is not None and other.points is not None:
             apart = min(float(np.linalg.norm(one.points[0] - point)) for point in other.points)
             return apart <= SAME_POINT * self.size
-        return self._difference(one.stretch, other.stretch) <= SAME
+        return self._difference(one.segment, other.segment) <= SAME
 
-    def _periodic(self, near: Near, stretch: Stretch) -> Attractor:
+    def _periodic(self, near: NearCycle, stretch: Segment) -> Attractor:
         cycle = near.cycle
         points = [near.x, *near.map.returns(near.x, cycle.releases - 1, may_separate=True)]
         return Attractor(near.kind, stretch, cycle.period, cycle.releases, cycle.growth_rate, np.array(points))
 
 
-def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Near | None:
+def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> NearCycle | None:
     """The cycle near which a motion is by the end of a stretch with its events; it may lose contact.
 
     Periods of up to half the releases of the stretch are looked for, and at most of so many.

@@ -20,11 +20,11 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result, State
-from disc_model.stability.attractor.near import (
+from disc_model.stability.attractor.neighbourhood import (
     AMPLITUDES,
     ARRIVED,
     CYCLE_TOL,
-    Near,
+    NearCycle,
     cycle_near,
     cycle_of_static_start,
     departure,
@@ -45,7 +45,7 @@ RATE = 4000.0
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Segment:
     """What a stretch of motion was like.
 
     P_min, P_max : N, range of the contact force
@@ -76,13 +76,13 @@ class Attractor:
     Attributes
     ----------
     kind : what it is
-    stretch : of a leg on it
+    segment : of a leg on it
     period, releases, growth_rate : of a periodic one, s, 1 and 1/s; nan, 0 and nan otherwise
     points : shape (releases, n), its points on the section; None if none are known
     """
 
     kind: Outcome
-    stretch: Stretch
+    segment: Segment
     period: float = math.nan
     releases: int = 0
     growth_rate: float = math.nan
@@ -90,14 +90,14 @@ class Attractor:
 
 
 @dataclass(frozen=True, eq=False)
-class Reached:
+class OutcomeResult:
     """What a motion has come to.
 
     Attributes
     ----------
     outcome : None if the simulation failed
     simulated : s, 0 if multipliers decide
-    attractor : of those known to `disc_model.stability.attractor.many.Basins`; None if it is none of them
+    attractor : of those known to `disc_model.stability.attractor.classification.Basins`; None if it is none of them
     cycle : the stable one to which it has come, or else the unstable one from which it departs; None if neither
     departed : the unstable cycle from which its multipliers have led it away, None if all was simulated
     first_separation : s, nan if there was none
@@ -107,7 +107,7 @@ class Reached:
     changes : from one period to the next, over the static deflection, at the end of each leg
     times : of these ends, s
     distance : from the cycle, over the static deflection, where it was left for it
-    stretch : the last one before the horizon, if it was asked for and got there
+    segment : the last one before the horizon, if it was asked for and got there
     """
 
     outcome: Outcome | None
@@ -122,7 +122,7 @@ class Reached:
     changes: Sequence[float] = ()
     times: Sequence[float] = ()
     distance: float = math.nan
-    stretch: Stretch | None = None
+    segment: Segment | None = None
 
     @property
     def word(self) -> str:
@@ -132,7 +132,7 @@ class Reached:
     @property
     def separates(self) -> bool:
         """Whether it goes on losing contact."""
-        return self.attractor is not None and self.attractor.stretch.separation_rate > 0
+        return self.attractor is not None and self.attractor.segment.separation_rate > 0
 
     @property
     def status(self) -> Status:
@@ -145,17 +145,17 @@ class Reached:
         return "" if self.failed is None else self.failed.message
 
 
-def come_to(
+def find_outcome(
     p: Parameters,
     horizon: float,
     *,
     tol: float = 1e-10,
-    near: Near | FloquetResult | None = None,
+    near: NearCycle | FloquetResult | None = None,
     furthest: float = AMPLITUDES[0],
     start: State | None = None,
     early: bool = True,
     late: float = 0.0,
-) -> Reached:
+) -> OutcomeResult:
     """What a motion comes to within a horizon (s), or whether it separates first.
 
     Parameters
@@ -168,15 +168,15 @@ def come_to(
     early : whether a motion is left once its outcome is shown; else it is followed to the horizon
     late : s, length of the stretch before the horizon that is to be described
     """
-    course = _Course(p, horizon, tol, furthest, start, early, late)
+    course = _OutcomeSearch(p, horizon, tol, furthest, start, early, late)
     if early and start is None and course.map is not None:
         near = cycle_of_static_start(p) if near is None else near
-        return course.run(near if isinstance(near, Near) and near.own else None)
+        return course.run(near if isinstance(near, NearCycle) and near.follows_cycle else None)
     return course.run(None)
 
 
 @dataclass
-class _Course:
+class _OutcomeSearch:
     """A motion on its way: where it is, and what was seen so far.
 
     shown : the cycle that it follows linearly: the first, or the stable one to which it has come
@@ -193,8 +193,8 @@ class _Course:
     time: float = 0.0
     simulated: float = 0.0
     shown: FloquetResult | None = None
-    left: Near | None = None
-    stretch: Stretch | None = None
+    left: NearCycle | None = None
+    segment: Segment | None = None
     changes: list[float] = field(default_factory=list)
     times: list[float] = field(default_factory=list)
 
@@ -203,7 +203,7 @@ class _Course:
         has_section = not case_faults(self.p, "the return map") and may_stick_and_slip(self.p)
         return ReturnMap(self.p, CYCLE_TOL) if has_section else None
 
-    def run(self, near: Near | None) -> Reached:
+    def run(self, near: NearCycle | None) -> OutcomeResult:
         if near is not None:
             self.time = first_release(self.p)
         leg = FIRST_LEG
@@ -244,13 +244,13 @@ class _Course:
             self.p, stop, tol=self.tol, initial_state=self.state, record=record, stop_at="first_separation"
         )
         if record.windows and result.status.complete:
-            self.stretch = stretch_of(result)
+            self.segment = segment_of(result)
         self.simulated += result.final_state.time - self.time
         self.state, self.time = result.final_state, result.final_state.time
         return result
 
-    def _ended(self, outcome: Outcome | None, **more: Any) -> Reached:
-        return Reached(
+    def _ended(self, outcome: Outcome | None, **more: Any) -> OutcomeResult:
+        return OutcomeResult(
             outcome,
             self.simulated,
             self.shown,
@@ -259,11 +259,11 @@ class _Course:
             state=self.state,
             changes=self.changes,
             times=self.times,
-            stretch=self.stretch,
+            segment=self.segment,
             **more,
         )
 
-    def _depart(self, near: Near) -> float:
+    def _depart(self, near: NearCycle) -> float:
         """Follow the linear map away from an unstable cycle, as far as it may be; the time then, s."""
         begun = self.time + near.waited
         room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
@@ -273,7 +273,7 @@ class _Course:
         self.left = near
         return self.time
 
-    def _look(self, state: State) -> Near | None:
+    def _look(self, state: State) -> NearCycle | None:
         """The cycle that the motion follows linearly by now; once it departs from one, only a stable one."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
         if self.map is None or x is None or code != RETURNED:
@@ -284,7 +284,7 @@ class _Course:
         if not self.early and self.time < self.horizon:
             return None
         near = cycle_near(self.map, x, again, stable=self.left is not None)
-        return near if near is not None and near.own else None
+        return near if near is not None and near.follows_cycle else None
 
 
 def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:
@@ -308,9 +308,9 @@ def growing(changes: Sequence[float]) -> bool:
 # What a stretch was like
 
 
-def late_stretch(
+def final_segment(
     p: Parameters, state: State | None, duration: float, late: float, tol: float
-) -> tuple[Result, Stretch | None]:
+) -> tuple[Result, Segment | None]:
     """Go on from a state (None: the static start) for a duration (s) and describe the last stretch of it.
 
     There is no stretch if the simulation did not get there.
@@ -324,12 +324,12 @@ def late_stretch(
         state = result.final_state
     window = Window(start=stop - late, stop=stop, rate=RATE)
     result = simulate(p, stop, tol=tol, initial_state=state, record=Record(windows=(window,)))
-    return result, stretch_of(result) if result.status.complete else None
+    return result, segment_of(result) if result.status.complete else None
 
 
 def sweep(
     p: Parameters, name: str, values: Sequence[float], dwell: float, late: float, tol: float
-) -> Iterator[tuple[tuple[int, int], Result, Stretch | None]]:
+) -> Iterator[tuple[tuple[int, int], Result, Segment | None]]:
     """Carry the motion through values of a parameter, up and down again, for ``dwell`` s at each.
 
     Yields the way (0 up, 1 down) and the number of the value, the run there, and its last stretch of ``late`` s; where
@@ -337,17 +337,17 @@ def sweep(
     """
     state: State | None = None
     for place in [(0, i) for i in range(len(values))] + [(1, i) for i in reversed(range(len(values)))]:
-        result, stretch = late_stretch(p.replace(**{name: values[place[1]]}), state, dwell, late, tol)
+        result, stretch = final_segment(p.replace(**{name: values[place[1]]}), state, dwell, late, tol)
         yield place, result, stretch
         if stretch is None:
             return
         state = result.final_state
 
 
-def stretch_of(result: Result) -> Stretch:
+def segment_of(result: Result) -> Segment:
     """Ranges over the one window of samples of a result, and shares of all its time."""
     P, u = result.samples[0]["P"], result.samples[0]["u"] - result.u_0
-    return Stretch(float(P.min()), float(P.max()), float(u.min()), float(u.max()), *shares(result))
+    return Segment(float(P.min()), float(P.max()), float(u.min()), float(u.max()), *shares(result))
 
 
 def shares(result: Result) -> tuple[float, float, float, float]:

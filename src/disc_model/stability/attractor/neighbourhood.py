@@ -57,18 +57,18 @@ LARGEST_PERIOD = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Near:
+class NearCycle:
     """A motion near a cycle.
 
     Attributes
     ----------
-    own : whether it follows the linear map there, for good if the cycle is stable
+    follows_cycle : whether it follows the linear map there, for good if the cycle is stable
     x, distance, jacobian : the cycle, the motion's distance from it, and the map's Jacobian, on the section of `map`
     waited : s, until the motion has come to where it follows the linear map: the distance is that then
     """
 
     cycle: FloquetResult
-    own: bool
+    follows_cycle: bool
     map: ReturnMap
     x: Array
     distance: Array
@@ -103,7 +103,7 @@ class Near:
         return end, flight.period if flight.outcome == RETURNED else math.nan
 
 
-def cycle_of_static_start(p: Parameters) -> Near | FloquetResult:
+def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
     """The cycle near the static start, and whether it is the start's own; without one, what was found instead."""
     cycle = find_cycle(p, CYCLE_TOL)
     if cycle.status is not CycleStatus.OK:
@@ -114,7 +114,7 @@ def cycle_of_static_start(p: Parameters) -> Near | FloquetResult:
 
 def cycle_near(
     map_: ReturnMap, x: Array, again: tuple[float, int], *, may_separate: bool = False, stable: bool = True
-) -> Near | None:
+) -> NearCycle | None:
     """The cycle near which a motion at a point of the section is, and whether it follows its multipliers; None if none.
 
     Parameters
@@ -147,12 +147,12 @@ def recurrence(
     return changes[releases - 1], releases
 
 
-def follows(near: Near, at: Array) -> bool:
+def follows(near: NearCycle, at: Array) -> bool:
     """Whether the motion at a point of the section departs from a cycle, or nears it, as its multipliers say."""
     return any(_linear(near, at - near.x, times) for times in TESTS)
 
 
-def departs_after(near: Near, horizon: float) -> bool:
+def departs_after(near: NearCycle, horizon: float) -> bool:
     """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
     begun = first_release(near.cycle.parameters) + near.waited
     room = max(0, math.ceil((horizon - begun) / near.cycle.period))
@@ -169,12 +169,12 @@ def first_release(p: Parameters) -> float:
     return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
 
 
-def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[float] = WAITS) -> Near:
+def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[float] = WAITS) -> NearCycle:
     """A motion at a point of the section, seen from a cycle."""
     assert cycle.state is not None
     x = map_.point(cycle.state)
     _, _, jacobian, _ = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
-    near = Near(cycle, False, map_, x, at - x, jacobian)
+    near = NearCycle(cycle, False, map_, x, at - x, jacobian)
     waited, moved = 0.0, at
     for wait in waits:
         if wait > waited:
@@ -183,11 +183,11 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[floa
                 break
             waited += took
         if follows(near, moved):
-            return replace(near, own=True, distance=moved - x, waited=waited)
+            return replace(near, follows_cycle=True, distance=moved - x, waited=waited)
     return near
 
 
-def _linear(near: Near, distance: Array, times: tuple[float, float]) -> bool:
+def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> bool:
     """Whether the motion at that distance departs from the cycle, or nears it, as its multipliers say."""
     cycle, jacobian, x = near.cycle, near.jacobian, near.x
     leading = _left_vector(jacobian)
@@ -223,7 +223,7 @@ def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
 
-def departure(near: Near, room: int, furthest: float = AMPLITUDES[0]) -> tuple[float, Array]:
+def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tuple[float, Array]:
     """How long the leading multiplier tells of a motion's departure, at most `room` periods, and its distance then.
 
     Returns
@@ -252,7 +252,7 @@ def departure(near: Near, room: int, furthest: float = AMPLITUDES[0]) -> tuple[f
     return 0.0, near.distance
 
 
-def _faster(near: Near, distance: Array) -> float:
+def _faster(near: NearCycle, distance: Array) -> float:
     """By what share a departing motion grows faster than the leading multiplier says; infinite if it is another one.
 
     Its phase is not asked for: it drifts with the amplitude long before the growth does, and decides nothing.
