@@ -76,13 +76,9 @@ def test_385_N_turns_between_15_08_and_15_09() -> None:
     assert [kinds[i] for i in found["crossing_kind"][0, 0, :2]] == ["begins", "none"]
 
 
-def test_all_crossings_are_found_where_separation_ends_again() -> None:
-    """First separations as at N = 200 N, where 14 rad/s is quicker than 14.5: one horizon has three crossings."""
-    times = {0: math.inf, 2: 700.0, 4: 588.0, 6: 876.0, 8: 480.0}
-    known = dict(times)
-    ask = lambda i: known.setdefault(i, (times[i - 1] + times[i + 1]) / 2)  # noqa: E731
-    critical_speed._bisect(known, ask, 800.0)
-    found = critical_speed._crossings(known, 800.0, lambda i: 10 + i / 10)
-    assert found["n_crossings"] == 3
-    assert found["crossing_kind"] == ["begins", "ends", "begins"]
-    assert found["critical_speed"] == 10.2
+def test_all_crossings_are_found_where_separation_ends_again(fake_motions: None) -> None:
+    """In steps that see the speeds, from 14.15 to 14.45 rad/s, at which it never comes."""
+    found = speeds_at(400, [1000], 12, 15, 0.1, 0.1)
+    kinds = critical_speed.COLUMNS["crossing_kind"].flags
+    assert [kinds[i] for i in found["crossing_kind"][0, 0, :4]] == ["begins", "ends", "begins", "none"]
+    np.testing.assert_allclose(found["crossing"][0, 0, :3], [12.4, 14.2, 14.5])
