@@ -57,12 +57,10 @@ def test_the_fold_near_15_0949():
     assert branch.folds[0, 0] == pytest.approx(15.0949, abs=5e-5)
     assert np.max(branch.values) <= branch.folds[0, 0]
     assert branch.values[-1, 0] < 14.5
-    # both branches at one speed: the quiet one stable, the other with a real multiplier above one
-    below, above = np.sort(np.argsort(np.abs(branch.values[:, 0] - 14.9))[:2])
+    # the quiet branch is stable, the other has a real multiplier above one
     assert branch.growth_rate[0] < 0
     assert branch.growth_rate[-1] > 0
     assert branch.kinds()[-1] == "fold"
-    assert below != above
     beyond = floquet(p.replace(Omega=branch.folds[0, 0] + 1e-3))
     assert beyond.status is CycleStatus.NO_CYCLE
     assert math.isnan(beyond.growth_rate)
