@@ -22,6 +22,6 @@ rule compile:
     conda:
         "../envs/disc_model.yaml"
     message:
-        "Compiling kernels, once: {wildcards.kind}, 5 to 10 s on one core. What depends on them waits."
+        "Compiling kernels, once: {wildcards.kind}, 10 to 20 s on an idle core. What depends on them waits."
     shell:
         "python -m disc_model compile {wildcards.kind} > {output} 2> {log}"
