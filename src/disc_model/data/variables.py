@@ -156,9 +156,9 @@ PERTURBATIONS = {
 _OF_RATIOS = {name: Variable("1", f"{one} relative to {other}") for name, (one, other) in RATIOS.items()}
 WITHOUT_CYCLE = {
     "no_cycle": "no cycle found",
-    "separates": "separates at once",
-    "no_stick_slip": "slides steadily",
-    "at_rest": "sticks",
+    "separates": "immediate separation",
+    "no_stick_slip": "steady sliding",
+    "at_rest": "permanent stick",
 }
 """What a point without a stick-slip cycle is called in tables and figures, by its status."""
 EXCLUDED = "excluded"

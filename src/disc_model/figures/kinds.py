@@ -452,7 +452,7 @@ Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "p
 RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 """Of these, what a window with an envelope keeps."""
 Recorded = Mapping[str, Window | Poincare | None]
-"""What a case records: windows by name, and the Poincare section as ``poincare``."""
+"""What a case records: windows by name, and the Poincaré section as ``poincare``."""
 SHORTEST_SPECTRUM = 1.1
 """Length in s that a window needs for a spectrum in time: one window of the transform and two steps."""
 HIGHEST = 1000.0
@@ -491,7 +491,7 @@ class CasePlot(Kind):
     def _misfits(self, window: Any) -> Iterator[Fault]:
         """Rules that a window breaks."""
         if isinstance(window, Poincare):
-            yield Fault.of(("window",), self.window, "must be a window, not the Poincare section")
+            yield Fault.of(("window",), self.window, "must be a window, not the Poincaré section")
         elif window.envelope is not None:
             yield Fault.of(("window",), self.window, "must have no envelope")
 
@@ -516,7 +516,7 @@ class History(CasePlot):
 
 
 class Section(CasePlot):
-    """The Poincare sections of slider and disc: once a turn of the drive."""
+    """The Poincaré sections of slider and disc: once a turn of the drive."""
 
     drawn_by = "paper.sections.sections"
 

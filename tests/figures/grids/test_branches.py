@@ -23,7 +23,7 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         "sweep_separation_rate": np.array([[0, 0, 0, 0, 135.0], [0, 135.0, 135.0, 135.0, 135.0]]),
         "sliding_growth_rate": [0.1] * 5,
     }
-    monkeypatch.setattr(branches, "at", lambda *_, **__: (values, ""))
+    monkeypatch.setattr(branches, "compute_point", lambda *_, **__: (values, ""))
     options = {"scan": {"start": 10, "stop": 14, "step": 1}, "dwell": 1, "evaluation_time": 1}
     study = computed(quantity="branches", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
     (ax,) = draw("branches", study, paper_cases={"F11": 12}, title="t").axes

@@ -50,9 +50,9 @@ def chart(monkeypatch: pytest.MonkeyPatch, **others: xr.Dataset) -> Figure:
 
 def test_curves_crossings_and_what_the_paper_says_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     figure = chart(monkeypatch)
-    named = {"cycle loses stability", "stable cycle ends (fold)", "separation begins, within 1000 s"}
-    named |= {"open: separation ends again", "what the paper says", "2 $f_s$ = 135.42 Hz"}
-    assert set(labels(figure)) == named | {"curves stop, not followed: 2"}
+    named = {"cycle loses stability", "stable cycle ends (fold)", "onset of separation within 1000 s"}
+    named |= {"open: end of separation", "paper", "2 $f_s$ = 135.42 Hz"}
+    assert set(labels(figure)) == named | {"continuation failed: 2"}
     (ax,) = figure.axes
     assert {text.get_text() for text in ax.texts} == {"1"}
 
@@ -62,11 +62,11 @@ def test_areas_are_the_outcomes_of_a_map_where_there_is_one(monkeypatch: pytest.
     data = {"growth_rate": (("N", "Omega"), codes - 0.1), "outcome": (("N", "Omega"), codes, words)}
     cycle = xr.Dataset(data, {"N": LOADS, "Omega": SPEEDS}, {"options": json.dumps({"horizon": 1000.0})})
     figure = chart(monkeypatch, cycle=cycle)
-    assert {"stays quiet", "grows, no separation", "separation", "areas: within 1000 s"} <= set(labels(figure))
+    assert {"quiet", "growing, in contact", "separation", "areas: within 1000 s"} <= set(labels(figure))
     (mesh,) = (one for one in figure.axes[0].collections if isinstance(one, QuadMesh))
     assert not np.ma.getmaskarray(mesh.get_array()).any()
     alone = chart(monkeypatch, cycle=cycle.drop_vars("outcome"))
-    assert "stick-slip cycle stable; white: none is" in labels(alone)
+    assert "stable stick-slip cycle (white: none)" in labels(alone)
 
 
 def test_a_line_does_not_jump_to_another_branch() -> None:
@@ -87,10 +87,10 @@ def test_the_speed_goes_across_and_panels_say_how_they_were_computed(
     assert titles == ["(a) from the static start", "(b) sweeps: 60 s, then 0.5 rad/s further"]
     assert both.axes[0].get_xlabel() == "Speed Ω (rad/s)"
     shown = lines(both.axes[0])
-    assert shown["separation begins, within 1000 s"].get_xdata()[:2].tolist() == [12.4, 12.4]
+    assert shown["onset of separation within 1000 s"].get_xdata()[:2].tolist() == [12.4, 12.4]
     # a shorter horizon has marks only where its speed is another
     assert set(shown["at another speed within 900 s"].get_ydata()) == {200}
     save(both, tmp_path / "both.png")
     twice = speeds.copy(deep=True)
     twice["crossing"][..., 1], twice["crossing_kind"][..., 1] = 14.2, 2
-    assert "open: separation ends again" in labels(draw("critical_speed", twice))
+    assert "open: end of separation" in labels(draw("critical_speed", twice))

@@ -93,7 +93,7 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
 
 @pytest.mark.parametrize(
     ("status", "name"),
-    [("no_cycle", "no cycle found"), ("at_rest", "sticks"), ("paradox", "failed"), ("ok", "no value")],
+    [("no_cycle", "no cycle found"), ("at_rest", "permanent stick"), ("paradox", "failed"), ("ok", "no value")],
 )
 def test_a_point_without_a_value_is_called_the_same_in_curve_and_map(study: xr.Dataset, status: str, name: str) -> None:
     """In a curve all were "failed", and in a heat map "no value"."""

@@ -113,10 +113,10 @@ def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[f
     assert {text.get_text() for text in shown.texts} == {"F2", "b"}
     # one in a corner, and its neighbour, which nothing beside is like
     assert np.sum(_hatched(shown)[0]) == 1
-    named = {"stays quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"}
-    named |= {"the paper: stays quiet", "the paper: separation", "no cycle found", "finer than the cells"}
+    named = {"quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"}
+    named |= {"paper: quiet", "paper: separation", "no cycle found", "unresolved"}
     assert named <= set(labels(figure))
-    contradicted = "b: the paper says “separation”, the static start: undecided."
+    contradicted = "b: paper: “separation”, static start: undecided."
     assert f"Within 900 s of the static start.\n{contradicted}" in labels(figure)
     save(figure, tmp_path / "map.png")
 
@@ -159,7 +159,7 @@ def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> No
     }
     *_, said = labels(draw("region_map", study, x="Omega", y="N", marks=marks))
     assert said.split("\n")[1:] == [
-        "F2: the paper says “separation”, the static start: stays quiet.",
+        "F2: paper: “separation”, static start: quiet.",
         "F3: separation, beside a cycle that is stable (-0.2/s): another motion is reached.",
     ]
 
@@ -188,7 +188,7 @@ def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str) -
     figure = draw("stability_map", study, {"growth": growth}, x=x, y="N", marks=marks)
     assert figure.axes[0].get_xscale() == scale
     assert {text.get_text() for text in figure.axes[0].texts} == {"a", "b"}
-    said = {"stays quiet", "separation", "no cycle found", "the paper: stays quiet", "the paper: separation"}
+    said = {"quiet", "separation", "no cycle found", "paper: quiet", "paper: separation"}
     assert said <= set(labels(figure))
 
 

@@ -26,7 +26,7 @@ def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
     samples["phase"][{"N": 1}] = 0  # not reached, as where a motion slides steadily
     (ax,) = draw("bifurcation", samples, x="N").axes
     assert not crosses(ax)
-    assert lines(ax)["slides steadily"].get_xdata() == [2]
+    assert lines(ax)["steady sliding"].get_xdata() == [2]
 
 
 def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() -> None:
@@ -48,7 +48,7 @@ def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
     samples["stationary"] = ("N", np.array([2, 1, 2], np.int8), words)
     exponents["converged"] = (("N", "exponent_number"), np.array([[2], [2], [1]], np.int8), words)
     above, below = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes
-    assert list(lines(above)["not steady"].get_xdata()) == [2, 2]
+    assert list(lines(above)["not stationary"].get_xdata()) == [2, 2]
     assert 2 not in lines(above)["stick"].get_xdata()
     ring, _in_the_legend = (line for line in below.lines if line.get_markerfacecolor() == "none")
     assert list(ring.get_xdata()) == [3]
@@ -111,10 +111,10 @@ def test_the_band_of_fig_15_is_where_both_shares_are_above_zero(
     shares: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset
 ) -> None:
     others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7))}
-    assert "quiet or separating,\nnot measured" in labels(draw("critical_speed", speeds, others))
+    assert "quiet or separating,\nnot computed" in labels(draw("critical_speed", speeds, others))
     figure = draw("critical_speed", speeds, others | {"basins": shares})
-    assert "quiet or separating,\nmeasured at 385 N" in labels(figure)
-    assert "quiet or separating,\nnot measured" not in labels(figure)
+    assert "quiet or separating,\ncomputed at 385 N" in labels(figure)
+    assert "quiet or separating,\nnot computed" not in labels(figure)
     # not beyond what was measured: the bar used to go on to halfway to the next speed, past the cycle's end
     bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in figure.axes[1].patches if bar.get_width() > 0]
     assert bars == [(13.0, 14.0)]
@@ -131,7 +131,7 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
         "top_separation_rate": np.array([135.0, 0.0, np.nan]),
         "offset_speed": np.array([9.7, 9.3, np.nan]),
     }
-    monkeypatch.setattr(ramps, "at", lambda *_, **__: (values, ""))
+    monkeypatch.setattr(ramps, "compute_point", lambda *_, **__: (values, ""))
     options = {"low": 8, "high": 20, "rates": {"start": 0.01, "stop": 1, "count": 3, "scale": "log"}}
     study = computed(quantity="ramps", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
     folds = [
@@ -142,8 +142,8 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
     monkeypatch.setattr(drawn, "curves_of", lambda _: folds)
     ax = draw("ramps", study, {"curves": xr.Dataset()}, title="t").axes[0]
     shown = lines(ax)
-    np.testing.assert_allclose(shown["onset of separation, speed rising"].get_ydata(), [15.3, np.nan, np.nan])
-    np.testing.assert_allclose(shown["end of separation, speed falling"].get_ydata(), [9.7, 9.3, np.nan])
+    np.testing.assert_allclose(shown["onset, rising ramp"].get_ydata(), [15.3, np.nan, np.nan])
+    np.testing.assert_allclose(shown["end, falling ramp"].get_ydata(), [9.7, 9.3, np.nan])
     assert list(shown[drawn.BEYOND].get_xdata()) == [0.1]
     assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
     assert [text.get_text() for text in ax.texts] == ["15.10"], "the fold of another cycle, at 11 rad/s, was drawn too"
@@ -163,7 +163,7 @@ def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: 
     both = draw("critical_speed", lost, {"hysteresis": with_failed(sweep, N=400)})
     assert [crosses(ax) for ax in both.axes] == [[[200]], [[400]]]
     shown = lines(both.axes[0]) | lines(both.axes[1])
-    for label in ("separation begins, within 1000 s", "static start, within 1000 s"):
+    for label in ("onset of separation within 1000 s", "static start, within 1000 s"):
         loads = np.asarray(shown[label].get_ydata())
         assert set(loads[np.isfinite(loads)]) == {400}
     for label in ("sweep up: separation begins", "sweep down: separation ends"):

@@ -58,7 +58,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     for ax, energy in zip(axes, energies, strict=False):
         _shares(ax, study.sel(energy=energy), along, classes)
         ax.set_xlabel(label)
-    axes[0].set_ylabel(f"Share of {study.sizes['start']} starts")
+    axes[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
     _attractors(axes[-2], study, along)
     _kicks(axes[-1], study, along)
     for ax, letter, shown in zip(axes, LETTERS, [*(f"{energy:g} J" for energy in energies), "", ""], strict=False):
@@ -94,7 +94,7 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
         point, number = np.nonzero((kinds == class_) & (starts > 0))
         area = LARGEST * starts[point, number] / total
         ax.scatter(along[point], ranges[point, number], area, color=colour, linewidth=0, zorder=3)
-    ax.set(ylabel="Range of the slider (mm)")
+    ax.set(ylabel="Slider range (mm)")
     if np.any(ranges > 0):
         ax.set_yscale("log")
 
@@ -102,12 +102,12 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
 def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     """The least kick by bisection; the least among the starts; and their energies."""
     for i, energy in enumerate(study["energy"].values):
-        label = "kicks tried" if i == 0 else "_nolegend_"
+        label = "energies sampled" if i == 0 else "_nolegend_"
         ax.axhline(energy, color=GREY, linestyle=":", linewidth=0.6, zorder=0, label=label)
     sample, found = study["critical_energy_sampled"].values, study["critical_energy"].values
-    ax.plot(along, sample, "_", color=BLACK, markersize=6, label="least of them")
+    ax.plot(along, sample, "_", color=BLACK, markersize=6, label="lowest sampled")
     ax.plot(along, np.where(found > 0, found, np.nan), "v-", color=SEPARATED, markersize=3.5, label="by bisection")
-    ax.set(ylabel="Least kick that\nseparates (J)")
+    ax.set(ylabel="Critical energy (J)")
     if np.any(sample > 0):
         ax.set_yscale("log")
         # what separates without a kick has no place on this scale

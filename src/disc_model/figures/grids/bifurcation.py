@@ -52,7 +52,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
     if "stationary" in study:
         unsteady[:] = (flag_names(study["stationary"]) == "no")[:, None]
     if (there := unsteady & (phase >= 0)).any():
-        ax.plot(position[there], values[there], ".", color=GREY, markersize=1.5, alpha=0.5, label="not steady")
+        ax.plot(position[there], values[there], ".", color=GREY, markersize=1.5, alpha=0.5, label="not stationary")
     for code, (name_of_phase, color) in enumerate(PHASE_COLOURS.items()):
         here = (phase == code) & ~unsteady
         if np.any(here):
@@ -63,7 +63,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
     idle = along[~moving & ~lost]
     if idle.size:
         low = np.full(idle.size, 0.02)
-        ax.plot(idle, low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="slides steadily")
+        ax.plot(idle, low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="steady sliding")
     unit = study[plot.variable].attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(xlabel)
@@ -95,7 +95,7 @@ def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
     ax.plot(along[repeats], period[repeats], ".", color=BLACK, markersize=3)
     ax.set_yscale("log")
     ax.yaxis.set_major_formatter("{x:g}")
-    ax.set_ylabel("Period\n(switches)")
+    ax.set_ylabel("Period\n(events)")
     parts.mark_failed(ax, along[~repeats], name="not shown to repeat")
     if not repeats.all():
         parts.legend_above(ax)
@@ -133,6 +133,6 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
         ax.plot([], [], label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
     ax.set_ylabel(
-        "Lyapunov exponents" + (",\ntrivial one left out" if "trivial_exponent" in lyapunov else "") + " (1/s)"
+        "Lyapunov exponents" + (",\nwithout the trivial one" if "trivial_exponent" in lyapunov else "") + " (1/s)"
     )
     parts.legend_above(ax)

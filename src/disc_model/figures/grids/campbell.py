@@ -233,9 +233,9 @@ def _handles(study: xr.Dataset) -> list[Line2D]:
     shown = sorted({l for l, _ in _parts(study, "sliding_frequency")})
     ring: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 2.5, "markeredgewidth": 0.5}
     return [
-        *(Line2D([], [], color=_colour(l), label="slider in the plane" if l < 0 else f"l = {l}") for l in shown),
-        Line2D([], [], color=BLUE, marker=".", markersize=4, linewidth=0.9, label="dots: stick-slip cycle"),
+        *(Line2D([], [], color=_colour(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
+        Line2D([], [], color=BLUE, marker=".", markersize=4, linewidth=0.9, label="stick-slip cycle"),
         Line2D([], [], color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
         Line2D([], [], marker="o", markerfacecolor="white", label="crossing", **ring),
-        Line2D([], [], marker="o", label="numbered", **ring),
+        Line2D([], [], marker="o", label="numbered crossing", **ring),
     ]

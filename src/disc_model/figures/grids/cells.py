@@ -37,11 +37,11 @@ class Look(NamedTuple):
 HATCH = 8 * "/"
 """So dense that a cell of a fiftieth of a panel has two lines."""
 OUTCOME_LOOKS = {
-    "quiet": Look("stays quiet", "#e9eef2"),
-    "steady_sliding": Look("slides steadily", "#e4dcec"),
-    "at_rest": Look("rests on the disc", "#dcebe1"),
+    "quiet": Look("quiet", "#e9eef2"),
+    "steady_sliding": Look("steady sliding", "#e4dcec"),
+    "at_rest": Look("permanent stick", "#dcebe1"),
     "other_cycle": Look("another cycle in contact", "#7f93a3"),
-    "growing": Look("grows, no separation", "#a9b4bd"),
+    "growing": Look("growing, in contact", "#a9b4bd"),
     "separation": Look("separation", SEPARATED),
     "undecided": Look("undecided", "#a98b6d"),
     "failed": Look("failed", "#333333"),
@@ -50,9 +50,9 @@ CYCLE_LOOKS = {
     "steady_sliding": Look(WITHOUT_CYCLE["no_stick_slip"], "#d9cfe3"),
     "at_rest": Look(WITHOUT_CYCLE["at_rest"], "#cfe3d6"),
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae"),
-    "nearby_only": Look("start follows no cycle", "#f2e6a2"),
+    "nearby_only": Look("start not on a cycle", "#f2e6a2"),
     "no_cycle": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5"),
-    "alone": Look("growth unlike all cells around", "none", HATCH),
+    "alone": Look("growth differs from all neighbours", "none", HATCH),
     "failed": Look("failed", "#333333"),
 }
 """What there is to see where no cycle is followed, and over a growth rate that may be another cycle's."""

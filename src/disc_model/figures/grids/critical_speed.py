@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 PALER = {"other_cycle": 0.35, "growing": 0.35, "separation": 0.75}
 BEHIND = OUTCOME_LOOKS | {name: paler(OUTCOME_LOOKS[name], share) for name, share in PALER.items()}
 """What becomes of the static start, behind curves and marks."""
-STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stick-slip cycle stable; white: none is")
+STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle (white: none)")
 LOOKS = ((ONSET, "o"), (BLUE, "^"), (SKY, "s"), (GREEN, "D"), (PURPLE, "v"))
 """Colour and marker of each horizon, the longest first."""
 WIDTH = 20.0
@@ -62,9 +62,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
     _starts(axes[0], study, horizons)
     if plot.paper_points:
         load, speed = np.transpose([*plot.paper_points.values()])
-        axes[0].plot(
-            speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, clip_on=False, label="what the paper says"
-        )
+        axes[0].plot(speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, clip_on=False, label="paper")
     said = ["from the static start"]
     if sweep is not None:
         said.append(_sweep(axes[1], sweep, study, horizons[0]))
@@ -138,7 +136,7 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
             "zorder": 1.9 - 0.1 * i,
         }  # below the curves
         if i == 0:
-            _onsets(ax, study, horizon, label=f"separation begins, within {horizon:g} s", **look)
+            _onsets(ax, study, horizon, label=f"onset of separation within {horizon:g} s", **look)
         elif later := [
             (speed, load)
             for load, found, known in zip(study["N"].values, speeds_of(study, horizon, "begins"), longest, strict=True)
@@ -150,7 +148,7 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
     if sum(map(len, ends)):
         loads = np.repeat(study["N"].values, [found.size for found in ends])
         look = {"color": ONSET, "marker": "o", "markersize": 3, "markerfacecolor": "white", "markeredgewidth": 0.7}
-        ax.plot(np.concatenate(ends), loads, linestyle="", label="open: separation ends again", **look)
+        ax.plot(np.concatenate(ends), loads, linestyle="", label="open: end of separation", **look)
 
 
 def _horizon_of(study: xr.Dataset, cycle: xr.Dataset | None) -> float:
@@ -217,7 +215,7 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     there = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
     look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
     ax.pcolormesh(speeds, loads, np.ma.masked_where(~there, there), cmap=ListedColormap([ORANGE]), **look)
-    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating,\nnot measured")
+    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating,\nnot computed")
 
 
 def _measured(ax: Axes, basins: xr.Dataset) -> None:
@@ -231,6 +229,6 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
         (basins["basin_fraction_low"].sel(attractor_class="quiet") > 0) & (basins["separating_fraction_low"] > 0)
     ).values
     for i, (first, after) in enumerate(parts.stretches(both)):
-        label = "_nolegend_" if i else f"quiet or separating,\nmeasured at {load:g} N"
+        label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
         low, high = speeds[first], speeds[after - 1]
         ax.barh(load, high - low, WIDTH, low, color=ORANGE, alpha=0.6, linewidth=0.8, edgecolor=ORANGE, label=label)

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 NEAR = 3.0
 """Hz; a resonance further off than this is not named."""
-OTHER: dict[str, Any] = {"color": GREY, "linewidth": 0.5, "label": "the same, of another cycle"}
+OTHER: dict[str, Any] = {"color": GREY, "linewidth": 0.5, "label": "the same, another cycle"}
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 
 
@@ -145,7 +145,7 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
     lost = [int(one["n_continuation_failures"].sum()) for one in data]
     if any(lost):
         said = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
-        handles.append(Line2D([], [], linestyle="", label=f"curves stop, not followed: {', '.join(said)}"))
+        handles.append(Line2D([], [], linestyle="", label=f"continuation failed: {', '.join(said)}"))
     return handles
 
 

@@ -27,8 +27,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpee
     gone = study["rate_status"].values != 0
     figure = new_figure(COLUMN, 3.4)
     ax = figure.subplots()
-    ax.plot(rates, onset, "^-", color=ONSET, markersize=4, linewidth=0.8, label="onset of separation, speed rising")
-    ax.plot(rates, end, "v-", color=END, markersize=4, linewidth=0.8, label="end of separation, speed falling")
+    ax.plot(rates, onset, "^-", color=ONSET, markersize=4, linewidth=0.8, label="onset, rising ramp")
+    ax.plot(rates, end, "v-", color=END, markersize=4, linewidth=0.8, label="end, falling ramp")
     late = rates[np.isnan(onset) & ~gone]
     if late.size:
         top = np.full(late.size, options["high"])
@@ -38,9 +38,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpee
     parts.mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)
-    ax.set(
-        xlabel="Rate of the speed (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"])
-    )
+    ax.set(xlabel="Ramp rate (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"]))
     figure.legend(loc="outside lower center", ncols=1)
     parts.entitle(figure, plot.title, f"{parts.fixed(study, modes_said=True)}, {parts.MODES[norm]}")
     return figure

@@ -22,7 +22,7 @@ from disc_model.figures.grids.stability_map import finish, legend_below_head
 from disc_model.figures.kinds import RegionMap
 from disc_model.figures.parts import PAGE, new_figure
 
-UNRESOLVED = cells.Look("finer than the cells", "none", cells.HATCH)
+UNRESOLVED = cells.Look("unresolved", "none", cells.HATCH)
 """Points whose outcome none of those beside them has."""
 Mask = NDArray[np.bool_]
 
@@ -118,7 +118,7 @@ def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
         found = cells.OUTCOME_LOOKS[outcome].label
         if outcome != mark.paper_outcome:
             stated = cells.OUTCOME_LOOKS[mark.paper_outcome].label
-            yield f"{name}: the paper says “{stated}”, the static start: {found}."
+            yield f"{name}: paper: “{stated}”, static start: {found}."
         if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"

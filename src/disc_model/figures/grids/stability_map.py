@@ -120,7 +120,7 @@ def _paper_handles(plot: StabilityMap) -> list[Artist]:
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": [withStroke(linewidth=2.4, foreground=BLACK)]}
     return [
-        Line2D([], [], marker=look["marker"], label=f"the paper: {OUTCOME_LOOKS[name].label}", **ring)
+        Line2D([], [], marker=look["marker"], label=f"paper: {OUTCOME_LOOKS[name].label}", **ring)
         for name, look in MARKS.items()
         if name in said
     ]

@@ -24,7 +24,7 @@ class Entry(NamedTuple):
     section : of the paper
     title : a few words for lists
     caption : what it shows; `caption` fills in numbers and adds the parameters
-    needs : the windows it needs, by case; the Poincare section goes by the name ``poincare``
+    needs : the windows it needs, by case; the Poincaré section goes by the name ``poincare``
     drawn_by : a module beside this one and its function, such as ``"spectra.response"``, which takes cases by name
     options : keyword arguments of that function
     """
@@ -116,7 +116,7 @@ def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | 
     Parameters
     ----------
     parameters : by case, at least those that the figure shows
-    windows : by case and name, the Poincare section as ``poincare``; if not given, times and angles are not named
+    windows : by case and name, the Poincaré section as ``poincare``; if not given, times and angles are not named
     """
     entry = CATALOGUE[name]
     text = entry.caption.format(**_numbers(entry, windows or {}))

@@ -1,4 +1,4 @@
-"""Poincare sections and phase portraits of one case: the slider in the disc's plane, and a point of the disc.
+"""Poincaré sections and phase portraits of one case: the slider in the disc's plane, and a point of the disc.
 
 Figures 4 to 9, 12, 14, 16 to 22, A1 and A2 of the paper.
 """

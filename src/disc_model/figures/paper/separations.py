@@ -30,7 +30,7 @@ def displacements(ax: Axes, part: xr.Dataset, zero: float, rest: float) -> None:
     time = (part["time"].values - zero) * 1e3
     ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
     ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
-    ax.set_ylabel("From equilibrium (mm)")
+    ax.set_ylabel("Displacement (mm)")
 
 
 def separations(window: xr.Dataset) -> list[tuple[float, float]]:
