@@ -37,7 +37,7 @@ class Problem:
     ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on.
     """
 
-    since, bonded = LONG(0), False
+    since = LONG(0)
 
     def __init__(self, N, Omega, omega, psi, law, base=BASE, rates=(0.0, 0.0)):
         self.Omega_rate, self.N_rate = LONG(rates[0]), LONG(rates[1])
@@ -69,7 +69,7 @@ def problem_of(p, rates=(0.0, 0.0)):
     modes, law = plate_modes(p), Law(contact_give(p), p.contact_force)
     base = {name: getattr(p, name) for name in BASE}
     q = Problem(p.N, p.Omega, modes["omega"], np.abs(modes["psi"]), law, base, rates)
-    q.l, q.bonded = modes["diameters"].to_numpy().astype(LONG), p.contact == "bonded"
+    q.l = modes["diameters"].to_numpy().astype(LONG)
     return q
 
 
@@ -191,20 +191,18 @@ class Step:
         groups = [(self.alpha, 0), (self.beta, 0), (self.f, abs(q.Omega)), (self.a, 0), (self.b, 0), (self.R, q.N)]
         if not q.rigid or self.phase == "separation":
             groups.append((self.v, 0))
-        modal = max(abs(x[0]).max(initial=0) for x in (self.alpha, self.beta)) + q.N * (q.s / np.sqrt(q.w2)).max(
-            initial=0
-        )
+        modal = max(abs(x[0]).max() for x in (self.alpha, self.beta)) + q.N * (q.s / np.sqrt(q.w2)).max()
         for x, usual in groups:
             last = len(x) - (2 if x is self.R else 1)
-            scale = max(abs(x[0]).max(initial=0), usual)
+            scale = max(abs(x[0]).max(), usual)
             if x is self.alpha or x is self.beta:
                 scale = modal
             elif x is self.v:
-                scale = max(scale, q.N * ((q.s**2 / np.sqrt(q.w2)).sum() + np.sqrt(q.C / q.m)))
+                scale = max(scale, q.N * (q.s**2 / np.sqrt(q.w2)).sum())
             elif x is self.a or x is self.b:
-                scale = modal / np.sqrt(q.w2.max(initial=1))
+                scale = modal / np.sqrt(q.w2.max())
             for k in (last, last - 1):
-                size = abs(x[k]).max(initial=0)
+                size = abs(x[k]).max()
                 if size > 0:
                     h = min(h, (LONG(truncation) * scale / size) ** (LONG(1) / k))
         return h
@@ -385,11 +383,10 @@ class Reference:
             return [("reattachment", gap[self.divide["gap"] :])]
         R = step.R[self.divide["R"] : K]
         if self.phase == "slip":
-            rest = ("rest", self.direction * step.f[self.divide["f"] :])
-            return [rest] if self.q.bonded else [("separation", R), rest]
+            return [("separation", R), ("rest", self.direction * step.f[self.divide["f"] :])]
         held = [("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)]
         # a compliant contact does not pull, though friction may hold where it would
-        return held if self.q.bonded else [*held, ("separation", R if self.q.rigid else step.V[self.divide["R"] : K])]
+        return [*held, ("separation", R if self.q.rigid else step.V[self.divide["R"] : K])]
 
     # -- switching
     def _enter(self, kind, phase, direction, **divide):
@@ -397,7 +394,7 @@ class Reference:
         self.divide = {"f": 0, "gap": 0, "R": 0} | divide
         P = LONG(0) if phase == "separation" else self.forces(phase, direction)[0]
         self.events.append({"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P})
-        if P < 0 and self.q.rigid and not self.q.bonded:
+        if P < 0 and self.q.rigid:
             self._separate(2)
 
     def _switch(self, kind):
@@ -408,8 +405,7 @@ class Reference:
                 self._enter("slip_to_stick", "stick", 0)
             else:
                 kind = "slip_reversal" if kind == "rest" else kind
-                # f begins with a rate of its own only where friction falls
-                self._enter(kind, "slip", 1 if T > 0 else -1, f=1 if abs(T) > (1 + 1e-12) * self.q.mu_k * R else 2)
+                self._enter(kind, "slip", 1 if T > 0 else -1, f=1)
         elif kind == "separation":
             self._separate(3 if self.q.rigid else 1)
         else:
