@@ -12,6 +12,7 @@ from disc_model.studies.document import CriticalSpeedOptions
 from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import critical_speed
 from disc_model.studies.grids.run import compute
+from tests.studies.grids.conftest import computed
 
 
 def speeds_at(
@@ -74,6 +75,19 @@ def test_385_N_turns_between_15_08_and_15_09() -> None:
     assert found["crossing"][0, 0, 0] == 15.09
     kinds = critical_speed.COLUMNS["crossing_kind"].flags
     assert [kinds[i] for i in found["crossing_kind"][0, 0, :2]] == ["begins", "none"]
+
+
+@pytest.mark.slow
+def test_scan_and_map_agree_at_every_common_point() -> None:
+    """Fig. 15 drew an onset over cells of the map without separation, and the map one beside the scan's windows."""
+    axes = {"N": [385, 500, 600], "Omega": {"start": 13, "stop": 17, "step": 0.5}}
+    scan = {"horizons": [500], "scan": axes["Omega"], "tol": 1e-8, "precision": 0.5}
+    scanned = computed(quantity="critical_speed", options=scan, axes={"N": axes["N"]})
+    every = {"horizon": 500, "initial_cell_size": 1}  # a cell that is inferred may hide a window
+    mapped = computed(quantity="regions", options=every, axes=axes, batch={"over": ["N", "Omega"]})
+    separates = flag_names(mapped["outcome"].transpose("N", "Omega")) == "separation"
+    assert 5 < separates.sum() < separates.size - 5
+    assert np.array_equal(np.isfinite(scanned["scan_first_separation"].transpose("N", "scan_Omega")), separates)
 
 
 def test_all_crossings_are_found_where_separation_ends_again(fake_motions: None) -> None:
