@@ -1,7 +1,5 @@
 """The examples of docs/ and of the README do what they say, and everything public has one."""
 
-from __future__ import annotations
-
 import doctest
 import re
 from pathlib import Path
