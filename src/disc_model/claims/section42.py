@@ -44,8 +44,9 @@ def larger_range(*cases: CaseView, factor: float) -> Answer:
 
 
 @CHECKS("F14")
-def later_periodic(case: CaseView) -> Answer:
-    return Answer(measures.late_motion(case)[0].period > 0)
+def later_periodic(case: CaseView, bonded: CaseView, *, closes: float) -> Answer:
+    periodic, too = (measures.late_motion(each, closes)[0].period > 0 for each in (case, bonded))
+    return Answer(periodic, too=too)
 
 
 @CHECKS("F15a")
