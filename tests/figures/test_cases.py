@@ -245,7 +245,7 @@ def test_captions_say_times_and_angles_of_the_windows() -> None:
     assert "(b) 50 ms of it" in said("fig02")
     assert "r_0 and θ = -0.25." in said("fig05")
     assert "r_0 and θ = 0.5 and 1, with" in said("fig10")
-    assert "drive point, 7.5 to 9 s, by phase" in said("figA2")
+    assert "drive point, 7.5 to 9 s, coloured by phase" in said("figA2")
     # without a section, as if nothing had been said of it
     assert "r_0 and a fixed θ." in caption("fig05", {"F02": p, "F04": p}, {"F02": {"poincare": None}})
 
