@@ -231,9 +231,18 @@ def times_of(case: CaseView, kind: str) -> Array:
 
 def release_intervals(case: CaseView) -> Array:
     """Times between successive releases of stick in the events kept, s."""
-    intervals = np.diff(times_of(case, "stick_to_slip"))
+    return _intervals(case, "stick_to_slip", "stick-slip cycles")
+
+
+def separation_intervals(case: CaseView) -> Array:
+    """Times between successive separations in the events kept, s."""
+    return _intervals(case, "separation", "separations")
+
+
+def _intervals(case: CaseView, kind: str, what: str) -> Array:
+    intervals = np.diff(times_of(case, kind))
     if intervals.size < FEWEST:
-        raise Missing(f"case {case.name} keeps fewer than {FEWEST} stick-slip cycles")
+        raise Missing(f"case {case.name} keeps fewer than {FEWEST} {what}")
     return intervals
 
 
@@ -289,10 +298,7 @@ def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
 
 def _by_separations(case: CaseView) -> str:
     """What a motion without stick is, by the intervals between its separations."""
-    intervals = np.diff(times_of(case, "separation"))
-    if intervals.size < FEWEST:
-        raise Missing(f"case {case.name} keeps fewer than {FEWEST} separations")
-    motion = motion_of(intervals)
+    motion = motion_of(separation_intervals(case))
     return f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
 
 
