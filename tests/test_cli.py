@@ -169,7 +169,7 @@ def test_an_interrupt_names_the_checkpoint_and_what_is_nobodys_fault_is_not_hidd
         return
     code, _, err = command.run(*SHORT, "--checkpoint", str(file))
     assert code == 130
-    assert err == f"{file} holds what was reached: the same command goes on from there\nerror: interrupted\n"
+    assert err == f"{file} holds what was reached: the same command continues from there\nerror: interrupted\n"
 
 
 def test_a_plot_that_cannot_be_written_is_bad_input(command: Command, tmp_path: Path) -> None:

@@ -212,7 +212,7 @@ def shown(value: Any) -> str:
 
 
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
-    """What may have been meant, and what there is; of many names only the one that comes close, if one does."""
+    """What may have been meant, and the known names; of many names only the one that comes close, if one does."""
     if new := renamed(name, known):
         return new
     folded = {field.lower(): field for field in known}

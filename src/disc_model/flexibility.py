@@ -1,6 +1,6 @@
-"""Static give of the disc under the slider: of the whole plate, of the modes kept, and of those left out.
+"""Static flexibility of the disc under the slider: of the whole plate, of the modes kept, and of those left out.
 
-Under a unit point load at r_0 the clamped-free plate gives way by the sum of psi^2 / omega^2 over all its modes.  That
+Under a unit point load at r_0 the clamped-free plate deflects by the sum of psi^2 / omega^2 over all its modes.  That
 is a static problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L = d^2/dr^2 + 1/r d/dr - l^2/r^2, solved in
 closed form here.  What the modes kept do not give is the residual flexibility: ``contact_compliance="residual"`` puts
 it back.
@@ -35,7 +35,7 @@ MODAL_SUM = (60, 20)
 
 @dataclass(frozen=True)
 class Flexibility:
-    """Static give of the disc's point under the slider, m/N.
+    """Static flexibility of the disc's point under the slider, m/N.
 
     total : of all modes
     kept : of the modes of the case
@@ -53,7 +53,7 @@ class Flexibility:
 
 
 def residual_flexibility(p: Parameters) -> Flexibility:
-    """Static give of all modes and of those kept; what is left is ``contact_compliance="residual"``.
+    """Static flexibility of all modes and of those kept; what is left is ``contact_compliance="residual"``.
 
     For ``orthonormal`` modes all of them together are the static deflection of the plate under a point load: exact.
     Modes ``as_published`` are no expansion of a load, so that only their sum up to `MODAL_SUM` can be taken; its
@@ -88,7 +88,7 @@ def contact_give(p: Parameters) -> float:
     Raises
     ------
     ParameterError
-        If the residual flexibility is asked for and the modes of the case leave nothing out of the sum for it.
+        If the residual flexibility is requested and the modes of the case leave nothing out of the sum for it.
     """
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
@@ -108,7 +108,7 @@ def _modal_sum(p: Parameters) -> float:
     with np.errstate(over="ignore"):
         total = float(np.sum((modes.psi / modes.omega) ** 2))
     if not total < np.inf:
-        rule = "static give of the modes must be within the range of numbers"
+        rule = "static flexibility of the modes must be within the range of numbers"
         raise ModeError(f"E={shown(p.E)}, h={shown(p.h)}, b={shown(p.b)}: {rule}")
     return total
 
@@ -116,7 +116,7 @@ def _modal_sum(p: Parameters) -> float:
 def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
     """Deflection at the load of the harmonics `l`, in units of b^2 / D: radii `inner` and 1, load at `x`.
 
-    The plate's point gives way by the harmonic l = 0 over 2 pi plus the sum of the others over pi.  Shape of `l`.
+    The plate's point deflects by the harmonic l = 0 over 2 pi plus the sum of the others over pi.  Shape of `l`.
     """
     value = np.empty(l.shape)
     for order, particular in ((0, _axisymmetric), (1, _first)):

@@ -66,7 +66,7 @@ def _units() -> Any:
 
 
 def in_si(value: Any, unit: str) -> Any:
-    """A value, or all within it, in a unit: ``"150 GPa"`` is 1.5e11 where Pa is asked for; what has no unit stays.
+    """A value, or all within it, in a unit: ``"150 GPa"`` is 1.5e11 where Pa is requested; what has no unit stays.
 
     To 15 digits, so that another spelling of a decimal number is the same number.
     """
@@ -363,7 +363,7 @@ AUTO = "auto"
 CHOOSING = ("truncation_quantity", "truncation_tolerance")
 """What files and command lines may say of that choice."""
 RESIDUAL = "residual"
-"""As ``contact_compliance``: the static give of the modes left out."""
+"""As ``contact_compliance``: the static flexibility of the modes left out."""
 
 RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
 """Parameters that rules relate to each other."""

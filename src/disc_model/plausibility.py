@@ -90,7 +90,7 @@ def _deflected(p: Parameters) -> str:
         return ""
     try:
         modes = mode_arrays(p, "orthonormal")  # those of the plate itself
-    except (DiscModelError, ArithmeticError):  # said where the modes are asked for
+    except (DiscModelError, ArithmeticError):  # said where the modes are requested
         return ""
     deflection = p.N * math.fsum(x**2 for x in (modes.psi / modes.omega).tolist())
     if not DEEPEST * p.h < deflection < math.inf:

@@ -109,7 +109,7 @@ class _Kernels(event.Listener):
 
 
 class _Line:
-    """What goes on, in one line, from `start` to `stop`, which may come again, and at last `close`.
+    """Progress in one line, from `start` to `stop`, which may come again, and at last `close`.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ class _Line:
             self.handle.update({"text/plain": bar + text}, raw=True)
 
     def stop(self, text: str) -> None:
-        """Nothing goes on any more, or for a while; what has come of it."""
+        """Nothing is running any more, or for a while; what has come of it."""
         self.end = text
         if self.bar is not None:
             self.bar.stop()

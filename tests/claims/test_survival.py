@@ -149,7 +149,7 @@ FAILED = f"{NOT_COMPUTED}: study survival_{{}} has points that failed"
         (ONSET, onset("qqqqgg", -0.1, -0.2, 0.1, -0.1, 0.05, 0.1), UNDECIDED),  # nothing separates
         (ONSET, onset("ssssss", 0.1, 0.2, 0.1, 0.1, 0.05, 0.1), UNDECIDED),  # nothing is stable
         (ONSET, onset("qqqqqs", -0.1, -0.2, -0.1, -0.1, -0.05, NAN), UNDECIDED),  # only where there is no cycle
-        (ONSET, onset("qqsqss", -0.1, -0.2, 0.1, -0.1, -0.05, NAN, fold=20.2), FAILS),  # the cycle goes on
+        (ONSET, onset("qqsqss", -0.1, -0.2, 0.1, -0.1, -0.05, NAN, fold=20.2), FAILS),  # the cycle continues
         (ONSET, onset("qqsqss", -0.1, -0.2, 0.1, -0.1, -0.05, NAN, fold=19.95), FAILS),  # it begins there
         (ONSET, onset("qqsqgx", -0.1, -0.2, 0.1, -0.1, 0.05, NAN), FAILED.format("outcome")),
         (FOLD, at_fold(curves("fold", (14.9, 15.2)), 15.1), HOLDS),  # at 15.05, within 15.0 .. 15.1
@@ -158,7 +158,7 @@ FAILED = f"{NOT_COMPUTED}: study survival_{{}} has points that failed"
         (FOLD, at_fold(curves("fold", (14.9, 15.2), border="no"), 15.1), FAILS),
         (FOLD, at_fold(curves("neutral", (14.9, 15.2)), 15.1), FAILS),
         (FOLD, at_fold(curves("neutral", (14.9, 15.2), missed=2), 15.1), UNDECIDED),  # one of them may be the fold
-        # the cycle goes on, unstable
+        # the cycle continues, unstable
         (FOLD, at_fold(curves("neutral", (14.9, 15.2), missed=2), 15.1, rates=UNSTABLE), FAILS),
         (FOLD, at_fold(curves("neutral", (14.9, 15.2), missed=2), 15.1, rates=growth(*[0.1] * 4, NAN, 0.1)), UNDECIDED),
         (FOLD, at_fold(curves("fold", (14.9, 15.2))), UNDECIDED),

@@ -237,7 +237,7 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
         ("S41a", None, {}, f"{NOT_COMPUTED}: study bonded is not among those of this run", ""),
         ("S41a", {"least": np.nan}, {}, f"{NOT_COMPUTED}: study bonded has points that failed", ""),
         ("S41a", {"least": 0.0}, {}, FAILS, "6 have settled"),
-        ("S41a", {"least": 0.0, "settled": False}, {}, UNDECIDED, "1 still change: by now the slider sticks 0 %"),
+        ("S41a", {"least": 0.0, "settled": False}, {}, UNDECIDED, "1 still change: so far the slider sticks 0 %"),
         # "may not happen" was read as "does not happen below some stiffness"
         ("C4E", {}, {}, HOLDS, "no separation for E = 80, 100 GPa"),
         ("C4E", {"discs": ("separation", "quiet", "separation")}, {}, REMARK, "80 GPa from 50 rad/s up"),

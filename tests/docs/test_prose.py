@@ -1,6 +1,8 @@
 """Pages are written in short sentences, in the words of the glossary, with symbols that are defined."""
 
+import io
 import re
+import tokenize
 from functools import cache
 from pathlib import Path
 
@@ -12,6 +14,7 @@ PAGES += sorted(path for path in (ROOT / "docs").rglob("*.md") if "_build" not i
 PAGES = [page for page in PAGES if "{include}" not in page.read_text(encoding="utf-8")]
 LONG, SHARE, MEAN, LONGEST = 30, 0.08, 20, 45
 """Words of a long sentence, the share that may be long; words of the mean sentence and of the longest."""
+SOURCES, TEXTS = ("workflow", "config", "src/disc_model"), (".py", ".yaml", ".smk", ".rst")
 OLD = {
     r"(un)?published starts?": "static start",
     r"least kicks?": "critical energy",
@@ -92,6 +95,25 @@ def test_old_terms_are_gone(page: Path) -> None:
     text = re.sub(r"`[^`]+`|^```.*?^```$|\]\([^)]*\)", " ", page.read_text(encoding="utf-8"), flags=re.M | re.S)
     found = {match[0]: now for old, now in OLD.items() for match in re.finditer(rf"\b(?:{old})\b", text, re.I)}
     assert found == {}
+
+
+def prose(path: Path) -> str:
+    """Comments and texts of a module, or all of another file, without names in code."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".py":
+        tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+        text = "\n".join(token.string for token in tokens if token.type in (tokenize.COMMENT, tokenize.STRING))
+    return re.sub(r"`+[^`]+`+", " ", text)
+
+
+def test_old_terms_are_gone_from_sources() -> None:
+    """But for the engine, whose names are its own, the table of old names, and American names of arguments."""
+    files = [path for folder in SOURCES for path in (ROOT / folder).rglob("*") if path.suffix in TEXTS]
+    files = [path for path in files if "engine" not in path.parts and path.name != "renamed.py"]
+    assert len(files) > 150
+    old = "|".join(term for term in OLD if not re.search("floors|normaliz", term))
+    found = {(file.name, match[0]) for file in files for match in re.finditer(rf"\b(?:{old})\b", prose(file), re.I)}
+    assert found == set()
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))

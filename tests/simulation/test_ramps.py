@@ -22,7 +22,7 @@ BRAKE = Ramp(parameter="Omega", to=20.0, start=0.01, end=0.03)
 RELIEF = Ramp(parameter="N", to=150.0, start=0.02, end=0.04)
 
 
-# ------------------------------------------------------------------------ what is asked for
+# ------------------------------------------------------------------------ what is requested
 @pytest.mark.parametrize("law", [{}, LAWS["compliant_normal"]])  # whose kernels others use as well
 def test_rate_zero_is_the_constant_parameter_to_the_last_bit(law):
     p, record = P.replace(**law), Record(windows=(Window(rate=5e3),))
@@ -91,7 +91,7 @@ def test_one_ramp_goes_on_where_another_ends():
 
 # ------------------------------------------------------------------------ what is carried over
 def test_a_run_in_pieces_is_the_whole_run():
-    """Each run goes on where the last one ended, in the midst of ramps; the same ramps are said to all."""
+    """Each run continues where the last one ended, in the midst of ramps; the same ramps are said to all."""
     ramps = (BRAKE, RELIEF)
     whole, state, times = simulate(P, 0.06, tol=1e-13, ramps=ramps), None, []
     for end in (0.005, 0.015, 0.025, 0.035, 0.06):

@@ -1,4 +1,4 @@
-"""An interrupted simulation goes on from its checkpoint to the same result, bit for bit; and so do long ones."""
+"""An interrupted simulation continues from its checkpoint to the same result, bit for bit; and so do long ones."""
 
 import importlib
 import json
@@ -291,7 +291,7 @@ class TestCommands:
         interrupt(2, P, spec.t_end, record=spec.record, checkpoint=tmp_path / ".A.checkpoint")
         script = [sys.executable, str(ROOT / "workflow/scripts/simulate_case.py"), spec.canonical]
         done = subprocess.run([*script, str(tmp_path / "A.nc")], capture_output=True, text=True, check=True)
-        assert "goes on at t = " in done.stderr
+        assert "continues at t = " in done.stderr
         assert os.listdir(tmp_path) == ["A.nc"]
         assert load(tmp_path / "A.nc").identical(run_case(spec))
 
@@ -331,7 +331,7 @@ def test_an_hour_killed_several_times(tmp_path: Path) -> None:
         assert process.wait() < 0, "it was done before it could be killed"
     assert start("resumed", file).wait() == 0
     assert start("undisturbed", tmp_path / "other").wait() == 0
-    assert log.read_text().count("goes on at t = ") == 4
+    assert log.read_text().count("continues at t = ") == 4
     resumed, undisturbed = (pickle.loads((tmp_path / name).read_bytes()) for name in ("resumed", "undisturbed"))
     same(resumed, undisturbed)
     assert undisturbed.statistics["events"] > 1e6

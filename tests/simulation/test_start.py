@@ -233,7 +233,7 @@ def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
 
 @pytest.mark.compiled
 def test_starts_are_an_axis() -> None:
-    """A motion that has separated goes on at 15 rad/s, where the static start stays quiet."""
+    """A motion that has separated continues at 15 rad/s, where the static start stays quiet."""
     starts = {"apart": {"prerun": {"parameters": {"Omega": 15.1}, "time": 56}}, "kicked": {"perturbation": {"u": 3e-4}}}
     options = {"horizon": 55, "evaluation_time": 0.1, "after_separation": 0.1}
     found = computed(

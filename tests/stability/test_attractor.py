@@ -39,7 +39,7 @@ OUTCOMES: dict[str, tuple[dict[str, Any], float, Outcome]] = {
     "growth by 0.0018/s": ({"N": 50, "Omega": 45}, 1000, Outcome.GROWING),
     "growth by 0.0035/s": ({"N": 200, "Omega": 10, "D_star": 2e-5}, 1000, Outcome.GROWING),
     "a fall for 20 s, then growth": ({"N": 600, "Omega": 7, "normalization": "orthonormal"}, 1000, Outcome.GROWING),
-    "slow growth goes on until the horizon": ({"N": 100, "Omega": 20}, 1000, Outcome.GROWING),
+    "slow growth continues until the horizon": ({"N": 100, "Omega": 20}, 1000, Outcome.GROWING),
     "without a cycle": ({"N": 385, "Omega": 15.1}, 100, Outcome.SEPARATION),
     "steady sliding": ({"N": 50, "Omega": 15, "c_p": 0.5}, 1000, Outcome.STEADY_SLIDING),
     "steady sliding that begins in the last of many legs": (
@@ -281,7 +281,7 @@ def test_what_is_judged_early_comes_true_after_a_long_time(Omega: float) -> None
     """What is undecided in one of the two says nothing.
 
     At 11 rad/s disturbances die out or grow by 0.0004/s, and at 9 rad/s one motion of 24 keeps its range for 40 s and
-    goes on to another vibration: of the small vibrations there contact is told, not the range.
+    continues to another vibration: of the small vibrations there contact is told, not the range.
     """
     found = compared(Parameters(N=385, Omega=Omega), range(8), 200.0, 800.0)
     decided = [pair for pair in found if Outcome.UNDECIDED not in (pair[0].outcome, pair[1].outcome)]

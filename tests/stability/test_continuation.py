@@ -169,7 +169,7 @@ def test_what_cannot_be_followed_is_noted(monkeypatch):
 
 
 def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatch):
-    """The toy's cycle separates once more beyond 15.5 rad/s; it goes on smoothly, as no true one would."""
+    """The toy's cycle separates once more beyond 15.5 rad/s; it continues smoothly, as no true one would."""
 
     class Separating(ToyMap):
         def evaluate(self, x, **how):
@@ -191,7 +191,7 @@ def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatc
     none = np.zeros(0)
     near = State(0.0, "stick", 0, 0.0, 0.0, 0.0, 0.0, np.array([1.4, 0.0, 0.0]), none, none, none)
     branch = continue_cycle(P, "Omega", (12.0, 17.0), guess=near)
-    assert branch.ended == ("the order of switches changes: separations 1 to 2; a further separation is missed by 1e-9")
+    assert branch.ended == ("the order of events changes: separations 1 to 2; a further separation is missed by 1e-9")
     assert branch.values[-1, 0] == pytest.approx(15.5, abs=1e-4)
     assert not branch.folds.size
     with pytest.raises(ParameterError, match=r"guess: must lie near a cycle .*, but no cycle of 1 releases near"):

@@ -87,7 +87,7 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     branch = continue_cycle(p, "Omega", (14.0, 18.0), guess=late, releases=2, steps=StepControl(step=1e-2))
     end = float(branch.values[-1, 0])
     assert end == pytest.approx(15.97174, abs=1e-4)
-    assert branch.ended.startswith("the order of switches changes: separations 2 to ")
+    assert branch.ended.startswith("the order of events changes: separations 2 to ")
     assert "the omission of a stop is missed by" in branch.ended
     assert np.all(branch.growth_rate < 0)
     # started a little beside the branch, motions come to it; a jump of the speed can lead elsewhere

@@ -114,9 +114,9 @@ def made_of(rule, *sources, of=()):
 
 
 def refuse_unknown_targets():
-    """Stop if a file is asked for by a name that no study, figure or case has, and say which there are.
+    """Stop if a file is requested by a name that no study, figure or case has, and say which there are.
 
-    Snakemake says no more than that no rule makes it. What is asked for is known to it later only.
+    Snakemake says no more than that no rule makes it. What is requested is known to it later only.
     """
     targets = [word for before, word in pairwise(sys.argv) if before != "--report"]
     figures = {name: [*study.plots] for name, study in GRIDS.items()}
@@ -157,7 +157,7 @@ def unrecorded():
 
 
 def refuse_unrecorded(wildcards):
-    """Stop if there are `unrecorded` results; as the input of what is asked for, since records are read by then."""
+    """Stop if there are `unrecorded` results; as the input of what is requested, since records are read by then."""
     main = getattr(workflow, "is_main_process", True) and "--touch" not in sys.argv
     if main and (unknown := unrecorded()):
         raise WorkflowError(

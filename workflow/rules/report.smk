@@ -1,5 +1,5 @@
 # What `snakemake --report` shows besides figures and claims: an overview, where everything comes from, what the
-# normalisation of the modes changes, and what survives under other models.
+# normalisation of the modes changes, and which conclusions hold under other models.
 
 
 from disc_model.claims import SURVIVAL_GRIDS
@@ -65,13 +65,13 @@ rule judge_survival:
         html=report(
             "results/paper/survival.html",
             caption="../report/survival.rst",
-            category="What survives",
+            category="Model sensitivity",
             labels={"page": "The paper's conclusions under four models"},
         ),
         png=report(
             "results/paper/survival_growth.png",
             caption="../report/survival.rst",
-            category="What survives",
+            category="Model sensitivity",
             labels={"page": "Growth rate over speed and preload under each"},
         ),
     log:

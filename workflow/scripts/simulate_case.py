@@ -1,6 +1,6 @@
 """Simulate one case, given as the text of `disc_model.simulation.case.CaseSpec.canonical`, and save it.
 
-A job that was killed goes on when it is run again: from a hidden file beside its output, which Snakemake, not knowing
+A job that was killed continues when it is run again: from a hidden file beside its output, which Snakemake, not knowing
 of it, leaves alone when it removes what a failed job has written.
 """
 

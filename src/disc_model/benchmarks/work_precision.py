@@ -168,7 +168,7 @@ def _median(values: Sequence[float]) -> float:
 
 
 def _further(point: Point, limit: float) -> float:
-    """Processor time (s) of a run that goes on beyond the scene's end."""
+    """Processor time (s) of a run that continues beyond the scene's end."""
     problem = scenes.problem(point.scene)
     longer = replace(problem, t_end=problem.t_end + FURTHER * problem.span)
     result = METHODS[point.method].solve(longer, point.value, limit)

@@ -8,4 +8,4 @@ check computes everything it reports from the merged cases, from grid studies or
 SCANS = ("bonded", "critical_speed", "map_E", "map_c_p")
 """Grid studies that claims look at; here, where the workflow learns of them without importing what computes."""
 SURVIVAL_GRIDS = ("survival_growth", "survival_outcome", "survival_speed", "survival_curves", "survival_damping")
-"""Those of config/survival.yaml, by which `survival` judges what survives under other models."""
+"""Those of config/survival.yaml, by which `survival` judges the conclusions under other models."""

@@ -62,7 +62,7 @@ def separations_are_short(*cases: CaseView, part: float) -> Answer:
 
 @CHECKS("F03c")
 def separations_end(*cases: CaseView, factor: float) -> Answer:
-    """Whether none goes on for much longer than any that has ended."""
+    """Whether none continues for much longer than any that has ended."""
     lasting, count = [], 0
     for case in cases:
         durations, still_open = measures.separation_durations(case)

@@ -1,4 +1,4 @@
-"""What survives: the paper's main conclusions, each judged under four models of disc and contact.
+"""Model sensitivity: the paper's main conclusions, each judged under four models of disc and contact.
 
 The models change one thing after the other, so that the last has all changes.  Whatever is judged is read from the
 merged cases and grid studies of config/survival.yaml; what they cannot tell is undecided, and what they lack is not
@@ -29,7 +29,7 @@ from disc_model.data.variables import Outcome, flag_names
 Array = NDArray[np.float64]
 
 # ----------------------------------------------------------------------------------------------------
-# The models, and what there is of each
+# The models and the data of each
 
 
 class Model(NamedTuple):

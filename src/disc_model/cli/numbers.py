@@ -32,7 +32,7 @@ def modes(
     csv: Annotated[bool, typer.Option("--csv", help="print the modes as a table that --disc reads, 17 digits")] = False,
     case: dict[str, str],
 ) -> None:
-    """Print the modes of the disc, its give under the slider, and the frequencies of both with the slider at rest."""
+    """Print the modes of the disc, its flexibility under the slider, and the coupled frequencies at rest."""
     from disc_model.flexibility import residual_flexibility
     from disc_model.plate import coupled_natural_frequencies, modal_damping, mode_arrays
 
@@ -55,7 +55,7 @@ def modes(
         give = residual_flexibility(parameters)
         numbers = (f"{give.total:.7g}", f"{give.remainder:.1e}", f"{give.kept:.7g}", f"{give.residual:.7g}")
         heads = ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)")
-        tables.append(table("Static give of the disc under the slider", heads, [numbers], justify="right"))
+        tables.append(table("Static flexibility of the disc under the slider", heads, [numbers], justify="right"))
     at_rest = [(f"{value:.3f}", f"{value / math.tau:.3f}") for value in coupled_natural_frequencies(parameters)]
     tables.append(table("Disc and slider at rest", ("lambda (rad/s)", "f (Hz)"), at_rest, justify="right"))
     for one in tables:

@@ -37,7 +37,7 @@ RAMP_HELP = (
     "a slow change of Omega or N, such as Omega:to=5,start=100,end=400; keys to (rad/s or N), start, end (s); may be "
     "repeated"
 )
-CHECKPOINT_HELP = "from it the same command goes on if this one is interrupted"
+CHECKPOINT_HELP = "from it the same command continues if this one is interrupted"
 
 
 @with_case_options()
@@ -73,14 +73,14 @@ def run(
     record = Record(windows=tuple(windows.values())) if windows else None
     if plot is not None and record is None:
         record = plot_record(end)
-    if checkpoint is not None:  # where a run goes on, or why it does not
+    if checkpoint is not None:  # where a run continues, or why it does not
         logging.basicConfig(format="%(message)s")
         logging.getLogger("disc_model").setLevel(logging.INFO)
     try:
         result = simulate(p, end, record=record, checkpoint=checkpoint, ramps=ramps, **how)
     except KeyboardInterrupt:
         if checkpoint is not None and checkpoint.exists():
-            typer.echo(f"{checkpoint} holds what was reached: the same command goes on from there", err=True)
+            typer.echo(f"{checkpoint} holds what was reached: the same command continues from there", err=True)
         raise
     _print_summary(result, choice)
     complete = result.status.complete

@@ -1,4 +1,4 @@
-"""Commands on studies: `study` computes one, `list` says what there is, `init` lays out a folder for one's own."""
+"""Commands on studies: `study` computes one, `list` lists its parts, `init` lays out a folder for one's own."""
 
 from __future__ import annotations
 
@@ -67,8 +67,8 @@ workflow.default_target = "all"
 def study(
     files: Annotated[list[Path] | None, FILES] = None,
     cores: Annotated[int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")] = os.cpu_count() or 1,
-    dry_run: Annotated[bool, typer.Option("--dry-run", "-n", help="only check, and list what there is to do")] = False,
-    directory: Annotated[Path, typer.Option("--directory", "-d", help="where results come to be")] = Path(),
+    dry_run: Annotated[bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")] = False,
+    directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are written")] = Path(),
     target: Annotated[
         list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; may be repeated")
     ] = None,
@@ -210,7 +210,7 @@ def _run(command: list[str]) -> int:
         code = process.wait()
     if not (code and interrupts):
         return code
-    typer.echo("what is finished stays: the same command goes on from there", err=True)
+    typer.echo("what is finished stays: the same command continues from there", err=True)
     return INTERRUPTED
 
 

@@ -324,7 +324,7 @@ def set_aside(path: Path) -> Path:
 
 
 class Missing(Exception):
-    """Evidence that is not there. The text says why; it goes on after "the case"."""
+    """Evidence that is not there. The text says why; it continues after "the case"."""
 
 
 def group(case: xr.DataTree, name: str) -> xr.Dataset:

@@ -33,7 +33,7 @@ BESIDES = {
     "kernels": "decides when kernels are compiled",
     "plausibility": "warns",
     "mode_choice": "a kind of its own, where it is asked",
-    "progress": "shows what goes on",
+    "progress": "shows progress",
     "renamed": "words of messages only",
     "simulation.quicklook": "draws for a reader",
     "studies.grids": "a name only",

@@ -16,7 +16,7 @@ from disc_model.parameters import RATIOS, Parameters
 
 PHASES = ("stick", "slip", "separation")
 EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
-"""Phases and kinds of switch, in the order of the engine's numbers for them."""
+"""Phases and kinds of event, in the order of the engine's numbers for them."""
 STATUSES = (*(status.value for status in Status), "failed")
 
 
@@ -102,10 +102,10 @@ class Column(NamedTuple):
 
 
 STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")
-"""Of what there is near the static start: a stable cycle, stable steady sliding, rest on the disc."""
+"""Found near the static start: a stable cycle, stable steady sliding, rest on the disc."""
 SERIES = {
     "time": Variable("s", "time"),
-    "kind": Variable("1", "kind of switch", EVENT_KINDS),
+    "kind": Variable("1", "kind of event", EVENT_KINDS),
     "phase": Variable("1", "phase of the motion", PHASES),
     "P": Variable("N", "contact force, positive in compression"),
     "u": Variable("m", "vertical displacement of the slider"),
@@ -125,7 +125,7 @@ SCALARS = {
     "tol": Variable("1", "tolerance of the simulation"),
     "u_0": Variable("m", "displacement of the slider in static equilibrium"),
     "steps": Variable("1", "number of steps"),
-    "n_events": Variable("1", "number of switches"),
+    "n_events": Variable("1", "number of events"),
     "n_separations": Variable("1", "number of separations"),
     "time_stick": Variable("s", "time spent sticking"),
     "time_slip": Variable("s", "time spent slipping"),

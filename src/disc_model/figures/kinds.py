@@ -57,7 +57,7 @@ Roles = Mapping[str, Role]
 
 
 class Grid(Protocol):
-    """What there is to know of a study: a `disc_model.studies.study.GridStudy` is one."""
+    """What a figure must know of a study: a `disc_model.studies.study.GridStudy` is one."""
 
     @property
     def quantity(self) -> str: ...
@@ -294,7 +294,7 @@ class Branches(Plot):
 
 
 class BasinShares(Plot):
-    """Shares of what many starts come to, the attractors, and the least kick that separates, against a parameter."""
+    """Outcomes of many starts, the attractors, and the critical energy of separation, against a parameter."""
 
     drawn_by = "grids.basins.draw"
     quantities = ("basins",)

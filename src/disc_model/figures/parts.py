@@ -182,7 +182,7 @@ def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray |
 
 
 def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) -> dict[str, xr.DataArray]:
-    """Where what was `picked` has no value, by what there is instead, which the status of the points says."""
+    """Where what was `picked` has no value, by the word that stands instead, which the status of the points says."""
     gone = found.isnull()
     if not gone.any() or "status" not in study:
         return {"no value": gone} if gone.any() else {}
@@ -246,7 +246,7 @@ def headline(figure: Figure, title: str, values: str) -> str:
 
 
 def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]]:
-    """What each value along a dimension stands for, and what there is of it; all of it where there is no dimension.
+    """What each value along a dimension stands for, and its values; all of it where there is no dimension.
 
     A zip, which has no values of its own, stands for those of its parameters.  Words, which datasets have in the order
     of the alphabet, come in that of `SAID`.

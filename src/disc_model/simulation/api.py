@@ -102,10 +102,10 @@ def simulate(
     max_steps : bound on the number of steps; None bounds it generously by the highest frequency
     progress : called now and then with the time reached; None shows that of a long run, and that kernels are compiled;
         False shows nothing
-    checkpoint : file by which the same call, made again after an interruption, goes on where this one was; its result
+    checkpoint : file by which the same call, made again after an interruption, continues where this one was; its result
         is the same to the last bit (but for ``wall_time``). Removed at the end. Not for two runs at the same time
     checkpoint_every : s of wall time between checkpoints
-    ramps : slow changes of Omega or N; what there is of them before the initial state's time has happened by then
+    ramps : slow changes of Omega or N; their part before the initial state's time has happened by then
 
     Returns
     -------
@@ -132,7 +132,7 @@ def simulate(
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
     if kept is not None and (contents := kept.load()) is not None:
         run.restore(contents)
-        log.info("goes on at t = %.9g s from checkpoint %s", run.time, kept.path)
+        log.info("continues at t = %.9g s from checkpoint %s", run.time, kept.path)
     code = run.advance()
     if code == exit_codes.PAUSED or callable(progress):  # a short run has nothing to show, and does without
         with simulating(progress, t_end) as tell:
@@ -268,7 +268,7 @@ class _Run:
         self.collector.restore(*contents)
 
     def result(self, status: Status) -> Result:
-        """What there is to return."""
+        """The result."""
         samples, poincare = self.collector.finish()
         return Result(
             parameters=self.p,
@@ -435,7 +435,7 @@ def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0
 
     Parameters
     ----------
-    u : m, in the shape in which the disc gives way to a steady force at the slider: a_l grows by
+    u : m, in the shape in which the disc deflects under a steady force at the slider: a_l grows by
         u (psi_l/omega_l^2) / sum psi^2/omega^2
     u_velocity : m/s, as a blow at the slider leaves it: alpha_l grows by u_velocity psi_l / sum psi^2
     f : rad/s; a slider that sticks then slips, one that is stopped then sticks
@@ -490,7 +490,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
 
     Parameters
     ----------
-    checkpoint : file from which an interrupted case goes on, see `simulate`
+    checkpoint : file from which an interrupted case continues, see `simulate`
     choose : finds the modes of a case that leaves them to a quantity of the motion, see `disc_model.studies.modes`;
         needed for such a case alone
     """

@@ -1,4 +1,4 @@
-"""What a simulation is asked for: where it starts, what it keeps, and one case of a study as a text."""
+"""What a simulation is requested: where it starts, what it keeps, and one case of a study as a text."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class Window(Span):
     """Uniform samples at ``rate`` in [start, stop], over the last seconds of the run, or over all of it.
 
     What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
-    before.  So it is 6e-14 of the time later, because the time of a switch is rounded.  A sample at the start of a run
+    before.  So it is 6e-14 of the time later, because the time of an event is rounded.  A sample at the start of a run
     shows the state from which the run starts.  Of a window that reaches beyond the run there is what the run covers.
 
     Parameters
@@ -111,7 +111,7 @@ class Window(Span):
     envelope: Annotated[Count, Field(ge=2, le=2**53)] | None = None
 
     def _end(self, first: float, t_end: float) -> float:
-        """An envelope that goes on to the end leaves out that instant, which would be a bin of its own."""
+        """An envelope that continues to the end leaves out that instant, which would be a bin of its own."""
         if self.envelope is None:
             return t_end
         return max(t_end - 0.5 / self.rate, first + 0.25 / self.rate)
@@ -294,7 +294,7 @@ class CaseSpec(Strict):
 
     @property
     def beside(self) -> str:
-        """JSON text of what is asked for beside the parameters."""
+        """JSON text of what is requested beside the parameters."""
         return canonical_json({name: x for name, x in json.loads(self.canonical).items() if name != "parameters"})
 
     @property

@@ -1,4 +1,4 @@
-"""Slow ramps of the drive speed or of the preload: what is asked for, and what Omega and N are at any time."""
+"""Slow ramps of the drive speed or of the preload: what is requested, and what Omega and N are at any time."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class Piece(NamedTuple):
 
 
 def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
-    """What is wrong with ramps of a case; ``poincare``: whether samples at the drive's period are asked for."""
+    """What is wrong with ramps of a case; ``poincare``: whether samples at the drive's period are requested."""
     if not isinstance(ramps, tuple) or not all(isinstance(ramp, Ramp) for ramp in ramps):
         yield Fault(("ramps",), shown(ramps), "must be a Ramp or a tuple of them")
         return
@@ -120,7 +120,7 @@ def _line(value: float, ramps: list[Ramp]) -> list[tuple[float, float, float]]:
     line = [(-math.inf, value, 0.0)]
     for ramp in sorted(ramps, key=lambda ramp: ramp.start):
         if ramp.to != value:
-            if line[-1][0] == ramp.start:  # one ramp goes on where another ends
+            if line[-1][0] == ramp.start:  # one ramp continues where another ends
                 line.pop()
             line += [(ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)), (ramp.end, ramp.to, 0.0)]
             value = ramp.to

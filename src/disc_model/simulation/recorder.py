@@ -1,6 +1,6 @@
-"""What a run keeps: rows, as the engine gives them, and checkpoints, from which it goes on.
+"""What a run keeps: rows, as the engine gives them, and checkpoints, from which it continues.
 
-A simulation that was interrupted goes on from its last checkpoint as if nothing had happened. The file of a run holds
+A simulation that was interrupted continues from its last checkpoint as if nothing had happened. The file of a run holds
 the state of the engine and all rows kept so far. It is written in one piece and with a checksum: an interruption leaves
 the checkpoint before it. Only the very same run uses it: same arguments, same modes, same sources, same versions. What
 else stands in its place, a checkpoint of another run or a file that is none, is renamed, with a warning that says why.
@@ -154,7 +154,7 @@ class Checkpoint:
         return clock.monotonic() >= self._next
 
     def save(self, contents: Contents) -> None:
-        """Write a checkpoint; if that fails, the run goes on and the one that there is stays."""
+        """Write a checkpoint; if that fails, the run continues and the one that there is stays."""
         from disc_model.data.dataset import write_atomically
 
         arrays: dict[str, Any] = {f"state/{name}": array for name, array in contents.state.items()}

@@ -38,7 +38,7 @@ from disc_model.stability.return_map import (
 # The equation
 
 
-REORDERED = "the order of switches changes"
+REORDERED = "the order of events changes"
 """How the reason for which a branch of cycles that separate ends may begin."""
 
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5}
@@ -331,7 +331,7 @@ def continue_curve(
     ----------
     take : the next place at an arclength, its tangent either way; raises `CorrectorFailed` where a shorter step may do
     meet : is told of each step's two ends; raises `CorrectorFailed` where the curve has to end at the first
-    leaves : why the curve ends at the last of the places, given also the last step's arclength; "" if it goes on
+    leaves : why the curve ends at the last of the places, given also the last step's arclength; "" if it continues
     """
     places, ds = [start], steps.step
     while len(places) < steps.max_points:

@@ -238,7 +238,7 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
         found = newton(map_, x, tol=tol, releases=releases)
         if found is not None:
             return cycle_of(map_, tol, run_through_once(map_, tol, found))
-    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip goes on without"
+    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip continues without"
     return _none(p, tol, CycleStatus.NO_CYCLE, tried)
 
 

@@ -52,7 +52,7 @@ def grazing(p: Parameters, state: State, period: float) -> str:
 
 
 def margins(p: Parameters, run: Result) -> Iterator[tuple[float, str]]:
-    """By how much each kind of switch is missed, and its omission where it is made; shares of Omega, N and mu_s N."""
+    """By how much each kind of event is missed, and its omission where it is made; shares of Omega, N and mu_s N."""
     time = run.samples[0]["time"]
     events = run.events
     for one in _watched(p, run.samples[0]):

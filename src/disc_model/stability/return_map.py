@@ -29,7 +29,7 @@ PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
 
 ROUGHEST = 1e-10
-"""Tolerance of flights, whatever residual is asked for: a rougher map is too rough itself for a residual of 1e-8."""
+"""Tolerance of flights, whatever residual is requested: a rougher map is too rough itself for a residual of 1e-8."""
 
 FINER = 1 / 20
 """Of the cycle's tolerance, that of flights: the Jacobian asks more of the series than event times do."""

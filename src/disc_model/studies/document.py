@@ -161,7 +161,7 @@ class Range(Strict):
     def blocks(self, resolution: int = 1) -> Blocks:
         """The range's own values, then those that divide each interval further.
 
-        A finer grid adds blocks and keeps what there is: resolution 4 has the blocks of 2, and one more.
+        A finer grid adds blocks and keeps the existing ones: resolution 4 has the blocks of 2, and one more.
         """
         n = self.intervals * resolution
         if n >= MOST:
@@ -183,7 +183,7 @@ class Range(Strict):
 
 
 class AxisRange(Range):
-    """A range along an axis; `extra` values are a block of their own, so that what there is without them stays."""
+    """A range along an axis; `extra` values are a block of their own, so that the other blocks stay."""
 
     extra: list[Said] = Field([])
 

@@ -20,7 +20,7 @@ def chosen(p: Parameters, asked: Asked) -> ModeChoice:
 
 
 def to_text(asked: Asked) -> str:
-    """What is asked for, for a case's text."""
+    """What is requested, for a case's text."""
     return json.dumps(asked._asdict(), sort_keys=True)
 
 

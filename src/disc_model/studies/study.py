@@ -212,7 +212,7 @@ class Study:
 
     Attributes
     ----------
-    figures : those of the paper that are asked for
+    figures : those of the paper that are requested
     plots : figures of cases, by name
     claims : whether the paper's statements are checked against the cases
     grid : the file's own grid, if it says one
@@ -258,7 +258,7 @@ class Study:
                 yield f"{found[0]} ({len(found)} of {len(self.specs)} cases)"
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
-        """Its own grid and those of its files, and the names of those that are asked for.
+        """Its own grid and those of its files, and the names of those that are requested.
 
         Besides them there are those that a figure of its own grid shows as well, read from files beside it.
 

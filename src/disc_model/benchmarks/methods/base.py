@@ -48,7 +48,7 @@ class Problem:
     start : state of the slider's frame (arrays (n_modes,) in the order of `plate_modes`)
     t_end : s, absolute, greater than start.time
     stop : whether to end at the first separation
-    watched : whether the range of the disc is asked for, which costs some methods time
+    watched : whether the range of the disc is requested, which costs some methods time
     max_step : s, longest step of methods that would miss events with longer ones
     """
 
@@ -167,7 +167,7 @@ class GaveUp(Exception):
 
 
 class Meter:
-    """Counts right-hand sides, watches the clock and, if it is asked for, the disc's range."""
+    """Counts right-hand sides, watches the clock and, if it is requested, the disc's range."""
 
     def __init__(self, problem: Problem, physics: Physics, budget: float) -> None:
         self.problem, self.physics, self.budget = problem, physics, budget

@@ -62,9 +62,9 @@ class Series(Method):
 
 
 class Fewest(Series):
-    """The same without the disc's modes where the disc gives way by less than the tolerance.
+    """The same without the disc's modes where the disc deflects by less than the tolerance.
 
-    A disc that gives way by k sum psi^2/omega^2 of what the slider's spring does moves the answer by about that share.
+    A disc that deflects by k sum psi^2/omega^2 of what the slider's spring does moves the answer by about that share.
     Its modes then follow statically, however fast they are: nothing excites them.
     """
 

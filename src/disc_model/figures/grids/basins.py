@@ -1,4 +1,4 @@
-"""What many starts come to: shares with intervals, the attractors, and the least kick that leads to separation."""
+"""What many starts come to: shares with intervals, the attractors, and the critical energy of separation."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
 
 
 def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
-    """The least kick by bisection; the least among the starts; and their energies."""
+    """The critical energy by bisection; the lowest among the starts; and their energies."""
     for i, energy in enumerate(study["energy"].values):
         label = "energies sampled" if i == 0 else "_nolegend_"
         ax.axhline(energy, color=GREY, linestyle=":", linewidth=0.6, zorder=0, label=label)

@@ -55,7 +55,7 @@ CYCLE_LOOKS = {
     "alone": Look("growth differs from all neighbours", "none", HATCH),
     "failed": Look("failed", "#333333"),
 }
-"""What there is to see where no cycle is followed, and over a growth rate that may be another cycle's."""
+"""What is shown where no cycle is followed, and over a growth rate that may be another cycle's."""
 WITHOUT = {
     "ok": "no_cycle",
     "no_cycle": "no_cycle",
@@ -141,7 +141,7 @@ def growth_norm(rates: Array) -> AsinhNorm:
 
 
 def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
-    """`growth_rate` (1/s) over two parameters; where no cycle is followed, what there is instead; hatched where alone.
+    """`growth_rate` (1/s) over two parameters; where no cycle is followed, the status instead; hatched where alone.
 
     data : of the quantity `regions`, or of `floquet`; without flags all that has no rate is without a cycle
     """
@@ -153,7 +153,7 @@ def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
 
 
 def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
-    """What there is where no cycle is followed, a key of `CYCLE_LOOKS`, "alone" or "": shape (len(y), len(x))."""
+    """What is shown where no cycle is followed, a key of `CYCLE_LOOKS`, "alone" or "": shape (len(y), len(x))."""
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
         return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y))
@@ -185,7 +185,7 @@ def alone(rate: Array) -> NDArray[np.bool_]:
 
 
 def cycle_patches(words: Collection[str]) -> list[Patch]:
-    """For legends: what there is where no cycle is followed, and what is hatched."""
+    """For legends: what takes its place where no cycle is followed, and what is hatched."""
     return [patch(look) for name, look in CYCLE_LOOKS.items() if name in words]
 
 

@@ -204,7 +204,7 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
 
 
 def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
-    """Cells in which the quiet cycle is stable by its multipliers, and a motion that separates goes on doing so.
+    """Cells in which the quiet cycle is stable by its multipliers, and a motion that separates continues to do so.
 
     That a sweep up is late, since its stay at a speed is short, does not make a cycle stable. A load between two of the
     sweep is left out if the sweep has found no separation at one of them.

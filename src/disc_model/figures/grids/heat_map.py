@@ -76,7 +76,7 @@ def _name(figure: Figure, axes: Sequence[Axes], values: Sequence[str], found: xr
 
 
 def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> list[Patch]:
-    """Growth rates, and what there is where there is no cycle, as in all growth maps."""
+    """Growth rates, and the status where there is no cycle, as in all growth maps."""
     names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
     picked = {name: parts.slices(parts.picked(study, name, plot.at), by) for name in names}
     words: set[str] = set()

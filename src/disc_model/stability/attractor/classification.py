@@ -190,7 +190,7 @@ class Basins:
         return same
 
     def _described(self, leg: Result) -> Attractor | None:
-        """What a motion is on by now, undecided if that is no cycle nor rest; None near an unstable cycle."""
+        """What a motion is on, undecided if that is no cycle nor rest; None near an unstable cycle."""
         stretch = segment_of(leg)
         calm = at_rest(self.p, leg, self.tol)
         if calm is not None:
@@ -240,7 +240,7 @@ def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Ne
 
 
 class Regularity(NamedTuple):
-    """What a motion is; after how many switches it repeats, 0 if that is not shown; how nearly by now, s; and where its
+    """What a motion is; after how many switches it repeats, 0 if that is not shown; how nearly, s; and where its
     cycle is, if that is known."""
 
     kind: Outcome

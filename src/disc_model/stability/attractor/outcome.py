@@ -131,7 +131,7 @@ class OutcomeResult:
 
     @property
     def separates(self) -> bool:
-        """Whether it goes on losing contact."""
+        """Whether it keeps losing contact."""
         return self.attractor is not None and self.attractor.segment.separation_rate > 0
 
     @property
@@ -274,7 +274,7 @@ class _OutcomeSearch:
         return self.time
 
     def _look(self, state: State) -> NearCycle | None:
-        """The cycle that the motion follows linearly by now; once it departs from one, only a stable one."""
+        """The cycle that the motion follows linearly; once it departs from one, only a stable one."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
         if self.map is None or x is None or code != RETURNED:
             return None
@@ -295,7 +295,7 @@ def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:
 
 
 def growing(changes: Sequence[float]) -> bool:
-    """Whether changes have risen, over two or more: an instability, even if it is bounded by now."""
+    """Whether changes have risen, over two or more: an instability, even if it is bounded later."""
     d = np.array(changes)
     if len(d) < 3:
         return False

@@ -1,7 +1,7 @@
 """Short histories of the motion at a few points of a grid, for the page on which they are looked at.
 
 They begin where what the quantity says of the point ends: after the late stretch of an outcome, on the cycle whose
-stability is asked for, after the transient.
+stability is requested, after the transient.
 """
 
 from __future__ import annotations

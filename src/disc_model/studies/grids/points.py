@@ -51,7 +51,7 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
-"""What there is near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider sticks and
-slips, loss of contact at once, or unstable sliding."""
+"""Classes of the cycle near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider
+sticks and slips, immediate separation, or unstable sliding."""
 SAMPLE_OUTCOMES = ("not_simulated", *OUTCOMES_TO_HORIZON)
 DRAWS = ("A", "B")

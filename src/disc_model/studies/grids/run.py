@@ -210,7 +210,7 @@ def table_of(quantity: Described, found: Sequence[tuple[Row, str]], options: Any
 
 
 def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Column) -> None:
-    """Put a value at a place of an array: words of a flag as numbers, of lists and arrays what there is room for."""
+    """Put a value at a place of an array: words of a flag as numbers, of lists and arrays what fits."""
     room = array.shape[len(place) :]
     if isinstance(value, list):
         for i, item in enumerate(value[: room[0]]):

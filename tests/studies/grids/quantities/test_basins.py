@@ -1,4 +1,4 @@
-"""Shares of what many starts come to, and the least kick that separates."""
+"""Shares of what many starts come to, and the critical energy of separation."""
 
 from types import SimpleNamespace
 from typing import ClassVar

@@ -1,4 +1,4 @@
-"""What many starts come to at one point: the attractors, their shares, and the least kick that leads to separation.
+"""What many starts come to at one point: the attractors, their shares, and the critical energy of separation.
 
 Start i of each stated energy is perturbed in a direction that follows from the study's seed, the place of the energy in
 its list, and i.  All first starts come first, then all second ones: further starts leave those before as they are.
@@ -53,7 +53,7 @@ COLUMNS = {
     "lost_contact": Column("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
     **_share("basin_fraction_by_energy", _SHARES),
     **_share("basin_fraction", _POOLED),
-    **_share("separating_fraction", (), " that go on losing contact, be it periodic or not"),
+    **_share("separating_fraction", (), " that keep losing contact, be it periodic or not"),
     "critical_energy": Column("J", "least energy found that leads to lasting separation, by bisection"),
     "critical_energy_lower": Column("J", "greatest energy below it, in the same direction, that does not"),
     "critical_energy_sampled": Column("J", "least energy among the starts that come to lasting separation"),

@@ -36,9 +36,7 @@ COLUMNS = {
     "transient_time": Column("s", "time left out before the samples"),
     "stationary": Column("1", "whether two stretches of samples, at switches, were alike", STEADY),
     "kind": Column("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
-    "period_events": Column(
-        "1", "number of switches after which the motion repeats, 0 if that is not shown", whole=True
-    ),
+    "period_events": Column("1", "number of events after which the motion repeats, 0 if that is not shown", whole=True),
     "period_residual": Column(
         "s", "largest difference between an interval and the one a period later: what is left of the approach"
     ),

@@ -26,7 +26,7 @@ COLUMNS = {
     "onset_speed": Column("rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS),
     "top_separation_rate": Column("s-1", "separations per second over the stay at the highest speed", dims=_DIMS),
     "offset_speed": Column(
-        "rad s-1", "speed at the last separation on the way down, nan if there is none, or it goes on", dims=_DIMS
+        "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues", dims=_DIMS
     ),
 }
 STRETCH = 100.0

@@ -60,10 +60,10 @@ COLUMNS = {
     "releases": Column("1", "number of stick releases in its period", whole=True),
     "period_ratio": Column("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
     "branch_continues_first": Column(
-        "1", "whether the cycle goes on into the next point's along the plane's first dimension", JOINED
+        "1", "whether the cycle continues into the next point's along the plane's first dimension", JOINED
     ),
     "branch_continues_second": Column(
-        "1", "whether the cycle goes on into the next point's along the plane's second dimension", JOINED
+        "1", "whether the cycle continues into the next point's along the plane's second dimension", JOINED
     ),
     "other_cycles": Column("1", "number of other cycles known, followed from neighbours", whole=True),
 }
@@ -71,7 +71,7 @@ COLUMNS = {
 FINE = 2
 """Intervals along the side of a cell, at most, in which the middle of an edge is presumed to be like its ends."""
 SMOOTH = 0.002
-"""Cycles of neighbours nearer than this, over the static deflection, are one that goes on."""
+"""Cycles of neighbours nearer than this, over the static deflection, are one that continues."""
 ANOTHER = 0.02
 """Cycles of neighbours further apart than this, over the static deflection, may be different ones."""
 SCATTERED = 1
@@ -249,7 +249,7 @@ class _Tile:
         return own
 
     def _joined(self, here: Place, ahead: Place) -> str:
-        """Whether a point's cycle goes on into that of the next one."""
+        """Whether a point's cycle continues into that of the next one."""
         one, two = self.followed.get(here), self.followed.get(ahead)
         if one is None or two is None or one.x.shape != two.x.shape or one.cycle.releases != two.cycle.releases:
             return "no"
@@ -336,7 +336,7 @@ def _tried(compute: Callable[[], T]) -> T | Exception:
 
 
 def _without(start: NearCycle | FloquetResult, found: OutcomeResult | None) -> str:
-    """What there is at a point whose motion follows no cycle."""
+    """The flag of a point whose motion follows no cycle."""
     if found is not None and found.outcome is Outcome.STEADY_SLIDING:
         return "steady_sliding"
     if isinstance(start, NearCycle):

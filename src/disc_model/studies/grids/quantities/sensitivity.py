@@ -1,4 +1,4 @@
-"""The stick-slip cycle at samples of distributed parameters: how sure is it that a case is stable?
+"""The stick-slip cycle at samples of distributed parameters: how certain is the stability of a case?
 
 Each sample is drawn twice, as A and as B, from a scrambled Sobol' sequence of twice as many dimensions as there are
 distributed parameters; and there is a variant of A for each parameter, with this one taken from B. That is the design
@@ -33,7 +33,7 @@ COLUMNS = {
     "parameter_values": Column(
         "", "values of the distributed parameters, SI units", dims=("sample_matrix", "parameter")
     ),
-    "cycle": Column("1", "what there is near the static start", SAMPLE_CYCLES, dims=("variant",)),
+    "cycle": Column("1", "class of the cycle near the static start", SAMPLE_CYCLES, dims=("variant",)),
     "growth_rate": Column(
         "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one", dims=("variant",)
     ),

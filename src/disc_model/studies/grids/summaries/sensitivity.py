@@ -55,7 +55,7 @@ COLUMNS: Mapping[str, Column] = {
 
 def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
     return {
-        "cycle_class": (np.array(KNOWN), Variable("", "what there is near the static start")),
+        "cycle_class": (np.array(KNOWN), Variable("", "class of the cycle near the static start")),
         "outcome_class": (np.array(FOLLOWED), Variable("", "what becomes of the static start")),
         "output": (np.array(OUTPUTS), Variable("", "of what the indices are")),
         "parameter": (np.array(sorted(options.distributions)), Variable("", "distributed parameter")),
