@@ -80,7 +80,7 @@ MODULES = {
 NO_EQUATION = {
     "how long a step is: any that is short enough gives the same motion": {
         "engine/layout.py": "_time_unit",
-        "engine/stepping.py": "_root _scale _relative step_size",
+        "engine/stepping.py": "_root _last_force _scale _relative step_size",
         "engine/tangent.py": "longest_step",
         "stability/return_map.py": "longest_step ReturnMap.longest newton",
         "simulation/result.py": "series_order",

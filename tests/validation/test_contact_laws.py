@@ -50,6 +50,19 @@ def test_every_switch_of_a_quiet_second_and_of_half_a_violent_one(name):
     assert forces <= 1e-8  # of 385 N; a compliant contact feels a rounding of u as 1e-18/C = 4e-12 N at least
 
 
+@pytest.mark.compiled
+def test_release_by_the_slope_s_acceleration_is_found_as_exactly_as_all_else():
+    """Steps looked at the contact force alone: a release of a heavy slider on a disc of many modes was 5e-13 s off."""
+    disc = {"a": 0.0327, "b": 0.0952, "r_0": 0.0927, "h": 0.0011, "E": 86e9, "D_star": 1e-6, "n_diameters": 4}
+    slider = {"m": 0.197, "k": 0.0, "c": 0.0, "k_p": 5168.0, "c_p": 0.0, "mu_s": 0.72, "mu_k": 0.35}
+    laws = {"normalization": "orthonormal", "contact": "bonded", "contact_force": "normal"}
+    p = Parameters(N=187.0, Omega=11.7, **disc, **slider, **laws)
+    q = taylor.problem_of(p)
+    wanted = [float(event["time"]) for event in taylor.Reference(q, q.equilibrium()).run(0.15).events]
+    assert len(wanted) > 4
+    assert simulate(p, 0.15, tol=1e-14).events["time"].to_numpy() == pytest.approx(wanted, abs=EVENT_TIMES, rel=0)
+
+
 # ------------------------------------------------------------------------ where nothing but the disc's slope pulls
 RIGID_OR_NOT = [pytest.param(0.0, marks=COMPILES), 1e-7]
 SLOPING = {"n_diameters": 1, "contact_force": "normal", "mu_s": 0.02, "mu_k": 0.01}

@@ -55,6 +55,12 @@ def _last_two(c, order, typical):
 
 
 @inlined
+def _last_force(c, order):
+    """The same of P or of a release function, which are known to one order less."""
+    return max(abs(c[order - 1]) / TYPICAL_STEP, abs(c[order - 2]) / TYPICAL_STEP**2)
+
+
+@inlined
 def _scale(usual, now, growth):
     """What a quantity's error is compared with: its usual size or its present one; its growth if both are zero."""
     size = max(usual, now)
@@ -99,9 +105,12 @@ def step_size(model, s, order, tolerance, phase):
     if is_compliant(model) or phase == SEPARATION:
         error += _relative(_last_two(s.v, order, typical), _scale(share * model.slider_scale, abs(s.v[0]), abs(s.v[1])))
     if phase != SEPARATION:
-        # P is known to one order less
-        last_force = max(abs(s.P[order - 1]) / TYPICAL_STEP, abs(s.P[order - 2]) / TYPICAL_STEP**2)
-        error += _relative(last_force, _scale(load_at(model, s), abs(s.P[0]), abs(s.P[1])))
+        last_force = _last_force(s.P, order)
+        force = _scale(load_at(model, s), abs(s.P[0]), abs(s.P[1]))
+        if is_normal(model) and phase == STICK:
+            # the slope's acceleration is in the release functions, not in P
+            last_force = max(last_force, _last_force(s.switch, order), _last_force(s.switch2, order))
+        error += _relative(last_force, force)
     if not error < math.inf or not scale + speed < math.inf:
         return math.nan
     if error * longest**order <= tolerance:
