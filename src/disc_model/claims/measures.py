@@ -246,13 +246,19 @@ def _intervals(case: CaseView, kind: str, what: str) -> Array:
     return intervals
 
 
+@lru_cache(maxsize=256)
+def _motion(intervals: tuple[float, ...], closes: float) -> Motion:
+    """Kept, because claims are judged again with other thresholds."""
+    return motion_of(np.array(intervals), closes)
+
+
 def late_motion(case: CaseView, closes: float = CLOSES) -> tuple[Motion, str]:
     """What the in-plane motion is within the events kept, and that in words.
 
     closes : s, see `disc_model.analysis.classify.motion_of`
     """
     intervals = release_intervals(case)
-    motion = motion_of(intervals, closes)
+    motion = _motion(tuple(intervals), closes)
     if not motion.period:
         test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
         rate = f"{1 / intervals.mean():.1f} releases/s"
@@ -298,7 +304,7 @@ def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
 
 def _by_separations(case: CaseView) -> str:
     """What a motion without stick is, by the intervals between its separations."""
-    motion = motion_of(separation_intervals(case))
+    motion = _motion(tuple(separation_intervals(case)), CLOSES)
     return f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
 
 

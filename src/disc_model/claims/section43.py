@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from functools import cache
 from itertools import product
 from typing import Any
 
@@ -43,13 +44,18 @@ GREW = 1.02
 """A range that is wider by less has not grown: sampling feigns far less."""
 
 
-@CHECKS("S43N0")
-def no_preload(case: CaseView, *, step: float, share: float) -> Answer:
+@cache
+def _sliding_growth(p: Parameters, Omega: float) -> float:
     from disc_model.stability.sliding import steady_sliding
 
+    return steady_sliding(p.replace(Omega=Omega)).growth_rate
+
+
+@CHECKS("S43N0")
+def no_preload(case: CaseView, *, step: float, share: float) -> Answer:
     p = case.parameters
     speeds = np.arange(p.Omega, 1000.0, step)
-    growth_rates = np.array([steady_sliding(p.replace(Omega=float(speed))).growth_rate for speed in speeds])
+    growth_rates = np.array([_sliding_growth(p, float(speed)) for speed in speeds])
     unstable = speeds[~(growth_rates < 1e-6)]  # nan: no equilibrium, at a resonance
     onset = float(unstable.min(initial=math.inf))
     stuck = case["time_stick"] / case["time_reached"]
