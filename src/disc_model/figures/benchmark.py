@@ -1,6 +1,6 @@
-"""Speed against accuracy, where methods fail, and how much model a study needs.
+"""Figures of the benchmark: speed against accuracy, failures of methods, and the effect of truncation.
 
-Pure functions of the datasets of `disc_model.benchmarks`.
+All are pure functions of the datasets of `disc_model.benchmarks`.
 """
 
 from __future__ import annotations
@@ -45,9 +45,9 @@ _HALO = halo()
 
 
 def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
-    """One scene: cost against event-time error and against state error, the fitted order at each line's fine end.
+    """One scene: cost against event-time error and state error, with the fitted order at the fine end of each line.
 
-    Where a method has no fixed order, the number is q of error ~ tol^q.
+    For a method without a fixed order, the number is q of error ~ tol^q.
     """
     figure, axes = _panels(2, "Time per simulated second (s)", columns=2, row=3.0, sharey=True)
     part = dataset.sel(scene=scene)
@@ -74,7 +74,7 @@ def overview(dataset: xr.Dataset) -> Figure:
 def _panels(
     count: int, ylabel: str, columns: int, row: float, more: float = 0.0, **shared: Any
 ) -> tuple[Figure, list[Axes]]:
-    """As many panels; a row of them is `row` inches high, and `more` are left for the legend."""
+    """Create `count` panels; a row is `row` inches high, and `more` inches are left for the legend."""
     rows = -(-count // columns)
     figure = new_figure(PAGE, row * rows + more)
     axes = list(np.ravel(figure.subplots(rows, columns, squeeze=False, **shared)))
@@ -86,9 +86,9 @@ def _panels(
 
 
 def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None:
-    """Lines of all methods; right results filled, results with wrong events hollow, at the right edge if need be.
+    """Draw lines of all methods: correct results filled, wrong events hollow, if necessary at the right edge.
 
-    Dotted: without the Python between compiled phases, where that was measured.
+    Dotted lines leave out the time in Python between compiled phases, where it was measured.
     """
     ax.set(xscale="log", yscale="log")
     wrong_at = 25.0
@@ -125,12 +125,12 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
 
 
 def _look(line: str) -> dict[str, Any]:
-    """One of `LINES` as matplotlib takes it."""
+    """Keywords for matplotlib of one of `LINES`."""
     return dict(zip(("color", "marker", "linestyle"), LINES[line], strict=True))
 
 
 def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float, float, str, str]]:
-    """Move labels that would lie on one another apart vertically (log-log axes)."""
+    """Move overlapping labels apart vertically (log-log axes)."""
     placed: list[tuple[float, float, str, str]] = []
     for x, y, text, color in sorted(labels, key=lambda label: label[1]):
         for other_x, other_y, *_ in placed:
@@ -141,7 +141,7 @@ def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float
 
 
 def _method_handles(part: xr.Dataset) -> list[Line2D]:
-    """Legend entries of the methods that have a point in this part."""
+    """Legend entries of the methods with a point in this part."""
     lines = {str(method): part.sel(solver=method) for method in part["solver"].values}
     return [
         handle
@@ -160,7 +160,7 @@ def _handles(method: str, line: xr.Dataset) -> list[Line2D]:
 
 
 # ----------------------------------------------------------------------------------------------------
-# What each answer costs
+# Cost of each answer
 
 ANSWERS: dict[str, str] = _TEXTS["answers"]
 HEADS: dict[str, str] = _TEXTS["heads"]
@@ -171,10 +171,10 @@ _RED = "#B2182B"
 
 
 def answers(dataset: xr.Dataset) -> Figure:
-    """Wall time against the error of each answer; with their numbers of nodal diameters, the errors of models.
+    """Wall time against the error of each answer; models are marked with their numbers of nodal diameters.
 
-    Shaded: right.  What a method says not to exist stands hollow at the right edge; errors below all others, exact
-    zeros among them, at the left one.
+    Shaded: correct.  A method that wrongly reports no result has a hollow mark at the right edge. Errors below all
+    others, exact zeros among them, stand at the left edge.
     """
     about = json.loads(dataset.attrs["questions"])
     names = [name for name in ANSWERS if name in dataset["answer"].values]
@@ -221,7 +221,7 @@ APART = 0.045
 
 
 def _number_models(ax: Axes, points: xr.Dataset, least: float) -> None:
-    """Numbers of nodal diameters at the points of models, the largest first; a dot where there is no room for one."""
+    """Label models with their numbers of nodal diameters, the largest first; a dot where there is no room."""
     points = points.isel(row=np.flatnonzero(np.isfinite(points["error"].values)))
     points = points.isel(row=np.argsort(-points["setting"].values, kind="stable"))
     x, y = np.maximum(points["error"].values, least), points["seconds"].values
@@ -237,9 +237,9 @@ def _number_models(ax: Axes, points: xr.Dataset, least: float) -> None:
 
 
 def prices(dataset: xr.Dataset) -> Figure:
-    """What each method asks for each right answer: wall time at its cheapest right setting.
+    """Wall time of each method for each answer, at its cheapest correct setting.
 
-    Below it the setting; in red at how many others it answers wrongly, without a warning.
+    The setting stands below the time. The number in red counts settings that give a wrong answer without a warning.
     """
     names = [name for name in HEADS if name in dataset["answer"].values]
     lines = [line for line in dict.fromkeys(map(str, dataset["line"].values)) if line not in MODELS]
@@ -298,7 +298,7 @@ def _seconds(value: float) -> str:
 
 
 def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
-    """One panel a method: verdict over setting and number of modes, with what explains the borders."""
+    """One panel per method: verdict over setting and number of modes, with lines that explain the borders."""
     figure, axes = _map_panels(maps, WORDS, row=1.45, more=0.75)
     for ax, dataset in zip(axes, maps, strict=True):
         _map_borders(ax, dataset)
@@ -314,7 +314,7 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
 
 
 def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
-    """One panel a method: whether it finds the first separation, over setting and number of modes."""
+    """One panel per method: whether it finds the first separation, over setting and number of modes."""
     figure, _ = _map_panels(maps, ANSWERED, row=1.35, more=0.4)
     handles = _verdict_patches(ANSWERED.values())
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
@@ -333,12 +333,12 @@ def _map_panels(
 
 
 def _verdict_patches(verdicts: Iterable[tuple[str, str]]) -> list[Patch]:
-    """For legends: what shades of cells stand for."""
+    """Legend entries of the shades of cells."""
     return [Patch(facecolor=shade, edgecolor=GREY, label=word) for word, shade in verdicts]
 
 
 def _map_borders(ax: Axes, dataset: xr.Dataset) -> None:
-    """Lines at what explains where a method fails."""
+    """Draw lines that explain where a method fails."""
     setting = dataset.attrs["setting"]
     if setting == "step":
         _steps_line(ax, dataset["step_limit"].values, "-")
@@ -351,7 +351,7 @@ def _map_borders(ax: Axes, dataset: xr.Dataset) -> None:
 
 
 def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None:
-    """The cells of a map, one colour a verdict; fine settings to the right, where work grows."""
+    """Draw the cells of a map, one colour per verdict; fine settings, which cost more, on the right."""
     order = np.argsort(dataset["value"].values)
     edges = _log_edges(dataset["value"].values[order])
     rows = np.arange(dataset.sizes["diameters"] + 1) - 0.5
@@ -364,7 +364,7 @@ def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None
 
 
 def _steps_line(ax: Axes, x: np.ndarray, linestyle: str) -> None:
-    """A border that has one value a row, as a staircase."""
+    """Draw a border with one value per row as a staircase."""
     y = np.repeat(np.arange(len(x) + 1) - 0.5, 2)[1:-1]
     low, high = sorted(ax.get_xlim())
     inside = np.clip(np.repeat(x, 2), low, high)
@@ -373,7 +373,7 @@ def _steps_line(ax: Axes, x: np.ndarray, linestyle: str) -> None:
 
 
 def _crossing(dataset: xr.Dataset) -> np.ndarray:
-    """Per row, the coarsest setting at which no step is longer than the shortest phase; beyond the axis if none is."""
+    """Coarsest setting per row whose steps are no longer than the shortest phase; beyond the axis without one."""
     order = np.argsort(dataset["value"].values)
     value = dataset["value"].values[order]
     longest = dataset["longest_step"].values[:, order]
@@ -385,7 +385,7 @@ def _crossing(dataset: xr.Dataset) -> np.ndarray:
 
 
 def _log_edges(values: np.ndarray) -> np.ndarray:
-    """Edges of cells around ascending values, equal on both sides in the logarithm."""
+    """Edges of cells around ascending values, centred in the logarithm."""
     x = np.log(values)
     middle = 0.5 * (x[1:] + x[:-1])
     edges: np.ndarray = np.exp(np.concatenate([[2 * x[0] - middle[0]], middle, [2 * x[-1] - middle[-1]]]))
@@ -404,10 +404,10 @@ FAR = 25.0
 
 
 def contact_truncation(dataset: xr.Dataset) -> Figure:
-    """What residual flexibility changes, against the number of real modes; a colour for each case.
+    """Effect of residual flexibility against the number of real modes; one colour per case.
 
     Filled: residual flexibility; hollow and dashed: rigid contact.  First separations are compared with that of the
-    largest model with residual flexibility; arrows at the edge stand for what lies far off, crosses at the foot for
+    largest model with residual flexibility. Arrows at the edge mark values far outside the panel, crosses at the foot
     models without a cycle.
     """
     first = dataset["first_separation"]
@@ -436,14 +436,14 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
 
 
 def _beyond(ax: Axes, line: xr.Dataset, color: str) -> None:
-    """Arrows at the edge for first separations that are farther off than the panel shows."""
+    """Draw arrows at the edge for first separations outside the panel."""
     late = line["late"].values
     for marker, edge, there in (("^", FAR, late > FAR), ("v", -FAR, late < -FAR)):
         ax.plot(line["modes"][there], np.full(there.sum(), 0.96 * edge), marker, color=color, markersize=3, alpha=0.7)
 
 
 def _gone(ax: Axes, line: xr.Dataset, color: str) -> None:
-    """Crosses at the foot for models without a cycle."""
+    """Draw crosses at the foot for models without a cycle."""
     gone = ~np.isfinite(line["growth_rate"].values)
     if gone.any():
         at_foot: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "clip_on": False}
@@ -451,9 +451,10 @@ def _gone(ax: Axes, line: xr.Dataset, color: str) -> None:
 
 
 def truncation(dataset: xr.Dataset) -> Figure:
-    """What a study asks for against the number of real modes, a colour for each number of nodal circles.
+    """Results of a study against the number of real modes, one colour per number of nodal circles.
 
-    Filled: as published; hollow and dashed: orthonormal.  Upper row: what converges, lower row: what need not.
+    Filled: as published; hollow and dashed: orthonormal.  Quantities of the upper row converge, those of the lower row
+    need not.
     """
     part = dataset.assign(force_swing=dataset["force_max"] - dataset["force_min"])
     lines = [
@@ -477,10 +478,10 @@ def truncation(dataset: xr.Dataset) -> Figure:
 def _against_modes(
     lines: Sequence[tuple[xr.Dataset, tuple[str, str], bool]], panels: Panels, ticks: Sequence[int]
 ) -> tuple[Figure, dict[str, Axes]]:
-    """Eight panels over the number of real modes, by variable.
+    """Create eight panels over the number of real modes, by variable.
 
-    lines : what is drawn in each, its colour and marker, and whether it is filled; others are hollow and dashed
-    ticks : numbers of modes that are named
+    lines : dataset of each line, its colour and marker, and whether it is filled or else hollow and dashed
+    ticks : numbers of modes with a label
     """
     figure = new_figure(PAGE, 3.9)
     axes = np.ravel(figure.subplots(2, 4, sharex=True))
@@ -503,7 +504,7 @@ def _against_modes(
 
 
 def _look_handles(labels: Iterable[str], further: Line2D, *, filled: str, hollow: str) -> list[Line2D]:
-    """For legends: what colours stand for, and what is filled or hollow."""
+    """Legend entries of the colours and of filled and hollow marks."""
     style: dict[str, Any] = {"color": BLACK, "marker": "o", "markersize": 4}
     return [
         *(Line2D([], [], color=color, marker=marker, markersize=4, linestyle="-", label=label)
@@ -515,7 +516,7 @@ def _look_handles(labels: Iterable[str], further: Line2D, *, filled: str, hollow
 
 
 def _cut(ax: Axes, values: np.ndarray) -> None:
-    """Show what lies near the median, and say what lies above."""
+    """Limit the axis to values near the median, and state the number above it."""
     values = values[np.isfinite(values)]
     top = 1.12 * float(np.median(values))
     if values.max() > top:
@@ -544,7 +545,7 @@ OF_MAPS: dict[str, Callable[[Sequence[xr.Dataset]], Figure]] = {
 
 
 def draw(inputs: Mapping[str, xr.DataTree], *, figure: str) -> Figure:
-    """A figure by its name; that of a scene is called `SCENE` and the scene."""
+    """Draw a figure by its name; the figure of a scene is named `SCENE` and the scene."""
     datasets = [tree.to_dataset() for tree in inputs.values()]
     if figure in OF_MAPS:
         return OF_MAPS[figure](datasets)

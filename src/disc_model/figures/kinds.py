@@ -1,4 +1,4 @@
-"""The kinds of figures: what a study file may say of each, what it needs, and what draws it. Imports nothing heavy."""
+"""Kinds of figures: their keys in a study file, the data they need, and the drawing functions. Imports nothing heavy."""
 
 from __future__ import annotations
 
@@ -42,8 +42,9 @@ class Kind(Strict):
 
 
 class Role(NamedTuple):
-    """What a further study must be to be shown: its quantity, or another instead that has as much; its dimensions but
-    for `NORM`, if they are not those of the figure itself; and some options."""
+    """Requirements on an overlay: its quantity, or an alternative with the same data; its dimensions except `NORM`, if
+    they differ from the figure's; and some options.
+    """
 
     quantity: str
     dims: tuple[str, ...] | None = None
@@ -57,7 +58,7 @@ Roles = Mapping[str, Role]
 
 
 class Grid(Protocol):
-    """What a figure must know of a study: a `disc_model.studies.study.GridStudy` is one."""
+    """Properties of a study that a figure needs, such as those of `disc_model.studies.study.GridStudy`."""
 
     @property
     def quantity(self) -> str: ...
@@ -76,10 +77,10 @@ class Plot(Kind):
     """A figure of a grid study, drawn by a function ``draw(study, overlays, plot)`` that takes datasets and this.
 
     overlays : further studies it shows, by the role they play in it
-    quantities : those that it can show, the usual one first
-    needs : dimensions that it needs, beside those that the file chooses as x and y
-    several : whether it has a panel for each normalization, and not room for one only
-    roles : what overlays it can show
+    quantities : those that it can show, the default first
+    needs : required dimensions, beside those that the file chooses as x and y
+    several : whether it has a panel for each normalization, or shows one only
+    roles : the roles that overlays may play
     """
 
     quantities: ClassVar[tuple[str, ...]] = ()
@@ -92,7 +93,7 @@ class Plot(Kind):
     @model_validator(mode="before")
     @classmethod
     def _in_units(cls, said: Any) -> Any:
-        """Places along its dimensions in SI."""
+        """Convert values along its dimensions to SI units."""
         if not isinstance(said, dict):
             return said
         units = {axis: Parameters.unit(str(said.get(axis))) for axis in ("x", "y")}
@@ -108,16 +109,16 @@ class Plot(Kind):
 
     @property
     def axes(self) -> dict[str, str]:
-        """Dimensions that the file chooses, by the axis that they lie along."""
+        """Dimensions that the file chooses, by axis."""
         return {axis: name for axis in ("x", "y") if (name := getattr(self, axis, None)) is not None}
 
     @property
     def dims(self) -> tuple[str, ...]:
-        """All dimensions that it needs."""
+        """All dimensions that the figure needs."""
         return (*self.needs, *self.axes.values())
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """What keeps it from showing a study with these dimensions; one without values is only meant to be there."""
+        """Faults that keep it from showing a study with these dimensions; a dimension without values has faults itself."""
         yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
         for role, name in self.overlays.items():
             if role not in self.roles:
@@ -127,7 +128,7 @@ class Plot(Kind):
                 yield Fault(("overlays", role), "", f"is required: a study of the quantity {wanted.quantity}")
 
     def _wrong_axes(self, values: Values) -> Iterator[Fault]:
-        """Of those that the file chooses."""
+        """Faults of the dimensions that the file chooses."""
         for axis, name in self.axes.items():
             if name not in values:
                 yield Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
@@ -139,7 +140,7 @@ class Plot(Kind):
             yield Fault.of(("y",), self.axes["y"], "must differ from x")
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
-        """Dimensions that it needs and the study has not, and the other way round."""
+        """Required dimensions that the study lacks, and dimensions of the study that the figure cannot show."""
         allowed = (*self.dims, NORM)
         further = [name for name in values if values[name] and name not in allowed]
         if missing := [name for name in self.dims if name not in values]:
@@ -150,7 +151,7 @@ class Plot(Kind):
             yield Fault.of(("kind",), self.kind, f"can show one {NORM} only")
 
     def misfits_of(self, role: str, study: Grid, other: Grid) -> Iterator[str]:
-        """Rules that a further study breaks, if it is to play a role in this figure of a study."""
+        """Rules that a further study breaks in a role of this figure."""
         wanted = self.roles[role]
         if other.quantity not in (wanted.quantity, wanted.instead):
             good = " or ".join(filter(None, (wanted.quantity, wanted.instead)))
@@ -197,7 +198,7 @@ class StabilityMap(Plot):
     marks: dict[str, Mark] = Field({})
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """As of any figure; and what is marked must be computed, and not only lie between points that are."""
+        """Faults as of any figure; in addition, each marked case must be a computed point, and not lie between points."""
         yield from super().faults(values)
         for name, mark in self.marks.items():
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
@@ -216,7 +217,7 @@ class RegionMap(StabilityMap):
     kind: Literal["region_map"] = "region_map"  # type: ignore[assignment]
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """As of any map; and curves over speed and preload lie in that plane only."""
+        """Faults as of any map; in addition, curves over speed and preload need that plane."""
         yield from super().faults(values)
         if "curves" in self.overlays and (self.x, self.y) != ("Omega", "N"):
             yield Fault.of(("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N")
@@ -346,7 +347,7 @@ class Campbell(Plot):
     normalization: Literal["as_published", "orthonormal"] | None = None
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
-        """There may be several normalizations if the file says which is shown."""
+        """Allow several normalizations if the file chooses one."""
         yield from super()._wrong_dims(values if self.normalization is None else {**values, NORM: ()})
         known = [str(one) for (one,) in values.get(NORM, ())]
         if self.normalization is not None and known and self.normalization not in known:
@@ -373,11 +374,11 @@ class General(Plot):
     def faults_among(
         self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Sequence[str]]
     ) -> Iterator[Fault]:
-        """What keeps it from being drawn.
+        """Faults that keep it from being drawn.
 
         Parameters
         ----------
-        dims : values along each dimension, the quantity's own included; of a zip, tuples; none if it has faults
+        dims : values along each dimension, the quantity's own included; tuples for a zip; none if it has faults
         variables : dimensions of each variable
         """
         if self.variable not in variables:
@@ -472,11 +473,11 @@ class CasePlot(Kind):
 
     @property
     def options(self) -> dict[str, Any]:
-        """What the function is told of the figure."""
+        """Keyword arguments of the drawing function."""
         return self.model_dump(exclude={"kind", "title", "case"})
 
     def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
-        """What keeps it from being drawn; a case that is None has faults of its own."""
+        """Faults that keep it from being drawn; a case that is None has faults of its own."""
         if self.case not in cases:
             yield Fault.of(("case",), self.case, f"no such case (known: {', '.join(cases) or 'none'})")
         elif (recorded := cases[self.case]) is not None:
@@ -489,7 +490,7 @@ class CasePlot(Kind):
                 yield from self._misfits(found)
 
     def _misfits(self, window: Any) -> Iterator[Fault]:
-        """Rules that a window breaks."""
+        """Rules that the window breaks."""
         if isinstance(window, Poincare):
             yield Fault.of(("window",), self.window, "must be a window, not the Poincaré section")
         elif window.envelope is not None:
@@ -557,7 +558,7 @@ class Portrait(CasePlot):
 
 
 def spectrum_faults(window: Window, highest: float) -> Iterator[str]:
-    """What keeps a window's spectrum in time from being drawn up to a frequency in Hz."""
+    """Faults that keep a window's spectrum in time from being drawn up to a frequency in Hz."""
     if window.stop - window.start < SHORTEST_SPECTRUM:
         yield f"must be {SHORTEST_SPECTRUM:g} s long or more"
     if window.rate < 2 * highest:

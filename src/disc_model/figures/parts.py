@@ -1,4 +1,4 @@
-"""The common style, and what several figures share: labels, envelopes of long histories, points of grids."""
+"""Common style and parts of several figures: labels, envelopes of long histories, points of grids."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ VERMILION, ORANGE, BROWN = "#D55E00", "#E69F00", "#7A4B12"
 GREEN, PURPLE = "#009E73", "#CC79A7"
 BLACK, GREY = "#000000", "#8a8a8a"
 
-# One colour a quantity in the whole set; what is lost with contact is always vermilion.
+# One colour per quantity in the whole set; loss of contact is always vermilion.
 DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"
 """Motion of the disc; of the slider, normal to the disc (u) and in its plane (psi); contact force."""
 STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
@@ -62,14 +62,14 @@ BORDERS: dict[str, tuple[str, Any]] = {
 
 
 def border(kind: str) -> dict[str, Any]:
-    """How a line of `BORDERS` is drawn and named in all charts."""
+    """Appearance and label of a line of `BORDERS` in all charts."""
     label, dashes = BORDERS[kind]
     return {"color": BLACK, "linewidth": 1.0, "linestyle": dashes, "label": label}
 
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """The common style, whatever the user's settings are; also as a decorator of functions that draw."""
+    """Apply the common style instead of the user's settings; also a decorator of drawing functions."""
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.style.use(STYLE)
@@ -77,11 +77,11 @@ def styled() -> Iterator[None]:
 
 
 def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -> Figure:
-    """A figure of any kind from what it shows, in the common style.
+    """Draw a figure of any kind from its data, in the common style.
 
     Parameters
     ----------
-    inputs : of a figure of a grid, the study as ``study`` and further ones by their roles; else by name, such as cases
+    inputs : for a figure of a grid, the study as ``study`` and further ones by their roles; else by name, such as cases
     """
     module, _, name = (plot.by if isinstance(plot, OwnFigure) else plot.drawn_by).rpartition(".")
     function = getattr(importlib.import_module(f"{__package__}.{module}"), name)
@@ -99,12 +99,12 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """An empty figure of a size in inch, outside of pyplot's state."""
+    """An empty figure of a size in inches, outside pyplot's state."""
     return Figure(figsize=(width, height), layout="constrained")
 
 
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
-    """Write a figure in the format of the path's suffix, its title within; equal figures give equal bytes."""
+    """Write a figure with its title in the format of the path's suffix; equal figures give equal bytes."""
     path = Path(path)
     metadata: dict[str, Any] = {"CreationDate": None} if path.suffix == ".pdf" else {"Software": None}
     if title:
@@ -115,7 +115,7 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
 
 @contextmanager
 def blank_if_missing(*axes: Axes) -> Iterator[None]:
-    """Where a case does not hold what the panels show, they stay empty but for the reason."""
+    """Show the reason in empty panels if a case does not hold their data."""
     try:
         yield
     except Missing as reason:
@@ -127,7 +127,7 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
 
 
 def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
-    """Ranges over the run, as far as the paper shows it (until a time in s); two bins say how long one is."""
+    """Ranges over the run, up to the time in s that the paper shows; two bins define the bin width."""
     found = dataset.ranges(case, "history", at_least=2)
     shown = found.sel(time=slice(None, until))
     return shown if shown.sizes["time"] > 1 else found
@@ -146,12 +146,12 @@ SAID = {**MODES, **FORCES}
 
 
 def halo(width: float = 1.5) -> list[AbstractPathEffect]:
-    """A white edge of text that lies over lines or colours; width in points."""
+    """A white outline for text over lines or colours; width in points."""
     return [withStroke(linewidth=width, foreground="white")]
 
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
-    """Label of the axis of any variable or coordinate, and the factor from SI to its unit."""
+    """Axis label of any variable or coordinate, and the factor from SI to its unit."""
     if variable.name in SHOWN:
         return axis_of(str(variable.name))
     words = str(variable.attrs.get("long_name", variable.name))
@@ -161,20 +161,20 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
 
 
 def flags_of(variable: xr.DataArray) -> list[str]:
-    """What the values of a flag stand for; of other variables nothing."""
+    """Words of a flag's values; none for other variables."""
     words = variable.attrs.get("flag_meanings", "").split()
     return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if word != EXCLUDED]
 
 
 def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.DataArray:
-    """A variable of a grid study at values of some dimensions; what is left with one value is no dimension any more."""
+    """A variable of a grid study at values of some dimensions; dimensions of one value are dropped."""
     words = {dim: value for dim, value in at.items() if isinstance(value, str)}
     numbers = {dim: value for dim, value in at.items() if not isinstance(value, str)}
     return study[name].sel(words).sel(numbers, method="nearest").squeeze()
 
 
 def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray | None:
-    """Which points the study's rule leaves out, `picked`; None if it has no rule."""
+    """Points that the study's rule excludes, `picked`; None if it has no rule."""
     if EXCLUDED not in study["status"].attrs.get("flag_meanings", ""):
         return None
     status = picked(study, "status", {dim: value for dim, value in at.items() if dim in study["status"].dims})
@@ -182,7 +182,7 @@ def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray |
 
 
 def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) -> dict[str, xr.DataArray]:
-    """Where what was `picked` has no value, by the word that stands instead, which the status of the points says."""
+    """Points where a `picked` variable has no value, by the word of their status."""
     gone = found.isnull()
     if not gone.any() or "status" not in study:
         return {"no value": gone} if gone.any() else {}
@@ -195,15 +195,15 @@ def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) 
 
 
 def fixed(study: xr.Dataset, modes_said: bool = False) -> str:
-    """What did not vary in a study of a grid: N, Omega, and what differs from Table 1."""
+    """Values that did not vary in a study of a grid: N, Omega, and those that differ from Table 1."""
     values = json.loads(study.attrs.get("base", "{}"))
-    # a quantity that varies N or Omega by itself has 0 for it
+    # 0 stands for N or Omega if the quantity varies it by itself
     idle = {name for name in ("N", "Omega") if not values.get(name)}
     return what_case({name: x for name, x in values.items() if name not in {*study.coords, *idle}}, modes_said)
 
 
 def what_case(values: Mapping[str, Any], modes_said: bool = False) -> str:
-    """Values of parameters as titles have them: N, Omega, and what differs from Table 1.
+    """Values of parameters for titles: N, Omega, and those that differ from Table 1.
 
     modes_said : whether the normalization is said elsewhere
     """
@@ -217,9 +217,9 @@ def what_case(values: Mapping[str, Any], modes_said: bool = False) -> str:
 def head(
     figure: Figure, study: xr.Dataset, title: str, shown: xr.DataArray | None = None, modes_said: bool = False
 ) -> None:
-    """Over a figure of a grid: its title, or the study's, and what did not vary.
+    """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary.
 
-    shown : what is shown, if it is one value of some dimensions
+    shown : the shown variable, if some dimensions are taken at one value
     modes_said : whether the figure's panels say the normalization
     """
     values = [
@@ -232,7 +232,7 @@ def head(
 
 
 def entitle(figure: Figure, title: str, values: str) -> None:
-    """Over a figure, its title and the values of parameters, if there are any."""
+    """Write a figure's title and the values of parameters, if there are any, above it."""
     if said := headline(figure, title, values):
         figure.suptitle(said, fontsize=8)
 
@@ -240,16 +240,15 @@ def entitle(figure: Figure, title: str, values: str) -> None:
 def headline(figure: Figure, title: str, values: str) -> str:
     """A figure's title and the values of parameters, in lines that fit."""
     width = round(figure.get_figwidth() / 0.06)
-    # a value stays with its name
+    # keep a value on the line of its name
     kept = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
     return "\n".join(fill(text, width) for text in (title, kept) if text).replace("\u00a0", " ")
 
 
 def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]]:
-    """What each value along a dimension stands for, and its values; all of it where there is no dimension.
+    """Label and values of each slice along a dimension; one slice without a dimension.
 
-    A zip, which has no values of its own, stands for those of its parameters.  Words, which datasets have in the order
-    of the alphabet, come in that of `SAID`.
+    A slice of a zip is labelled by its parameters.  Words are ordered as in `SAID`, not alphabetically as in datasets.
     """
     if by is None:
         return [("", found)]
@@ -260,14 +259,14 @@ def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]
 
 
 def _rank(value: float | str) -> float:
-    """Where a value comes among others of its parameter; words that are not in `SAID` stay where they are."""
+    """Rank of a value among others of its parameter; words that are not in `SAID` keep their order."""
     if isinstance(value, str):
         return [*SAID].index(value) if value in SAID else 0
     return value
 
 
 def value_said(one: xr.DataArray, by: str) -> str:
-    """What a panel or a line stands for."""
+    """Label of a panel or a line."""
     value = one[by].item()
     if isinstance(value, str):
         return SAID.get(value, value)
@@ -279,7 +278,7 @@ def value_said(one: xr.DataArray, by: str) -> str:
 
 
 def spaced_by_factor(values: np.ndarray) -> bool:
-    """Whether values are a logarithmic range."""
+    """Whether values form a logarithmic range."""
     if len(values) < 3 or values[0] <= 0:
         return False
     steps = np.diff(np.log(values))
@@ -287,7 +286,7 @@ def spaced_by_factor(values: np.ndarray) -> bool:
 
 
 def envelope(ax: Axes, history: xr.Dataset, name: str, *, scale: float = 1.0, color: str, label: str = "") -> None:
-    """The range of a variable against time, as a band that stays visible where it is thin."""
+    """Draw the range of a variable against time, as a band that stays visible where it is thin."""
     time = history["time"].values
     low = history[f"{name}_min"].values * scale
     high = history[f"{name}_max"].values * scale
@@ -300,9 +299,9 @@ COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}
 
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
-    """Label of the axis of what was sampled in windows, the factor from SI to its unit, and its colour.
+    """Axis label of a sampled variable, the factor from SI to its unit, and its colour.
 
-    Of the disc's fixed point the label says at which angle it is.
+    The label of the disc's fixed point states its angle.
     """
     angles = sorted({float(window.attrs["theta"]) for window in windows if "theta" in window.attrs})
     at = " and ".join(f"{angle:g}" for angle in angles)
@@ -311,7 +310,7 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
 
 
 def show_run(ax: Axes, case: xr.DataTree, name: str, until: float = np.inf) -> str:
-    """The range of a variable over the run, with its first separation; the label of its axis."""
+    """Draw the range of a variable over the run and the first separation; returns the axis label."""
     ranges = history(case, until)
     label, factor, colour = sampled(name, ranges)
     envelope(ax, ranges, name, scale=factor, color=colour)
@@ -320,19 +319,19 @@ def show_run(ax: Axes, case: xr.DataTree, name: str, until: float = np.inf) -> s
 
 
 def headroom(ax: Axes, share: float) -> None:
-    """Leave room above what is shown, a share of its height."""
+    """Leave room above the data, a fraction of their height."""
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + share * (high - low))
 
 
 def stretches(there: np.ndarray) -> list[tuple[int, int]]:
-    """Runs of True: the first place of each, and the one after its last."""
+    """Runs of True: index of the first element, and the index after the last."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], there, [0]])))
     return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree) -> None:
-    """A line at the first separation, with its time above it; nothing if there was none in the time shown."""
+    """Mark the first separation by a line with its time above it; nothing if the time shown has none."""
     time, (low, high) = float(case["first_separation"]), ax.get_xlim()
     if not low <= time <= high:
         return
@@ -341,40 +340,40 @@ def mark_first_separation(ax: Axes, case: xr.DataTree) -> None:
 
 
 def say(ax: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **look: Any) -> None:
-    """A few words beside a place, on the side to which an offset in points goes."""
+    """Write a few words beside a point, on the side to which an offset in points leads."""
     across, up = np.sign(offset)
     ha, va = {-1: "right", 0: "center", 1: "left"}[across], {-1: "top", 0: "center", 1: "bottom"}[up]
     ax.annotate(text, at, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
 
 
 def say_above(ax: Axes, x: float, text: str, **look: Any) -> None:
-    """A few words above the panel."""
+    """Write a few words above the panel."""
     say(ax, text, (x, 1), (0, 2), xycoords=("data", "axes fraction"), **look)
 
 
 def say_beside(ax: Axes, height: float, text: str) -> None:
-    """A line's name at its right end, outside of the panel."""
+    """Write a line's name at its right end, outside the panel."""
     say(ax, text, (1, height), (2, 0), xycoords=("axes fraction", "data"), fontsize=6, color=GREY)
 
 
 def letter(ax: Axes, text: str, said: str = "", **look: Any) -> None:
-    """A panel's letter above its upper left corner, and what it shows."""
+    """Write a panel's letter above its upper left corner, and its subject."""
     ax.set_title(f"({text}) {said}".strip(), loc="left", **look)
 
 
 def letters(axes: Sequence[Axes], said: Sequence[str], **look: Any) -> None:
-    """What panels show, each after its letter; a single one has none."""
+    """Write the subject of each panel after its letter; a single panel has no letter."""
     for ax, text, one in zip(axes, "abcdef", said, strict=False):
         ax.set_title(f"({text}) {one}" if len(axes) > 1 else one, loc="left", **look)
 
 
 def legend_above(ax: Axes, **look: Any) -> Legend:
-    """A legend in one row above the right end of the axes, where it hides nothing."""
+    """Draw a legend in one row above the right end of the axes, where it covers nothing."""
     return ax.legend(loc="lower right", bbox_to_anchor=(1, 1), **{"borderaxespad": 0.2, "ncols": 4, **look})
 
 
 def normalizations(study: xr.Dataset) -> list[str]:
-    """Those that a grid study has values for."""
+    """Normalizations for which a grid study has values."""
     if "normalization" in study.coords:
         return [str(name) for name in np.atleast_1d(study["normalization"].values)]
     base = json.loads(study.attrs["base"])
@@ -382,30 +381,30 @@ def normalizations(study: xr.Dataset) -> list[str]:
 
 
 def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
-    """A grid study's values for one normalization."""
+    """Values of a grid study for one normalization."""
     return study.sel(normalization=normalization) if "normalization" in study.dims else study
 
 
 def of_one(study: xr.Dataset, others: Mapping[str, xr.Dataset]) -> tuple[str, xr.Dataset, dict[str, xr.Dataset]]:
-    """The first normalization of a grid study, and the values of it and of further studies for that one."""
+    """The first normalization of a grid study, and the values of all studies for it."""
     norm = normalizations(study)[0]
     return norm, of(study, norm), {role: of(other, norm) for role, other in others.items()}
 
 
 def failed(study: xr.Dataset) -> xr.DataArray:
-    """Which points of a grid study did not go well."""
+    """Points of a grid study that failed."""
     return study["status"].copy(data=flag_names(study["status"]) != "ok")
 
 
 def without_failed(study: xr.Dataset, *names: str) -> xr.Dataset:
-    """A grid study with nan in the named variables where a point did not go well."""
+    """A grid study with nan in the named variables at failed points."""
     return study.assign({name: study[name].where(~failed(study)) for name in names})
 
 
 def mark_failed(
     ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed", mark: str = "x"
 ) -> None:
-    """Crosses beside an axis at points that did not go well, as stability maps have them; nothing if there are none."""
+    """Mark failed points by crosses beside an axis, as in stability maps; nothing if there are none."""
     if not values.size:
         return
     low = np.full(values.shape, 0.02)

@@ -1,6 +1,6 @@
-"""From a configuration to datasets: what is to be computed, in which batches, and how their files are merged.
+"""Studies: which results are computed, in which batches, and how the files of the batches are merged.
 
-What a study file may say is `document`, what it amounts to `study`. A *case* is one named simulation with its records;
-a *grid study* asks for quantities (`grids.quantities`) at every point of a parameter grid, in batches that only change
-if their points do.
+`document` defines the keys of a study file, and `study` derives the cases and grids from it. A *case* is one named
+simulation with its records. A *grid study* computes quantities (`grids.quantities`) at every point of a parameter grid.
+A batch changes only if its points do.
 """

@@ -14,8 +14,8 @@ def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[s
     """Put cases into one tree.
 
     The root is a table with one row per case along the coordinate `case`: parameters, status, first separation and
-    statistics, each a variable with units. Below it every case has its own group, laid out as in its own file, since
-    cases differ in what they recorded and in how long that is:
+    statistics, each a variable with units. Below it every case has a group of its own, laid out as in its file: the
+    recorded variables and their lengths differ between cases:
 
         table = xarray.open_dataset("cases.nc")                                  # first_separation by case
         history = xarray.open_dataset("cases.nc", group="F13/history")           # one window of one case
@@ -23,7 +23,7 @@ def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[s
 
     Parameters
     ----------
-    cases : by id, each as its file holds it; failed ones have scalars only
+    cases : by id, the dataset of each case's file; failed cases have scalars only
     labels : by id, texts that become variables of the table, such as title and reference
     """
     rows = [tree.to_dataset() for tree in cases.values()]

@@ -1,10 +1,10 @@
-"""All that a study file may say, as one model: `Document`.
+"""The model of a study file: `Document`.
 
-Rules that a part breaks by itself are checked here, those between parts in `disc_model.studies.study`. Imports nothing
-heavy. A job is told all values of the options, so that nothing here is among the sources of its result.
+Rules within one part are checked here, rules between parts in `disc_model.studies.study`. The module imports nothing
+heavy. A job receives the values of all options, so this module is not among the sources of its result.
 
-``python -m disc_model.studies.document`` prints the JSON Schema by which editors complete and check study files as one
-types; what is shipped is ``workflow/schemas/study.schema.json``.
+``python -m disc_model.studies.document`` prints the JSON Schema, with which editors complete and check study files. The
+shipped copy is ``workflow/schemas/study.schema.json``.
 """
 
 from __future__ import annotations
@@ -150,12 +150,12 @@ class Range(Strict):
 
     @property
     def intervals(self) -> int:
-        """One less than the number of values."""
+        """Number of intervals: one less than the number of values."""
         return round(self._steps)
 
     @property
     def values(self) -> list[float]:
-        """Ascending."""
+        """All values, in ascending order."""
         return [float(value) for value in self.blocks()[0]]
 
     def blocks(self, resolution: int = 1) -> Blocks:
@@ -174,7 +174,7 @@ class Range(Strict):
         return tuple(tuple(found[level]) for level in sorted(found))
 
     def _at(self, share: float) -> float:
-        """The value at a share of the way, to 12 digits, so that ranges and lists agree on 0.3."""
+        """The value at a fraction of the range, rounded to 12 digits, so that ranges and lists agree on 0.3."""
         if share in (0.0, 1.0):
             return self.stop if share else self.start
         if self.scale == "log":
@@ -218,7 +218,7 @@ Axis = Annotated[
 
 
 def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Blocks:
-    """Blocks of values; raises ValueError if they are too many."""
+    """Blocks of the values of an axis; raises ValueError if there are too many values."""
     if isinstance(axis, BlocksOf):
         return tuple(block for part in axis.blocks for block in blocks_of(part, resolution))
     return axis.blocks(resolution) if isinstance(axis, AxisRange) else (tuple(axis),)
@@ -235,7 +235,7 @@ class _Columns(Strict):
 
     @property
     def said(self) -> dict[str, Any]:
-        """What is given, in the order of `VARIED`."""
+        """The given values, in the order of `VARIED`."""
         return {name: getattr(self, name) for name in type(self).model_fields if name in self.model_fields_set}
 
 
@@ -654,17 +654,17 @@ class CampbellOptions(Options):
 
 
 class Entry(NamedTuple):
-    """An entry: the options, what a point costs, and what its grids and motions are like.
+    """Properties of a quantity: its options, the cost of a point, and its grids and motions.
 
-    options : their model
-    seconds : about the processor time of a point with given options, s, measured at points of the paper's study
-    starts : whether its motions may start elsewhere than from the static start, which the file says as options
+    options : model of the options
+    seconds : approximate processor time of a point with given options, s, measured at points of the paper's study
+    starts : whether motions may begin elsewhere than at the static start; the file gives the start as an option
     scans : parameters that the quantity varies by itself, or the options that name them
-    motions : how many values of each axis get a motion to be looked at: the fewer, the more one costs. 0: none
-    motion : what they show: where the quantity's ``state_at`` lets the motion go on
-    tiled : whether it needs a whole tile of a plane at once
-    over : the dimension, which a study has to have, over which a merged study is summarised
-    tasks : those of `disc_model.kernels` that it needs kernels for
+    motions : number of values of each axis for which a motion is stored; smaller if a motion is expensive. 0: none
+    motion : description of the motions, which begin at the quantity's ``state_at``
+    tiled : whether the quantity needs a whole tile of a plane at once
+    over : the required dimension over which a merged study is summarised
+    tasks : the tasks of `disc_model.kernels` for which kernels are needed
     """
 
     options: type[Strict]
@@ -679,18 +679,18 @@ class Entry(NamedTuple):
 
     @property
     def said(self) -> type[Strict]:
-        """The model of what a file says under ``options``."""
+        """The model of the key ``options`` in a study file."""
         if not self.starts:
             return self.options
         return create_model(self.options.__name__, __base__=(Start, self.options), __doc__=self.options.__doc__)
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
-        """Parameters that the quantity varies by itself; as usual if the options are not known."""
+        """Parameters that the quantity varies by itself; the default ones if the options are not known."""
         usual = {name: field.default for name, field in self.options.model_fields.items()}
         return tuple(getattr(options, name, usual.get(name, name)) for name in self.scans)
 
     def batch_size(self, options: Strict) -> int:
-        """How many points make a batch, if a study does not say."""
+        """Number of points in a batch if a study does not state it."""
         return max(1, round(WORK / self.seconds(options)))
 
     def parted(self, said: Strict) -> tuple[Strict, Start]:
@@ -1026,13 +1026,13 @@ DOCUMENTS = {name: _of_quantity(name, quantity) for name, quantity in QUANTITIES
 
 
 class _Plain(GenerateJsonSchema):
-    """Without what says nothing: titles that repeat a name, and docstrings of more than their first paragraph."""
+    """JSON Schema without redundant text: titles that repeat a name, and paragraphs of docstrings after the first."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:
         return False
 
     def float_schema(self, schema: Any) -> Any:
-        """Texts stand for numbers as well: with a unit, or as YAML reads 1e-3."""
+        """Numbers may be given as text: with a unit, or because YAML reads 1e-3 as text."""
         return super().float_schema(schema) | {"type": ["number", "string"], "pattern": r"^\s*[-+.]*\d"}
 
     def get_default_value(self, schema: Any) -> Any:
@@ -1048,7 +1048,7 @@ class _Plain(GenerateJsonSchema):
 
 
 def json_schema() -> dict[str, Any]:
-    """The JSON Schema of study files. It knows what each key may hold, and not the rules between several."""
+    """The JSON Schema of study files; it describes the values of each key, but no rules between keys."""
     said = {name: quantity.said for name, quantity in QUANTITIES.items()}
     models: tuple[type[BaseModel], ...] = (Document, *said.values())
     refs, found = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
@@ -1069,7 +1069,7 @@ def json_schema() -> dict[str, Any]:
 
 
 def schema_text() -> str:
-    """The schema as the file that is shipped holds it."""
+    """The schema as text, as in the shipped file."""
     return json.dumps(json_schema(), indent=1, ensure_ascii=False) + "\n"
 
 

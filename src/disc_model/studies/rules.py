@@ -1,4 +1,4 @@
-"""Rules between the values of a point, such as ``mu_k <= mu_s``, by which a study file leaves out points of a grid."""
+"""Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ LONGEST = 500
 
 
 def names_in(rule: str) -> frozenset[str]:
-    """Names that a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8`` compares; raises ValueError if it is none."""
+    """Names in a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8``; raises ValueError if it is no rule."""
     return frozenset(node.id for node in ast.walk(_tree(rule)) if isinstance(node, ast.Name))
 
 
 @cache
 def _tree(rule: str) -> ast.Expression:
-    """A rule as a tree of comparisons, with floats alone: a whole number could repeat a word without end."""
+    """A rule as a tree of comparisons, with floats only: a whole number could repeat a word without end."""
     try:
         tree = ast.parse(rule.strip(), mode="eval")
         nodes = list(ast.walk(tree.body))
@@ -47,7 +47,7 @@ def _compiled(rule: str) -> CodeType:
 
 
 def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
-    """Whether all rules hold for a point; one that cannot be evaluated, such as a division by zero, does not."""
+    """Whether all rules hold at a point; a rule that cannot be evaluated, such as a division by zero, does not."""
     here = {name: float(x) if isinstance(x, int) else x for name, x in {**_DEFAULTS, **with_ratios(values)}.items()}
     try:
         return all(eval(_compiled(rule), {"__builtins__": {}}, here) for rule in rules)

@@ -1,13 +1,13 @@
-"""Study files: read, checked all at once, and what they amount to: named cases, and grids cut into batches of points.
+"""Studies: their files are read and checked, and yield named cases and grids, cut into batches of points.
 
-`load_study` reads a file, `study_from_config` takes what Snakemake read from one or several, `parse_study` the mapping
-itself. All raise one `StudyError` that lists every fault with its path. What a file may say is
-`disc_model.studies.document`; each case inherits the study's base values and what is recorded by default.
+`load_study` reads a file, `study_from_config` takes what Snakemake read from one or more files, and `parse_study` takes
+the mapping itself. All raise one `StudyError` that lists every fault with its path. The keys of a file are defined in
+`disc_model.studies.document`. Each case inherits the study's base values and default records.
 
-A batch is one text; a workflow job is given one. Blocks of values are cut into batches of about the same work, by
-position and only inside a block: a finer axis adds batches and keeps the others. A quantity that needs a plane at once
-is cut into tiles of it. The text holds all that its result depends on. The batch is named by the text's hash, so that a
-batch whose content is the same is not computed again, wherever and however the file now says it.
+A workflow job receives one batch as a text. Blocks of values are cut into batches of similar cost, by position and only
+inside a block. A finer axis therefore adds batches and keeps the others. Quantities that need a plane at once are cut
+into tiles. The text holds everything that its result depends on, and its hash is the name of the batch. A batch with
+equal content is therefore not computed again, however the file describes it.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ REQUIRED = ("N", "Omega")
 """Parameters without a base value."""
 
 # ----------------------------------------------------------------------------------------------------
-# Reading: what YAML itself would pass over or end in an error of its own is a fault
+# Reading: what YAML itself would ignore, or report in its own form, is a fault
 
 
 class StudyError(DiscModelError, ValueError):
@@ -109,7 +109,7 @@ def read_file(path: Path) -> tuple[Any, list[str]]:
 
 
 class _UniqueKeyLoader(yaml.SafeLoader):
-    """Remembers keys given twice instead of silently taking the last."""
+    """A loader that records duplicate keys instead of silently taking the last value."""
 
     def __init__(self, stream: Any) -> None:
         super().__init__(stream)
@@ -131,7 +131,7 @@ LARGEST = 100_000
 
 
 def _count(node: yaml.Node, known: dict[int, int]) -> int:
-    """Number of values below a node; a few lines of aliases of aliases can stand for more than fit into memory."""
+    """Number of values below a node; nested aliases in a few lines can expand to more than fits into memory."""
     if id(node) in known:
         if not known[id(node)]:
             raise ValueError("a value contains itself")
@@ -165,10 +165,10 @@ def read_yaml(text: str, source: str = "study") -> tuple[Any, list[str]]:
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
         said = place + ", ".join(part for part in (error.context, error.problem) if part)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        # ValueError: numbers and dates that look like one but are none
+        # ValueError: text that looks like a number or date but is none
         said = " ".join(str(error).split())
     except (AttributeError, KeyError, TypeError) as error:
-        # so ends a tag such as !!timestamp or !!bool before a value that is none
+        # raised by a tag such as !!timestamp or !!bool before an invalid value
         said = f"a value does not fit its tag ({' '.join(str(error).split())})"
     raise StudyError(said, source=source)
 
@@ -196,7 +196,7 @@ def inherit(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 
 
 class CaseFigure(NamedTuple):
-    """A figure of cases: what draws it, whose cases it shows, and where and by which words it is listed."""
+    """A figure of cases: how it is drawn, its cases, and its section and title in lists."""
 
     plot: CasePlot | OwnFigure
     cases: tuple[str, ...]
@@ -212,10 +212,10 @@ class Study:
 
     Attributes
     ----------
-    figures : those of the paper that are requested
+    figures : the requested figures of the paper
     plots : figures of cases, by name
     claims : whether the paper's statements are checked against the cases
-    grid : the file's own grid, if it says one
+    grid : the file's own grid, if it has one
     studies : files of further grid studies; * stands for any part of a name
     """
 
@@ -233,16 +233,16 @@ class Study:
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
-        """What is written about the cases and does not change their results."""
+        """Texts about the cases, which do not change their results."""
         return {name: {"title": case.title, "reference": case.reference} for name, case in self.cases.items()}
 
     @property
     def drawable(self) -> tuple[str, ...]:
-        """Figures that these cases have all that is needed for: of the paper, and of cases."""
+        """Figures for which these cases provide all data: those of the paper, and those of cases."""
         return (*(name for name in CATALOGUE if not list(lacking(name, self.specs))), *self.plots)
 
     def figure(self, name: str) -> CaseFigure:
-        """One of its figures of cases, or of the paper's."""
+        """A figure of cases or of the paper, by its name."""
         if (plot := self.plots.get(name)) is not None:
             said = f"{plot.title or name}: {plot.case}, {said_parameters(self.specs[plot.case].parameters)}"
             return CaseFigure(plot, (plot.case,), "Figures of cases", plot.case, name, said)
@@ -252,19 +252,19 @@ class Study:
 
     @property
     def doubts(self) -> Iterator[str]:
-        """What is implausible about its cases, each with their number."""
+        """Warnings about implausible cases, each with their number."""
         for rule in RULES.values():
             if found := [text for spec in self.specs.values() if (text := rule.doubt(spec.parameters))]:
                 yield f"{found[0]} ({len(found)} of {len(self.specs)} cases)"
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
-        """Its own grid and those of its files, and the names of those that are requested.
+        """All grids, the file's own and those of its further files, and the names of the requested ones.
 
-        Besides them there are those that a figure of its own grid shows as well, read from files beside it.
+        A figure of the file's own grid may show further grids. These are read from files beside it and are included.
 
         Parameters
         ----------
-        folders : where files are looked for, the first that has one counts
+        folders : searched for the files; the first that has one counts
         """
         grids = {} if self.grid is None else {self.name: self.grid}
         paths = [Path(path) for pattern in self.studies for path in _found(pattern, folders)]
@@ -286,7 +286,7 @@ class Study:
         return grids, asked
 
     def _add_grid(self, path: Path, grids: dict[str, GridStudy], faults: list[str]) -> None:
-        """The grid of another file, with what is laid over it."""
+        """Add the grid of another file, with the overriding values applied."""
         try:
             raw, more = read_file(path)
             raw = {"resolution": self.resolution, **inherit(mapping(raw), self.overrides.get(path.stem, {}))}
@@ -306,15 +306,15 @@ class Study:
 
 
 def load_study(path: str | Path) -> Study:
-    """Read and check a study file, but for the files that it names."""
+    """Read and check a study file, but not the files that it names."""
     raw, faults = read_file(Path(path))
     return _with_more_faults(raw, faults, str(path), Path(path).parent)
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
-    """The study that Snakemake read from files, later ones over earlier ones, and its command line.
+    """The study from Snakemake's merged configuration files, later ones first, and its command line.
 
-    Keys given twice are looked for in the files, since the mapping no longer shows them.
+    The files are searched for duplicate keys, which the mapping no longer shows.
     """
     paths = [Path(file) for file in files]
     faults = [fault for path in paths for fault in read_file(path)[1]]
@@ -343,9 +343,9 @@ def parse_study(raw: Any) -> Study:
 
 
 def _with_more_faults(raw: Any, more: list[str], source: str, folder: Path) -> Study:
-    """The study of a file's content; faults found before come with its own, in one error with the source.
+    """The study from a file's content; raises one error with these faults and those found before.
 
-    folder : in which tables of discs are looked for
+    folder : contains the tables of discs
     """
     try:
         study = parse_study(_with_discs(raw, folder, more))
@@ -357,9 +357,9 @@ def _with_more_faults(raw: Any, more: list[str], source: str, folder: Path) -> S
 
 
 def _with_discs(raw: Any, folder: Path, faults: list[str], place: tuple[str, ...] = ()) -> Any:
-    """A file's content with discs in the place of the names of their tables, which are relative to the folder.
+    """A file's content in which the names of disc tables, relative to the folder, are replaced by the discs.
 
-    So the content of a table, and not its name, decides what is computed anew.
+    Recomputation thus depends on a table's content and not on its name.
     """
     if not isinstance(raw, Mapping):
         return raw
@@ -387,7 +387,7 @@ def _varied_discs(raw: Mapping[Any, Any]) -> list[str]:
 
 
 def _shown_path(path: Path) -> str:
-    """A path as short as the current folder allows."""
+    """The shortest form of a path, relative to the current folder if possible."""
     try:
         return str(path.resolve().relative_to(Path.cwd()))
     except ValueError:
@@ -395,7 +395,7 @@ def _shown_path(path: Path) -> str:
 
 
 def _found(pattern: str, folders: Sequence[Path]) -> list[str]:
-    """Files that a pattern stands for, in the first folder that has any; the pattern itself if none has."""
+    """Files that match a pattern, in the first folder that has any; the pattern itself if there are none."""
     for folder in folders:
         if matches := sorted(glob(str(folder / pattern))):
             return matches
@@ -403,7 +403,7 @@ def _found(pattern: str, folders: Sequence[Path]) -> list[str]:
 
 
 def _misfits(study: GridStudy, grids: Mapping[str, GridStudy], known: Collection[str]) -> Iterator[str]:
-    """What is wrong with the further studies that figures show."""
+    """Faults of the further studies that figures show."""
     for name, plot in study.plots.items():
         for role, other in plot.overlays.items():
             where = f"{study.name}: figures.{name}.overlays.{role} = {other!r}"
@@ -414,11 +414,11 @@ def _misfits(study: GridStudy, grids: Mapping[str, GridStudy], known: Collection
 
 
 # ----------------------------------------------------------------------------------------------------
-# The document, or as much of it as is right
+# The document, or its valid parts
 
 
 def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
-    """The document without those parts that have faults, and the faults where the file says them."""
+    """The document without its faulty parts, and the faults at their places in the file."""
     if not isinstance(raw, Mapping):
         return None, [Fault.of(("study",), raw, "must be a mapping")]
     whole = {**raw, "cases": _with_inherited(raw)} if isinstance(raw.get("cases"), Mapping) else dict(raw)
@@ -447,7 +447,7 @@ def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
 
 
 def _with_inherited(raw: Mapping[str, Any]) -> dict[Any, Any]:
-    """Cases with what they inherit."""
+    """Cases with the values that they inherit."""
     return {
         name: {"parameters": {}} | inherit(_inherited(raw), own) if isinstance(own, Mapping) else own
         for name, own in raw["cases"].items()
@@ -455,13 +455,13 @@ def _with_inherited(raw: Mapping[str, Any]) -> dict[Any, Any]:
 
 
 def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
-    """What the file says for all of its cases."""
+    """The values that the file gives for all of its cases."""
     said = {"parameters": raw.get("base"), "record": raw.get("record"), "tol": raw.get("tol")}
     return {key: value for key, value in said.items() if value is not None}
 
 
 def _where_said(fault: Fault, raw: Mapping[str, Any]) -> Fault:
-    """A fault in an expanded case at the place where the file says the value: in the case, or in what it inherits."""
+    """A fault of an expanded case, moved to where the file gives the value: in the case, or in what it inherits."""
     if fault.path[0] != "cases" or len(fault.path) < 3 or not isinstance(raw.get("cases"), Mapping):
         return fault
     place = fault.path[2:]
@@ -472,14 +472,14 @@ def _where_said(fault: Fault, raw: Mapping[str, Any]) -> Fault:
 
 
 def _depth(said: Any, place: tuple[str, ...]) -> int:
-    """How many steps of the way to a place lead through mappings that say something."""
+    """Number of steps of a path that exist in nested mappings."""
     if not place or not isinstance(said, Mapping) or place[0] not in said:
         return 0
     return 1 + _depth(said[place[0]], place[1:])
 
 
 def _drop(whole: dict[str, Any], path: tuple[str, ...]) -> None:
-    """Leave out the part of a document in which a fault lies: a case, a figure, an axis, a start, or a key."""
+    """Remove the faulty part of a document: a case, a figure, an axis, a start, or a key."""
     key = next((key for key in whole if str(key) == path[0]), "")
     part = whole.pop(key, None)
     if path[0] in ("cases", "figures", "axes", "starts") and isinstance(part, Mapping) and len(path) > 1:
@@ -489,7 +489,7 @@ def _drop(whole: dict[str, Any], path: tuple[str, ...]) -> None:
 
 
 def _specs(document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> dict[str, CaseSpec]:
-    """What is simulated, of the cases that are right."""
+    """The specifications of all valid cases."""
     specs = {}
     for name, case in document.cases.items():
         try:
@@ -510,7 +510,7 @@ def _figures(
             if not isinstance(name, str) or name not in CATALOGUE:
                 faults.append(Fault.of(place, name, f"unknown figure{suggestion(name, CATALOGUE)}"))
                 continue
-            # else the case has faults of its own
+            # otherwise the case has faults of its own
             found = [rule for case, rule in lacking(name, specs) if case in specs or case not in known]
             faults += [Fault.of(place, name, rule) for rule in found]
         return document.figures, {}, {}
@@ -545,7 +545,7 @@ class Dimension:
 
     @classmethod
     def of(cls, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> Dimension:
-        """From blocks in any order; a value belongs to the first block that has it."""
+        """A dimension from blocks in any order; a value belongs to the first block that has it."""
         seen: set[Any] = set()
         kept = []
         for block in blocks:
@@ -566,7 +566,7 @@ class Dimension:
         return tuple(sorted(value for block in self.blocks for value in block))
 
     def thinned(self, most: int) -> Dimension:
-        """At most so many of the values, evenly spread by place and both ends among them; all, of words."""
+        """A dimension of at most `most` values, evenly spaced by place and including both ends; words are all kept."""
         values = self.values
         if len(values) > most and not any(isinstance(part, str) for value in values for part in value):
             last = len(values) - 1
@@ -577,7 +577,7 @@ class Dimension:
 def points(
     dims: Sequence[Dimension], where: Sequence[str] = (), base: Mapping[str, Any] | None = None
 ) -> Iterator[dict[str, Value]]:
-    """What varies, by name, at every point of a grid, and at which the rules hold."""
+    """The varying values, by name, at every point of a grid that satisfies the rules."""
     names = [name for dim in dims for name in dim.names]
     for point in product(*(dim.values for dim in dims)):
         found = dict(zip(names, chain.from_iterable(point), strict=True))
@@ -591,7 +591,7 @@ def n_points(dims: Sequence[Dimension]) -> int:
 
 
 def first_of_each(found: Iterable[str]) -> list[Fault]:
-    """Of each parameter the first fault."""
+    """The first fault of each parameter."""
     first: dict[str, Fault] = {}
     for fault in found:
         if isinstance(fault, Fault):
@@ -618,10 +618,10 @@ class GridStudy:
 
     Attributes
     ----------
-    document : what the file says
-    options, base : of the quantity, and values that do not vary
+    document : content of the file
+    options, base : options of the quantity, and values that do not vary
     dims : in the order of `VARIED`
-    starts : where motions may start, by name
+    starts : starts of motions, by name
     """
 
     document: Document
@@ -660,7 +660,7 @@ class GridStudy:
 
     @cached_property
     def motions(self) -> dict[str, str]:
-        """The same of the few points whose motion can be looked at, in one batch; none for some quantities."""
+        """JSON text, by its name, of the batch of points whose motions are stored; empty for some quantities."""
         most = QUANTITIES[self.quantity].motions
         if not most:
             return {}
@@ -669,7 +669,7 @@ class GridStudy:
         return self._texts(few, ({"points": every} for every in cut))
 
     def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
-        """Parts of the grid that have points left, each as a text with all that its result depends on."""
+        """Parts of the grid that have points left, each as a text with everything that its result depends on."""
         names = [name for dim in dims for name in dim.names]
         shared = {
             "quantity": self.quantity,
@@ -691,7 +691,7 @@ class GridStudy:
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """Names of the sources of its points beyond those of all, as in `disc_model.data.sources`."""
+        """Names of the sources of its points, beyond the common ones, as in `disc_model.data.sources`."""
         asked = asked_modes(self.base)[1] if leaves_modes(self.base) else None
         return self.quantity, *["modes_by_motion"] * (asked is not None and asked.quantity != FREQUENCIES)
 
@@ -707,25 +707,25 @@ class GridStudy:
 
     @property
     def kernels(self) -> list[str]:
-        """Kinds of kernels that its points need, as `disc_model.kernels` names them."""
+        """Kinds of kernels that its points need, named as in `disc_model.kernels`."""
         deciding = [dim for dim in self.dims if not DECIDING.isdisjoint(dim.names)]
         cases = [case_of({**self.base, **point}, self.document.discs) for point in points(deciding)]
         return kinds_of(cases, QUANTITIES[self.quantity].tasks)
 
     @property
     def n_points(self) -> int:
-        """Number of points of the grid that are not left out."""
+        """Number of points of the grid that are not excluded."""
         return sum(1 for _ in points(self.dims, self.where, self.base)) if self.where else n_points(self.dims)
 
     @property
     def attrs(self) -> dict[str, str]:
-        """What the merged dataset says of the study."""
+        """Attributes of the merged dataset that describe the study."""
         said = {"study": self.name, "title": self.title}
         return said | ({"where": " and ".join(f"({rule})" for rule in self.where)} if self.where else {})
 
     @property
     def doubts(self) -> Iterator[str]:
-        """What is implausible about its points, each with their number."""
+        """Warnings about implausible points, each with their number."""
         base = {name: value for name, value in self.base.items() if name not in CHOOSING and value != AUTO}
         for rule in RULES.values():
             dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]
@@ -740,7 +740,7 @@ class GridStudy:
 
 
 class _Grid:
-    """A grid that is being checked; faults are added to a list as they are found."""
+    """A grid during its check, which appends faults to a list."""
 
     def __init__(
         self, document: Document, raw: Mapping[str, Any], plots: Mapping[str, Plot], faults: list[Fault]
@@ -761,14 +761,14 @@ class _Grid:
 
     @property
     def right(self) -> bool:
-        """Whether no fault of the grid is known."""
+        """Whether the grid has no known fault."""
         return not self.faults
 
     def add(self, path: tuple[str, ...], rule: str, *value: Any) -> None:
         self.faults.append(Fault(path, shown(value[0]) if value else "", rule))
 
     def made(self) -> GridStudy | None:
-        """The grid, if it is right."""
+        """The grid, or None if it has faults."""
         if self.raw.get("quantity") is None:
             self.add(("quantity",), "is required")
         self._check_names()
@@ -800,7 +800,7 @@ class _Grid:
     # ---- what the file says
 
     def _base(self) -> tuple[dict[str, Any], dict[str, Any]]:
-        """The base values, N and Omega need not be among them; and what leaves the modes to each point."""
+        """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
         said = self.document.base
         given = {name: getattr(said, name) for name in type(said).model_fields if name in said.model_fields_set}
         if not leaves_modes(given):
@@ -815,7 +815,7 @@ class _Grid:
         return fixed, automatic
 
     def _dimensions(self) -> Iterator[Dimension]:
-        """Those that the file gives rightly."""
+        """The valid dimensions of the file."""
         resolution = self.document.resolution
         for name, blocks in self._columns(self.document.axes.said, ("axes",), resolution).items():
             yield Dimension.of((name,), [[(value,) for value in block] for block in blocks])
@@ -829,7 +829,7 @@ class _Grid:
                 yield Dimension.of([*columns], [list(zip(*columns.values(), strict=True))])
 
     def _columns(self, given: Mapping[str, Any], path: tuple[str, ...], resolution: int = 1) -> dict[str, Blocks]:
-        """Blocks of values by name, as they are understood: floats, whole numbers, words; of what is right."""
+        """Valid blocks of values by name, converted to floats, whole numbers or words."""
         found = {}
         for name, axis in given.items():
             place, before = (*path, name), len(self.faults)
@@ -844,7 +844,7 @@ class _Grid:
         return found
 
     def _value(self, name: str, value: Value, place: tuple[str, ...]) -> Value:
-        """Each for itself; see `_check_points`."""
+        """Convert and check one value by itself; `_check_points` checks them together."""
         known = {**self.starts, **mapping(self.raw.get("starts"))}
         if name == START and not (isinstance(value, str) and value in known):
             self.add(place, f"no such start{suggestion(value, known)}", value)
@@ -862,7 +862,7 @@ class _Grid:
         return value
 
     def _samples(self) -> tuple[Dimension, ...]:
-        """The dimension of samples, the last, in blocks that double their number: twice as many only add one."""
+        """The dimension of samples, the last one, in blocks that double their number: doubling adds one block."""
         if not isinstance(self.options, SensitivityOptions):
             return ()
         ends = [0, min(FIRST_SAMPLES, self.options.samples)]
@@ -914,7 +914,7 @@ class _Grid:
             self.add(("batch", "over"), rule, over and list(over))
 
     def _check_starts(self) -> None:
-        """What starts elsewhere must be followed by the quantity, and its start be said in one place."""
+        """Only some quantities accept another start, and the file must give it in one place only."""
         wanted = [name for name in (START, *PERTURBATIONS) if name in self.wanted]
         options = mapping(self.raw.get("options"))
         if self.quantity is not None and not self.quantity.starts:
@@ -931,7 +931,7 @@ class _Grid:
                 )
 
     def _check_truncation(self) -> None:
-        """What is chosen for each point cannot be given, and the choice is made for all points or none."""
+        """Chosen numbers of modes cannot be given as well, and are chosen for all points or for none."""
         if not self.automatic:
             return
         given = [("axes", name) for name in ("n_diameters", "n_circles") if name in self.wanted]
@@ -941,7 +941,7 @@ class _Grid:
             self.add(path, f"is chosen for each point, since base.n_diameters is {AUTO!r}")
 
     def _check_where(self) -> None:
-        """Rules of the file itself: they compare what a point has, and leave some points."""
+        """Check the file's own rules: they must compare known values and leave some points."""
         where = self.document.where
         known = {**Parameters.model_fields, **dict.fromkeys(name for dim in self.dims for name in dim.names)}
         for rule in where:
@@ -953,14 +953,14 @@ class _Grid:
             self.add(("where",), "leaves no point")
 
     def _needed(self, names: Iterable[str]) -> list[Dimension]:
-        """Dimensions of some names, and of those that the file's rules compare."""
+        """Dimensions of some names, and those that the file's rules compare."""
         wanted = {*names, *chain(*map(names_in, self.document.where))}
         ratios = [(name, *RATIOS[name]) for name in self.wanted & RATIOS.keys()]
         wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
         return [dim for dim in self.dims if not wanted.isdisjoint(dim.names)]
 
     def _check_points(self) -> None:
-        """Rules between parameters of which some vary, each where it is broken first."""
+        """Check the rules between parameters of which some vary; each is reported where it is broken first."""
         related = self._needed(RELATED)
         varied = [name for dim in related for name in dim.names]
         every = points(related, self.document.where, self.base)
@@ -973,9 +973,9 @@ class _Grid:
                 self.faults.append(fault.inside(("axes" if name in varied else "base",)))
 
     def _check_distributions(self, options: SensitivityOptions) -> None:
-        """Distributions of no number, of what varies besides, or reaching what a parameter may not be.
+        """Check distributions: of numbers only, of no parameter that varies otherwise, and within valid values.
 
-        Each rule is shown where it is broken first.
+        Each rule is reported where it is broken first.
         """
         place, dims, numbers = ("options", "distributions"), self.dims[:-1], self._numbers()
         varied = {name for dim in dims for name in dim.names}
@@ -996,7 +996,7 @@ class _Grid:
             self.faults.append(Fault((*at, *fault.path), fault.value, f"{fault.rule}; distributions reach that far"))
 
     def _numbers(self) -> list[str]:
-        """What can be distributed: parameters that are numbers, and those of the modes that all discs have."""
+        """Names that can be distributed: parameters that are numbers, and those of the modes that all discs have."""
         discs: list[Disc] = [*self.document.discs.values()] if "disc" in self.wanted else []
         discs += [disc] if (disc := self.base.get("disc")) is not None else []
         if not discs:
@@ -1005,7 +1005,7 @@ class _Grid:
         return [*(name for name in NUMBERS if name not in (*PLATE, "damping_ratio")), *common]
 
     def _out_of_reach(self, options: SensitivityOptions, dims: Sequence[Dimension]) -> Iterator[str]:
-        """Rules that ends of the distributions break at any point; those between parameters hold if all corners do."""
+        """Rules broken by an end of a distribution at any point; rules between parameters are tested at all corners."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
         wanted = [dim for dim in self._needed([*options.distributions, *RELATED]) if dim in dims]
         for point in points(wanted, self.document.where, self.base):
@@ -1026,7 +1026,7 @@ class _Grid:
                 yield from cross_faults(Parameters, {**here, **dict(zip(related, corner, strict=True))})
 
     def _check_plots(self) -> None:
-        # what is only meant to be a dimension, and has faults, counts as one without values
+        # a faulty dimension counts as one without values
         meant = sorted(self.wanted.difference(*(dim.names for dim in self.dims)))
         values: Values = dict.fromkeys(meant, ()) | {dim.name: dim.values for dim in self.dims}
         asked = self.document.quantity
@@ -1043,14 +1043,14 @@ class _Grid:
 
 
 def _own(name: str, values: Mapping[str, Any]) -> Any:
-    """A point's value of a parameter, as far as it has one."""
+    """A point's own value of a parameter, if it has one."""
     if isinstance(disc := values.get("disc"), Disc) and name in disc.numbers:
         return disc.numbers[name]
     return values[name] if name in values else getattr(Parameters.model_fields.get(name), "default", None)
 
 
 def _general(plot: General, quantity: str, options: Strict, values: Values) -> Iterator[Fault]:
-    """What keeps a general figure from being drawn: the quantity's module knows its variables and dimensions."""
+    """Faults of a general figure, checked against the variables and dimensions of the quantity's module."""
     grid = {name: [one[0] if len(one) == 1 else one for one in along] for name, along in values.items()}
     own: dict[str, list[Any]] = {}
     variables: dict[str, Any] = {}
@@ -1073,7 +1073,7 @@ def module_of(name: str) -> str:
 
 def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[list[Value]]]:
     """Points of each batch, a list of values in the order of the dimensions."""
-    # a dimension that is not to be cut is taken as blocks of one value each
+    # an uncut dimension is taken as blocks of one value each
     blocks = [dim.blocks if over is None or dim.name in over else [(value,) for value in dim.values] for dim in dims]
     for chosen in product(*blocks):
         for part in _parts(chosen, size):
@@ -1081,9 +1081,9 @@ def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) ->
 
 
 def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:
-    """The product of blocks in parts of at most `size`, each of whole values of a block and all of those after it.
+    """The product of blocks in parts of at most `size`; each holds whole values of a block, and all of later blocks.
 
-    So a further value of a dimension that is cut down to single values adds parts and leaves the others.
+    Thus a further value of a dimension that is cut into single values adds parts and keeps the others.
     """
     first, *others = blocks
     within = math.prod(map(len, others))
@@ -1097,7 +1097,7 @@ def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[An
 def _tiles(
     dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
 ) -> Iterator[dict[str, Any]]:
-    """Points of each tile; and the values along its sides, with those of the next tiles that bound its last cells."""
+    """Points of each tile, and the values along its sides, including those of the next tiles beyond its last cells."""
     plane = _plane(dims, batch.over)
     others = [dim for dim in dims if dim not in plane]
     names = [dim.name for dim in plane]
@@ -1117,18 +1117,18 @@ def _tiles(
 
 
 def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimension]:
-    """The dimensions of a plane of tiles: those that are named first, or else all that are numbers."""
+    """The dimensions of a plane of tiles: those that are named first, or else all numeric ones."""
     numbers = [dim for dim in dims if len(dim.names) == 1 and is_number(dim.values[0][0])]
     return [dim for dim in numbers if over is None or dim.name in over[:2]]
 
 
 def _at(value: float, along: Sequence[Value]) -> int | None:
-    """Place of a value along the side of a tile."""
+    """Index of a value along the side of a tile."""
     return next((i for i, one in enumerate(along) if math.isclose(value, float(one), rel_tol=1e-12)), None)
 
 
 def _cuts(values: Sequence[Value], size: int) -> list[tuple[list[Value], list[Value]]]:
-    """Stretches of about `size` intervals, and what of each no later one has."""
+    """Stretches of about `size` intervals, and the part of each that no later stretch contains."""
     n = len(values) - 1
     count = max(1, round(n / size))
     edges = [round(i * n / count) for i in range(count + 1)]

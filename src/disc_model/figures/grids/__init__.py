@@ -1,1 +1,1 @@
-"""Figures of grid studies, a module a kind."""
+"""Figures of grid studies, one module per kind."""

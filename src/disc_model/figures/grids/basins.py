@@ -1,4 +1,4 @@
-"""What many starts come to: shares with intervals, the attractors, and the critical energy of separation."""
+"""Basins of attraction: fractions with intervals, the attractors, and the critical energy of separation."""
 
 from __future__ import annotations
 
@@ -46,8 +46,9 @@ LETTERS = "abcdefghijkl"
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShares) -> Figure:
-    """Above, shares of the starts of each energy; below, range of each attractor, its mark as large as its share of all
-    starts, and kicks."""
+    """Draw the fractions of starts of each energy above, and the range of each attractor and the energies below. The
+    size of an attractor's mark is its fraction of all starts.
+    """
     study = parts.of_one(study, {})[1].transpose(plot.x, ...)
     label, factor = parts.label_of(study[plot.x])
     along, energies = study[plot.x].values * factor, study["energy"].values
@@ -76,7 +77,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
 
 
 def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, classes: list[str]) -> None:
-    """Bars one upon another."""
+    """Draw stacked bars."""
     low = np.zeros(len(along))
     for class_ in classes:
         share = study["basin_fraction_by_energy"].sel(attractor_class=class_).values
@@ -100,7 +101,7 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
 
 
 def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
-    """The critical energy by bisection; the lowest among the starts; and their energies."""
+    """Draw the critical energy by bisection, the lowest separating energy of the starts, and all their energies."""
     for i, energy in enumerate(study["energy"].values):
         label = "energies sampled" if i == 0 else "_nolegend_"
         ax.axhline(energy, color=GREY, linestyle=":", linewidth=0.6, zorder=0, label=label)
@@ -110,7 +111,7 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     ax.set(ylabel="Critical energy (J)")
     if np.any(sample > 0):
         ax.set_yscale("log")
-        # what separates without a kick has no place on this scale
+        # energy 0 has no place on this logarithmic scale
         for place in along[found == 0]:
             ax.text(
                 place, 0.02, "0", color=SEPARATED, fontsize=7, ha="center", va="bottom",

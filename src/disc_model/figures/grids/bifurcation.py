@@ -28,11 +28,11 @@ ERRORS = 4
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
-    """Samples against a parameter; those in stick apart from those in slip or separation, and grey where the motion
-    was not steady yet.
+    """Draw samples against a parameter: stick and other phases in different colours, grey where the motion was not
+    steady yet.
 
-    A cross says where a point failed, or the largest exponent is missing; a dash where the motion has nothing to
-    sample, as no switches.  The further study ``lyapunov``, if given, has a panel below.
+    A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
+    events.  The further study ``lyapunov``, if given, has a panel below.
     """
     _, study, overlays = parts.of_one(study, overlays)
     study = study.transpose(plot.x, "sample", ...)
@@ -90,7 +90,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
 
 
 def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
-    """After how many switches the motion repeats; crosses at the foot where that is not shown."""
+    """Draw the number of events after which the motion repeats; crosses at the foot where it is unknown."""
     repeats = period > 0
     ax.plot(along[repeats], period[repeats], ".", color=BLACK, markersize=3)
     ax.set_yscale("log")
@@ -102,7 +102,7 @@ def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
 
 
 def _start(options: Mapping[str, Any]) -> str:
-    """Where the motions of all points start."""
+    """Description of the start that all points share."""
     prerun = options.get("prerun")
     if not prerun:
         return "Each point from the static start; other motions may exist beside."
@@ -111,7 +111,7 @@ def _start(options: Mapping[str, Any]) -> str:
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
-    """The largest exponents with their errors; rings of their colours where they have not converged."""
+    """Draw the largest exponents with their errors; rings of their colours where they have not converged."""
     exponent = lyapunov["exponent"].transpose("exponent_number", name)
     error = lyapunov["exponent_error"].transpose("exponent_number", name)
     along = exponent[name].values * parts.axis_of(name)[1]

@@ -21,7 +21,7 @@ LOWEST = 1e-3
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
-    """One point: a line for each branch, thick where it is stable; triangles for the sweep up and down."""
+    """Draw one point: a line for each branch, thick where it is stable, and triangles for the sweep up and down."""
     norm, study, _ = parts.of_one(study, overlays)
     study = study.squeeze()
     name = str(json.loads(study.attrs["options"])["parameter"])
@@ -67,7 +67,7 @@ def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: s
 
 
 def _sweep(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: str) -> None:
-    """Marks of a sweep, and an arrow at each jump."""
+    """Draw the marks of a sweep, and an arrow at each jump."""
     shown = np.maximum(y, LOWEST)
     for at, color in ((~separates, BLACK), (separates, SEPARATED)):
         ax.plot(x[at], shown[at], mark, color=color, markersize=2.5, markerfacecolor="white", markeredgewidth=0.5)

@@ -1,4 +1,4 @@
-"""Campbell diagrams: frequencies of steady sliding and of the stick-slip cycle over the speed, and what meets where."""
+"""Campbell diagrams: frequencies of steady sliding and of the stick-slip cycle over the speed, with their crossings."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ LINEAR = 1.0
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:
-    """(a) frequencies, (b) growth rates by mode; what happens to the cycle is numbered and said below."""
+    """Draw (a) frequencies, (b) growth rates by mode; events of the cycle are numbered and explained below."""
     norm = plot.normalization or parts.normalizations(study)[0]
     study = parts.of(study, norm).transpose("Omega", ...)
     met = noted(study)
@@ -58,10 +58,10 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) 
 
 
 class Noted(NamedTuple):
-    """A peak of the cycle's growth rate beside crossings, or a gap without a cycle.
+    """A peak of the cycle's growth rate near crossings, or a range of speeds without a cycle.
 
     Omega : rad/s, of the peak, or where the gap begins
-    crossings : their places in the study
+    crossings : indices of the crossings in the study
     """
 
     Omega: float
@@ -74,8 +74,9 @@ _NOTHING = "the cycle's growth rate has no peak at a crossing"
 
 
 def noted(study: xr.Dataset) -> list[Noted]:
-    """Of one normalization, by speed: peaks from `LEAST` on at crossings, those with one peak together; others that
-    leave the linear part of the scale; and gaps."""
+    """Peaks and gaps of one normalization, by speed. Peaks count from `LEAST` on at crossings, one entry for all
+    crossings of a peak, and elsewhere beyond the linear part of the scale.
+    """
     effects = flag_names(study["crossing_effect"])
     by_peak: dict[tuple[float, int], list[int]] = {}
     for i in np.flatnonzero(np.isin(effects, RISES)):
@@ -92,7 +93,7 @@ def noted(study: xr.Dataset) -> list[Noted]:
 
 
 def _peak(study: xr.Dataset, highest: float) -> tuple[float, int]:
-    """Speed at which the cycle's growth rate is this one, and the number of the mode that grows so."""
+    """Speed at which the cycle's growth rate has this value, and the number of the growing mode."""
     there = study.isel(Omega=int(np.nanargmin(np.abs(study["growth_rate"].values - highest))))
     return float(there["Omega"]), int(there["cycle_growth_rate"].idxmax("mode"))
 
@@ -102,7 +103,7 @@ def _rate_at(study: xr.Dataset, peak: tuple[float, int]) -> float:
 
 
 def _rise(study: xr.Dataset, peak: tuple[float, int], crossings: list[int]) -> Noted:
-    """Of the mode that leads at the peak, which need not be that of a crossing."""
+    """A peak, described by the mode that leads there, which need not be that of a crossing."""
     met = []
     for i in crossings:
         one = study.isel(crossing=i)
@@ -114,7 +115,7 @@ def _rise(study: xr.Dataset, peak: tuple[float, int], crossings: list[int]) -> N
 
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
-    """Ranges of speeds without a cycle, to half a step beyond the last ones, and how many speeds they hold."""
+    """Ranges of speeds without a cycle, extended by half a step, and the number of speeds in each."""
     speeds = study["Omega"].values
     edges = np.concatenate([speeds[:1], (speeds[1:] + speeds[:-1]) / 2, speeds[-1:]])
     for first, last in parts.stretches(~np.isfinite(study["growth_rate"].values)):
@@ -130,7 +131,7 @@ def _colour(l: int) -> str:
 
 
 def _parts(study: xr.Dataset, name: str) -> list[tuple[int, np.ndarray]]:
-    """A variable by mode, cut where the diameters of its number change: those and the values, nan elsewhere."""
+    """A variable by mode, cut where the nodal diameters of its number change: diameters and values, nan elsewhere."""
     kinds, diameters = flag_names(study["mode_kind"]), study["diameters"].values
     found = []
     for i in range(study.sizes["mode"]):
@@ -162,7 +163,7 @@ def _frequencies(ax: Axes, study: xr.Dataset) -> None:
 
 
 def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -> None:
-    """Multiples of the stick-slip frequency, and fainter the halves between them; named where they leave the panel."""
+    """Draw multiples of the stick-slip frequency, and fainter the halves between; labels stand at the panel's edge."""
     known = np.flatnonzero(np.isfinite(rate))
     if not known.size:
         return
@@ -186,7 +187,7 @@ def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -
 def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     speeds = study["Omega"].values
     for l, values in _parts(study, "cycle_growth_rate"):
-        # a step so large is one to another cycle
+        # so large a step leads to another cycle
         jumps = np.flatnonzero(np.abs(np.diff(values)) > LINEAR) + 1
         x, y = (np.insert(along, jumps, np.nan) for along in (speeds, values))
         ax.plot(x, y, ".-", color=_colour(l), linewidth=0.8, markersize=1)
@@ -201,7 +202,7 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
 
 
 def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:
-    """Small open circles at all that were found, full ones at those with a number above the panel."""
+    """Draw small open circles at all crossings, and full ones at those with a number above the panel."""
     ax.plot(
         study["crossing_Omega"], study["crossing_frequency"], "o", color=BLACK, markersize=2.2, markerfacecolor="white",
         markeredgewidth=0.5,
@@ -219,12 +220,12 @@ def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:
 
 
 def spread(places: list[float], apart: float, low: float, high: float) -> list[float]:
-    """Ascending places, as far apart as they need or as there is room, within bounds and near to where they were."""
+    """Ascending places, spread to a distance within bounds, as close as possible to the given ones."""
     if not places:
         return []
     apart = min(apart, (high - low) / max(len(places) - 1, 1))
     steps = apart * np.arange(len(places))
-    # places less steps need only not fall
+    # after subtraction of the steps, places need only not fall
     level = isotonic_regression(np.asarray(places) - steps).x
     return (np.clip(level, low, high - steps[-1]) + steps).tolist()  # type: ignore[no-any-return]
 

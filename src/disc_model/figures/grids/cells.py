@@ -1,4 +1,4 @@
-"""Cells of maps: how outcomes, growth rates of the stick-slip cycle and what stands for no cycle fill them."""
+"""Cells of maps: colours and hatches of outcomes, growth rates of the stick-slip cycle, and missing cycles."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Edges = tuple[Array, Array]
 
 
 class Look(NamedTuple):
-    """How cells are filled, or hatched over what fills them, and what they are called."""
+    """Appearance of cells: fill or hatch, and label."""
 
     label: str
     face: str
@@ -67,7 +67,7 @@ WITHOUT = {
 
 
 def paler(look: Look, share: float) -> Look:
-    """The same on the way to white."""
+    """The same look, blended with white."""
     red, green, blue = (part + share * (1 - part) for part in to_rgb(look.face))
     return look._replace(face=to_hex((red, green, blue)))
 
@@ -86,7 +86,7 @@ def edges_of(data: xr.Dataset | xr.DataArray, x: str, y: str) -> Edges:
 
 
 def scale_of(name: str, values: Array) -> str:
-    """Of an axis: logarithmic where values span decades and crowd at the lower end; from 0, with a linear start."""
+    """Scale of an axis: logarithmic for values that span decades and crowd at the lower end, with a linear start at 0."""
     positive = values[values > 0]
     if name in ("N", "Omega") or positive.size < 2 or positive[-1] / positive[0] <= 15:
         return "linear"
@@ -101,7 +101,7 @@ def words_of(data: xr.Dataset, name: str, x: str, y: str) -> Names:
 
 
 def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look]) -> None:
-    """Cells in the look of their word; those of no look stay as they are."""
+    """Fill cells in the look of their word; cells whose word has no look remain unchanged."""
     codes = np.full(words.shape, np.nan)
     for i, (word, look) in enumerate(looks.items()):
         here = words == word
@@ -117,7 +117,7 @@ def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look]) -> Non
 
 
 def patch(look: Look) -> Patch:
-    """For legends."""
+    """Legend entry of a look."""
     edge = BLACK if look.hatch else GREY
     return Patch(facecolor=look.face, edgecolor=edge, hatch=look.hatch, linewidth=0.4, label=look.label)
 
@@ -134,16 +134,17 @@ UNLIKE = 0.1
 
 
 def growth_norm(rates: Array) -> AsinhNorm:
-    """About linear near 0, about logarithmic beyond."""
+    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond."""
     sizes = np.abs(rates[np.isfinite(rates)])
     greatest = float(sizes.max()) if sizes.size and np.median(sizes) > GREATEST else GREATEST
     return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
 
 
 def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
-    """`growth_rate` (1/s) over two parameters; where no cycle is followed, the status instead; hatched where alone.
+    """Draw `growth_rate` (1/s) over two parameters, or the status where no cycle is followed; isolated cells are
+    hatched.
 
-    data : of the quantity `regions`, or of `floquet`; without flags all that has no rate is without a cycle
+    data : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
     """
     edges, words = edges_of(data, x, y), cycles_of(data, x, y)
     shown = np.ma.masked_where(~np.isin(words, ["", "alone"]), data["growth_rate"].transpose(y, x).values)
@@ -153,7 +154,7 @@ def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
 
 
 def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
-    """What is shown where no cycle is followed, a key of `CYCLE_LOOKS`, "alone" or "": shape (len(y), len(x))."""
+    """Words where no cycle is followed, a key of `CYCLE_LOOKS`, "alone" or "": shape (len(y), len(x))."""
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
         return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y))
@@ -163,7 +164,7 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
         words = np.array([WITHOUT.get(word, "failed") for word in status.flat], dtype="<U16").reshape(rate.shape)
         words[status == EXCLUDED] = ""
     if "sliding_growth_rate" in data:
-        # steady sliding that grows is no motion to stay in
+        # growing steady sliding is no lasting motion
         grows = ~(data["sliding_growth_rate"].transpose(y, x).values < 0)
         words[(words == "steady_sliding") & grows] = "no_cycle"
     words[np.isfinite(rate)] = ""
@@ -172,25 +173,25 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
 
 
 def alone(rate: Array) -> NDArray[np.bool_]:
-    """Cells whose growth rate is unlike that of the eight around them: each has a cycle of its own.
+    """Cells whose growth rate differs from that of the eight around them: each has a cycle of its own.
 
-    Each point of the quantity `floquet` is computed by itself, and where several cycles exist it is any of them.
+    Each point of the quantity `floquet` is computed by itself, and may be any of several cycles.
     """
     place = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(place, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
     like = np.abs(place[..., None, None] - around) < UNLIKE
-    # each is like itself
+    # each cell equals itself
     return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
 
 
 def cycle_patches(words: Collection[str]) -> list[Patch]:
-    """For legends: what takes its place where no cycle is followed, and what is hatched."""
+    """Legend entries of points without a followed cycle, and of the hatch."""
     return [patch(look) for name, look in CYCLE_LOOKS.items() if name in words]
 
 
 def growth_bar(figure: Figure, axes: list[Axes]) -> None:
-    """One scale for the growth rates in all panels, beside them."""
+    """Draw one scale for the growth rates of all panels, beside them."""
     meshes = [one for ax in axes for one in ax.collections if isinstance(one.norm, AsinhNorm)]
     norm = growth_norm(np.concatenate([np.ma.asarray(mesh.get_array()).compressed() for mesh in meshes]))
     for mesh in meshes:

@@ -1,4 +1,4 @@
-"""Charts over speed and preload: where separation begins and ends, where the cycle loses its stability, and sweeps."""
+"""Charts over speed and preload: onset and end of separation, loss of stability of the cycle, and sweeps."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ WIDTH = 20.0
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
-    """(a) where separation begins and ends from the static start, and what lies behind; (b) a sweep of the speed."""
+    """Draw (a) where separation begins and ends from the static start over a map, and (b) a sweep of the speed."""
     norm, study, overlays = parts.of_one(study, overlays)
     lost = parts.failed(study).values
     sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
     scan = span(study["scan_Omega"].values)
     if cycle is not None:
-        # beyond the scan nothing is known of separation
+        # separation is unknown beyond the scan
         cycle = cycle.sel(Omega=slice(*scan))
         cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
     figure = new_figure(PAGE if sweep is not None else COLUMN, 3.8)
@@ -88,7 +88,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
 def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
     """Speeds at which separation within a horizon "begins" or "ends" as the speed rises, for each load, rad/s.
 
-    Those at which it begins include the lowest of the scan where it separates there already.
+    Onsets include the lowest speed of the scan if it separates already.
     """
     one = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
     there = (flag_names(one["crossing_kind"]) == kind) & np.isfinite(one["crossing"].values)
@@ -102,9 +102,9 @@ def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
 
 
 def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
-    """Which crossings at neighbouring loads belong together: index of the lower load, speed there, speed at the next.
+    """Pairs of crossings at neighbouring loads: index of the lower load, speed there, speed at the next load.
 
-    Each is the nearest to the other; what has no such partner is the end of a branch.
+    The two are nearest to each other; a crossing without such a partner ends a branch.
     """
     links = []
     for i, (here, ahead) in enumerate(pairwise(speeds)):
@@ -117,7 +117,7 @@ def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
 
 
 def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
-    """Speeds at which separation begins, joined along their branches."""
+    """Draw onsets of separation, joined along their branches."""
     loads, speeds = study["N"].values, speeds_of(study, horizon, "begins")
     # a gap after each pair
     pairs = [[(one, loads[i]), (two, loads[i + 1]), (np.nan, np.nan)] for i, one, two in branches(speeds)]
@@ -126,7 +126,9 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
 
 
 def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
-    """The longest horizon as a line; shorter ones where theirs is another speed. Open marks: it ends again."""
+    """Draw the longest horizon as a line, and shorter ones where their speed differs; open marks: separation ends
+    again.
+    """
     longest = speeds_of(study, horizons[0], "begins")
     for i, (horizon, (color, marker)) in enumerate(zip(horizons, LOOKS, strict=False)):
         look: dict[str, Any] = {
@@ -152,7 +154,7 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
 
 
 def _horizon_of(study: xr.Dataset, cycle: xr.Dataset | None) -> float:
-    """The horizon that a chart of one shows: that of the map behind it if there is one, else the longest, s."""
+    """The horizon of a chart that shows only one: that of the map behind it, if any, else the longest, s."""
     horizons = study["horizon"].values
     if cycle is not None and "outcome" in cycle and (own := _map_horizon(cycle)) in horizons:
         return own
@@ -160,16 +162,16 @@ def _horizon_of(study: xr.Dataset, cycle: xr.Dataset | None) -> float:
 
 
 def _map_horizon(regions: xr.Dataset) -> float:
-    """Of a study of the quantity `regions`, s."""
+    """Horizon of a study of the quantity `regions`, s."""
     return float(json.loads(regions.attrs["options"])["horizon"])
 
 
 # ----------------------------------------------------------------------------------------------------
-# What lies behind, and beside
+# The map behind, and the panel beside
 
 
 def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
-    """Fill what becomes of the static start, or at least where the cycle is stable; handles of the legend.
+    """Draw the outcomes of the static start, or at least where the cycle is stable; handles of the legend.
 
     cycle : over N and Omega, of the quantity `regions` or `floquet`
     """
@@ -185,7 +187,7 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
 
 
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:
-    """Where separation begins as the speed rises in steps, and ends as it falls; how the speed is swept."""
+    """Draw onset and end of separation as the speed rises and falls in steps; description of the sweep."""
     N, lost = sweep["N"].values, parts.failed(sweep).values
     for name, color, marker, said in (
         ("onset_speed", ONSET, "^", "sweep up: separation begins"),
@@ -204,10 +206,10 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
 
 
 def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
-    """Cells in which the quiet cycle is stable by its multipliers, and a motion that separates continues to do so.
+    """Hatch cells in which the quiet cycle is stable by its multipliers, and separating motions continue to separate.
 
-    That a sweep up is late, since its stay at a speed is short, does not make a cycle stable. A load between two of the
-    sweep is left out if the sweep has found no separation at one of them.
+    The delay of a sweep up, due to its short dwells, does not make a cycle stable. A load between two loads of the
+    sweep is left out if the sweep found no separation at one of them.
     """
     rate = cycle["growth_rate"].transpose("N", "Omega")
     speeds, loads = rate["Omega"].values, rate["N"].values
@@ -219,10 +221,9 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
 
 
 def _measured(ax: Axes, basins: xr.Dataset) -> None:
-    """Speeds at which of many starts some come to the quiet cycle, and some to lasting separation.
+    """Draw speeds at which some of many starts reach the quiet cycle, and others lasting separation.
 
-    Both shares are above zero with their intervals. A bar goes from the first to the last of neighbouring speeds; one
-    alone is a line.
+    Both fractions exceed zero with their intervals. A bar joins neighbouring speeds; a single speed is a line.
     """
     load, speeds = json.loads(basins.attrs["base"])["N"], basins["Omega"].values
     both = (

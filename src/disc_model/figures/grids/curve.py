@@ -25,9 +25,9 @@ LINEAR = 0.1
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:
-    """A line, or one for each value of a second dimension; marks at the axis where there is no value.
+    """Draw a line, or one for each value of a second dimension; marks at the axis stand for missing values.
 
-    A second dimension of numbers has a scale of colours, one of words or pairs a legend.
+    A second dimension of numbers has a colour scale, one of words or pairs a legend.
     """
     found = parts.picked(study, plot.variable, plot.at)
     by = next((str(name) for name in found.dims if name != plot.x), None)
@@ -66,7 +66,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot)
 
 
 def _scale(figure: Figure, ax: Axes, values: xr.DataArray, colours: Sequence[Any]) -> None:
-    """Beside the panel, the value of each line in its colour."""
+    """Draw a scale beside the panel: the value of each line in its colour."""
     label, factor = parts.label_of(values)
     norm = BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours))
     bar = figure.colorbar(ScalarMappable(norm, ListedColormap(list(colours))), ax=ax, pad=0.01, aspect=30)

@@ -37,7 +37,7 @@ class Curve:
     ----------
     Omega, N : shape (n,), rad/s and N
     kind : "neutral" or "fold"
-    label : what stands next to it, such as a resonance's "2 f_s = 135.42 Hz"; may be empty
+    label : text next to it, such as a resonance's "2 f_s = 135.42 Hz"; may be empty
     """
 
     Omega: Array
@@ -47,12 +47,12 @@ class Curve:
 
     @property
     def unnumbered(self) -> Curve:
-        """The same without a label."""
+        """The same curve without a label."""
         return replace(self, label="")
 
 
 def curves_of(data: xr.Dataset) -> list[Curve]:
-    """Curves of a dataset of the quantity `stability_curves`, x as Omega and y as N, where a stable cycle is beside."""
+    """Curves with a stable cycle beside them, from the quantity `stability_curves`; x is Omega and y is N."""
     kinds = flag_names(data["kind"])
     found = []
     for i in np.flatnonzero(kinds != "none"):
@@ -71,13 +71,13 @@ def _resonance(one: xr.Dataset) -> Resonance:
 
 
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
-    """The same curves where the cycle that a map shows becomes unstable or ends, and where another one does.
+    """Split curves into the parts that bound the cycle of a map, and those that belong to another cycle.
 
     cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega
     """
     rate = cycle["growth_rate"].transpose("N", "Omega")
     padded = np.pad(rate.values, 1, mode="edge")
-    # shape (N, Omega, 3, 3): the cells around each
+    # shape (N, Omega, 3, 3): the cells around each cell
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
     stable, unstable = ((sign * around > 0).any((2, 3)) for sign in (-1, 1))
     beside = {"neutral": stable & unstable, "fold": stable & (~(around < 0)).any((2, 3))}
@@ -95,12 +95,12 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
 
 
 def _nearest(grid: Array, values: Array) -> NDArray[np.int64]:
-    """Index of the grid's value nearest to each, 0 for nan."""
+    """Index of the nearest value of the grid to each value, 0 for nan."""
     return np.argmin(np.abs(grid[None, :] - np.nan_to_num(values)[:, None]), axis=1)
 
 
 def _closed(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Without the gaps between stretches that make up most of a curve: cells are coarser than the curve."""
+    """Close the gaps between parts that make up most of a curve: cells are coarser than the curve."""
     at = np.flatnonzero(own)
     if at.size and own[at[0] : at[-1] + 1].mean() >= 0.5:
         own[at[0] : at[-1] + 1] = True
@@ -108,12 +108,12 @@ def _closed(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _and_next(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """One point more at the end of each stretch, so that the stretches of a curve meet."""
+    """Extend each part by one point at its ends, so that the parts of a curve meet."""
     return there | np.concatenate([[False], there[:-1]])
 
 
 def crossings(curve: Curve, load: float) -> Array:
-    """Speeds at which a curve passes a load, rad/s."""
+    """Speeds at which a curve crosses a load, rad/s."""
     side = curve.N - load
     at = np.flatnonzero(side[:-1] * side[1:] <= 0)
     step = side[at] - side[at + 1]
@@ -122,11 +122,12 @@ def crossings(curve: Curve, load: float) -> Array:
 
 
 def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: Sequence[xr.Dataset]) -> list[Line2D]:
-    """Curves of each panel, numbered where they have a label; for legends, what lines and numbers stand for.
+    """Draw the curves of each panel, numbered if they have a label; returns legend entries of lines and numbers.
 
-    Numbers go by speed, and labels that are equal have one; it stands beyond the upper end, where it covers no line.
+    Numbers ascend with speed, and equal labels share one. A number stands beyond the upper end, where it covers no
+    line.
 
-    data : the curves' datasets, which say at how many places a curve could not be followed
+    data : the curves' datasets, with the number of places at which continuation failed
     """
     labelled = [curve for own in curves for curve in own if curve.label]
     labelled.sort(key=lambda curve: float(np.nanmax(curve.Omega)))
@@ -154,7 +155,7 @@ def span(values: Array) -> tuple[float, float]:
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
-    """A panel for each normalization, with the further study ``curves`` if it is given."""
+    """Draw a panel for each normalization, with the further study ``curves`` if it is given."""
     norms = parts.normalizations(study)
     figure = new_figure(PAGE if len(norms) > 1 else COLUMN, 2.9)
     axes = list(figure.subplots(1, len(norms), sharey=True, squeeze=False)[0])

@@ -27,9 +27,9 @@ HATCH = "//////"
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -> Figure:
-    """Panels of one scale of colours; hatched where there is no value.
+    """Draw panels with a common colour scale; missing values are hatched.
 
-    Growth rates have the colours of all growth maps; what has both signs is centred on 0.
+    Growth rates have the colours of all growth maps; variables of both signs are centred on 0.
     """
     found = parts.picked(study, plot.variable, plot.at)
     left_out = parts.excluded(study, plot.at)
@@ -65,18 +65,18 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -
 
 
 def _name(figure: Figure, axes: Sequence[Axes], values: Sequence[str], found: xr.DataArray, plot: HeatMap) -> None:
-    """Letters and values above the panels, and the axes."""
+    """Label the panels with letters and values, and the axes."""
     width = round(figure.get_figwidth() / len(axes) / 0.08)
     for ax, said, letter in zip(axes, values, "abcd", strict=False):
         ax.set_xlabel(parts.label_of(found[plot.x])[0])
         if len(axes) > 1:
-            # a value stays with its name
+            # keep a value on the line of its name
             ax.set_title(fill(f"({letter}) " + said.replace(" = ", "\u00a0=\u00a0"), width), loc="left")
     axes[0].set_ylabel(parts.label_of(found[plot.y])[0])
 
 
 def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> list[Patch]:
-    """Growth rates, and the status where there is no cycle, as in all growth maps."""
+    """Draw growth rates, or the status without a cycle, as in all growth maps."""
     names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
     picked = {name: parts.slices(parts.picked(study, name, plot.at), by) for name in names}
     words: set[str] = set()
@@ -90,7 +90,7 @@ def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | No
 
 
 def _empty(ax: Axes, left_out: xr.DataArray, plot: HeatMap) -> None:
-    """Cells that the study's rule leaves out."""
+    """Draw the cells that the study's rule excludes."""
     x, y = (left_out[name].values * parts.label_of(left_out[name])[1] for name in (plot.x, plot.y))
     cells = left_out.transpose(plot.y, plot.x).values
     white = ListedColormap(["white"])
@@ -111,7 +111,7 @@ def _panel(ax: Axes, panel: xr.DataArray, plot: HeatMap, colours: Mapping[str, A
 
 
 def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
-    """Colours and their scale."""
+    """Colour map and scale for matplotlib."""
     if words := parts.flags_of(found):
         many = [WORDS[i % len(WORDS)] for i in range(len(words))]
         return {"cmap": ListedColormap(many), "norm": BoundaryNorm(np.arange(len(words) + 1) - 0.5, len(words))}

@@ -1,4 +1,4 @@
-"""Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
+"""Onset of separation on the way up and its end on the way down, against the ramp rate of the speed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BEYOND = "none up to the highest speed"
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
-    """One point; with the further study ``curves``, the speed at which the cycle ends."""
+    """Draw one point; with the further study ``curves``, also the speed at which the cycle ends."""
     norm, study, overlays = parts.of_one(study, overlays)
     study = study.squeeze()
     options, load = json.loads(study.attrs["options"]), float(json.loads(study.attrs["base"])["N"])
@@ -45,9 +45,9 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpee
 
 
 def _fold(ax: Axes, curves: list[Curve], load: float, onset: np.ndarray) -> None:
-    """Speed at which the stick-slip cycle ends at this load: where the onset goes as the rate goes to zero.
+    """Draw the speed at which the stick-slip cycle ends at this load: the limit of the onset for slow ramps.
 
-    It is the last one below all onsets; cycles that end elsewhere are others.
+    It is the highest such speed below all onsets; other ends belong to other cycles.
     """
     folds = np.concatenate([[], *(crossings(curve, load) for curve in curves if curve.kind == "fold")])
     below = folds[folds <= np.nanmin(onset, initial=np.inf)]

@@ -1,4 +1,4 @@
-"""Maps of regions: what becomes of the static start over two parameters, and the growth of the cycle it follows."""
+"""Maps of regions: outcome of the static start over two parameters, and growth rate of the cycle that it follows."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ Mask = NDArray[np.bool_]
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
-    """Two panels for each normalization: outcomes, and growth rates; the paper's cases are marked.
+    """Draw two panels for each normalization, outcomes and growth rates; the paper's cases are marked.
 
-    Lines are those of the further study ``curves``, if it is given, and else lie between cells.
+    Lines come from the further study ``curves``, if it is given, and else lie between cells.
     """
     norms = parts.normalizations(study)
     figure = new_figure(PAGE, 5.6)
@@ -62,31 +62,31 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
 
 
 def standing_alone(words: cells.Names) -> Mask:
-    """Points whose outcome none of those beside them has."""
+    """Points whose outcome no neighbour shares."""
     around = np.pad(words, 1)
     beside = (around[:-2, 1:-1], around[2:, 1:-1], around[1:-1, :-2], around[1:-1, 2:])
     return np.asarray(np.all([words != other for other in beside], axis=0))
 
 
 def _curves(ax: Axes, data: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> list[Artist]:
-    """Continued curves of the cycle that the map shows; their numbers stand in growth maps."""
+    """Draw continued curves of the map's cycle; growth maps show their numbers."""
     norm = parts.normalizations(data)[0]
     found = parted(curves_of(parts.of(overlays["curves"], norm)), data)[0]
     return list(draw_curves([ax], [[curve.unnumbered for curve in found]], []))
 
 
 def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Artist]:
-    """Between cells: where the same cycle changes its stability, and where a stable one ends.
+    """Draw borders between cells: where the same cycle changes its stability, and where a stable one ends.
 
-    It ends where no cycle is found in the next cell, and the motion does not stay quiet there either. That the start
-    follows none, or another one, does not say that.
+    A cycle ends where the next cell has no cycle and the motion does not stay quiet there. A start that follows no
+    cycle, or another one, does not prove an end.
     """
     x, y = cells.edges_of(data, plot.x, plot.y)
     growth = data["growth_rate"].transpose(plot.y, plot.x).values
     stable, unstable = growth < 0, growth > 0
     gone = cells.words_of(data, "cycle", plot.x, plot.y) == "no_cycle"
     gone &= cells.words_of(data, "outcome", plot.x, plot.y) != "quiet"
-    # the study's plane may lie the other way round
+    # the axes of the study's plane may be exchanged
     names = ("branch_continues_first", "branch_continues_second")
     up, right = names if str(data["outcome"].dims[0]) == plot.y else names[::-1]
     found: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
@@ -107,7 +107,7 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Artist]:
 
 
 def _said(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
-    """Within which time, and where the paper, the start and the cycle do not agree."""
+    """Captions: the horizon, and disagreements between paper, start and cycle."""
     yield f"Within {json.loads(study.attrs['options'])['horizon']:g} s of the static start."
     if "as_published" not in parts.normalizations(study):
         return

@@ -1,4 +1,4 @@
-"""How probable instability is against each uncertain parameter."""
+"""Probability of instability against each uncertain parameter."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ BINS = 3
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
-    """A row for each point, a panel for each parameter: how probable instability is in each third of its values.
+    """Draw a row for each point and a panel for each parameter: probability of instability in thirds of its values.
 
-    Bars are intervals of 95 %; the line is the probability at all values.
+    Bars are 95 % intervals; the line is the probability at all values.
     """
     cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
     figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
@@ -46,9 +46,9 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
 
 
 def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
-    """Of instability in each part of a parameter's values: its middle, the probability, the standard error; (3, parts).
+    """Probability of instability in each part of a parameter's values: middle, probability, standard error; (3, parts).
 
-    All variants of a sample count; since they share values, errors are those of samples, not of variants.
+    All variants of a sample count. They share values, so that errors are those of samples, not of variants.
     """
     variants = [str(one) for one in cell["variant"].values]
     draws = cell["parameter_values"].sel(parameter=name).transpose(SAMPLE, "sample_matrix").values
@@ -80,7 +80,7 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
 
 
 def spreads(distributions: Mapping[str, Mapping[str, Any]]) -> str:
-    """How parameters are distributed, those alike together."""
+    """Description of the distributions, equal ones together."""
     alike: dict[str, list[str]] = {}
     for name, how in distributions.items():
         alike.setdefault(_spread(name, how), []).append(symbol(name))
@@ -88,7 +88,7 @@ def spreads(distributions: Mapping[str, Mapping[str, Any]]) -> str:
 
 
 def _spread(name: str, how: Mapping[str, Any]) -> str:
-    """How one is, in words."""
+    """Description of one distribution."""
     if how["distribution"] == "uniform" and how["relative"] and np.isclose(how["low"] + how["high"], 2):
         return f"± {50 * (how['high'] - how['low']):g} %"
     unit, factor = ("times its value", 1.0) if how["relative"] else shown_number(name)[2:]
@@ -99,7 +99,7 @@ def _spread(name: str, how: Mapping[str, Any]) -> str:
 
 
 def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Each point of the grid beside the samples: what it is called, and its values."""
+    """Name and values of each point of the grid, without the dimension of samples."""
     dims = [str(dim) for dim in study["status"].dims if dim != SAMPLE]
     for place in product(*(range(study.sizes[dim]) for dim in dims)):
         cell = study.isel(dict(zip(dims, place, strict=True)))
@@ -108,5 +108,5 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 
 
 def symbol(name: str) -> str:
-    """A parameter's symbol."""
+    """Symbol of a parameter."""
     return typeset(shown_number(name).symbol) or name.replace("_", " ")

@@ -1,6 +1,6 @@
 """Stability maps: outcome of the static start over two parameters, and the growth rate of the stick-slip cycle.
 
-Studies of the quantity `outcome` are drawn here, as marks over the growth rate; for `regions` see `region_map`.
+Studies of the quantity `outcome` are drawn as marks over the growth rate; for `regions` see `region_map`.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ LARGE = 55.0
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
-    """One panel for each normalization, a mark a point; behind it the further study ``growth``, if it is given."""
+    """Draw one panel per normalization and one mark per point, over the further study ``growth`` if it is given."""
     norms = parts.normalizations(study)
     figure = new_figure(PAGE, 3.3)
     axes = figure.subplots(1, len(norms), sharex=True, sharey=True, squeeze=False)
@@ -65,7 +65,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
 
 
 def _neutral_line(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> None:
-    """Where the growth rate changes its sign."""
+    """Draw the line on which the growth rate changes its sign."""
     x, y = (growth[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
     rate = growth["growth_rate"].transpose(plot.y, plot.x).values
     if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
@@ -81,11 +81,11 @@ def _points(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
 
 
 # ----------------------------------------------------------------------------------------------------
-# What all maps of outcomes share
+# Common parts of all maps of outcomes
 
 
 def finish(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> list[Artist]:
-    """Scale and label the axes, and mark the paper's cases in the first panel, if it is that of the published modes.
+    """Scale and label the axes, and mark the paper's cases in the first panel, if it has the published modes.
 
     axes : shape (rows, columns), all over the same two parameters
     """
@@ -98,7 +98,7 @@ def finish(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> list[Arti
 
 
 def _paper_mark(ax: Axes, plot: StabilityMap, name: str) -> None:
-    """A large open mark in the shape of what the paper says, and beside it the case's name, towards the middle."""
+    """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
     mark = plot.marks[name]
     at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
     ring: dict[str, Any] = {
@@ -115,7 +115,7 @@ def _paper_mark(ax: Axes, plot: StabilityMap, name: str) -> None:
 
 
 def _paper_handles(plot: StabilityMap) -> list[Artist]:
-    """For legends: one for each shape among the marks."""
+    """Legend entries, one for each shape among the marks."""
     said = {mark.paper_outcome for mark in plot.marks.values()}
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": [withStroke(linewidth=2.4, foreground=BLACK)]}
@@ -127,7 +127,7 @@ def _paper_handles(plot: StabilityMap) -> list[Artist]:
 
 
 def set_scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
-    """Limits, labels and scales of the axes; with a linear stretch up to the second value if a logarithmic one has a 0.
+    """Set limits, labels and scales; a logarithmic scale with a 0 is linear up to the second value.
 
     axes : shape (rows, columns)
     """
@@ -152,7 +152,7 @@ def set_scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
 
 
 def _round_values(values: np.ndarray) -> list[float]:
-    """1, 2 and 5 in each decade within the values, and their ends."""
+    """The values 1, 2 and 5 of each decade within the range, and its ends."""
     positive = values[values > 0]
     decades = 10.0 ** np.arange(np.floor(np.log10(positive[0])), np.ceil(np.log10(positive[-1])) + 1)
     steps = np.outer(decades, [1.0, 2.0, 5.0]).ravel()
@@ -161,7 +161,7 @@ def _round_values(values: np.ndarray) -> list[float]:
 
 
 def legend_below_head(figure: Figure, study: xr.Dataset, plot: StabilityMap, handles: Iterable[Artist]) -> None:
-    """A legend over all panels, under what `head` says: a title of the figure itself would lie over it."""
+    """Draw a legend over all panels, below `head`, which a title of the figure itself would cover."""
     said = parts.headline(figure, plot.title or study.attrs.get("title", ""), parts.fixed(study, modes_said=True))
     shown = list(handles)
     figure.legend(handles=shown, loc="outside upper center", ncols=min(len(shown), 4), title=said, title_fontsize=8)

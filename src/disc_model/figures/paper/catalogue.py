@@ -1,4 +1,4 @@
-"""The paper's figures: what each shows and needs, from `catalogue.yaml`. Studies are checked against it."""
+"""Catalogue of the paper's figures, their contents and data, from `catalogue.yaml`. Studies are checked against it."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ Windows = Mapping[str, Mapping[str, Window | Poincare | None]]
 
 
 class Entry(NamedTuple):
-    """A figure.
+    """A figure of the paper.
 
     Attributes
     ----------
-    section : of the paper
-    title : a few words for lists
-    caption : what it shows; `caption` fills in numbers and adds the parameters
-    needs : the windows it needs, by case; the Poincaré section goes by the name ``poincare``
+    section : section of the paper
+    title : short title for lists
+    caption : description; `caption` fills in numbers and adds the parameters
+    needs : required windows, by case; the Poincaré section is named ``poincare``
     drawn_by : a module beside this one and its function, such as ``"spectra.response"``, which takes cases by name
     options : keyword arguments of that function
     """
@@ -42,7 +42,7 @@ class Entry(NamedTuple):
 
     @property
     def plot(self) -> OwnFigure:
-        """What draws it."""
+        """The drawing function with its options."""
         return OwnFigure(by=f"paper.{self.drawn_by}", options=dict(self.options))
 
 
@@ -65,7 +65,7 @@ ZOOM = 0.2
 
 
 def lacking(figure: str, specs: Mapping[str, CaseSpec]) -> Iterator[tuple[str, str]]:
-    """What keeps one of the paper's figures from being drawn: the case that it is about, and why."""
+    """Reasons why a figure of the paper cannot be drawn, each with the case concerned."""
     for case, windows in CATALOGUE[figure].needs.items():
         if case not in specs:
             yield case, f"needs a case {case}"
@@ -83,7 +83,7 @@ def lacking(figure: str, specs: Mapping[str, CaseSpec]) -> Iterator[tuple[str, s
 
 
 def _faults_of(figure: str, name: str, window: Window) -> Iterator[str]:
-    """What keeps a window from being drawn in a figure, each as the end of a sentence."""
+    """Reasons why a window cannot be drawn in a figure, each as the end of a sentence."""
     if name in RANGES:
         if window.envelope is None:
             yield "needs an envelope"
@@ -99,12 +99,12 @@ def _faults_of(figure: str, name: str, window: Window) -> Iterator[str]:
 
 
 def number_of(name: str) -> str:
-    """What the paper calls a figure, such as "Fig. 5" or "Fig. A1"."""
+    """Name of a figure in the paper, such as "Fig. 5" or "Fig. A1"."""
     return f"Fig. {name.removeprefix('fig').lstrip('0')}"
 
 
 def label(name: str) -> str:
-    """Number and title, for lists that are sorted as text: one digit after two spaces comes before two digits."""
+    """Number and title, for lists sorted as text: numbers of one digit follow two spaces to come first."""
     number = number_of(name)
     spaced = number.replace(" ", "  ") if len(number) == len("Fig. 1") else number
     return f"{spaced}: {CATALOGUE[name].title}"
@@ -131,7 +131,7 @@ def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | 
 
 
 def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
-    """What captions say of times and angles, from the windows that the figure shows."""
+    """Times and angles for captions, from the windows that the figure shows."""
     needed = [(case, name) for case, names in entry.needs.items() for name in names]
     shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]
     angles = " and ".join(f"{theta:g}" for theta in sorted({window.theta for _, window in shown}))
@@ -151,5 +151,5 @@ _MODES = {
 
 
 def said_parameters(p: Parameters) -> str:
-    """N, Omega and whatever differs from Table 1, with units."""
+    """N, Omega and all values that differ from Table 1, with units."""
     return said_values({name: getattr(p, name) for name in Parameters.model_fields})

@@ -1,8 +1,8 @@
-"""The whole disc: its deflection at some instants, and as a film. The paper has no such figure.
+"""The whole disc: its deflection at some instants, and as a film; an addition to the paper's figures.
 
-A case records the disc at r_0 at some angles, in windows `around0`, `around1`, ... Modes without nodal circles
-are as many harmonics of the angle, so that twice their number and one of angles give each mode's share, and its shape
-the rest.
+A case records the disc at r_0 at some angles, in windows `around0`, `around1`, ... Modes without nodal circles are
+harmonics of the angle. Twice their number and one of angles therefore determine each mode's amplitude, and the mode
+shapes determine the rest.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ STYLES = ("-", "--", "-.", ":")
 
 @dataclass(frozen=True)
 class Motion:
-    """The disc and the slider in a stretch of time.
+    """Motion of the disc and the slider in a stretch of time.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ def motion_of(case: xr.DataTree) -> Motion:
 
 
 def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """The disc from above at instants between two losses of contact, and around its circle of radius r_0."""
+    """Draw the disc from above at instants between two losses of contact, and along its circle of radius r_0."""
     (case,) = cases.values()
     figure = new_figure(PAGE, 4.2)
     above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
@@ -121,14 +121,14 @@ def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _between_losses(motion: Motion) -> list[int]:
-    """Samples equally far apart from the first loss of contact to the next; over the whole stretch without them."""
+    """Equidistant samples from the first loss of contact to the next, or over the whole stretch without them."""
     losses = [first for first, _ in parts.stretches(motion.phase == SEPARATION) if first > 0]
     first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
     return [int(first + share * (last - first)) for share in np.arange(INSTANTS) / INSTANTS]
 
 
 def _scale(motion: Motion) -> Normalize:
-    """Of the deflection, mm: the same at all times, and 0 in its middle."""
+    """Colour scale of the deflection, mm, equal at all times and centred on 0."""
     edge, theta = np.array([motion.parameters.b]), np.linspace(0, 2 * np.pi, ANGLES)
     step = max(1, motion.time.size // 50)
     largest = max(float(np.abs(motion.deflection(i, edge, theta)).max()) for i in range(0, motion.time.size, step))
@@ -146,7 +146,7 @@ def _slider_colour(motion: Motion, i: int) -> str:
 
 
 def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
-    """The disc from above, in mm, with the slider on it."""
+    """Draw the disc from above, in mm, with the slider on it."""
     p = motion.parameters
     r, theta = np.linspace(p.a, p.b, RADII), np.linspace(0, 2 * np.pi, ANGLES)
     x, y = (1e3 * r[:, None] * turn(theta) for turn in (np.cos, np.sin))
@@ -164,7 +164,7 @@ def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
 
 
 def _directions(ax: Axes, p: Parameters) -> None:
-    """A tick at theta = 0, and an arrow in the sense in which theta grows and the slider is dragged."""
+    """Draw a tick at theta = 0, and an arrow in the direction of theta, in which the slider is dragged."""
     edge, middle = 1e3 * p.b, 0.6 * 1e3 * p.a
     ax.plot([edge, 1.07 * edge], [0, 0], color=BLACK, lw=0.8)
     arc = np.radians(np.linspace(-60, 60, 30))
@@ -176,7 +176,7 @@ def _directions(ax: Axes, p: Parameters) -> None:
 
 
 def _around(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
-    """The disc along the circle of radius r_0 at an instant, and the slider as a mark of a size in points."""
+    """Draw the disc along the circle of radius r_0 at an instant, with the slider as a mark of a size in points."""
     theta = np.linspace(0, 2 * np.pi, ANGLES)
     ax.plot(theta, motion.around(i, theta), color=DISC, **look)
     angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
@@ -185,7 +185,7 @@ def _around(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
 
 
 def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
-    """The circle of radius r_0 and the slider at some instants."""
+    """Draw the circle of radius r_0 and the slider at some instants."""
     for i, style in zip(shown, STYLES, strict=True):
         after = 1e3 * (motion.time[i] - motion.time[shown[0]])
         _around(ax, motion, i, 5, linestyle=style, label=f"disc, {after:.1f} ms")
@@ -201,7 +201,7 @@ FILM, FILM_DPI, FRAME_RATE = (6.0, 2.5), 100, 12
 
 
 def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
-    """Write the motion of disc and slider as a picture that moves, .gif or .webp, of so many frames at most.
+    """Write the motion of disc and slider as an animated picture, .gif or .webp, with at most `frames` frames.
 
     Raises `Missing` if the case does not hold the windows `around0`, ...
     """

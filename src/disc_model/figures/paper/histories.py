@@ -16,7 +16,7 @@ from disc_model.figures.parts import COLUMN, DISC, GREY, new_figure
 def history(
     cases: Mapping[str, xr.DataTree], *, window: str, variables: Sequence[str], until: float = np.inf
 ) -> Figure:
-    """Panels one above the other; a window of ranges as bands, until a time in s."""
+    """Draw panels one above the other until a time in s; windows of ranges are drawn as bands."""
     (case,) = cases.values()
     figure = new_figure(COLUMN, 0.8 + 1.3 * len(variables))
     axes = figure.subplots(len(variables), 1, sharex=True, squeeze=False)[:, 0]
@@ -43,7 +43,7 @@ def history(
 
 
 def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Figure 10: range of the disc at r_0 and a fixed angle over the run, contact enforced and separable."""
+    """Figure 10: range of the disc at r_0 and a fixed angle over the run, with bonded contact and with separation."""
     figure = new_figure(COLUMN, 2.4)
     ax = figure.subplots()
     with parts.blank_if_missing(ax):

@@ -1,6 +1,6 @@
-"""The model: from the side, from above to scale, and the forces at the contact; figure 1 of the paper.
+"""Drawing of the model: from the side, from above to scale, and the contact forces; figure 1 of the paper.
 
-The drawing of docs/model.md is the same.
+The page docs/model.md shows the same drawing.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ OUTER = 1.2
 
 
 def schematic(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """The model of a case."""
+    """Draw the model of a case."""
     (case,) = cases.values()
     return sketch(Parameters.model_validate_json(case.attrs["parameters"]))
 
 
 def sketch(p: Parameters) -> Figure:
-    """The model with the radii of a case."""
+    """Draw the model with the radii of a case."""
     figure = Figure(figsize=(PAGE, 0.97 * PAGE))
     figure.set_layout_engine("none")  # the boxes are given
     axes = [figure.add_axes(box) for box in BOXES]
@@ -49,7 +49,7 @@ def sketch(p: Parameters) -> Figure:
 
 
 def _side(ax: Axes) -> None:
-    """Along the circle of radius r_0, unrolled; the gap is open to show u and w apart."""
+    """Draw the side view, unrolled along the circle of radius r_0; the gap is open so that u and w are distinct."""
     x = np.linspace(-2.5, 4.4, 300)
 
     def surface(at: NDArray[np.float64] | float) -> NDArray[np.float64]:
@@ -99,7 +99,7 @@ def _side(ax: Axes) -> None:
 
 
 def _above(ax: Axes, p: Parameters) -> None:
-    """From above: radii, to scale, and angles."""
+    """Draw the view from above: radii, to scale, and angles."""
     a, b, r_0 = (radius * OUTER / p.b for radius in (p.a, p.b, p.r_0))
     ax.add_patch(Annulus((0, 0), b, b - a, fc=PLATE, ec=DISC, lw=1.5))
     ax.add_patch(Circle((0, 0), a, fc=CLAMP, ec=DISC, lw=1.5))
@@ -130,7 +130,7 @@ def _above(ax: Axes, p: Parameters) -> None:
 
 
 def _forces(ax: Axes) -> None:
-    """Free bodies: the slider, and the disc under it."""
+    """Draw the free-body diagrams of the slider and of the disc under it."""
     ax.add_patch(Rectangle((-0.45, 0.55), 0.9, 0.6, fc=BODY, ec=BLACK, lw=1.3))
     ax.text(0, 0.85, "$m$", ha="center", va="center")
     _arrow(ax, (-0.12, 2.0), (-0.12, 1.15), "$N + k\\,(u - u_0) + c\\,\\dot u$", (0.12, 0.58))
@@ -162,7 +162,7 @@ def _mm(length: float) -> str:
 def _arrow(
     ax: Axes, start: Point, end: Point, text: str = "", offset: Point = (0, 0), colour: str = BLACK, style: str = "-|>"
 ) -> None:
-    """An arrow from `start` to `end`, with a text at its middle, moved by `offset`."""
+    """Draw an arrow from `start` to `end`, with a text at its middle, moved by `offset`."""
     look = {"arrowstyle": style, "color": colour, "lw": 1.5, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", tuple(end), tuple(start), arrowprops=look)
     if text:
@@ -171,12 +171,12 @@ def _arrow(
 
 
 def _write(ax: Axes, place: Point, text: str, **look: Any) -> None:
-    """A text centred at a point."""
+    """Write a text centred at a point."""
     ax.text(float(place[0]), float(place[1]), text, ha="center", va=look.pop("va", "center"), **look)
 
 
 def _angle(ax: Axes, low: float, high: float, text: str, colour: str, radius: float = 0.72) -> None:
-    """An arc with an arrow, from one angle to another."""
+    """Draw an arc with an arrow, from one angle to another."""
     wide = 2 * radius
     ax.add_patch(Arc((0, 0), wide, wide, theta1=np.degrees(low), theta2=np.degrees(high) - 6, color=colour, lw=1.5))
     _arrow(ax, _at(high - 0.11, radius), _at(high, radius), colour=colour)
@@ -184,14 +184,14 @@ def _angle(ax: Axes, low: float, high: float, text: str, colour: str, radius: fl
 
 
 def _spring(ax: Axes, start: Point, end: Point, width: float = 0.1) -> None:
-    """A zigzag between two points."""
+    """Draw a spring as a zigzag between two points."""
     places = np.concatenate([[0, 0.2], np.linspace(0.2, 0.8, 11)[1:-1], [0.8, 1]])
     swings = np.array([0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])
     ax.plot(*_beside(start, end, places, width * swings), color=BLACK, lw=1.2)
 
 
 def _damper(ax: Axes, start: Point, end: Point, width: float = 0.1) -> None:
-    """A cup and a piston between two points."""
+    """Draw a damper as a cup and a piston between two points."""
     for along, side in (
         ((0, 0.35), (0, 0)),
         ((0.7, 0.35, 0.35, 0.7), (1, 1, -1, -1)),
@@ -202,14 +202,14 @@ def _damper(ax: Axes, start: Point, end: Point, width: float = 0.1) -> None:
 
 
 def _beside(start: Point, end: Point, along: NDArray[np.float64], side: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points at shares of the way between two points and distances to its left, shape (2, n)."""
+    """Points at fractions of the way between two points, offset to its left by distances, shape (2, n)."""
     first, way = np.asarray(start, dtype=float), np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
     left = np.array([-way[1], way[0]]) / np.hypot(*way)
     return np.asarray(first[:, None] + way[:, None] * along + left[:, None] * side)
 
 
 def _wall(ax: Axes, start: Point, end: Point, depth: Point) -> None:
-    """A line with hatching on the side of `depth`, a vector."""
+    """Draw a line with hatching on the side of `depth`, a vector."""
     ax.plot(*np.transpose([start, end]), color=BLACK, lw=1.5)
     for share in np.linspace(0, 1, 9):
         foot = np.array(start) + share * (np.array(end) - np.array(start))

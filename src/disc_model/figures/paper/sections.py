@@ -33,9 +33,9 @@ BY_HALVES = {"early": "first half", "later": "second half", "separated": "separa
 
 
 def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> Figure:
-    """(a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle.
+    """Draw (a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle.
 
-    Of several cases the first is shown; (a) has room for the others, so that figures of a pair can be compared.
+    The first case is shown; the axes of (a) fit the others too, so that figures of a pair can be compared.
     """
     case, *others = cases.values()
     figure = new_figure(PAGE, 2.75)
@@ -85,7 +85,7 @@ def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool)
 def portrait(
     cases: Mapping[str, xr.DataTree], *, window: str = "orbit", x: str = "psi", y: str = "psi_velocity"
 ) -> Figure:
-    """One variable over another in a window, coloured by phase."""
+    """Draw one variable over another in a window, coloured by phase."""
     (case,) = cases.values()
     figure = new_figure(COLUMN, 2.7)
     ax = figure.subplots()
@@ -98,7 +98,7 @@ def portrait(
 
 
 def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Differences between intervals of releases and those n later, against n: small where a motion repeats."""
+    """Draw differences between release intervals and those n later, against n: small where a motion repeats."""
     figure = new_figure(PAGE, 2.6)
     axes = figure.subplots(1, len(cases), sharey=True, squeeze=False)[0]
     for ax, (name, case), letter in zip(axes, cases.items(), "abcd", strict=False):

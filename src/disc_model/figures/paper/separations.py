@@ -1,4 +1,4 @@
-"""The slider leaves the disc and meets it again, over a run and close up; figures 2, 3 and 23."""
+"""Separation of the slider from the disc, over a run and in detail; figures 2, 3 and 23."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ SEPARATION = PHASES.index("separation")
 
 
 def shade(ax: Axes, spans: list[tuple[float, float]], zero: float) -> None:
-    """Shade separations over the time in ms after a time in s; they stand in the legend once."""
+    """Shade separations over the time in ms after `zero` in s, with one entry in the legend."""
     for i, span in enumerate(spans):
         start, stop = ((time - zero) * 1e3 for time in span)
         ax.axvspan(start, stop, color=SEPARATED, alpha=0.25, label="separation" if i == 0 else "_nolegend_")
 
 
 def displacements(ax: Axes, part: xr.Dataset, zero: float, rest: float) -> None:
-    """Disc and slider from a height at rest in m, over the time in ms after a time in s."""
+    """Draw displacements of disc and slider relative to `rest` in m, over the time in ms after `zero` in s."""
     time = (part["time"].values - zero) * 1e3
     ax.plot(time, (part["w"].values - rest) * 1e3, color=DISC, label="disc")
     ax.plot(time, (part["u"].values - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
@@ -34,13 +34,13 @@ def displacements(ax: Axes, part: xr.Dataset, zero: float, rest: float) -> None:
 
 
 def separations(window: xr.Dataset) -> list[tuple[float, float]]:
-    """Stretches of separation in a window of samples, s; those that the window cuts off included."""
+    """Separations in a window of samples, s, including those that the window cuts off."""
     time = window["time"].values.tolist()
     return [(time[a], time[b - 1]) for a, b in parts.stretches(window["phase"].values == SEPARATION)]
 
 
 def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
-    """Those separations that begin and end inside the window."""
+    """Separations that begin and end inside the window."""
     time = window["time"].values
     return [(a, b) for a, b in separations(window) if a > time[0] and b < time[-1]]
 
@@ -61,7 +61,7 @@ def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _show_zero(ax: Axes, case: xr.DataTree) -> None:
-    """Where contact is lost, zero is shown; a force that hardly changes is shown close up."""
+    """Include zero if contact is lost; a force that hardly changes is shown in detail."""
     if np.isfinite(float(case["first_separation"])):
         ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
 
@@ -89,7 +89,7 @@ MARGIN = 0.5
 def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 3, slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
 
-    The paper shows (a); the gap is a hundredth of the motion, so that it needs an axis of its own to be seen.
+    The paper shows (a); the gap is a hundredth of the motion and needs an axis of its own.
     """
     case = cases["F02"]
     figure = new_figure(COLUMN, 3.2)

@@ -1,4 +1,4 @@
-"""How frequencies change with time, and the vibration they were taken of; figures 24 to 29 of the paper."""
+"""Spectra in time, and the vibrations that they are taken from; figures 24 to 29 of the paper."""
 
 from __future__ import annotations
 
@@ -53,27 +53,27 @@ def spectrogram(ax: Axes, found: TimeFrequency, reference: float, highest: float
 
 
 def stretch(found: TimeFrequency) -> tuple[float, float]:
-    """The stretch of time that a panel stands for, s; one at the start of a run begins at 0."""
+    """The stretch of time that a panel represents, s; one at the start of a run begins at 0."""
     start, stop = round(float(found.time[0]), 1), round(float(found.time[-1]), 1)
     return (0.0 if start < 1 else start), stop
 
 
 def mark_time(ax: Axes, time: float) -> None:
-    """A dashed line at a time, if the panel shows it."""
+    """Draw a dashed line at a time, if the panel shows it."""
     low, high = ax.get_xlim()
     if np.isfinite(time) and low < time < high:
         ax.axvline(time, color="white", linewidth=0.9, linestyle=(0, (4, 2)))
 
 
 def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) -> None:
-    """The scale of power beside panels that share it."""
+    """Draw the colour scale of power beside the panels that share it."""
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06)
     bar.set_label("Power (dB re strongest line)")
     bar.outline.set_visible(False)
 
 
 def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequency, highest: float) -> None:
-    """Power in dB below the strongest line, up to a frequency in Hz, with its scale; the first separation is marked."""
+    """Draw power in dB below the strongest line, up to a frequency in Hz; the first separation is marked."""
     mesh = spectrogram(ax, found, float(found.power.max()), highest)
     mark_time(ax, float(case["first_separation"]))
     ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
@@ -81,7 +81,7 @@ def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequen
 
 
 def spectrogram_of(cases: Mapping[str, xr.DataTree], *, window: str, variable: str, highest: float) -> Figure:
-    """The spectrum in time of a variable of any case."""
+    """Draw the spectrum in time of a variable of any case."""
     (case,) = cases.values()
     figure = new_figure(PAGE / 2, 2.7)
     ax = figure.subplots()
@@ -154,7 +154,7 @@ def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
 
 
 def _name_lines(ax: Axes) -> None:
-    """Ticks at the frequencies of Table 2, with the paper's symbols."""
+    """Draw ticks at the frequencies of Table 2, with the paper's symbols."""
     right = ax.secondary_yaxis("right")
     right.set_yticks([float(np.mean(pair)) for pair in TABLE_2.values()], labels=list(TABLE_2))
     right.set_yticks([line for pair in TABLE_2.values() for line in pair], minor=True)
@@ -173,13 +173,13 @@ def response(
     highest: bool = False,
     until: float = np.inf,
 ) -> Figure:
-    """Figures 26 to 29: (a) range over the run, with closer looks beside it if asked for, (b) spectrum in a window.
+    """Figures 26 to 29: (a) range over the run, with details beside it if requested, (b) spectrum in a window.
 
     Parameters
     ----------
-    zooms : windows and times in s at which a closer look begins
+    zooms : windows, and times in s at which their details begin
     highest : mark the disc's highest natural frequency
-    until : s, how much of the run (a) shows
+    until : s, end of the part of the run that (a) shows
     """
     (case,) = cases.values()
     figure = new_figure(PAGE, 2.7)

@@ -1,1 +1,1 @@
-"""Grids of parameters: what a file says of them, batches of points, one dataset, figures."""
+"""Grids of parameters: their batches of points, the merged dataset and its figures."""

@@ -3,8 +3,8 @@
     study = xarray.open_dataset("results/map_N/map_N.nc")
     study["first_separation"].sel(normalization="as_published").plot()
 
-Every point of the grid is there with its `status`, and what `disc_model.studies.grids.summaries` says of all of them. A
-zip is one dimension without coordinate of its own, named after its parameters, which lie along it.
+The dataset has every point of the grid with its `status`, and the results of `disc_model.studies.grids.summaries`. A
+zip is one dimension without a coordinate of its own. It is named after its parameters, which are variables along it.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ class MergeError(DiscModelError):
 def merge_batches(
     batches: Sequence[xr.Dataset], grid: Sequence[Mapping[str, Any]], attrs: Mapping[str, str]
 ) -> xr.Dataset:
-    """Put batches together; raises `MergeError` if they disagree about dimensions, or are not those of the grid.
+    """Merge batches; raises `MergeError` if their dimensions disagree, or if they do not match the grid.
 
     Parameters
     ----------
     batches : as `disc_model.studies.grids.run.run_batch` makes them
-    grid : dimensions, as `disc_model.studies.study.GridStudy.grid`
+    grid : dimensions, as from `disc_model.studies.study.GridStudy.grid`
     attrs : further attributes, such as the title
     """
     try:
@@ -70,7 +70,7 @@ def merge_batches(
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:
-    """A line for each point without the result asked for: where it lies, its status, what happened; errors first."""
+    """One line for each point without a result: its parameters, status and message; errors come first."""
     status = flag_names(study["status"])
     varied = [name for name in study.coords if set(study[name].dims) <= set(study["status"].dims)]
     failed = np.isin(status, STATUSES[1:])
@@ -85,7 +85,7 @@ def failures(study: xr.Dataset) -> Iterator[str]:
 
 
 def _with_excluded(variable: xr.DataArray) -> xr.Variable:
-    """A variable along the points with one more: it has no value, and a flag has a word of its own."""
+    """A variable along the points with one excluded point appended: missing, or a flag with a word of its own."""
     attrs = dict(variable.attrs)
     none: Any = math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0
     if "flag_meanings" in attrs:
@@ -103,7 +103,7 @@ def _places(
     where: Sequence[str],
     base: Mapping[str, Any],
 ) -> np.ndarray:
-    """Row of each point of the grid, in the order of the grid, last dimension fastest; -1 of what rules leave out."""
+    """Row of each point, in the order of the grid, last dimension fastest; -1 for points excluded by rules."""
     rows: dict[tuple[Any, ...], int] = {}
     for row, point in enumerate(zip(*(flat[name].values.tolist() for name in names), strict=True)):
         if point in rows:
@@ -126,7 +126,7 @@ def _coordinates(grid: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, xr.Va
 
 
 def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, str]:
-    """What all batches agree on: quantity, options, base values, sources; and all commits that made them."""
+    """Attributes common to all batches (quantity, options, base values, sources), and the commits that made them."""
     specification = json.loads(batches[0].attrs["specification"])
     for name in ("points", "names", "tile"):
         specification.pop(name, None)

@@ -1,7 +1,7 @@
-"""Short histories of the motion at a few points of a grid, for the page on which they are looked at.
+"""Short histories of the motion at a few points of a grid, for the explorer page.
 
-They begin where what the quantity says of the point ends: after the late stretch of an outcome, on the cycle whose
-stability is requested, after the transient.
+A history begins at the end of the quantity's own computation: after the late stretch of an outcome, on the cycle whose
+stability is computed, or after the transient.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _ALONG = ("sample",)
 
 
 class Motions:
-    """The histories in place of what the quantity itself computes; a `Quantity` as that of `run`."""
+    """A `Quantity` for `run` that computes histories instead of the study's own quantity."""
 
     COLUMNS: Mapping[str, Column] = {
         "status": Column(*STATUS),
@@ -51,7 +51,7 @@ class Motions:
         return {"sample": (np.arange(SAMPLES), Variable("1", "number of the sample"))}
 
     def compute_point(self, point: Point, options: Any) -> tuple[dict[str, Any], str]:
-        """One history."""
+        """The history at one point."""
         start = self.quantity.state_at(point, options).replace(time=0.0, time_low=0.0)
         p = point.parameters
         length = CYCLES_SHOWN * cycle_length(p, start)
@@ -63,15 +63,15 @@ class Motions:
 
 
 def run_motions(text: str) -> xr.Dataset:
-    """Histories, along `point` and `sample`, of a text of `disc_model.studies.study.GridStudy.motions`."""
+    """Histories along `point` and `sample`, for a text from `disc_model.studies.study.GridStudy.motions`."""
     found = run_as(text, Motions(quantity_of(text)))
     return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
 
 
 def cycle_length(p: Parameters, state: State) -> float:
-    """Mean time between two stick releases after a state (time 0), s; at least the free period in the plane.
+    """Mean time between two releases after a state (time 0), s; at least the free period of the in-plane motion.
 
-    The latter is all there is where the slider no longer sticks.
+    The free period is returned where the slider no longer sticks.
     """
     free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
     events = simulate(p, LOOK, tol=TOLERANCE, initial_state=state).events

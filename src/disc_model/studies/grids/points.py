@@ -1,4 +1,4 @@
-"""What a quantity says of points: rows of values by column, a status, and what a point may fail of."""
+"""Results of a quantity at points: rows of values by column, a status, and the errors that make a point fail."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ DIRECTION = (np.array(("up", "down")), Variable("", "direction of the sweep"))
 
 @dataclass(frozen=True)
 class Point:
-    """A point of a grid: its parameters, where its motion starts, and its number among samples, if it is one."""
+    """A point of a grid: its parameters, the start of its motion, and its sample number, if it is a sample."""
 
     parameters: Parameters
     start: Start = STATIC_START
@@ -41,13 +41,13 @@ NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
 
 
 def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
-    """Rows along a dimension of a quantity's own as its columns; what some rows lack is None, which is missing."""
+    """Columns of the rows along a quantity's own dimension; values that some rows lack are None, which means missing."""
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: [row.get(name) for row in rows] for name in names}
 
 
 # ----------------------------------------------------------------------------------------------------
-# What is found at samples of distributed parameters
+# Results at samples of distributed parameters
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)

@@ -1,4 +1,4 @@
-"""Running one batch of a grid study for the workflow: a quantity at each point, as variables with units."""
+"""Computation of one batch of a grid study: a quantity at each point, as variables with units."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ POINT = "point"
 
 
 def run_batch(text: str) -> xr.Dataset:
-    """Compute a batch, given as a text of `disc_model.studies.study.GridStudy.batches`.
+    """Compute a batch, given as a text from `disc_model.studies.study.GridStudy.batches`.
 
     The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
     """
@@ -46,7 +46,7 @@ def quantity_of(text: str) -> Any:
 
 
 def run_as(text: str, quantity: Quantity) -> xr.Dataset:
-    """As `run_batch`, with another quantity computed at the points, from the options of the batch's own."""
+    """Compute a batch as `run_batch` does, but with another quantity and the options of the batch's own."""
     data = json.loads(text)
     names, points = data["names"], data["points"]
     entry = QUANTITIES[data["quantity"]]
@@ -87,9 +87,9 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
 
 
 def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Iterator[tuple[Row, str]]:
-    """Of a tile with its margin, which belongs to the next tiles: only its own points are kept, in the text's order.
+    """Compute a tile with its margin, which belongs to the next tiles; return its own points in the text's order.
 
-    What else varies among the points makes tiles of its own.
+    Each combination of the other varying parameters is a tile of its own.
     """
     (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
     tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
@@ -104,7 +104,7 @@ def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Iterat
 
 
 def _point(p: Made, varied: Mapping[str, Any], start: Start, starts: Mapping[str, Start]) -> Point | DiscModelError:
-    """A point with what varies besides its parameters."""
+    """A point with its parameters and everything else that varies."""
     if isinstance(p, DiscModelError):
         return p
     start = starts[varied[START]] if START in varied else start
@@ -117,7 +117,7 @@ def _point(p: Made, varied: Mapping[str, Any], start: Start, starts: Mapping[str
 
 
 def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
-    """The parameters of a point, or why there are none: no number of modes may meet the tolerance."""
+    """The parameters of a point, or the error if no number of modes meets the tolerance."""
     values = case_of({**data["base"], **varied}, data.get("discs", {}))
     try:
         if not leaves_modes(values):
@@ -129,7 +129,7 @@ def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
 
 
 def describe(name: str) -> dict[str, Any]:
-    """Attributes of what varies, a coordinate; choices are stored as words, without unit."""
+    """Attributes of a varying parameter as a coordinate; choices are stored as words, without unit."""
     if name == START:
         return {"long_name": "where the motion starts"}
     if name == SAMPLE:
@@ -143,7 +143,7 @@ def describe(name: str) -> dict[str, Any]:
 
 
 class Described(Protocol):
-    """What every module of a quantity has; those with dimensions of their own also have `coordinates`."""
+    """Interface of all quantity modules; those with dimensions of their own also have `coordinates`."""
 
     COLUMNS: Mapping[str, Column]
 
@@ -162,7 +162,7 @@ class Tiled(Described, Protocol):
     def compute_tile(
         self, points: Sequence[Sequence[Made]], options: Any, sampled: Collection[tuple[int, int]]
     ) -> Sequence[Sequence[tuple[Row, str]]]:
-        """Rows and messages of a tile, whose points are given by rows; those at the places `sampled` in any case."""
+        """Compute rows and messages of a tile, whose points are given by rows, at least at the places `sampled`."""
 
 
 class Quantity(Described, Protocol):
@@ -171,20 +171,20 @@ class Quantity(Described, Protocol):
     def compute_point(self, point: Point, options: Any) -> tuple[Row, str]:
         """Values at one point by column (flags as words), and a message.
 
-        Columns left out are missing, and so is what a list or array is shorter than its dimension; what it is longer
-        is left out.
+        Omitted columns are missing. Lists and arrays shorter than their dimension are padded with missing values,
+        longer ones are cut.
         """
 
 
 class Table(NamedTuple):
-    """Arrays by variable, shape (points, ...), and one message a point, empty where all went well."""
+    """Arrays by variable, shape (points, ...), and one message per point, empty without an error."""
 
     arrays: dict[str, NDArray[Any]]
     messages: list[str]
 
 
 def compute(quantity: Quantity, points: Iterable[Point | DiscModelError], options: Any) -> Table:
-    """A quantity at each point; one that fails (see `NUMERICAL`), or could not be made, is `failed`, with a message."""
+    """Compute a quantity at each point; a point with an error (see `NUMERICAL`) is `failed`, with a message."""
     return table_of(quantity, [_at(quantity, point, options) for point in points], options)
 
 
@@ -210,7 +210,7 @@ def table_of(quantity: Described, found: Sequence[tuple[Row, str]], options: Any
 
 
 def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Column) -> None:
-    """Put a value at a place of an array: words of a flag as numbers, of lists and arrays what fits."""
+    """Store a value in an array: flags as numbers; lists and arrays are cut to fit."""
     room = array.shape[len(place) :]
     if isinstance(value, list):
         for i, item in enumerate(value[: room[0]]):

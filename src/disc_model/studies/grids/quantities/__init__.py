@@ -1,1 +1,1 @@
-"""What a grid study can compute at each of its points: a quantity is a module here, see `Quantity` of `grids.run`."""
+"""Quantities that a grid study can compute at each point, one module each; see `Quantity` of `grids.run`."""

@@ -1,7 +1,8 @@
-"""What many starts come to at one point: the attractors, their shares, and the critical energy of separation.
+"""Basins of attraction at one point, from many starts: attractors, basin fractions and the critical energy.
 
-Start i of each stated energy is perturbed in a direction that follows from the study's seed, the place of the energy in
-its list, and i.  All first starts come first, then all second ones: further starts leave those before as they are.
+Start i of each energy is perturbed in a random direction. The direction depends only on the study's seed, the place of
+the energy in its list, and i. The first starts of all energies come first, then all second ones, so that further starts
+leave the earlier ones unchanged.
 """
 
 from __future__ import annotations
@@ -79,7 +80,7 @@ def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def compute_point(point: Point, options: BasinsOptions) -> tuple[dict[str, Any], str]:
-    """Starts that fail have a status of their own share; the point fails if all do."""
+    """Compute the basins; failed starts have a fraction of their own, and the point fails if all starts do."""
     sample = _Sample(point, options)
     found = sample.found
     rows = [reached for row in found for reached in row]
@@ -106,7 +107,7 @@ def compute_point(point: Point, options: BasinsOptions) -> tuple[dict[str, Any],
 
 
 class _Sample:
-    """The starts of a point; what they come to is found by the number of their energy, and then their own."""
+    """The starts of a point; their outcomes are indexed by the number of the energy, then by that of the start."""
 
     def __init__(self, point: Point, options: BasinsOptions) -> None:
         p = point.parameters
@@ -118,11 +119,11 @@ class _Sample:
         self.found = list(zip(*all_of, strict=True))
 
     def _outcome_of(self, energy: float, j: int, i: int) -> OutcomeResult:
-        """What a kick of any energy in the direction of a start comes to."""
+        """The outcome of a perturbation of any energy in the direction of a start."""
         return self.basins.reached(random_perturbation(self.p, self.start, energy, (self.options.seed, j, i)))
 
     def critical_energy(self) -> dict[str, float]:
-        """By bisection of the energy's logarithm, in the directions of the starts that separate at the least energy."""
+        """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""
         energies = self.options.energies
         separating = sorted(
             (energies[j], i, j)
@@ -144,7 +145,7 @@ class _Sample:
         return least | {"critical_energy_lower": low, "critical_energy": high}
 
     def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
-        """Energies without and with lasting separation, nearer to each other than the precision asked for."""
+        """Energies without and with lasting separation, closer to each other than the required precision."""
         low, first = high / 4, high
         while self._outcome_of(low, j, i).separates:
             low, high = low / 4, low
@@ -160,7 +161,7 @@ class _Sample:
 
 
 def _shares(name: str, found: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
-    """Shares of what each row comes to, with Wilson's intervals: shape (rows, classes)."""
+    """Fractions of the outcomes in each row, with Wilson intervals: shape (rows, classes)."""
     shares = [
         [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]
         for row in found
@@ -169,7 +170,7 @@ def _shares(name: str, found: Sequence[Sequence[OutcomeResult]], confidence: flo
 
 
 def _described(starts: Counter[Attractor]) -> dict[str, Any]:
-    """Attractors, that of most starts first; of those of as many the one that was reached first."""
+    """Attractors by decreasing number of starts; of equal numbers the one reached first comes first."""
     described = [
         {
             "attractor_kind": attractor.kind,

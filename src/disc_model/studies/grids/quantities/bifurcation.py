@@ -1,4 +1,4 @@
-"""What the motion settles to, sampled once a turn of the drive or at switches."""
+"""Samples of the settled motion, once a turn of the drive or at events."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def compute_point(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
-    """From the static start or the prepared one."""
+    """Sample the motion from the static start or from the point's own start."""
     if options.section == "event":
         return _at_switches(point, options)
     p = point.parameters
@@ -72,7 +72,7 @@ def compute_point(point: Point, options: BifurcationOptions) -> tuple[dict[str, 
 
 
 def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
-    """Separations if there are any, else releases; the transient is doubled until the motion is known to repeat."""
+    """Sample at separations if there are any, else at releases; double the transient until the motion repeats."""
     p = point.parameters
     state, begin, transient = make_initial_state(p, point.start, options.tol), 0.0, options.transient
     first, separations, stick = math.nan, 0, 0.0
@@ -105,7 +105,7 @@ def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, A
         calm = at_rest(p, stretches[-1], options.tol)
         found = regularity(p, run.final_state, options.tol) if calm is None else Regularity(calm)
     if found.state is not None:
-        # what the motion tends to is known exactly
+        # the attractor is known exactly
         events = simulate(p, found.state.time + FIRST_LEG, tol=options.tol, initial_state=found.state).events
         taken = events[events["kind"] == kind]
     shown = taken.iloc[-options.samples :]
@@ -127,7 +127,7 @@ def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, A
 
 
 def _periodic(p: Parameters, stretch: Result, kind: str) -> Regularity:
-    """Of the switches of a kind in a stretch: a stable cycle that the motion follows, or intervals that repeat."""
+    """Regularity of one kind of event in a stretch: a stable cycle that the motion follows, or repeating intervals."""
     at = (stretch.events["kind"] == kind).to_numpy()
     intervals = np.diff(stretch.events["time"].to_numpy(dtype=float)[at])
     near = None if case_faults(p, "a cycle") else cycle_reached(p, stretch)
@@ -142,7 +142,7 @@ def _periodic(p: Parameters, stretch: Result, kind: str) -> Regularity:
 
 
 def repeats(intervals: np.ndarray) -> int:
-    """Least number of intervals after which they repeat to rounding; 0 if they do not within half the stretch."""
+    """Smallest number of intervals after which they repeat to rounding; 0 if they do not within half the stretch."""
     n = shortest_period(intervals, REPEATS) if intervals.size > 1 else 0
     # small differences may add up to a slow drift
     drifts = any(np.ptp(intervals[i::n]) > REPEATS for i in range(n))
@@ -150,7 +150,7 @@ def repeats(intervals: np.ndarray) -> int:
 
 
 def alike(one: np.ndarray, two: np.ndarray) -> bool:
-    """Whether two stretches show the same motion: about as many points that are distributed alike."""
+    """Whether two stretches show the same motion: similar numbers of points with similar distributions."""
     if min(len(one), len(two)) < 2:
         return len(one) == len(two)
     spread = max(np.ptp(one), np.ptp(two), SMALLEST * abs(float(np.mean(two))))
@@ -159,5 +159,5 @@ def alike(one: np.ndarray, two: np.ndarray) -> bool:
 
 
 def state_at(point: Point, options: BifurcationOptions) -> State:
-    """Where the transient ends; raises `SimulationError` if the motion did not get there."""
+    """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
     return state_after(point.parameters, point.start, options.transient, options.tol)

@@ -1,7 +1,7 @@
 """Branches of cycles against one parameter: stable and unstable, in contact and separating, beside a sweep.
 
-A sweep up and down carries the motion on. Each cycle that it comes to, and the cycle near the static start, is
-followed by continuation both ways, unless a branch found before passes there.
+The sweep up and down starts at each value from the motion at the last one. Each cycle that the sweep reaches, and the
+cycle near the static start, is continued in both directions, unless a known branch passes there.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def coordinates(options: BranchesOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:
-    """Sweep and branches; the point's own value of the parameter is not used."""
+    """Compute the sweep and the branches; the point's own value of the parameter is not used."""
     values, unfollowed = options.scan.values, []
     rows: list[dict[str, Any]] = []
     swept = {name: np.full((2, len(values)), math.nan) for name, column in COLUMNS.items() if column.dims == _SWEEP}
@@ -98,7 +98,7 @@ def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any
 
 
 def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> dict[str, Any]:
-    """Both ways from a cycle, that near the static start or one that a motion has reached, by arclength."""
+    """Continue a cycle in both directions by arclength: the cycle near the static start, or one that a motion reached."""
     p, name = cycle.parameters, options.parameter
     bounds = options.scan.values[0], options.scan.values[-1]
     near = cycle.state if reached else None
@@ -129,13 +129,13 @@ def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> di
 
 
 def _range(p: Parameters, state: State, period: float) -> float:
-    """Of the slider's height over a period, m; nan if it cannot be simulated."""
+    """Range of the slider's height over a period, m; nan if it cannot be simulated."""
     _, stretch = final_segment(p, state, period, period, 1e-10)
     return math.nan if stretch is None else stretch.range
 
 
 def _passes(row: dict[str, Any], value: float, *of: float) -> bool:
-    """Whether a branch passes a value with about this period and this range of the slider's height."""
+    """Whether a branch passes a value of the parameter with about this period and this range of the slider's height."""
     x, y = row["value"], np.log([row["period"], row["range"]])
     for i in np.flatnonzero((x[:-1] - value) * (x[1:] - value) <= 0):
         share = (value - x[i]) / (x[i + 1] - x[i]) if x[i + 1] != x[i] else 0.0

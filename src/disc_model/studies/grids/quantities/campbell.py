@@ -39,7 +39,7 @@ def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def compute_point(point: Point, options: CampbellOptions) -> tuple[dict[str, Any], str]:
-    """Of this point; modes are numbered by their frequency here, whatever they are at its neighbours."""
+    """Compute one point; modes are numbered by their frequency at this point, independently of its neighbours."""
     found = frequencies(point.parameters, tol=options.tol)
     cycle = found.cycle
     values: dict[str, Any] = {

@@ -1,8 +1,8 @@
-"""The speeds at which separation within a horizon begins or ends: all of them, since there may be several.
+"""Critical speeds: all speeds at which separation within a horizon begins or ends, since there may be several.
 
-Where multipliers tell how a motion departs from its cycle (`disc_model.stability.attractor`), only what follows is
-simulated. The first separation is then known to a fraction of the time in which the departure grows by e; where this
-does not say on which side of a horizon it lies, the motion is simulated from its start.
+Where the multipliers predict how a motion departs from its cycle, only the motion after that is simulated
+(`disc_model.stability.attractor`). The first separation is then known to a fraction of the time of growth by e. If a
+horizon lies within this uncertainty, the motion is simulated from its start.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]
 
 
 def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
-    """Scan and bisect; the point's own Omega is not used."""
+    """Scan and bisect the speed; the point's own Omega is not used."""
     p, scan = point.parameters, options.scan
     step = round((scan.stop - scan.start) / scan.intervals / options.precision)
     motions: dict[int, Motion] = {}
@@ -76,7 +76,7 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
         return float(f"{scan.start + i * options.precision:.12g}")
 
     def look(i: int) -> None:
-        """The motion at the i-th speed of the lattice, at which none has been followed."""
+        """Compute the motion at the i-th speed of the lattice, which is not known yet."""
         nonlocal total
         found = motions[i] = motion(p.replace(Omega=speed(i)), options)
         total += found.simulated
@@ -101,7 +101,7 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
 
 
 class Motion(NamedTuple):
-    """One motion: when it separates first, s (nan: not within the longest horizon), and what was simulated for that."""
+    """One motion: its first separation, s (nan: none within the longest horizon), and what was simulated for it."""
 
     first_separation: float
     simulated: float
@@ -121,7 +121,7 @@ def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
 
 
 def _doubtful(found: OutcomeResult, horizons: Sequence[float]) -> bool:
-    """Whether a first separation, known to a fraction of the time of growth, lies too near to a horizon to be told."""
+    """Whether a first separation is too close to a horizon, given its uncertainty of a fraction of the growth time."""
     if found.departed is None:
         return False
     doubt = DOUBT / found.departed.growth_rate
@@ -131,8 +131,8 @@ def _doubtful(found: OutcomeResult, horizons: Sequence[float]) -> bool:
 def _bisect(known: dict[int, float], look: Callable[[int], None], horizon: float) -> None:
     """Halve every interval over which separation within the horizon begins or ends, down to the lattice.
 
-    known : first separations by place on the lattice, s; infinite if there is none within the longest horizon, nan if
-        that is not known
+    known : first separations by place on the lattice, s; infinite without one within the longest horizon, nan if
+        unknown
     """
     while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
         for i in wide:
@@ -140,7 +140,7 @@ def _bisect(known: dict[int, float], look: Callable[[int], None], horizon: float
 
 
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
-    """Neighbours of which one separates within the horizon; what is unknown does neither this nor that."""
+    """Pairs of neighbours of which only one separates within the horizon; unknown ones belong to no pair."""
     return [
         (a, b)
         for a, b in pairwise(sorted(known))
@@ -149,9 +149,9 @@ def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
 
 
 def _crossings(known: dict[int, float], horizon: float, speed: Callable[[int], float]) -> dict[str, Any]:
-    """What one horizon finds among the known speeds."""
+    """Crossings of one horizon among the known speeds."""
     changes = [b for _, b in _changes(known, horizon)]
-    # the first that separates; one of which it is not known hides those above it
+    # the lowest speed that separates; an unknown speed hides those above it
     first = next((i for i in sorted(known) if not known[i] > horizon), None)
     lowest = math.nan if first is None or math.isnan(known[first]) else speed(first)
     return {

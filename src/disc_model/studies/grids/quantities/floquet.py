@@ -1,4 +1,4 @@
-"""The stick-slip cycle near the static start and its stability, by multipliers instead of simulation."""
+"""The stick-slip cycle near the static start and its stability, from Floquet multipliers instead of simulation."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ COLUMNS = {
 
 
 def compute_point(point: Point, options: FloquetOptions) -> tuple[dict[str, Any], str]:
-    """The cycle of this point, not started from a neighbour's."""
+    """Compute the cycle of this point, without a neighbour's cycle as initial guess."""
     cycle = floquet(point.parameters, tol=options.tol)
     leading = complex(cycle.multipliers[0]) if cycle.status is CycleStatus.OK else complex(math.nan, math.nan)
     values = {

@@ -1,4 +1,4 @@
-"""A slow sweep of the speed up and down, carrying the motion on: how far down does separation persist?"""
+"""Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to speed."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def coordinates(options: HysteresisOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def compute_point(point: Point, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
-    """Sweep up and down; the point's own Omega is not used."""
+    """Sweep the speed up and down; the point's own Omega is not used."""
     speeds = options.scan.values
     columns = {name: column for name, column in COLUMNS.items() if column.dims}
     values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns.items()}
@@ -60,7 +60,7 @@ def compute_point(point: Point, options: HysteresisOptions) -> tuple[dict[str, A
 
 
 def _ends(speeds: np.ndarray, separates: np.ndarray, done: np.ndarray) -> dict[str, float]:
-    """Where separation appears on the way up, and where it is lost on the way down, if the sweep got there."""
+    """Speeds at which separation begins on the way up and ends on the way down, if the sweep reached them."""
     found: dict[str, float] = {}
     if separates[0].any():
         found["onset_speed"] = float(speeds[separates[0].argmax()])

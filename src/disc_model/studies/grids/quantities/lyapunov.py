@@ -1,4 +1,4 @@
-"""The largest Lyapunov exponents of the motion, through all its switches."""
+"""The largest Lyapunov exponents of the motion, across all its events."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def compute_point(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
-    """From the static start or the prepared one."""
+    """Compute the exponents from the static start or from the point's own start."""
     found = lyapunov_exponents(
         point.parameters,
         options.duration,
@@ -62,5 +62,5 @@ def compute_point(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any
 
 
 def state_at(point: Point, options: LyapunovOptions) -> State:
-    """Where the transient ends; raises `SimulationError` if the motion did not get there."""
+    """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
     return state_after(point.parameters, point.start, options.transient, options.tol)

@@ -1,4 +1,4 @@
-"""What becomes of the static start within a horizon: it stays quiet, it grows, or contact is lost."""
+"""Outcome of the static start within a horizon: the motion stays quiet, grows in contact, or separates."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ COLUMNS = {
 
 
 def compute_point(point: Point, options: OutcomeOptions) -> tuple[dict[str, Any], str]:
-    """The late stretch of a point that separates lies ``after_separation`` later."""
+    """Compute one point; if it separates, its late stretch lies ``after_separation`` later."""
     reached, result, late = _late(point, options)
     last = reached if result is None else result
     values: dict[str, Any] = {
@@ -63,7 +63,7 @@ def compute_point(point: Point, options: OutcomeOptions) -> tuple[dict[str, Any]
 
 
 def state_at(point: Point, options: OutcomeOptions) -> State:
-    """Where the late stretch ends; raises `SimulationError` if the motion did not get there."""
+    """State at the end of the late stretch; raises `SimulationError` if the motion does not reach it."""
     reached, result, _ = _late(point, options)
     last = reached.failed or result
     state = reached.state if last is None else last.raise_for_status().final_state
@@ -72,7 +72,7 @@ def state_at(point: Point, options: OutcomeOptions) -> State:
 
 
 def _late(point: Point, options: OutcomeOptions) -> tuple[OutcomeResult, Result | None, Segment | None]:
-    """What the motion has come to, the run that shows it if there is one beyond that, and the late stretch."""
+    """The outcome, the run beyond it, if any, and the late stretch."""
     p = point.parameters
     reached = find_outcome(
         p,
@@ -87,12 +87,12 @@ def _late(point: Point, options: OutcomeOptions) -> tuple[OutcomeResult, Result 
         return reached, *final_segment(p, reached.state, options.after_separation, options.evaluation_time, options.tol)
     if reached.outcome is None or reached.segment is not None:
         return reached, None, reached.segment
-    # what the motion tends to is known exactly, or it is steady
+    # the attractor is known exactly, or the motion is steady
     on = reached.state if reached.cycle is None else reached.cycle.state
     return reached, *final_segment(p, on, options.evaluation_time, options.evaluation_time, options.tol)
 
 
 def _rate(reached: OutcomeResult) -> float:
-    """Growth rate of the changes over the last looks, 1/s; nan if there are too few."""
+    """Growth rate of the changes between the last checks, 1/s; nan if there are too few."""
     t, d = np.array(reached.times[-FEWEST:]), np.array(reached.changes[-FEWEST:])
     return float(np.polyfit(t, np.log(d), 1)[0]) if len(t) == FEWEST and np.all(d > 0) else math.nan

@@ -1,4 +1,4 @@
-"""Speed ramps up and down as on a test rig: where separation begins and where it ends, against the ramp's rate."""
+"""Speed ramps up and down as on a test rig: speeds at which separation begins and ends, against the ramp's rate."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def coordinates(options: RampsOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def compute_point(point: Point, options: RampsOptions) -> tuple[dict[str, Any], str]:
-    """A run for each rate; the point's own Omega is not used."""
+    """Simulate one run for each rate; the point's own Omega is not used."""
     rows: list[dict[str, Any]] = []
     status, message = "ok", ""
     for rate in options.rates.values:
@@ -51,7 +51,7 @@ def compute_point(point: Point, options: RampsOptions) -> tuple[dict[str, Any], 
 
 
 class _Run:
-    """Up from the lowest speed, a stay at the highest one, down again, and a stay at the lowest one."""
+    """One run: up from the lowest speed, a dwell at the highest, down again, and a dwell at the lowest."""
 
     def __init__(self, p: Parameters, rate: float, options: RampsOptions) -> None:
         self.p, self.rate, self.options = p.replace(Omega=options.low), rate, options
@@ -64,7 +64,7 @@ class _Run:
         )
 
     def found(self) -> tuple[dict[str, float], Result | None]:
-        """Values of the columns, as far as they are known, and the run that could not go on."""
+        """Values of the columns, as far as they are known, and the run that failed, if any."""
         first = self._on(None, self.top, stop_at="first_separation")
         values = {"onset_speed": self.options.low + self.rate * first.first_separation}
         there = self._on(first.final_state, self.top) if first.status.value == "stopped" else first
@@ -80,7 +80,7 @@ class _Run:
         return values, failed
 
     def _last_separation(self, state: State) -> tuple[float, Result | None]:
-        """Time of the last loss of contact from the begin of the way down on, s, nan if there is none."""
+        """Time of the last loss of contact after the way down began, s; nan if there is none."""
         last, end = math.nan, self.bottom + self.options.dwell
         while state.time < end:
             run = self._on(state, min(state.time + STRETCH, end), events=True)
@@ -92,7 +92,7 @@ class _Run:
         return last, None
 
     def _on(self, state: State | None, until: float, stop_at: str | None = None, events: bool = False) -> Result:
-        """The motion to another time."""
+        """Continue the motion to a later time."""
         record = Record(events=events)
         return simulate(
             self.p, until, tol=self.options.tol, initial_state=state, record=record, stop_at=stop_at, ramps=self.ramps

@@ -1,14 +1,14 @@
-"""What becomes of the static start over two parameters, refined where it changes; and the cycle at every point.
+"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
 
-A batch is a tile of the plane. The cycle is found at each of its points, which is cheap. What becomes of the static
-start (`disc_model.stability.attractor`) follows from the cycle's multipliers where it is quiet, or grows so slowly that
-nothing else happens within the horizon. Elsewhere it is simulated at the corners of coarse cells, or at one point
-inside if multipliers tell of all corners. A cell is divided where these differ, or where slow growth lies beside
-separation. Where all grow without separation, stripes of separation may run between: the cell is divided once, and then
-the point in its middle has to be alike. Neutral curves and folds are thus followed from point to point, and borders of
-separation down to the grid's own intervals. In a cell that is not divided, all that multipliers leave open have the
-outcome of those simulated. Two kinds of points are worked out one by one: where the start follows a cycle that grows
-and all around stays quiet, and where it follows none on a strip thinner than the grid.
+A batch is a tile of the plane. The cycle is computed at each of its points, which is cheap. The cycle's multipliers
+give the outcome (`disc_model.stability.attractor`) if the start stays quiet, or grows too slowly for anything else
+within the horizon. Elsewhere the start is simulated at the corners of coarse cells. If multipliers decide all corners,
+one inner point is simulated instead. A cell is divided if these outcomes differ, or if slow growth lies beside
+separation. Narrow stripes of separation may cross a cell whose corners all grow in contact. Such a cell is divided
+once, and then the point in its middle must agree. Neutral curves and folds are thus resolved point by point, borders of
+separation to the grid's own intervals. In an undivided cell, all points not decided by multipliers take the outcome of
+the simulated ones. Two kinds of points are computed one by one. At the first, the start follows a growing cycle amid
+quiet points. At the second, it follows no cycle, on a strip thinner than the grid.
 """
 
 from __future__ import annotations
@@ -87,12 +87,12 @@ CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
 def compute_tile(
     points: Sequence[Sequence[Made]], options: RegionsOptions, sampled: Collection[Place]
 ) -> list[list[tuple[Row, str]]]:
-    """Of a tile; the outcome is worked out at the places `sampled` in any case."""
+    """Compute a tile; the outcome at the places `sampled` is computed in any case."""
     return _Tile(points, options, sampled).rows()
 
 
 def state_at(point: Point, options: RegionsOptions) -> State:
-    """What the motion has come to; raises `SimulationError` if it did not get there."""
+    """The state that the motion reaches; raises `SimulationError` if the motion does not get there."""
     p = point.parameters
     found = find_outcome(p, options.horizon, tol=options.tol)
     if found.cycle is not None and found.cycle.stable:
@@ -106,7 +106,7 @@ def state_at(point: Point, options: RegionsOptions) -> State:
 
 
 class _Followed(NamedTuple):
-    """A cycle, and where it is on the section of its map."""
+    """A cycle, and its point on the section of the return map."""
 
     cycle: FloquetResult
     map: ReturnMap
@@ -127,7 +127,7 @@ class _Tile:
             self.outcome(place)
         rows, columns = (_edges(size, options.initial_cell_size) for size in self.shape)
         known = -1
-        # a cell may have to be divided for what has been found on its edge
+        # a result on its edge may require a cell to be divided
         while known < len(self.results):
             known = len(self.results)
             self.filled.clear()
@@ -146,10 +146,10 @@ class _Tile:
         return start if isinstance(start, NearCycle) and start.follows_cycle else None
 
     def _check_what_is_filled(self) -> None:
-        """Work out what corners say little of.
+        """Compute the points that their cell's corners do not decide.
 
-        That is where the start follows a cycle that grows, and yet would stay quiet; and where it follows none,
-        although it does at most points beside.
+        These are points whose start follows a growing cycle and yet was taken to stay quiet. They also include points
+        where it follows none, although most neighbours do.
         """
         for (i, j), outcome in (self.presumed | self.filled).items():
             beside = [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
@@ -160,7 +160,7 @@ class _Tile:
                 self.outcome((i, j))
 
     def outcome(self, place: Place) -> str:
-        """Of the static start at a point, worked out once."""
+        """Outcome of the static start at a point, computed once."""
         if place not in self.results:
             self.results[place] = self._result(place)
         found = self.results[place]
@@ -174,7 +174,7 @@ class _Tile:
         return _tried(lambda: find_outcome(point, self.options.horizon, tol=self.options.tol, near=start))
 
     def _trend(self, place: Place) -> str:
-        """What multipliers say of a point: its outcome, or "" if they leave that open."""
+        """The outcome at a point from the multipliers, or "" if they leave it open."""
         start = self._own(place)
         if start is None:
             return ""
@@ -192,8 +192,8 @@ class _Tile:
         for place in corners or ([] if any(place in self.results for place in undecided) else [_middle(undecided)]):
             if place not in self.presumed:
                 self.outcome(place)
-        # on the way from slow growth to separation there may be growth that is faster, and still no separation; and
-        # where that is all that corners say, stripes of separation may lie between: these cells are divided once more
+        # Between slow growth and separation there may be faster growth, still without separation. If all corners show
+        # only that, stripes of separation may lie between them: these cells are divided once more.
         outcomes = {self.outcome(place) for place in undecided if place in self.results}
         outcomes |= {self.presumed[corner] for corner in corners if corner not in self.results}
         outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
@@ -201,7 +201,7 @@ class _Tile:
         side = max(rows[1] - rows[0], columns[1] - columns[0])
         most = max(1, self.options.initial_cell_size // 2)
         if len(outcomes) == 1 and outcomes <= GROWN and 1 < side <= most:
-            # late separations hang on rounding: all corners may miss them by chance
+            # late separations depend on rounding: all corners may miss them by chance
             outcomes.add(self.outcome(_middle(undecided)))
         if len(outcomes) == 1 and (not outcomes <= GROWN or side <= most):
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
@@ -212,7 +212,7 @@ class _Tile:
                 self._refine(i, j)
 
     def _presume(self, rows: Place, columns: Place) -> None:
-        """Between corners that are alike an edge is expected to be like them; a cell beside it may find it is not."""
+        """Presume that an edge has the outcome of its equal corners; a cell beside it may find otherwise."""
         edges = [((row, columns[0]), (row, columns[1])) for row in rows]
         edges += [((rows[0], column), (rows[1], column)) for column in columns]
         for one, two in edges:
@@ -221,7 +221,7 @@ class _Tile:
                 self.presumed.setdefault(middle, self._said(one))
 
     def _said(self, place: Place) -> str:
-        """The outcome at a corner, worked out or presumed."""
+        """The outcome at a corner, computed or presumed."""
         if self.trends[place]:
             return self.trends[place]
         return self.presumed[place] if place not in self.results else self.outcome(place)
@@ -234,8 +234,8 @@ class _Tile:
     def _follow(self, place: Place) -> _Followed | NearCycle | None:
         """The cycle that the static start follows at a point, if that is known.
 
-        Its own as long as it departs from that: where it has grown to is known at simulated points alone, and would
-        stand out among their neighbours.
+        This is the point's own cycle as long as the motion departs from it. The later motion is known at simulated
+        points only, which would then differ from their neighbours.
         """
         own, found = self._own(place), self.results.get(place)
         leaves = own is None or (
@@ -249,7 +249,7 @@ class _Tile:
         return own
 
     def _joined(self, here: Place, ahead: Place) -> str:
-        """Whether a point's cycle continues into that of the next one."""
+        """Whether, and how, a point's cycle continues into the cycle of the next point."""
         one, two = self.followed.get(here), self.followed.get(ahead)
         if one is None or two is None or one.x.shape != two.x.shape or one.cycle.releases != two.cycle.releases:
             return "no"
@@ -299,9 +299,10 @@ class _Tile:
         return row, message
 
     def _others(self) -> dict[Place, int]:
-        """How many cycles are known at each point besides the one nearest to the start.
+        """Number of known cycles at each point besides the one nearest to the start.
 
-        Along each row, both ways, a cycle that does not go on into the next point's own is looked for there.
+        Each row is followed in both directions. A cycle that does not continue into the next point's own cycle is
+        searched for there.
         """
         known = {place: [start.x] if isinstance(start, NearCycle) else [] for place, start in self.starts.items()}
         for i in range(self.shape[0]):
@@ -347,7 +348,7 @@ def _without(start: NearCycle | FloquetResult, found: OutcomeResult | None) -> s
 
 
 def _middle(places: Sequence[Place]) -> Place:
-    """The place nearest to the middle of several, the first of those that are as near."""
+    """The place nearest to the middle of several places; the first of equally near ones."""
     middle = np.mean(places, axis=0)
     return min(places, key=lambda place: (float(np.sum((np.array(place) - middle) ** 2)), place))
 
@@ -359,6 +360,6 @@ def _edges(size: int, coarse: int) -> list[int]:
 
 
 def _halves(first: int, last: int) -> list[Place]:
-    """The two halves of an interval of indices, or itself if it cannot be divided."""
+    """The two halves of an interval of indices, or the interval itself if it cannot be divided."""
     middle = (first + last) // 2
     return [(first, middle), (middle, last)] if middle > first else [(first, last)]

@@ -1,9 +1,9 @@
-"""The stick-slip cycle at samples of distributed parameters: how certain is the stability of a case?
+"""Sensitivity: the stick-slip cycle at samples of distributed parameters.
 
-Each sample is drawn twice, as A and as B, from a scrambled Sobol' sequence of twice as many dimensions as there are
-distributed parameters; and there is a variant of A for each parameter, with this one taken from B. That is the design
-of Saltelli et al. (2010) for first-order and total indices, see `disc_model.analysis.sobol`. What is drawn hangs on the
-seed and the sample's number alone.
+Each sample is drawn twice, as A and as B, from one scrambled Sobol' sequence. The sequence has twice as many dimensions
+as there are distributed parameters. For each parameter, a variant of A takes this parameter from B: the design of
+Saltelli et al. (2010) for first-order and total indices, see `disc_model.analysis.sobol`. A sample depends only on the
+seed and its own number.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def compute_point(point: Point, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
-    """The sample of this number about the point's own parameters."""
+    """Compute one sample about the point's own parameters."""
     p, names = point.parameters, sorted(options.distributions)
     shares = unit_draws(options.seed, len(names), point.sample)
     own = dict(p) | ({} if p.disc is None else p.disc.numbers)
@@ -101,7 +101,7 @@ def _block(seed: int, count: int, block: int) -> Array:
 
 
 def quantile(given: Distribution, own: float, share: float) -> float:
-    """Value of a parameter below which a share of its distribution lies, about its own value at the point."""
+    """Quantile of a parameter's distribution, which may be relative to the point's own value."""
     scale = own if given.relative else 1.0
     if given.distribution == "uniform":
         return float(scale * (given.low + share * (given.high - given.low)))
@@ -121,11 +121,11 @@ def variants(drawn: Array) -> Array:
 
 
 # ----------------------------------------------------------------------------------------------------
-# What is computed of one
+# Results of one sample
 
 
 class Evaluated(NamedTuple):
-    """A variant: which of `SAMPLE_CYCLES` there is, its growth rate (1/s), and what went wrong."""
+    """A variant: its class in `SAMPLE_CYCLES`, growth rate (1/s), and an error message."""
 
     cycle: str
     growth_rate: float
@@ -140,14 +140,14 @@ def _evaluated(p: Parameters, values: Mapping[str, float], tol: float) -> Evalua
 
 
 def evaluate(p: Parameters, values: Mapping[str, float], tol: float) -> Evaluated:
-    """The cycle of a case some of whose parameters are replaced."""
+    """Compute the cycle of a case with some parameters replaced."""
     found = floquet(p.replace(**values), tol=tol)
     cycle = cycle_word(found)
     return Evaluated(cycle, found.growth_rate, found.message if cycle == "failed" else "")
 
 
 def cycle_word(found: FloquetResult) -> str:
-    """Which of `SAMPLE_CYCLES` it is."""
+    """The class of a cycle in `SAMPLE_CYCLES`."""
     if found.status is CycleStatus.OK:
         return "stable" if found.stable else "unstable"
     if found.status is CycleStatus.NO_STICK_SLIP:
@@ -157,7 +157,7 @@ def cycle_word(found: FloquetResult) -> str:
 
 
 def _followed(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
-    """What becomes of the static start."""
+    """Simulate the static start and return its outcome."""
     try:
         found = find_outcome(p, options.horizon, tol=options.motion_tol)
     except NUMERICAL as error:

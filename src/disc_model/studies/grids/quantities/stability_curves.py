@@ -44,7 +44,7 @@ def coordinates(options: StabilityCurvesOptions) -> dict[str, tuple[Any, Variabl
 
 
 def compute_point(point: Point, options: StabilityCurvesOptions) -> tuple[dict[str, Any], str]:
-    """The curves of this plane; the point's own values of the two parameters are not used."""
+    """Compute the curves of the plane; the point's own values of its two parameters are not used."""
     lines = options.y_lines
     margin = options.margin * (lines.stop - lines.start)
     curves, notes = stability_curves(
@@ -57,7 +57,7 @@ def compute_point(point: Point, options: StabilityCurvesOptions) -> tuple[dict[s
         longest=options.max_step,
         tol=options.tol,
     )
-    # room is for the longest
+    # the array holds the longest curve
     rows = [_row(curve) for curve in sorted(curves, key=lambda curve: -len(curve.period))]
     return listed(rows) | {"status": "ok", "n_curves": len(curves), "n_continuation_failures": len(notes)}, ""
 

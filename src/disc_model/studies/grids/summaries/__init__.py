@@ -1,7 +1,7 @@
-"""What a merged study says beyond its points: a summary over one of its dimensions, for each value of the others.
+"""Summaries of merged studies over one dimension, for each value of the others.
 
-A summary is a module here, of its quantity's name. It is worked out again at each merge, so that a change of it
-computes no batch anew.
+The summary of a quantity is the module of the same name here. It is computed again at each merge, so that changing it
+recomputes no batch.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from disc_model.studies.grids.run import Described, own_coordinates, table_of
 class Summary(Described, Protocol):
     """A module of a summary.
 
-    OVER : the dimension that it is over
+    OVER : the dimension that is summarised
     """
 
     OVER: str
 
     def summarise(self, cell: xr.Dataset, options: Any) -> Row:
-        """Values by column, of a merged dataset of which only the dimension is left that the summary is over."""
+        """Values by column, for a merged dataset that has only the summarised dimension left."""
 
 
 def summary_of(quantity: str) -> Summary | None:
     """The summary of a quantity, if it has one."""
-    # the engine comes with them, which most merges do without
+    # their import loads the engine, which most merges do not need
     if quantity == "campbell":
         from disc_model.studies.grids.summaries import campbell
 
@@ -44,7 +44,7 @@ def summary_of(quantity: str) -> Summary | None:
 
 
 def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> xr.Dataset:
-    """A merged study with the summary of its quantity, if this has one; its options are as its batches hold them."""
+    """A merged study with the summary of its quantity, if there is one; options are as in the batches."""
     summary = summary_of(quantity)
     if summary is None:
         return study

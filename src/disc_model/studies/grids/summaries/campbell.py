@@ -1,10 +1,10 @@
-"""Where modes meet multiples of the stick-slip frequency or of the rotation's, and what the growth rate does there.
+"""Crossings of mode frequencies with multiples of the stick-slip or rotation frequency, and their effect on growth.
 
-A crossing is where a mode's frequency equals that of a line, by linear interpolation between two speeds. It is that of
-the cycle's multiplier; where there is none, or its shape is not the mode's, which in a resonance it is not, that of
-steady sliding with the difference interpolated. The stick-slip frequency is interpolated over speeds without a cycle.
-What happens there is read from the cycle's growth rates within a window of frequency about the crossing, mode by mode,
-against those at the window's ends.
+At a crossing the frequency of a mode equals that of a line, by linear interpolation between two speeds. The mode's
+frequency is that of the cycle's multiplier. Without a multiplier of the mode's shape, as in a resonance, it is that of
+steady sliding, with the difference interpolated. The stick-slip frequency is interpolated over speeds without a cycle.
+The effect is read, mode by mode, from the cycle's growth rates within a window about the crossing, compared with those
+at its ends.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 class Crossing(NamedTuple):
-    """Where a mode meets a line.
+    """A crossing of a mode with a line.
 
     detuning : Hz, shape (n,), frequency of the line less that of the mode, at all speeds
     place : index of the speed before it
@@ -72,7 +72,7 @@ class Crossing(NamedTuple):
 
 
 def summarise(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
-    """Over the speeds, which ascend."""
+    """Summarise over the speeds, which ascend."""
     cell = cell.transpose("Omega", ...)
     found = sorted(crossings(cell), key=lambda one: (one.Omega, one.mode, one.multiple))
     rows = []
@@ -87,7 +87,7 @@ def summarise(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
 
 
 def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
-    """All of a study over ``Omega``, mode by mode; n f_s, (n + 1/2) f_s and l f_Omega, l up to that of the modes."""
+    """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of the modes."""
     speeds = cell["Omega"].values
     releases = bridged(speeds, cell["stick_slip_frequency"].values)
     turns = cell["rotation_frequency"].values
@@ -111,7 +111,7 @@ def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
 
 
 def frequency_of(mode: xr.Dataset) -> Array:
-    """Of a mode at all speeds, Hz, as this file's head says."""
+    """Frequency of a mode at all speeds, Hz, as the module's docstring describes."""
     sliding = mode["sliding_frequency"].values
     more = mode["cycle_frequency"].values - sliding
     known = np.isfinite(more) & (mode["mac"].values >= LIKE)
@@ -120,7 +120,7 @@ def frequency_of(mode: xr.Dataset) -> Array:
 
 
 def bridged(speeds: Array, values: Array) -> Array:
-    """Values with gaps, but not the ends, filled by linear interpolation."""
+    """Values whose gaps, except at the ends, are filled by linear interpolation."""
     known = np.isfinite(values)
     if not known.any():
         return values
@@ -130,7 +130,8 @@ def bridged(speeds: Array, values: Array) -> Array:
 def effect_of(
     one: Crossing, growth: Array, leading: Array, window: float, least: float
 ) -> tuple[str, float, float, int]:
-    """Which of `EFFECTS` a crossing has, the largest growth rate, and the largest rise with its mode's number.
+    """The effect of a crossing (one of `EFFECTS`), the largest growth rate, and the largest rise with its mode's
+    number.
 
     growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
     """

@@ -1,9 +1,8 @@
-"""How probable instability and separation are among the samples, and which parameters decide it.
+"""Probabilities of instability and separation among the samples, and the parameters that decide them.
 
-Shares of the cycles are of all draws, A and B, and shares of outcomes of those that were followed. Their Wilson
-intervals are those of independent samples: quasi-random ones lie more evenly, and their shares are mostly nearer to the
-truth than the intervals say. What failed is neither stable nor unstable: intervals take it for the one at one end and
-for the other at the other.
+Fractions of the cycles refer to all draws, A and B, and fractions of the outcomes to the simulated ones. The Wilson
+intervals assume independent samples. Quasi-random samples are more even, so that their errors are mostly smaller. A
+failed sample is neither stable nor unstable: the lower and upper ends of an interval count it as one and as the other.
 """
 
 from __future__ import annotations
@@ -63,7 +62,7 @@ def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
 
 
 def summarise(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
-    """Over the samples."""
+    """Summarise over the samples."""
     words = flag_names(cell["cycle"].transpose("sample", "variant"))
     drawn = words[:, : len(DRAWS)].ravel()
     outcomes = flag_names(cell["outcome"])
@@ -86,13 +85,13 @@ def summarise(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
 
 
 def outputs_of(words: NDArray[np.str_], growth_rate: Array, cap: float) -> tuple[Array, Array]:
-    """Whether there is no stable motion, 1 or 0, and the growth rate: (samples, variants); nan where not known."""
+    """Absence of a stable motion, 1 or 0, and the growth rate: (samples, variants); nan where not known."""
     unstable = np.where(words == FAILED, np.nan, np.isin(words, UNSTABLE))
     return unstable, np.minimum(growth_rate, cap)
 
 
 def _shares(name: str, words: NDArray[np.str_], classes: list[tuple[str, ...]]) -> dict[str, Any]:
-    """Of each class of words among those that are known, with its interval."""
+    """Fraction of each class of words among those that are known, with its interval."""
     known = words[words != FAILED]
     found = np.array([share(int(np.isin(known, one).sum()), len(known), len(words) - len(known)) for one in classes])
     ends = found[0] if len(classes) == 1 else found.T
