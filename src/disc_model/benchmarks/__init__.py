@@ -1,1 +1,1 @@
-"""Speed against accuracy, and where methods fail: rival methods on the same scenes, judged by stored references."""
+"""Benchmark of other methods: speed against accuracy and failures, on common scenes with stored references."""

@@ -1,8 +1,8 @@
-"""Where methods fail: what becomes of each over its step or tolerance and the number of modes.
+"""Failure maps: verdict on each method over its step or tolerance and the number of modes.
 
-The motion is that of the scene ``separating`` (or ``stick_slip``) for a short span, with modes dropped or added; the
-right answer comes from the series engine at `REFERENCE_TOL`, which the stored references confirm for the base model.
-`answer_map` is the same for an answer: whether it is right.
+The motion is that of the scene ``separating`` (or ``stick_slip``) for a short span, with modes dropped or added. The
+correct answer comes from the series engine at `REFERENCE_TOL`; the stored references confirm it for the base model.
+`answer_map` shows in the same way whether an answer is correct.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def failure_map(
     truncations: Sequence[int] = TRUNCATIONS,
     values: Sequence[float] | None = None,
 ) -> xr.Dataset:
-    """Verdicts of a method, with what explains them.
+    """Verdicts on a method, with the facts that explain them.
 
     Returns
     -------
@@ -88,7 +88,7 @@ def map_of(
     variables: Mapping[str, Variable],
     measure: Callable[[int, float], Mapping[str, float]],
 ) -> xr.Dataset:
-    """What ``measure`` finds of a method along (diameters, value), and what the map is of."""
+    """Results of ``measure`` for a method along (diameters, value), with a description of the map."""
     own = METHODS[method]
     found = measured({"diameters": diameters, "value": values}, variables, measure)
     found["diameters"].attrs = Variable("1", "highest nodal diameter").attributes
@@ -127,7 +127,7 @@ def engine_answer(scene: str, diameters: int) -> Answer:
 
 
 def observed_step_limit(diameters: int) -> float:
-    """Largest step (s) at which RK4 ends a second of stick-slip without its energy running away, by bisection.
+    """Largest step (s) at which RK4 completes a second of stick-slip without diverging energy, by bisection.
 
     Compare with 2 sqrt(2)/omega_max.
     """
@@ -143,8 +143,8 @@ def observed_step_limit(diameters: int) -> float:
 
 
 # ----------------------------------------------------------------------------------------------------
-# Where an answer is wrong: the first separation in a case that loses contact within `HORIZON` s. Right is what the
-# engine finds at its tightest tolerance with the same modes; that it finds none can be right as well.
+# Correctness of an answer: the first separation in a case that loses contact within `HORIZON` s. The engine at its
+# tightest tolerance with the same modes is correct, also if it finds none.
 
 CASE = Parameters(N=600.0, Omega=27.0)
 HORIZON = 25.0
@@ -169,7 +169,7 @@ def answer_map(
     diameters: Sequence[int] = ANSWER_TRUNCATIONS,
     values: Sequence[float] | None = None,
 ) -> xr.Dataset:
-    """Verdicts of a method along (diameters, value), from coarse to fine.
+    """Verdicts on a method along (diameters, value), from coarse to fine.
 
     Returns
     -------
@@ -205,14 +205,14 @@ def answer_map(
 
 
 def _thinned(values: Sequence[float]) -> Sequence[float]:
-    """So many at most, the first and the last among them."""
+    """At most `VALUES` of the values, including the first and the last."""
     places = np.unique(np.linspace(0, len(values) - 1, min(VALUES, len(values))).round().astype(int))
     return [values[place] for place in places]
 
 
 @lru_cache(maxsize=64)
 def _right(diameters: int) -> float:
-    """Time (s), nan if there is none."""
+    """Correct time of the first separation (s), nan if there is none."""
     return _first_separation(simulated.by(METHODS["series"], REFERENCE_TOL), math.inf, diameters).value
 
 

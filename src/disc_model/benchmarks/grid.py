@@ -15,7 +15,7 @@ from disc_model.data.variables import Variable
 def measured(
     coords: Mapping[str, Sequence[Any]], variables: Mapping[str, Variable], measure: Callable[..., Mapping[str, float]]
 ) -> xr.Dataset:
-    """What ``measure`` gives for the values of each point; nan where that is nothing, of a flag never."""
+    """Results of ``measure`` at each point; variables that it omits are nan, which a flag must never be."""
     shape = tuple(len(values) for values in coords.values())
     data = {name: np.full(shape, math.nan) for name in variables}
     for place in np.ndindex(shape):

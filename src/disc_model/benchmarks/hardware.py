@@ -1,4 +1,4 @@
-"""Where a benchmark runs: one core of a named machine."""
+"""Hardware of a benchmark: one core of a named machine."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 @contextmanager
 def one_core() -> Iterator[None]:
-    """Keep this process, and the threads begun meanwhile, on one of its cores; afterwards it has all of them back."""
+    """Restrict this process, and the threads begun meanwhile, to one of its cores; release it afterwards."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return
@@ -24,7 +24,7 @@ def one_core() -> Iterator[None]:
 
 
 def machine() -> str:
-    """Processor and number of cores, as the system names them."""
+    """Processor and number of cores, as reported by the system."""
     model = platform.processor() or platform.machine()
     with suppress(OSError, StopIteration):
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()

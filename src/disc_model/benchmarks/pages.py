@@ -1,7 +1,7 @@
-"""What of a benchmark's run stands in README and docs: numbers, the page of the benchmark, and passages of others.
+"""Benchmark results in README and docs: numbers, the benchmark's page, and passages of other pages.
 
-`summary` takes what is needed from the datasets of one run; it is kept as ``docs/benchmark.json``.  All else is written
-from that, so that one run refreshes every number, and a test can say whether a page holds another one.
+`summary` extracts the numbers from the datasets of one run, which are stored as ``docs/benchmark.json``.  All texts are
+written from that file, so that one run refreshes every number, and a test detects outdated pages.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ Summary = Mapping[str, Any]
 
 
 def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
-    """What the pages need of a run; ``as_avx2`` is of kernels that were compiled as for a processor with AVX2 only.
+    """Numbers of a run for the pages; ``as_avx2`` is of kernels compiled for a processor with AVX2 only.
 
     Raises
     ------
@@ -63,19 +63,19 @@ def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset
 
 
 def _models(found: list[Row]) -> dict[str, str]:
-    """By contact of a reduced model, the numbers of nodal diameters with which it answers rightly."""
+    """Numbers of nodal diameters with which a reduced model answers correctly, by its contact."""
     lines = {model: [p for p in found if p.line == model] for model in report.MODELS}
     return {model: report.right_numbers(line) for model, line in lines.items() if line}
 
 
 def _own(points: pd.DataFrame) -> dict[str, dict[str, Any]]:
-    """By scene, cost and error of the series engine at its default."""
+    """Cost and error of the series engine at its default, by scene."""
     default = at_default(points[points["scene"].isin(JUDGED)])
     return {str(p.scene): {"cost": p.further, "error": p.event_error} for p in default.itertuples()}
 
 
 def _prices(found: list[Row]) -> dict[str, dict[str, Any]]:
-    """By line in words: its cheapest right answer, and where it answers wrongly without a warning."""
+    """Cheapest correct answer, and settings that answer wrongly without a warning, by name of the line."""
     right = {p.line: p for p in report.cheapest_right(found)}
     table: dict[str, dict[str, Any]] = {}
     for line, label in {p.line: p.label for p in found if p.line not in report.MODELS}.items():
@@ -86,9 +86,9 @@ def _prices(found: list[Row]) -> dict[str, dict[str, Any]]:
 
 
 def _whole_call(points: pd.DataFrame) -> dict[str, float]:
-    """Of the first scene's second: seconds of a whole call of `simulate`, and how many times that heyoka integrates.
+    """Seconds of a whole call of `simulate` for the first scene's second, and its ratio to heyoka's integration.
 
-    heyoka's is the time of its integration alone, at the error of `headline`.
+    heyoka's time is that of its integration alone, at the error of `headline`.
     """
     part = points[points["scene"] == JUDGED[0]]
     if part.empty:
@@ -99,14 +99,14 @@ def _whole_call(points: pd.DataFrame) -> dict[str, float]:
 
 
 def _glue(points: pd.DataFrame) -> dict[str, float]:
-    """Share of heyoka's time that is Python between its phases, by scene, at the setting nearest to `DEFAULT`."""
+    """Fraction of heyoka's time spent in Python between its phases, by scene, at the setting nearest to `DEFAULT`."""
     own = points[(points["solver"] == "heyoka") & points["scene"].isin(JUDGED) & points["glue"].notna()]
     nearest = np.abs(np.log(own["event_error"] / DEFAULT)).groupby(own["scene"]).idxmin()
     return {scene: float(own["glue"][nearest[scene]]) for scene in JUDGED if scene in nearest}
 
 
 def _stiff(points: pd.DataFrame) -> dict[str, float]:
-    """On the all but rigid disc: by method, seconds a simulated second with converged events."""
+    """Seconds per simulated second with converged events on the almost rigid disc, by method."""
     lines = points[points["scene"] == "rigid"].groupby("solver")
     costs = pd.Series({str(name): cost_at(line, CONVERGED, "cost") for name, line in lines}, dtype=float)
     return dict(costs.dropna().sort_values())
@@ -117,7 +117,7 @@ def _stiff(points: pd.DataFrame) -> dict[str, float]:
 
 
 def passages(run: Summary) -> dict[str, str]:
-    """Texts by the name under which pages ask for them."""
+    """Texts by the name that pages refer to."""
     first = run["prices"]["first_separation"]["series (this package)"]
     cycle = run["prices"]["growth_rate"]["series, from the cycle itself"]
     return {
@@ -129,7 +129,7 @@ def passages(run: Summary) -> dict[str, str]:
 
 
 def _speed(run: Summary) -> str:
-    """What a simulated second costs, and how many times as long the other methods take."""
+    """Cost of a simulated second, and its ratio for the other methods."""
     own, slower, call, narrow = run["own"], run["times_slower"], run["whole_call"], run["as_avx2"]
     costs = {
         name: [*(found.get(name, math.nan) for found in slower.values()), stiff]
@@ -153,7 +153,7 @@ def _speed(run: Summary) -> str:
 
 
 def _methods(run: Summary) -> dict[str, float]:
-    """Methods with a cost in any scene, cheapest first, and their cost (ms) on the all but rigid disc."""
+    """Methods with a cost in any scene, cheapest first, and their cost (ms) on the almost rigid disc."""
     slower, stiff = run["times_slower"].values(), run["stiff"]
     times = {name: min(found.get(name, math.inf) for found in slower) for found in slower for name in found}
     names = [*sorted(times, key=lambda name: times[name]), *(name for name in stiff if name not in times)]
@@ -165,7 +165,7 @@ def _milliseconds(own: Mapping[str, Mapping[str, float]]) -> list[dict[str, Any]
 
 
 def fill(text: str, known: Mapping[str, str]) -> str:
-    """A page with its passages, ``<!-- bench NAME -->...<!-- end -->``, written anew.
+    """A page whose passages, ``<!-- bench NAME -->...<!-- end -->``, are written anew.
 
     Raises
     ------

@@ -1,6 +1,6 @@
-"""Which rivals there are: each is one file in `disc_model.benchmarks.methods` and one line here.
+"""Registry of the methods: each is one file in `disc_model.benchmarks.methods` and one line here.
 
-Nothing heavy is imported, so that the workflow can read it at every start.
+The module imports nothing heavy: the workflow reads it at every start.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ SCENES = ("stick_slip", "separating", "many_modes", "rigid")
 
 
 class Rival(NamedTuple):
-    """A method's name, where it is (``module:class`` in `disc_model.benchmarks.methods`), and what its class is given.
+    """A method: its name, its place (``module:class`` in `disc_model.benchmarks.methods`), and its class's arguments.
 
-    ``requires`` are packages without which it cannot be used; ``maps`` the scenes of which it has a failure map.
+    ``requires`` are the packages that it needs; ``maps`` are the scenes with a failure map of it.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""The benchmark's scenes: four motions whose right answer is known, and how far a method's answer is from it.
+"""The benchmark's scenes: four motions with known correct answers, and the errors of a method's answer.
 
 ``stick_slip``
     N = 385 N, Omega = 15.1 rad/s, the first second: stick-slip without separation, 135 switches
@@ -10,8 +10,8 @@
     E = 1e20 Pa, one diameter, 20 ms: the classical stick-slip cycle, known in closed form; frequencies up to 3.9e7
     rad/s that nothing excites
 
-The answers of the first three are stored in ``data/benchmark_reference.json``, computed in long double by
-``tests/references/make_benchmark_reference.py``; that of the last is `rigid_cycle`.
+The answers of the first three are stored in ``data/benchmark_reference.json``. The script
+``tests/references/make_benchmark_reference.py`` computes them in long double. That of the last is `rigid_cycle`.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ of the same energy are sqrt(2) apart."""
 
 
 class Verdict(enum.IntEnum):
-    """What became of a method."""
+    """Verdict on a method."""
 
     CONVERGED = 0
     INACCURATE = 1
@@ -69,7 +69,7 @@ VERDICT = Variable("1", "what became of the method", VERDICT_WORDS)
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """The right answer: event times (s, long double, (n,)), kinds (n words), state at the end, its own error (s)."""
+    """The correct answer: event times (s, long double, (n,)), kinds (n words), final state, its own error (s)."""
 
     times: np.ndarray
     kinds: tuple[str, ...]
@@ -79,7 +79,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Errors:
-    """How far a result is off: largest event-time error (s; nan if events are wrong), energy norm, verdict."""
+    """Errors of a result: largest event-time error (s; nan if events are wrong), energy norm, verdict."""
 
     event_time: float
     state: float
@@ -95,7 +95,7 @@ def static_start(p: Parameters) -> State:
 
 
 def separating_start(p: Parameters) -> State:
-    """The state at 54.4 s of N = 385 N, Omega = 15.1 rad/s, the modes of ``p`` that it lacks at static deflection."""
+    """The state at 54.4 s of N = 385 N, Omega = 15.1 rad/s; further modes of ``p`` are at static deflection."""
     stored = json.loads((DATA / "separating_start.json").read_text(encoding="utf-8"))
     physics = Physics(p)
     y = physics.pack(static_start(p))
@@ -110,7 +110,7 @@ def separating_start(p: Parameters) -> State:
 
 
 def read_state(stored: Mapping[str, Any]) -> State:
-    """A state as JSON has it."""
+    """Convert a state from its form in JSON."""
     values: dict[str, Any] = {name: np.array(x) if isinstance(x, list) else x for name, x in stored.items()}
     return State(**values)
 
@@ -135,7 +135,7 @@ def problem(name: str) -> Problem:
 
 @lru_cache(maxsize=8)
 def answer(name: str) -> Answer:
-    """The right answer of a scene."""
+    """The correct answer of a scene."""
     if name == "rigid":
         return rigid_cycle(problem(name))
     stored = json.loads((DATA / "benchmark_reference.json").read_text(encoding="utf-8"))[name]
@@ -152,8 +152,8 @@ def answer(name: str) -> Answer:
 def rigid_cycle(problem: Problem) -> Answer:
     """Stick-slip on a rigid disc from a relaxed spring, in closed form (contact force N, no damping).
 
-    A rigid disc is the limit of E to infinity: at E = 1e20 Pa what is left of the disc's compliance, k psi^2/omega^2,
-    is 3e-9, and the answer is exact to about that.
+    A rigid disc is the limit of E to infinity. At E = 1e20 Pa the disc's remaining flexibility, k psi^2/omega^2, is
+    3e-9, and the answer is exact to about that.
     """
     p = problem.parameters
     w = math.sqrt(p.k_p / p.m)
@@ -176,7 +176,7 @@ def rigid_cycle(problem: Problem) -> Answer:
 
 
 def errors(problem: Problem, answer: Answer, result: MethodResult) -> Errors:
-    """Compare a result with the right answer."""
+    """Compare a result with the correct answer."""
     state = Physics(problem.parameters).distance(result.final, answer.final)
     time = event_time_error(answer, result, problem.t_end)
     if result.outcome is RunStatus.NON_FINITE or not math.isfinite(state):
@@ -191,9 +191,9 @@ def errors(problem: Problem, answer: Answer, result: MethodResult) -> Errors:
 
 
 def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> float:
-    """Largest error of an event time, s; nan if the events are not the right ones.
+    """Largest error of an event time, s; nan if the events are wrong.
 
-    An event that the one has just before the end and the other therefore not yet counts as late, not as wrong.
+    If only one of the two has an event just before the end, it counts as late, not as wrong.
     """
     common = min(len(answer.kinds), len(result.kinds))
     if common == 0 or answer.kinds[:common] != result.kinds[:common]:
@@ -206,13 +206,13 @@ def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> floa
 
 
 def shortest_phase(answer: Answer) -> float:
-    """Shortest time between two events, s: what a step must not jump over."""
+    """Shortest time between two events, s, which a step must not exceed."""
     gaps = np.diff(answer.times.astype(float))
     return float(gaps[gaps > 0].min())
 
 
 def describe(name: str) -> dict[str, Any]:
-    """Facts about a scene for a dataset's attributes."""
+    """Description of a scene for a dataset's attributes."""
     case, right = problem(name), answer(name)
     return {
         "parameters": case.parameters.canonical_json,

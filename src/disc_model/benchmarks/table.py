@@ -1,4 +1,4 @@
-"""The measured points as a table, and what they come to in a few words."""
+"""The measured points as a table, and its summary."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ FLOOR = 1e-15
 
 
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
-    """A row for each measured point, with what it holds, and what follows:
+    """One row for each measured point, with its values and a derived column:
 
-    further : cost of a further simulated second, setting up left out; where that was not measured, that of the whole
-        run, which was so long that it has next to no setting up
+    further : cost of a further simulated second without setting up; where it was not measured, that of the whole run,
+        which was so long that setting up is negligible
     """
     frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
     frame = frame[frame["verdict"] != Verdict.NOT_RUN].reset_index(drop=True)
@@ -32,10 +32,10 @@ def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
-    """By scene and method: cost with events right to ``DEFAULT`` s, over the series engine's at its default.
+    """Cost with events correct to ``DEFAULT`` s over that of the series engine at its default, by scene and method.
 
-    Costs are those of a further second, at that error by `cost_at`.  Should the series engine's own error be larger,
-    that is what all are allowed.
+    Costs are those of a further second, at that error by `cost_at`.  If the series engine's own error is larger, all
+    methods are allowed that error.
 
     points : `measured_points`
     """
@@ -51,9 +51,9 @@ def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
 
 
 def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
-    """Cost at which a line reaches an event-time error (s): between settings, log-log; nan if none is as accurate.
+    """Cost at which a line reaches an event-time error (s): interpolated in log-log; nan if no setting is as accurate.
 
-    A setting counts only where no cheaper one is as accurate; one coarser than all is not made up.
+    A setting counts only if no cheaper one is as accurate; nothing is extrapolated to coarser settings.
     """
     known = line[np.isfinite(line["event_error"])].sort_values(cost)
     errors = np.maximum(known["event_error"].to_numpy(), FLOOR)
@@ -65,14 +65,14 @@ def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
 
 
 def at_default(points: pd.DataFrame) -> pd.DataFrame:
-    """Those of the series engine at its default."""
+    """Points of the series engine at its default."""
     return points[(points["solver"] == "series") & (points["value"] == DEFAULT)]
 
 
 def table(dataset: xr.Dataset) -> pd.DataFrame:
     """One row per measured point, with the ratio of its cost to the series engine's at the same event-time error.
 
-    ``times_series`` is cost over the cost at which the series engine reaches the same event-time error, by `cost_at`.
+    ``times_series`` is the cost divided by that of the series engine at the same event-time error, by `cost_at`.
     """
     points = measured_points(dataset)
     series = points[points["solver"] == "series"]
@@ -99,7 +99,7 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def to_markdown(dataset: xr.Dataset) -> str:
-    """The table as Markdown, a section a scene, with the machine above and the orders beside each method."""
+    """The table as Markdown: a section per scene, with the machine above and the orders beside each method."""
     frame, ratios = table(dataset), headline(measured_points(dataset))
     headlines = [
         {"title": scenes.TITLES[scene], "others": [{"label": label, "ratio": ratio} for ratio, label in others]}

@@ -10,5 +10,5 @@ TEXTS = read_passages(Path(__file__).with_name("texts.yaml"))
 
 
 def plain(number: float) -> str:
-    """Two digits, without a power of ten."""
+    """A number with two digits, without a power of ten."""
     return f"{float(f'{number:.2g}'):,.10g}"

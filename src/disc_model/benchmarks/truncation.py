@@ -1,10 +1,10 @@
-"""What truncating the modes does to what a study asks for, against nodal diameters and circles.
+"""Effect of truncation on the results of a study, against nodal diameters and circles.
 
-`truncation_study` measures, for both normalisations, coupled frequencies, the growth rate of the stick-slip cycle, the
-first separation, the range of the contact force and what a plastic impact does, with the cost beside them.
-`contact_study` measures what of that residual flexibility changes, and what comes after the separation.
+`truncation_study` measures, for both normalisations, coupled frequencies, the growth rate of the stick-slip cycle and
+the first separation. It adds the range of the contact force, the effect of a plastic impact, and the cost.
+`contact_study` measures the effect of residual flexibility on these, and the motion after the separation.
 
-What they found: docs/truncation.md.
+The results are in docs/truncation.md.
 """
 
 from __future__ import annotations
@@ -156,7 +156,7 @@ def _through_separation(p: Parameters, horizon: float) -> dict[str, float]:
 
 
 def _late(p: Parameters, first: State, tol: float) -> dict[str, float]:
-    """What comes `LATE` after the first separation; nothing if the motion cannot be followed so far."""
+    """Motion at a time `LATE` after the first separation; empty if the motion cannot be followed so far."""
     began = time.process_time()
     run = simulate(p, first.time + LATE[0], tol=tol, initial_state=first, record=Record(events=False))
     cost = (time.process_time() - began) / LATE[0]
@@ -177,7 +177,7 @@ def _late(p: Parameters, first: State, tol: float) -> dict[str, float]:
 
 
 def _watched(p: Parameters, start: State, length: float, tol: float = TOLERANCES[0]) -> Result:
-    """A motion for ``length`` s from a state on, with its range."""
+    """Simulate ``length`` s from a state on and record the range."""
     window = Window(start=start.time, stop=start.time + length, rate=20_000.0, envelope=100)
     record = Record(events=False, windows=(window,))
     return simulate(p, window.stop, tol=tol, initial_state=start, record=record)
@@ -199,7 +199,7 @@ def _measure(normalization: str, diameters: int, circles: int, horizon: float, g
 
 
 def _of_the_modes(p: Parameters) -> dict[str, float]:
-    """What follows from the modes alone."""
+    """Quantities that follow from the modes alone."""
     modes = mode_arrays(p)
     return {
         "modes": float(real_modes(p.n_diameters, p.n_circles)),
@@ -217,7 +217,7 @@ def _contact_range(p: Parameters) -> dict[str, float]:
 
 
 def _separating(p: Parameters, horizon: float) -> dict[str, float]:
-    """First separation, and what the second after it is like."""
+    """First separation, and the motion in the second after it."""
     first = simulate(p, horizon, stop_at="first_separation")
     if not math.isfinite(first.first_separation):
         return {}

@@ -1,7 +1,7 @@
-"""What of `contact_study` stands in the docs: tables, and what settles and what does not, in words made of the numbers.
+"""Results of `contact_study` in the docs: tables, and statements on convergence made from the numbers.
 
-`summary` takes what is needed from the dataset of one run; it is kept as ``docs/contact_truncation.json``.  All else is
-written from that.
+`summary` extracts the numbers from the dataset of one run, which are stored as ``docs/contact_truncation.json``.  All
+texts are written from that file.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ Line = tuple[list[int], list[float | None]]
 class Asked(NamedTuple):
     """A quantity of the tables.
 
-    title : of a row; head : of a column
-    tolerance : relative, within which models agree
-    scale, digits : how it is shown
+    title : title of a row; head : head of a column
+    tolerance : relative tolerance within which models agree
+    scale, digits : factor and digits for display
     """
 
     title: str
@@ -56,9 +56,9 @@ FEWEST = 3
 
 
 def summary(study: xr.Dataset) -> dict[str, Any]:
-    """What the pages need of a run: by case and contact a list along the models for each quantity, None where none.
+    """Numbers of a run for the pages: by case and contact, a list along the models for each quantity, None if missing.
 
-    The list of growth rates ends with the largest model whose cycle was looked for.
+    The list of growth rates ends with the largest model for which a cycle was searched.
     """
     counts = [int(count) for count in study["modes"].isel(case=0, contact=0).values]
     looked = sum(count <= study.attrs["most_growth"] for count in counts)
@@ -86,7 +86,7 @@ def summary(study: xr.Dataset) -> dict[str, Any]:
 
 
 def settled(values: Sequence[float | None], tolerance: float) -> int | None:
-    """The first model from which on all give the largest one's value to a relative tolerance, or none as it.
+    """The first model from which on all agree with the largest within a relative tolerance, or like it have no value.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def settled(values: Sequence[float | None], tolerance: float) -> int | None:
     Returns
     -------
     int or None
-        Its place in the list; None where it would not have two larger ones.
+        Its index in the list; None if it would not have two larger ones.
     """
     first = len(values)
     while first and _alike(values[first - 1], values[-1], tolerance):
@@ -110,7 +110,7 @@ def _alike(value: float | None, last: float | None, tolerance: float) -> bool:
 
 
 def passages(run: Summary) -> dict[str, str]:
-    """Texts by the name under which pages ask for them."""
+    """Texts by the name that pages refer to."""
     start, length = run["late"]
     tables = [{"title": _upper(case), "table": _table(run, contacts)} for case, contacts in run["values"].items()]
     settled_of: dict[str, list[bool]] = {}
@@ -146,7 +146,7 @@ def _each(run: Summary) -> Iterator[tuple[str, str, Mapping[str, Sequence[float 
 
 
 def _table(run: Summary, contacts: Mapping[str, Mapping[str, Sequence[float | None]]]) -> str:
-    """The table of a case: a row for each model, rigid and residual in each cell."""
+    """The table of a case: a row for each model, with rigid and residual values in each cell."""
     head = ["diameters, circles", "modes", *(asked.head for asked in TABLED.values()), *COSTS.values()]
     shown = [(name, asked.scale, asked.digits) for name, asked in TABLED.items()]
     shown += [(name, 1e3, 2) for name in COSTS]
@@ -165,7 +165,7 @@ def _at(values: Sequence[float | None], i: int) -> float | None:
 
 
 def _known(run: Summary, values: Mapping[str, Sequence[float | None]], name: str) -> Line:
-    """Numbers of modes, and a quantity; without the models that lose contact and could then not be followed."""
+    """Numbers of modes and values of a quantity, without models that lose contact and could then not be followed."""
     pairs = [
         (modes, value)
         for modes, value, first in zip(run["modes"], values[name], values["first_separation"], strict=False)
@@ -190,7 +190,7 @@ def _moves(line: Line, asked: Asked) -> tuple[str, str]:
 
 
 def _number(value: float | None, scale: float, digits: int) -> str:
-    """As many digits as asked for, without a power of ten; a dash for none."""
+    """A number with the given digits, without a power of ten; a dash if missing."""
     return "-" if value is None else f"{float(f'{value * scale:.{digits}g}'):.10g}"
 
 
@@ -199,6 +199,6 @@ def _upper(case: str) -> str:
 
 
 def text(study: xr.Dataset) -> str:
-    """All of it as one page: the table beside the figures of ``make bench``."""
+    """All texts as one page: the table beside the figures of ``make bench``."""
     known = {name.removeprefix("truncation_"): said.strip("\n") for name, said in passages(summary(study)).items()}
     return TEXTS["truncation_page"].fill(**known)

@@ -1,7 +1,7 @@
 """Speed against accuracy: every method on every scene, at settings from coarse to fine, in one run on one core.
 
-Rounds go through all the points in turn, so that a disturbance of the machine hits all methods alike; what is reported
-is the median over the rounds.  Points that take long are measured less often (``repeats`` says how often).
+Each round measures all points in turn, so that a disturbance of the machine affects all methods alike. The reported
+value is the median over the rounds.  Slow points are measured less often (``repeats`` is the number).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ Settings = Mapping[str, Mapping[str, Sequence[float]]]
 
 
 def all_settings() -> Settings:
-    """Those of every method."""
+    """Settings of every method."""
     return {
         scene: {name: method.settings[scene] for name, method in METHODS.items() if scene in method.settings}
         for scene in SCENES
@@ -102,8 +102,8 @@ def work_precision(
 
     Parameters
     ----------
-    settings : if not those of `all_settings`
-    rounds : how often the quick points are measured
+    settings : those of `all_settings` if not given
+    rounds : number of measurements of quick points
     budget : s for a point; a method that gives up at a coarse setting is not tried at finer ones
     progress : called with each point and the seconds it took
 
@@ -178,7 +178,7 @@ def _further(point: Point, limit: float) -> float:
 def _whole_call(scene: str) -> float:
     """Processor time (s) of one call of `simulate` at its default, everything included.
 
-    Of several in a row the last: the first finds caches filled by other methods.
+    The last of several calls counts: the first finds caches filled by other methods.
     """
     problem = scenes.problem(scene)
     for _ in range(3):
@@ -193,7 +193,7 @@ def _quick(walls: Sequence[float]) -> bool:
 
 
 def _again(walls: Sequence[float], turn: int) -> bool:
-    """Whether to measure a point in a later round: always if it is quick, twice more at most if it is not."""
+    """Whether to measure a point in a later round: always if it is quick, else at most twice more."""
     return bool(walls) and (_quick(walls) or (float(np.median(walls)) < LONG and turn < 3))
 
 
@@ -225,12 +225,13 @@ def _dataset(
 
 
 def _line_order(dataset: xr.Dataset, scene: str, method: str, error: str) -> float:
-    """Order against the step, or against what grows like its inverse; of methods of variable order, the exponent q of
-    error ~ tolerance^q instead."""
+    """Order against the step, or against a quantity that grows like its inverse. For methods of variable order it is
+    the exponent q of error ~ tolerance^q.
+    """
     line = dataset.sel(scene=scene, solver=method)
     usable = np.isin(line["verdict"].values, (int(Verdict.CONVERGED), int(Verdict.INACCURATE)))
     own = METHODS[method]
-    # right-hand sides count the steps of a method of fixed order; a step or a regularisation stands for itself
+    # the number of right-hand sides counts the steps of a method of fixed order; other settings stand for themselves
     n = line["work"].values if own.setting == "tol" and math.isfinite(own.order) else 1.0 / line["value"].values
     return fitted_order(n[usable], line[f"{error}_error"].values[usable])
 

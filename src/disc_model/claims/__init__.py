@@ -1,8 +1,8 @@
-"""The paper's claims, as data and checks, against what was computed.
+"""The paper's claims, as data and checks against the computed results.
 
-Each claim states in our own words what the paper says, where, and what would count as agreement and why; its
-check computes everything it reports from the merged cases, from grid studies or from the disc's modes.
-`ledger.check_claims` makes the table.
+Each claim states in our own words what the paper says, where it says it, and what counts as agreement and why. Its
+check computes all reported numbers from the merged cases, grid studies or the disc's modes. `ledger.check_claims` makes
+the table.
 """
 
 SCANS = ("bonded", "critical_speed", "map_E", "map_c_p")

@@ -76,7 +76,7 @@ def attached_hertz(*, within: float) -> Answer:
 
 @CHECKS("P06")
 def pairs_split(*, within: float) -> Answer:
-    """The frequencies interlace: between two of the disc's there is one of those that the slider lowers, if it does."""
+    """Whether frequencies interlace: one of the coupled system lies between two of the disc if the slider lowers it."""
     attached = coupled_natural_frequencies(BASE)
     disc = plate_modes(BASE)["omega"].to_numpy()
     lowered = []
@@ -99,14 +99,14 @@ def moving_load(*, printed: float, within: float) -> Answer:
 
 
 def moving_load_speed(p: Parameters) -> float:
-    """Of a load that moves around the disc: the least omega_l/l, rad/s."""
+    """Critical speed of a load that moves around the disc: the least omega_l/l, rad/s."""
     modes = plate_modes(p).query("diameters > 0")
     return float(np.min(modes["omega"] / modes["diameters"]))
 
 
 @CHECKS("E17")
 def second_relation(*, within: float) -> Answer:
-    """Both relations of Eq. (17), with modes normalised by the first."""
+    """Check both relations of Eq. (17), with modes normalised by the first."""
     p = BASE.replace(normalization="orthonormal")
     modes = plate_modes(p)
     pairs = np.where(modes["diameters"] > 0, 2.0, 1.0)  # plate_modes has one amplitude for the two of a pair

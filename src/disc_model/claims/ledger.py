@@ -1,4 +1,4 @@
-"""The ledger: every claim of the paper, checked; and what changes when the modes are normalised as Eq. (17) says."""
+"""The ledger: a check of every claim of the paper, and a comparison of the two normalisations of Eq. (17)."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     Parameters
     ----------
     tree : merged cases, see `disc_model.studies.cases`
-    scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that look at others are not computed
+    scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that need missing ones are not computed
     """
     cases = views(tree, scans)
     rows = []
@@ -54,13 +54,13 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
 
 
 def views(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> dict[str, CaseView]:
-    """Cases, and grid studies among them, as claims look at them."""
+    """Views of the cases and grid studies for the checks."""
     nodes = dict(tree.children) | {name: xr.DataTree(scan) for name, scan in (scans or {}).items()}
     return {name: CaseView(name, node) for name, node in nodes.items()}
 
 
 # ----------------------------------------------------------------------------------------------------
-# The same cases under both normalisations, side by side
+# Comparison of the cases under both normalisations
 
 
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
@@ -96,7 +96,7 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
 
 
 def _once(cases: Sequence[CaseView]) -> list[str]:
-    """Names of cases from the static start, without those that repeat an earlier one at another tolerance."""
+    """Names of cases from the static start, without repetitions at another tolerance."""
     names: dict[Parameters, str] = {}
     for case in cases:
         if "start" not in case.node.attrs:
@@ -129,7 +129,7 @@ def _modes() -> pd.DataFrame:
 
 
 def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
-    """What cases come to, beside what the same ones do with normalised modes if these are given."""
+    """Results of the cases, beside those of the same cases with orthonormal modes if these are given."""
     pairs = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
     table = {"Case": [case.name for case in cases], "Parameters": [_said(case) for case in cases]}
     table |= {f"First separation{which}": [_first(case) for case in those] for which, those in pairs.items()}

@@ -1,4 +1,4 @@
-"""Numbers that claims are about, from events and samples, and how they are said."""
+"""Measured numbers for the claims, from events and samples, and their texts."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ than 1 % of the widest. What grows or decays by 3e-4/s or more does not pass."""
 
 
 class Absent(Missing):
-    """The evidence is there, and what a claim finds in it is not: the claim does not hold."""
+    """The evidence exists but lacks the feature that a claim states: the claim does not hold."""
 
 
 class Range(NamedTuple):
@@ -54,7 +54,7 @@ class Range(NamedTuple):
 
 @dataclass(frozen=True)
 class CaseView:
-    """One case, opened for reading; ``scaled``: parameters taken to be other multiples of what they were."""
+    """View of one case; ``scaled``: factors by which parameters are taken to differ."""
 
     name: str
     node: xr.DataTree
@@ -85,43 +85,43 @@ class CaseView:
 
     @property
     def place(self) -> str:
-        """Where it is in the plane of preload and speed."""
+        """Preload and speed of the case, in words."""
         return place(self["N"], self["Omega"])
 
     @property
     def first(self) -> str:
-        """When it first separates, in words."""
+        """Time of the first separation, in words."""
         return first_separation(self)
 
     @property
     def growth(self) -> str:
-        """How fast small disturbances of its cycle grow, in words."""
+        """Growth rate of small disturbances of its cycle, in words."""
         rate = growth_or_nan(self.parameters)
         return "no stick-slip cycle" if math.isnan(rate) else f"growth {said_rate(rate)}/s"
 
     @property
     def onset(self) -> str:
-        """When it first separates, and how fast small disturbances of its cycle grow."""
+        """Time of the first separation and growth rate of small disturbances, in words."""
         return f"{self.first}, {self.growth}"
 
     @property
     def motion(self) -> str:
-        """What the in-plane motion is within the events kept, in words."""
+        """Class of the in-plane motion within the stored events, in words."""
         return late_motion(self)[1]
 
     @property
     def early(self) -> Range:
-        """Range of the contact force over the first 20 s, the very first one left out, N."""
+        """Range of the contact force over the first 20 s, without the first second, N."""
         return early_range(self, "P")
 
     @property
     def late(self) -> Range:
-        """The same over the last 20 s."""
+        """Range of the contact force over the last 20 s, N."""
         return late_range(self, "P")
 
     @property
     def events(self) -> xr.Dataset:
-        """Switches kept; raises `Missing` if the case keeps none."""
+        """Stored events; raises `Missing` if the case stores none."""
         return self._held(dataset.events)
 
     def samples(self, window: str) -> xr.Dataset:
@@ -140,17 +140,17 @@ class CaseView:
         return Range(float(low.min()), float(high.max()))
 
     def last_widths(self, name: str, length: float, count: int) -> list[float]:
-        """Widths of a variable's ranges over so many stretches of a length (s) up to the end, the last one first."""
+        """Widths of a variable's ranges over `count` stretches of a length (s) up to the end, the last one first."""
         end = self["time_reached"]
         spans = [(end - (i + 1) * length, end - i * length) for i in range(count)]
         return [self.range_of(name, *span).width for span in spans]
 
     def last_quarters(self, name: str) -> list[float]:
-        """The same over the last two quarters of the time after the first separation."""
+        """Widths over the last two quarters of the time after the first separation."""
         return self.last_widths(name, (self["time_reached"] - self["first_separation"]) / 4, 2)
 
     def drift(self) -> float:
-        """By how much the ranges of contact force and disc differ among the last stretches, share of the widest."""
+        """Variation of the ranges of contact force and disc among the last stretches, as a fraction of the widest."""
         found = [self.last_widths(name, STRETCH, STRETCHES) for name in ("P", "w_point")]
         return max((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0 for widths in found)
 
@@ -166,12 +166,12 @@ class CaseView:
 
 
 def rows(cases: Iterable[CaseView]) -> list[dict[str, Any]]:
-    """A row for each case, in which sentences find it as ``case``."""
+    """One row for each case, under the key ``case`` for sentences."""
     return [{"case": case} for case in cases]
 
 
 def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
-    """Cases with separation, each with the one in which separation is ignored, if that is there."""
+    """Cases with separation, each with the case that ignores separation, if there is one."""
     free = [case for case in cases if not case.bonded]
     bonded = {case.parameters: case for case in cases if case.bonded}
     wanted = [case.parameters.replace(contact="bonded") for case in free]
@@ -179,31 +179,31 @@ def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
 
 
 def between_only(cases: Sequence[CaseView]) -> bool:
-    """Whether of three cases only the one in between separates."""
+    """Whether only the middle one of three cases separates."""
     return [case.separates for case in cases] == [False, True, False]
 
 
 def dips(speeds: Array, depth: float) -> list[int]:
-    """Places of minima from which the values rise by ``depth`` or more on both sides; nan is above all of them."""
+    """Indices of minima with a rise of ``depth`` or more on both sides; nan counts as infinite."""
     filled = np.where(np.isnan(speeds), np.nanmax(speeds, initial=0.0) + 2 * depth, speeds)
     return [*map(int, find_peaks(-filled, prominence=depth)[0])]
 
 
 def later_falls(speeds: Array, depth: float) -> list[int]:
-    """Places to which the values fall by ``depth`` or more after the first of `dips`; the last place may be one."""
+    """Indices at which values fall by ``depth`` or more after the first of `dips`; the last index may be one."""
     first = min(dips(speeds, depth), default=len(speeds))
     return [i for i in dips(np.append(speeds, np.nan), depth) if i > first]
 
 
 def ratio(part: float, whole: float, what: str) -> float:
-    """One number over another; raises `Missing` where the other, which is `what`, is nothing."""
+    """Ratio of two numbers; raises `Missing` if the denominator, which is `what`, is zero."""
     if not whole > 0:
         raise Missing(f"{what} is {whole:g}")
     return part / whole
 
 
 def first_separation(case: CaseView, *repeats: CaseView) -> str:
-    """When a case first separates, in words: to 0.01 s, or between round numbers if others that repeat it differ."""
+    """Time of the first separation in words: to 0.01 s, or between round numbers if repetitions differ."""
     times = [each["first_separation"] for each in (case, *repeats)]
     if math.isnan(times[0]):
         return f"no separation in {case['time_reached']:g} s"
@@ -219,23 +219,23 @@ def first_separation(case: CaseView, *repeats: CaseView) -> str:
 
 
 def switches(case: CaseView, kind: str) -> xr.Dataset:
-    """The events of one kind, of those kept."""
+    """The stored events of one kind."""
     events = case.events
     return events.isel(event=events["kind"].values == EVENT_KINDS.index(kind))
 
 
 def times_of(case: CaseView, kind: str) -> Array:
-    """Their times, s."""
+    """Times of the stored events of one kind, s."""
     return np.asarray(switches(case, kind)["time"])
 
 
 def release_intervals(case: CaseView) -> Array:
-    """Times between successive releases of stick in the events kept, s."""
+    """Times between successive releases among the stored events, s."""
     return _intervals(case, "stick_to_slip", "stick-slip cycles")
 
 
 def separation_intervals(case: CaseView) -> Array:
-    """Times between successive separations in the events kept, s."""
+    """Times between successive separations among the stored events, s."""
     return _intervals(case, "separation", "separations")
 
 
@@ -248,12 +248,12 @@ def _intervals(case: CaseView, kind: str, what: str) -> Array:
 
 @lru_cache(maxsize=256)
 def _motion(intervals: tuple[float, ...], closes: float) -> Motion:
-    """Kept, because claims are judged again with other thresholds."""
+    """Cached, because claims are judged again with other thresholds."""
     return motion_of(np.array(intervals), closes)
 
 
 def late_motion(case: CaseView, closes: float = CLOSES) -> tuple[Motion, str]:
-    """What the in-plane motion is within the events kept, and that in words.
+    """Class of the in-plane motion within the stored events, also in words.
 
     closes : s, see `disc_model.analysis.classify.motion_of`
     """
@@ -272,9 +272,9 @@ def late_motion(case: CaseView, closes: float = CLOSES) -> tuple[Motion, str]:
 
 
 def is_kind(kind: Outcome, motion: Motion, besides: bool = True, near: Motion | None = None) -> tuple[bool | None, str]:
-    """Whether a motion is of a kind and what else is claimed, `besides`, is so; or why that is open.
+    """Whether a motion is of a kind and the further condition `besides` holds; or the reason why that is undecided.
 
-    near : the motion with a parameter changed by 0.1 %, which must be of the kind, too, or not either
+    near : the motion with a parameter changed by 0.1 %, which must agree in being of the kind or not
     """
     kinds = [motion.kind, (near or motion).kind]
     if besides and Outcome.UNDECIDED in kinds:
@@ -285,9 +285,9 @@ def is_kind(kind: Outcome, motion: Motion, besides: bool = True, near: Motion | 
 
 
 def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
-    """Where another start leads to a motion that does not stick although the case does, and to which.
+    """Cases that stick although another start leads to a motion that does not, with that motion.
 
-    pairs : a case from the static start, and the same parameters begun in a separated motion
+    pairs : a case from the static start, and the same parameters started in a separating motion
     """
     return [
         f"at {case.place} {_by_separations(other)}"
@@ -297,24 +297,24 @@ def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
 
 
 def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
-    """What becomes of a motion that repeats where a spring is 0.1 % stiffer; nothing if its period stays."""
+    """Change of a periodic motion where a spring is 0.1 % stiffer; empty if its period stays."""
     said = f"it repeats after {counted(other.period, 'release')}" if other.period else f"it is {other}"
     return [{"with": said}] if motion.period not in (0, other.period) else []
 
 
 def _by_separations(case: CaseView) -> str:
-    """What a motion without stick is, by the intervals between its separations."""
+    """Class of a motion without stick, by the intervals between its separations."""
     motion = _motion(tuple(separation_intervals(case)), CLOSES)
     return f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
 
 
 def counted(count: int, name: str) -> str:
-    """So many of something."""
+    """A count with its noun, singular or plural."""
     return f"{count} {name}{'s' if count != 1 else ''}"
 
 
 def place(N: float, Omega: float) -> str:
-    """Where in the plane of preload and speed."""
+    """Preload and speed in words."""
     return f"{N:g} N, {Omega:g} rad/s"
 
 
@@ -325,24 +325,24 @@ def extent(values: Iterable[float]) -> Range:
 
 
 def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> str:
-    """A number with its unit, or what stands for one that is missing."""
+    """A number with its unit, or a text if it is missing."""
     return without if math.isnan(value) else f"{value:{spec}}{unit}"
 
 
 def rate_of(case: CaseView, kind: str) -> float:
-    """Events of one kind per second within the events kept, 1/s."""
+    """Rate of one kind of event within the stored events, 1/s."""
     start, stop = kept_span(case)
     return times_of(case, kind).size / (stop - start)
 
 
 def kept_span(case: CaseView) -> Range:
-    """Stretch of time of which a case keeps its events, s."""
+    """Span of time for which a case stores its events, s."""
     attrs = case.events.attrs
     return Range(float(attrs["kept_from"]), min(float(attrs["kept_until"]), case["time_reached"]))
 
 
 def separation_durations(case: CaseView) -> tuple[Array, float]:
-    """Durations of the separations that begin and end within the events kept, s; and of a last one that lasts, or 0."""
+    """Durations of the separations that begin and end within the stored events, s; and of one that lasts, or 0."""
     apart, together = times_of(case, "separation"), times_of(case, "reattachment")
     ends = np.searchsorted(together, apart, side="right")
     whole = ends < together.size
@@ -352,7 +352,7 @@ def separation_durations(case: CaseView) -> tuple[Array, float]:
 
 
 def phase_share(case: CaseView, phase: str) -> float:
-    """Share of time spent in a phase, within the events kept."""
+    """Fraction of time spent in a phase, within the stored events."""
     events = case.events
     lasting = np.diff(np.append(events["time"].values, kept_span(case).high))
     inside = events["phase"].values == PHASES.index(phase)
@@ -366,7 +366,7 @@ def late_range(case: CaseView, name: str) -> Range:
 
 
 def early_range(case: CaseView, name: str) -> Range:
-    """Range over the first 20 s, the very first one left out."""
+    """Range over the first 20 s, without the first second."""
     return case.range_of(name, 1.0, 1.0 + STRETCH)
 
 
@@ -390,12 +390,12 @@ def lines(
 
 
 def loudest(found: Iterable[Line], count: int) -> list[Line]:
-    """So many lines at most, the strongest first."""
+    """The strongest lines, at most `count`, the strongest first."""
     return sorted(found, key=lambda line: -line.amplitude)[:count]
 
 
 def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -> Line:
-    """The strongest line of the disc's point no further than `within` Hz from a frequency; raises `Absent`."""
+    """The strongest line of the disc's point within `within` Hz of a frequency; raises `Absent`."""
     try:
         return spectra.strongest(samples["time"].values, samples["w_point"].values, near, within)
     except ValueError as error:
@@ -403,18 +403,18 @@ def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -
 
 
 class Section(NamedTuple):
-    """Width of the in-plane motion's section, rad, and share of its points in stick."""
+    """Width of the in-plane motion's section, rad, and fraction of its points in stick."""
 
     width: float
     stick: float
 
     def changed(self, then: Section, share: float) -> list[int]:
-        """Of both, -1 or 1 where it falls or rises by more than a share of itself, else 0."""
+        """Changes of both: -1 or 1 for a fall or rise by more than a fraction of the value, else 0."""
         return [int(np.sign(b - a)) if abs(b - a) > share * a else 0 for a, b in zip(self, then, strict=True)]
 
 
 def sections(case: CaseView, first: float, end: float) -> list[Section]:
-    """Before a time, and in the later half of the time from there to an end."""
+    """Sections before a time, and in the later half of the time from there to an end."""
     samples = case.samples("poincare")
     time, psi, stick = samples["time"].values, samples["psi"].values, samples["phase"].values == PHASES.index("stick")
     stages = time < first, (time > (first + end) / 2) & (time <= end)
@@ -424,7 +424,7 @@ def sections(case: CaseView, first: float, end: float) -> list[Section]:
 
 
 def late_section(case: CaseView, last: int) -> Array:
-    """The last Poincare points of the disc, displacement and velocity: shape (``last``, 2) or fewer."""
+    """The last Poincaré points of the disc, displacement and velocity: shape (``last``, 2) or fewer."""
     samples = case.samples("poincare").isel(time=slice(-last, None))
     return np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values])
 
@@ -461,5 +461,5 @@ def growth_or_nan(p: Parameters) -> float:
 
 
 def said_rate(rate: float, unit: str = "", without: str = "no cycle") -> str:
-    """A growth rate, or what stands for one without a cycle."""
+    """A growth rate as text, or a text if there is no cycle."""
     return or_none(rate, "+.4f", unit, without)

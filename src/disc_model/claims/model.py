@@ -1,7 +1,7 @@
-"""What a claim is: a text, a check, and the cases that the check looks at.
+"""Model of a claim: a text, a check, and the cases that the check examines.
 
-The text is data, in the YAML file beside the module that holds the check; see `Text` for what it may say.  The check
-is given cases and bounds; it returns an `Answer`: a verdict, and the numbers that the text's sentences are filled with.
+The text is data, in the YAML file beside the module that holds the check; see `Text` for its keys.  The check receives
+cases and bounds. It returns an `Answer`: a verdict, and the numbers for the text's sentences.
 """
 
 from __future__ import annotations
@@ -46,24 +46,24 @@ def _read(path: Path) -> dict[str, Any]:
 
 @cache
 def paper_cases() -> Mapping[str, Mapping[str, Any]]:
-    """The named cases of config/paper.yaml: what it says of each beside the study's base values."""
+    """The named cases of config/paper.yaml: the values of each, beside the study's base values."""
     cases: dict[str, Mapping[str, Any]] = _read(PAPER)["cases"]
     return cases
 
 
 # ----------------------------------------------------------------------------------------------------
-# What a check finds, and how that is said
+# Results of checks and their texts
 
 
 class Answer:
-    """What a check finds.
+    """Result of a check.
 
     Parameters
     ----------
     holds : whether the claim holds; None if the evidence does not decide it
-    why : in that case, which of the text's reasons for it applies; none of them, if no evidence of this kind can
-    values : what the sentences are filled with beside bounds and cases (each by its name, the first as ``case``, all as
-        rows of ``cases``); a remark is added if the value of its name is true
+    why : in that case, the key of the text's reason for it; empty if no evidence of this kind can decide
+    values : values for the sentences beside bounds and cases (each by its name, the first as ``case``, all as rows of
+        ``cases``); a remark is added if the value of its name is true
     """
 
     def __init__(self, holds: bool | np.bool_ | None, why: str = "", /, **values: Any) -> None:
@@ -72,7 +72,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Finding:
-    """Outcome of a check in words: what we found, whether the claim holds, and what should be known besides."""
+    """Result of a check in words: what we found, the verdict, and remarks."""
 
     ours: str
     verdict: str
@@ -134,7 +134,7 @@ CHANGED = 1.001
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, under our name for it, with the check that decides it."""
+    """A statement of the paper under our name for it, with the check that decides it."""
 
     id: str
     said: Text
@@ -150,7 +150,7 @@ class Claim:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What the check is given besides its evidence."""
+        """Numbers that the check receives besides its evidence."""
         return self.said.given | self.said.bounds
 
     @property
@@ -163,18 +163,18 @@ class Claim:
 
     @property
     def steady(self) -> tuple[str, ...]:
-        """The cases whose steady state it is about."""
+        """The cases whose steady state it concerns."""
         return tuple(self.said.cases) if self.said.steady is True else self.said.steady
 
     def judge(self, *evidence: Any) -> Finding:
-        """What the check makes of this evidence; the verdict says what that lacks."""
+        """Apply the check to this evidence; the verdict names missing evidence."""
         try:
             return self._found(self.check(*evidence, **self.numbers))
         except Missing as missing:
             return _without(missing)
 
     def evaluate(self, cases: Mapping[str, CaseView], changed: str = "") -> Finding:
-        """Check the claim; without the evidence it needs, the verdict says what is missing.
+        """Check the claim; the verdict names missing evidence.
 
         changed : a parameter that is taken to be 0.1 % larger
         """
@@ -196,9 +196,9 @@ class Claim:
             return _without(missing)
 
     def settle(self, judge: Callable[..., Finding]) -> tuple[Finding, str]:
-        """What the claim comes to, undecided if a threshold halved or doubled turns it; and what turns it.
+        """Final result of the claim, undecided if a halved or doubled threshold changes the verdict; and such changes.
 
-        judge : what a claim, this one or with other thresholds, comes to; with a parameter changed if it is `computed`
+        judge : result of a claim, this one or with other thresholds; with a parameter changed if it is `computed`
         """
         found = judge(self)
         turned = self.turned_by(judge, found.verdict)
@@ -208,9 +208,9 @@ class Claim:
         return found, turned
 
     def turned_by(self, judge: Callable[..., Finding], verdict: str) -> str:
-        """Which of its bounds, halved or doubled, or which parameter, changed, turns this verdict; else "stable".
+        """The bounds, halved or doubled, or the parameters, changed, that change the verdict; "stable" without any.
 
-        Of shares and ratios between 0.5 and 2, what is halved or doubled is their distance from 1.
+        For ratios between 0.5 and 2, the distance from 1 is halved or doubled.
         """
         if not (self.said.bounds or self.said.computed) or verdict.startswith(NOT_COMPUTED):
             return ""
@@ -245,12 +245,12 @@ class Claim:
 
 
 def rows_of(cases: Mapping[str, CaseView]) -> dict[str, Any]:
-    """Cases as sentences find them."""
+    """Cases by the names that sentences use."""
     return {**cases, "cases": rows(cases.values())} | ({"case": next(iter(cases.values()))} if cases else {})
 
 
 class Checks(dict[str, Callable[..., Answer]]):
-    """Checks by the claim that they decide; as a decorator it takes up one more."""
+    """Checks by the claim that they decide; as a decorator, an instance registers one more."""
 
     def __call__(self, *names: str) -> Callable[[Callable[..., Answer]], Callable[..., Answer]]:
         def take(check: Callable[..., Answer]) -> Callable[..., Answer]:
@@ -265,7 +265,7 @@ class Checks(dict[str, Callable[..., Answer]]):
         Raises
         ------
         ClaimError
-            For a text without a check, a check without a text, and whatever else is wrong with a text: all at once.
+            For a text without a check, a check without a text, and all other faults of texts, together.
         """
         faults, found = [], []
         common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
@@ -295,18 +295,18 @@ CHECKS = Checks()
 
 
 # ----------------------------------------------------------------------------------------------------
-# Whether the evidence is what a claim needs
+# Checks of the evidence
 
 
 def _without(missing: Missing) -> Finding:
-    """What follows from evidence that is not there, or does not have what was looked for."""
+    """Finding for evidence that is missing, or lacks the feature searched for."""
     if isinstance(missing, Absent):
         return Finding(str(missing), FAILS)
     return Finding("", f"{NOT_COMPUTED}: {missing}")
 
 
 def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
-    """What was found, with the time at which each of some cases was steady, if any; undecided if one was not."""
+    """The finding, with the time at which each case became steady, if any; undecided if one did not."""
     drifts = {f"{case.name} at {case['time_reached']:g} s": case.drift() for case in cases}
     moving = "; ".join(
         f"case {at}: ranges of successive {STRETCH:g} s differ by {100 * drift:.2g} %"
@@ -319,7 +319,7 @@ def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
 
 
 def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
-    """A case that is what the paper's case of this name is, and has run so far (s); raises `Missing`."""
+    """The case that equals the paper's case of this name and has run this far (s); raises `Missing`."""
     if name not in cases:
         raise Missing(f"case {name} is not in this study")
     case, paper = cases[name], paper_cases()[name]
@@ -340,7 +340,7 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
 
 
 def _after(case: CaseView) -> Mapping[str, Any] | None:
-    """Parameters of the motion that a case begins after, empty if it begins in another way; None: static start."""
+    """Parameters of the motion after which a case begins; empty for another start, None for the static start."""
     if "start" not in case.node.attrs:
         return None
     start = json.loads(case.node.attrs["start"])

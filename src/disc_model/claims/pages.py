@@ -1,4 +1,4 @@
-"""The ledger and other tables for readers: Markdown, and self-contained HTML pages for light and dark backgrounds."""
+"""Pages of the ledger and other tables: Markdown, and self-contained HTML for light and dark backgrounds."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def ledger(table: pd.DataFrame) -> str:
 
 
 def _counts(table: pd.DataFrame) -> str:
-    """How often each verdict was given, and how many rows that leaves out."""
+    """Counts of the verdicts, and of the rows that these leave out."""
     counted = table["apart"] == ""
     count = table.loc[counted, "verdict"].str.partition(":")[0].value_counts()
     said = ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
@@ -100,12 +100,12 @@ class Comparison:
 
 
 def table_page(title: str, note: str, table: pd.DataFrame, names: Mapping[str, str] | None = None) -> str:
-    """Any table as a page; `names` are headings by column."""
+    """A table as a page; `names` are headings by column."""
     return page(title, f"<p>{escape(note)}</p>" if note else "", table_html(table.rename(columns=names or {})))
 
 
 def table_html(table: pd.DataFrame) -> str:
-    """The table alone."""
+    """The table as HTML, without a page."""
     rows = [[_cell(value) for value in row] for row in table.itertuples(index=False)]
     return _table([str(name) for name in table.columns], rows)
 

@@ -1,4 +1,4 @@
-"""Tables 1 and 2 of the paper: its values, ours, and for every line of Table 2 what it is."""
+"""Tables 1 and 2 of the paper: its values and ours, with the origin of every line of Table 2."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ UNNAMED = "no n f_s + m f_Ω"
 
 
 def table_1(p: Parameters) -> pd.DataFrame:
-    """Table 1: symbol, what it is, unit, the paper's value and the one computed with."""
+    """Table 1: symbol, meaning, unit, the paper's value and the value used here."""
     rows = [
         (name, Parameters.model_fields[name].description or name, Parameters.unit(name), value, getattr(p, name))
         for name, value in TABLE_1.items()
@@ -60,7 +60,7 @@ def table_2(case: CaseView) -> pd.DataFrame:
 
 
 def table_2_or_why(case: CaseView) -> tuple[pd.DataFrame, str]:
-    """`table_2` and ""; or what the paper says, beside nothing, and what the case lacks."""
+    """`table_2` and ""; or only the paper's values, and the data that the case lacks."""
     try:
         return table_2(case), ""
     except Missing as reason:
@@ -81,6 +81,6 @@ def table_2_lines(case: CaseView) -> list[spectra.Line]:
 
 
 def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
-    """Rate of stick and slip, Hz: the strongest line of psi, which is seen in the slider's own frame."""
+    """Stick-slip frequency, Hz: the strongest line of psi, in the slider's own frame."""
     (line,) = measures.loudest(measures.lines(case, window, start, stop, "psi", above=20.0), 1)
     return line.frequency

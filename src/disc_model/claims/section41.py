@@ -1,4 +1,4 @@
-"""Claims of Section 4.1: separation occurs, and ignoring it changes everything."""
+"""Claims of Section 4.1: separation occurs, and ignoring it changes the motion."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def separations_are_short(*cases: CaseView, part: float) -> Answer:
 
 @CHECKS("F03c")
 def separations_end(*cases: CaseView, factor: float) -> Answer:
-    """Whether none continues for much longer than any that has ended."""
+    """Whether no separation lasts much longer than the longest one that has ended."""
     lasting, count = [], 0
     for case in cases:
         durations, still_open = measures.separation_durations(case)
@@ -118,7 +118,7 @@ def stick_is_gone(case: CaseView, *, share: float) -> Answer:
 
 @CHECKS("F10", "C3s")
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
-    """In the first pairs, those that the paper shows; what becomes of the others is a remark."""
+    """Decided by the first pairs, which the paper shows; the results of the others are a remark."""
     rows = _ranges(cases)
     first, others = rows[: int(shown)], rows[int(shown) :]
     exceeds = max((row["ratio"] for row in others), default=0.0) >= ratio
@@ -134,9 +134,9 @@ def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
 
 
 def _slope_power(case: CaseView) -> tuple[float, float]:
-    """Mean power P f B that the contact force feeds into transverse motion, while it is positive and negative, W.
+    """Mean power P f B fed by the contact force into transverse motion, while it is positive and negative, W.
 
-    f B is the velocity of the contact point less that of the disc's material under it, which is known from as many
+    f B is the velocity of the contact point less that of the disc's material under it. The latter follows from as many
     angles as the disc has modes.
     """
     p = case.parameters
@@ -155,7 +155,7 @@ def _slope_power(case: CaseView) -> tuple[float, float]:
 
 
 def _ranges(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
-    """By pair, late ranges of the disc with separation, without it, and their ratio."""
+    """Late ranges of the disc by pair: with separation, without it, and their ratio."""
     rows = []
     for case, ignored in pairs(cases):
         free, bonded = (measures.late_range(each, "w_point").width for each in (case, ignored))
@@ -178,7 +178,7 @@ def more_frequencies(*cases: CaseView, floor: float) -> Answer:
 
 @CHECKS("S41p")
 def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
-    """More than the section without separation can have: as many points as it takes to fill that."""
+    """Whether the section has `factor` times as many points as one without separation that is filled."""
     found: list[dict[str, Any]] = []
     filling, more, points = [], [], int(last)
     for free, bonded in pairs(cases):
@@ -198,10 +198,9 @@ def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
 
 @CHECKS("S41d", "F18t")
 def trajectory_changes(*cases: CaseView, share: float) -> Answer:
-    """Whether the width of the section, or the share of its points in stick, changes with the first separation.
+    """Whether the width of the section, or the fraction of its points in stick, changes with the first separation.
 
-    The control beside each case is the one without separation over the same times: what changes alike there, decides
-    nothing.
+    The control is the case without separation over the same times. A change that occurs there too decides nothing.
     """
     published = [case for case in cases if "start" not in case.node.attrs]
     found, changes, own = [], [], []
@@ -220,7 +219,7 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
 
 @CHECKS("C3d")
 def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
-    """One pair in which both the share of stick and the range of the disc differ decides what 'can be'."""
+    """Whether both the fraction of stick and the range of the disc differ in one pair, which decides 'can be'."""
     rows = _ranges(cases)
     for row, (case, ignored) in zip(rows, pairs(cases), strict=True):
         row["stick"], row["without"] = (100 * measures.phase_share(each, "stick") for each in (case, ignored))
@@ -232,13 +231,13 @@ def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
 
 @CHECKS("C6")
 def should_be_considered(*cases: CaseView) -> Answer:
-    """No computation of one system decides on many."""
+    """Undecided: computations of one system cannot decide for many."""
     return Answer(None, ranges=_ranges(cases))
 
 
 @CHECKS("A1")
 def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
-    """Whether it returns to itself at each release."""
+    """Whether the orbit returns to itself at each release."""
     psi = measures.switches(case, "stick_to_slip")["psi"].values
     if psi.size < 20:
         raise Missing(f"case {case.name} keeps fewer than 20 releases")
@@ -258,7 +257,7 @@ def is_intricate(case: CaseView, other: CaseView, *, fewest: float) -> Answer:
 
 @CHECKS("E24")
 def slip_condition(*cases: CaseView) -> Answer:
-    """The relation where the slider stops on the disc: ψ' = Ω there, and c_p = 0 in both cases."""
+    """Check the relation at a stop of the slider: ψ' = Ω there, and c_p = 0 in both cases."""
     true, ends = 0, 0
     for case in cases:
         stops = measures.switches(case, "slip_to_stick")
@@ -272,7 +271,7 @@ def slip_condition(*cases: CaseView) -> Answer:
 
 @CHECKS("S41a")
 def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
-    """Over a grid of preloads and speeds; not only where the paper looks."""
+    """Check a grid of preloads and speeds, not only the paper's points."""
     points = study[["stick_fraction", "settling_time"]].stack(point=("N", "Omega"))
     if np.isnan(points["stick_fraction"]).any():
         raise Missing("study bonded has points that failed")
@@ -291,7 +290,7 @@ def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
 
 
 def _least_stick(shares: xr.DataArray) -> str:
-    """The least share of stick of some points, and where it is."""
+    """The least fraction of stick among some points, and its place."""
     least = shares[int(np.argmin(shares.values))]
     return f"{100 * least.item():.2g} % of the time or more, least at {measures.place(least.N, least.Omega)}"
 

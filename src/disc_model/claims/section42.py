@@ -51,7 +51,7 @@ def later_periodic(case: CaseView, bonded: CaseView, *, closes: float) -> Answer
 
 @CHECKS("F15a")
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
-    """Whether the lowest speed with separation has a least value between higher ones, however long one waits."""
+    """Whether the lowest speed with separation has a minimum between higher ones, at every horizon."""
     study = _scanned(study)
     loads, lowest = study["N"].values, study["critical_speed"].transpose("horizon", "N").values
     falls = [measures.dips(speeds, depth) for speeds in lowest]
@@ -90,7 +90,7 @@ def can_separate_above(study: xr.Dataset, *, within: float) -> Answer:
 
 
 def _scanned(study: xr.Dataset) -> xr.Dataset:
-    """Of the published modes; raises `Missing` if a point failed."""
+    """The scan with the published modes; raises `Missing` if a point failed."""
     study = study.sel(normalization="as_published")
     if np.any(flag_names(study["status"]) != "ok"):
         raise Missing("study critical_speed has points that failed")

@@ -1,4 +1,4 @@
-"""Claims of Section 4.3: one parameter after the other."""
+"""Claims of Section 4.3: effects of single parameters."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
 
 @CHECKS("S43Ns")
 def stable_while_it_sticks(stuck: CaseView, large: CaseView) -> Answer:
-    """Stick alone is damped; the largest preload at which the slider is released is another system."""
+    """Whether the case only sticks, which is damped; undecided if the largest preload with releases is not stable."""
     holds = stuck["time_slip"] == 0 and not stuck.separates
     released = large.separates or _grew(large) or not growth_or_nan(large.parameters) < 0
     return Answer(None if holds and released else holds, "released")
@@ -104,7 +104,7 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     horizon = known["first_separation"]
     lower = [speed for speed, t in scan.items() if t <= horizon and speed < printed - within]
     latest = [speed for speed, t in scan.items() if not math.isnan(t)]
-    # waits for which no speed clearly lower separates
+    # horizons at which no clearly lower speed separates
     first = min((t for speed, t in scan.items() if speed < printed - within and not math.isnan(t)), default=math.inf)
     some = scan[printed] < first < math.inf
     holds = scan[printed] <= horizon and not lower
@@ -120,7 +120,7 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
 
 @CHECKS("S43D", "C4c")
 def damping_stabilises(case: CaseView, **damper: float) -> Answer:
-    """Whether a damper, and as much again, lowers the growth of all cycles that grow, on a grid of loads and speeds."""
+    """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
     ((name, value),) = damper.items()
     effects = [_effect_of(case, name, little, little + value) for little in (0.0, value)]
     growing, lowered = (sum(effect[key] for effect in effects) for key in ("growing", "lowered_growing"))
@@ -131,13 +131,13 @@ def damping_stabilises(case: CaseView, **damper: float) -> Answer:
 
 
 def _grew(case: CaseView, factor: float = GREW) -> bool:
-    """Whether the contact force ranges wider at the end than at first."""
+    """Whether the contact force has a wider range at the end than at first."""
     return factor * case.early.width < case.late.width
 
 
 @CHECKS("F16", "F20")
 def stays_small(case: CaseView, *_: CaseView, within: float) -> Answer:
-    """Whether a case does not separate, its contact force ranges no wider in the end, and releases are regular."""
+    """Whether a case does not separate, its contact force does not widen, and its releases are regular."""
     intervals = measures.release_intervals(case)
     spread = irregularity(intervals)
     return Answer(
@@ -161,7 +161,7 @@ def preload(*cases: CaseView) -> Answer:
 def only_between(
     small: CaseView, middle: CaseView, large: CaseView, largest: CaseView, *again: CaseView, factor: float
 ) -> Answer:
-    """Whether preloads are stable that are larger, too, than those that the paper tries."""
+    """Whether only the middle preload is unstable, also among preloads larger than those of the paper."""
     unstable = [case.separates or _grew(case, factor) for case in (small, middle, large, largest)]
     beyond = [{"case": again[0], "first": first_separation(*again)}, {"case": largest, "first": largest.first}]
     holds = unstable == [False, True, False, False] and not again[0].separates
@@ -253,7 +253,7 @@ def lowest_position(case: CaseView, *, bound: float) -> Answer:
     if not starts.size:
         raise Missing("no separation in the window of case F23")
     found = separation_location(time, height, starts, bound)
-    # by its switches: samples come late, and the velocity of a light slider changes fast
+    # by its events: samples come late, and the velocity of a light slider changes fast
     lost = measures.switches(case, "separation")
     if not lost.sizes["event"]:
         raise Missing("case F23 keeps no separation")
@@ -292,7 +292,7 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
 
 @CHECKS("C4N")
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> Answer:
-    """Whether from some preload on all separate with the damper that do not without: the largest of these decide."""
+    """Whether, from some preload on, all separate with the damper that do not without it: the largest decide."""
     loads, damping, apart = _separations(study)
     without, damped = apart[:, damping == 0][:, 0], apart[:, damping == c_p][:, 0]
     newly, spared = damped & ~without, without & ~damped
@@ -309,7 +309,7 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> A
 
 
 def _separations(study: xr.Dataset) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Preloads, dampers in the disc's plane, and whether the static start separates: (N,), (c_p,), (N, c_p)."""
+    """Preloads, in-plane dampers, and whether the static start separates: (N,), (c_p,), (N, c_p)."""
     study = study.sel(normalization="as_published").sortby(["N", "c_p"])
     outcome = flag_names(study["outcome"].transpose("N", "c_p"))
     if np.any(outcome == "failed"):
@@ -319,7 +319,7 @@ def _separations(study: xr.Dataset) -> tuple[Array, Array, NDArray[np.bool_]]:
 
 @CHECKS("C4m")
 def not_monotonous(*evidence: Any) -> Answer:
-    """Whether each of three parameters makes stable what is unstable somewhere, and unstable what is stable."""
+    """Whether each of three parameters stabilises an unstable case and destabilises a stable one."""
     *cases, study = evidence
     loads, _, apart = _separations(study)
     changes = {"newly": apart & ~apart[:, :1], "spared": ~apart & apart[:, :1]}
@@ -385,7 +385,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
 
 @CHECKS("F22a")
 def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> Answer:
-    """A second frequency of the in-plane motion, long before separation, and whether it is there to stay."""
+    """Whether the in-plane motion has a second frequency long before separation, and whether it persists."""
     cycle = measures.cycle_of(case.parameters)
     leading = cycle.multipliers[0]
     start, stop = (float(case.samples("early")["time"][i]) for i in (0, -1))
@@ -427,7 +427,7 @@ def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
 
 @CHECKS("C1")
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
-    """Whether some separate for which sliding without friction is stable."""
+    """Whether some cases separate for which sliding without friction is stable."""
     from disc_model.stability.sliding import steady_sliding
 
     smooth = [steady_sliding(case.parameters.replace(mu_s=0.0, mu_k=0.0)).growth_rate for case in cases]
@@ -437,10 +437,10 @@ def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
 
 
 def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[str, Any]:
-    """At how many loads and speeds more of a damper lowers growth, raises it, or ends a stable cycle.
+    """Number of loads and speeds at which more of a damper lowers growth, raises it, or ends a stable cycle.
 
-    Where it leaves no stick-slip cycle near the start, the motion is steady sliding, whose growth is compared if the
-    damper is that in the disc's plane; ``growing`` counts cycles that grow with little of it and are there with much.
+    Without a stick-slip cycle near the start, the motion is steady sliding. Its growth is compared if the damper is the
+    in-plane one. ``growing`` counts cycles that grow with little of it and exist with much.
     """
     from disc_model.stability.sliding import steady_sliding
 
@@ -470,7 +470,7 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
 
 
 def _stiffened(p: Parameters, name: str) -> tuple[Array, str]:
-    """Growth rates for the values of `STIFFENED`, 1/s; and that in words."""
+    """Growth rates for the values of `STIFFENED`, 1/s, also in words."""
     unit, symbol, values = STIFFENED[name]
     rates = np.array([growth_or_nan(p.replace(**{name: unit * value})) for value in values])
     said = ", ".join(map(said_rate, rates))

@@ -169,7 +169,7 @@ def three_kinds(case: CaseView, *, factor: float) -> Answer:
 
 @CHECKS("F25b")
 def new_lines(case: CaseView, *, factor: float, floor: float) -> Answer:
-    """Lines that are no combinations of the stick-slip rate and the drive's, as all main ones are."""
+    """Whether lines appear that, unlike all main ones, do not combine the stick-slip frequency and the drive's."""
     rate = stick_slip_rate(case)
     early, later = (
         sum(
@@ -191,7 +191,7 @@ def higher(case: CaseView, bonded: CaseView, *, factor: float, floor: float) -> 
 
 
 def _beside(here: bool, there: bool) -> tuple[bool | None, str]:
-    """What changes with separation, undecided if it changes without separation, too."""
+    """Whether something changes with separation; undecided if it changes without separation as well."""
     return None if here and there else here, "control"
 
 
@@ -298,7 +298,7 @@ def no_high_line(case: CaseView, *, share: float) -> Answer:
 
 @CHECKS("F29c")
 def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> Answer:
-    """Whether weak lines of one stretch are not there in the next."""
+    """Whether weak lines of one stretch are missing in the next."""
     first, second = (
         measures.lines(case, "spectrum_d", *span, above=LOW, below=600, floor=floor)
         for span in ((465, 470), (470, 475))
@@ -310,7 +310,7 @@ def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> A
 
 @CHECKS("F29b")
 def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Answer:
-    """Undecided where the number of frequencies hangs on how far apart two lines are."""
+    """Whether the spectrum is erratic; undecided if the number of frequencies depends on the resolution of lines."""
     rate = stick_slip_rate(case, "spectrum_d", 465, 475)
     found = measures.lines(case, "spectrum_d", 465, 475, above=LOW, below=600, floor=1e-2)
     strongest = max(line.amplitude for line in found)
@@ -341,7 +341,7 @@ def _lines_of_psi(case: CaseView, window: str, start: float, stop: float) -> lis
 
 
 def _off_multiples(lines: list[spectra.Line], rate: float) -> list[float]:
-    """How far each line is from the nearest multiple of a rate, Hz."""
+    """Distance of each line from the nearest multiple of a rate, Hz."""
     return [abs(line.frequency - max(round(line.frequency / rate), 1) * rate) for line in lines]
 
 
@@ -351,17 +351,17 @@ def _natural(case: CaseView) -> Any:
 
 
 def _from_combination(case: CaseView, line: spectra.Line, rate: float) -> float:
-    """How far a line is from the nearest n f_s + m f_Omega, Hz."""
+    """Distance of a line from the nearest n f_s + m f_Omega, Hz."""
     return abs(spectra.identify(line.frequency, rate, case["Omega"] / (2 * np.pi)).deviation)
 
 
 def _from_natural(case: CaseView, line: spectra.Line) -> float:
-    """How far a line is from the nearest natural frequency with the slider attached, Hz."""
+    """Distance of a line from the nearest natural frequency with the slider attached, Hz."""
     return float(np.min(np.abs(_natural(case) - line.frequency)))
 
 
 def _natural_share(case: CaseView, lines: list[spectra.Line], rate: float) -> float:
-    """Share of the power of lines in those near a natural frequency that are no n f_s + m f_Omega."""
+    """Fraction of the lines' power in lines near a natural frequency that are no n f_s + m f_Omega."""
     within = 4 * case["Omega"] / (2 * np.pi)
     near = [
         line for line in lines if _from_natural(case, line) <= within and _from_combination(case, line, rate) > COMBINED
@@ -370,7 +370,7 @@ def _natural_share(case: CaseView, lines: list[spectra.Line], rate: float) -> fl
 
 
 def _further(lines: list[spectra.Line], rate: float, drive: float, apart: float) -> list[spectra.Line]:
-    """Lines, the strongest first, that are not made of f_s, f_Omega and those before: each a further frequency.
+    """Further frequencies: lines, the strongest first, not made of f_s, f_Omega and the lines before them.
 
     A line is made of them if it is p f + n f_s + m f_Omega to ``apart`` Hz, with one f of those before and abs(p) <= 2.
     """
@@ -385,16 +385,16 @@ def _further(lines: list[spectra.Line], rate: float, drive: float, apart: float)
 
 
 def _fuzziness(case: CaseView, window: str, start: float, stop: float, name: str = "w_point") -> float:
-    """Share of 20..300 Hz where a variable's amplitude exceeds 1e-4 of the strongest there.
+    """Fraction of 20..300 Hz where a variable's amplitude exceeds 1e-4 of the strongest there.
 
-    Only stretches of equal length, which resolve equally, can be compared.
+    Only stretches of equal length, with equal resolution, can be compared.
     """
     part = measures.stretch(case, window, start, stop)
     return spectra.coverage(part["time"].values, part[name].values, LOW, 300.0, floor=1e-4)
 
 
 def _power_share(case: CaseView, window: str, start: float, stop: float, above: float = HIGH) -> float:
-    """Share of the power above a frequency in Hz in that above `LOW`."""
+    """Ratio of the power above a frequency in Hz to that above `LOW`."""
     measures.lines(case, window, start, stop, above=LOW)  # without any there is no power to share
     part = measures.stretch(case, window, start, stop)
     return spectra.power_share(part["time"].values, part["w_point"].values, above, LOW)

@@ -1,7 +1,7 @@
 """Model sensitivity: the paper's main conclusions, each judged under four models of disc and contact.
 
-The models change one thing after the other, so that the last has all changes.  Whatever is judged is read from the
-merged cases and grid studies of config/survival.yaml; what they cannot tell is undecided, and what they lack is not
+Each model changes one more thing, so that the last has all changes.  All conclusions are judged from the merged cases
+and grid studies of config/survival.yaml. Evidence that does not decide gives undecided, missing evidence gives not
 computed.
 """
 
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 
 class Model(NamedTuple):
-    """Values by which cases and points of a model are known; compliant: whether the contact has a flexibility."""
+    """Values that identify cases and points of a model; compliant: whether the contact has a flexibility."""
 
     name: str
     normalization: str
@@ -51,24 +51,24 @@ MODELS = (
 
 @dataclass(frozen=True)
 class Evidence:
-    """What was computed under one model: cases, and grid studies by name, along which the model no longer varies."""
+    """Evidence under one model: cases, and grid studies by name, without the dimension of models."""
 
     cases: tuple[CaseView, ...]
     grids: Mapping[str, xr.Dataset]
 
     def grid(self, name: str) -> xr.Dataset:
-        """A grid study; raises `Missing` if it is not there."""
+        """A grid study; raises `Missing` if there is none."""
         if name not in self.grids:
             raise Missing(f"study {name} has nothing of this model")
         return self.grids[name]
 
     def pairs(self) -> list[tuple[CaseView, CaseView]]:
-        """Cases that separate, each with the one in which separation is ignored."""
+        """Cases that separate, each with the case that ignores separation."""
         ignored = [case for case in self.cases if case.bonded]
         return measures.pairs([*self.separating(), *ignored])
 
     def separating(self) -> list[CaseView]:
-        """Cases that lose contact; raises `Missing` if one did not get to its end."""
+        """Cases that lose contact; raises `Missing` if one did not reach its end."""
         for case in self.cases:
             if case.status != "ok":
                 raise Missing(f"{case.status} (case {case.name})")
@@ -76,7 +76,7 @@ class Evidence:
 
 
 def evidence(model: Model, cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> Evidence:
-    """What merged cases and grid studies hold of a model."""
+    """Evidence on a model from merged cases and grid studies."""
     views = [CaseView(name, node) for name, node in cases.children.items()]
     found = {name: one for name, grid in grids.items() if (one := _of_model(grid, model)) is not None}
     return Evidence(tuple(view for view in views if _is_of(view, model)), found)
@@ -88,7 +88,7 @@ def _is_of(case: CaseView, model: Model) -> bool:
 
 
 def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
-    """The one place along the dimension of models."""
+    """The part of a grid study that belongs to a model."""
     (dim,) = grid["normalization"].dims
     varied = [grid[name].values for name in ("normalization", "contact_compliance", "contact_force")]
     models = [(normalization, give != 0, force) for normalization, give, force in zip(*varied, strict=True)]
@@ -114,7 +114,7 @@ def onset(found: Evidence, *, beside: float) -> Answer:
     counts = [int((apart & where).sum()) for where in (unstable, none, stable)]
     early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
     folds = found.grid("survival_curves")
-    # where a stable cycle ends at a fold just above a speed, little keeps a motion with it
+    # where a stable cycle ends at a fold just above a speed, small disturbances suffice to leave it
     soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(folds, load)) for load, speed in early)
     compared = counts[0] > 0 and bool(stable.any())
     return Answer(
@@ -158,7 +158,7 @@ def fold(found: Evidence, *, load: float, within: float) -> Answer:
 
 
 def _growth_beside(growth: xr.Dataset, low: float, high: float) -> tuple[float, float]:
-    """Growth rates at the nearest speeds of the map below and above an interval, 1/s; nan where there is no cycle."""
+    """Growth rates at the map's nearest speeds below and above an interval, 1/s; nan without a cycle."""
     speed, rate = growth["Omega"].values, growth["growth_rate"].values
     below, above = np.searchsorted(speed, low, side="right") - 1, np.searchsorted(speed, high)
     if below < 0 or above >= speed.size:
@@ -179,7 +179,7 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
 
 
 def _beginnings(speed: xr.Dataset, load: float) -> tuple[Array, float]:
-    """Upper ends of the intervals in which separation begins as the speed rises, and how wide they are, rad/s."""
+    """Upper ends of the intervals of speed in which separation begins, and their width, rad/s."""
     one = speed.sel(N=load).isel(horizon=0)
     _require_ok(one, "survival_speed")
     begins = flag_names(one["crossing_kind"]) == "begins"
@@ -258,7 +258,7 @@ def inplane_damping(found: Evidence, *, large: float, fewest: float) -> Answer:
 
 
 def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]:
-    """Growth rates without and with one damper, 1/s, and what was found with it: each (N, Omega)."""
+    """Growth rates without and with one damper, 1/s, and the result with it: each (N, Omega)."""
     study = found.grid("survival_damping")
     (dim,) = study["c"].dims
     on = list(zip(study["c"].values != 0, study["c_p"].values != 0, strict=True))
@@ -282,7 +282,7 @@ def not_periodic(found: Evidence) -> Answer:
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
-    """What a motion is by the intervals between its releases, or separations; and that in words."""
+    """Class of a motion by the intervals between its releases, or separations; also in words."""
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
         intervals = np.diff(measures.times_of(case, kind))
         if intervals.size >= 2 * FEWEST:
@@ -295,7 +295,7 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
 
 
 def _all_cases(holds: Sequence[bool | None]) -> tuple[bool | None, str]:
-    """The verdict on a statement about every case: one against it is enough, an open one (None) leaves it open."""
+    """The verdict on a statement about every case: one counterexample refutes it, an open case leaves it open (None)."""
     if False in holds:
         return False, ""
     return (None, "open" if holds else "none") if None in holds or not holds else (True, "")
@@ -308,7 +308,7 @@ CONCLUSIONS = CHECKS.claims("survival.yaml")
 
 
 def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
-    """Every conclusion under every model: a row each, columns conclusion, model, verdict, ours, remark."""
+    """Judge every conclusion under every model: one row each, columns conclusion, model, verdict, ours, remark."""
     rows = []
     for model in MODELS:
         found = evidence(model, cases, grids)
@@ -319,7 +319,7 @@ def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
 
 
 def page_of(table: pd.DataFrame) -> Comparison:
-    """What `judge` found, as a page: all verdicts at a glance, then what each rests on."""
+    """Results of `judge` as a page: all verdicts at a glance, then their evidence."""
     texts = page_texts("survival")
     verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
     first = pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})

@@ -1,7 +1,7 @@
 """Command line: ``disc-model run|floquet|modes|study|list|init|compile``.
 
-What is wrong with the input stands on stderr, with exit code 2: a line, or for a study file a list of its faults. A
-simulation that ends before its time is reported and gives exit code 1.
+Invalid input is reported on stderr with exit code 2: one line, or for a study file a list of its faults. A simulation
+that ends early is reported and gives exit code 1.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ OF_STUDIES = ("matplotlib", "cmcrameri", "yaml", "snakemake")
 
 
 def _fail(message: str) -> NoReturn:
-    """What is wrong on stderr, exit code 2."""
+    """Print a fault on stderr and exit with code 2."""
     if message:  # empty where the help text was shown instead
         typer.echo(f"error: {message}", err=True)
     sys.exit(2)

@@ -1,7 +1,7 @@
-"""What commands on one case share: an option for each parameter, made from the fields of `Parameters`.
+"""Common options of commands on one case, made from the fields of `Parameters`.
 
-None can be forgotten so, and their values are handed on as text, so that the same rules and messages apply as
-everywhere else.
+Thus no parameter is forgotten. Values are passed on as text, so that the same rules and messages apply as everywhere
+else.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def option_name(field: str) -> str:
 
 
 def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
-    """An option for each field of `Parameters`, and for what to choose modes by where ``--n-diameters auto`` asks so.
+    """An option for each field of `Parameters`, and those for choosing modes with ``--n-diameters auto``.
 
     `placeholders` are values for required fields.
     """
@@ -52,7 +52,7 @@ def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
 
 
 def _case_option(name: str, default: str | None, words: tuple[str, ...], told: str) -> inspect.Parameter:
-    """A keyword option of the case, spelt with and without underscores; `words` are what it can be."""
+    """A keyword option of the case, spelt with and without underscores; `words` are its allowed values."""
     option = typer.Option(
         *dict.fromkeys([option_name(name), f"--{name}"]),
         metavar="|".join(words),
@@ -67,7 +67,7 @@ def _case_option(name: str, default: str | None, words: tuple[str, ...], told: s
 
 
 def _words(annotation: Any) -> tuple[str, ...]:
-    """What a parameter can be: the words that its type lists, and any value if it may be something else as well."""
+    """Allowed words of a parameter by its type, and a placeholder if other values are allowed."""
     if get_origin(annotation) is Literal:
         return get_args(annotation)
     return (ANY, *(word for part in get_args(annotation) if get_origin(part) is Literal for word in get_args(part)))
@@ -96,7 +96,7 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
 
 
 def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, ModeChoice | None]:
-    """Parameters of the options given, and how their modes were chosen if so; what is wrong is added to `faults`."""
+    """Parameters of the given options, and the choice of modes, if any; faults are appended to `faults`."""
     from disc_model.mode_choice import choose_modes
 
     given: dict[str, Any] = dict(case)
@@ -120,18 +120,18 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
 
 
 def case_lines(p: Parameters, choice: ModeChoice | None) -> list[tuple[str, str]]:
-    """What was computed, and its modes if they were chosen: the first lines of every command on one case."""
+    """The case, and its modes if they were chosen: the first lines of every command on one case."""
     case = f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {disc_words(p)}, {p.contact} (key {p.key})"
     return [("case", case), *choice_lines(choice)]
 
 
 def disc_words(p: Parameters) -> str:
-    """Which disc it is."""
+    """Description of the disc."""
     return p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
 
 
 def choice_lines(choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
-    """What ``--n-diameters auto`` has come to."""
+    """Result of ``--n-diameters auto``."""
     if choice is not None:
         p, name = choice.parameters, choice.quantity.replace("_", " ")
         right = f"{name}: error {choice.error:.2g}, {choice.tolerance:g} asked for"
@@ -149,7 +149,7 @@ def table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], **col
 
 
 def print_rows(lines: Iterable[tuple[str, str]]) -> None:
-    """Print lines of a name and what is said of it."""
+    """Print lines that consist of a name and its text."""
     for name, text in lines:
         typer.echo(f"{name:<20}{text}")
 
@@ -157,7 +157,7 @@ def print_rows(lines: Iterable[tuple[str, str]]) -> None:
 def number(
     name: str, text: str | None, holds: Callable[[float], bool], rule: str, faults: list[str], unit: str = ""
 ) -> float:
-    """The number that `text` stands for; what is wrong with it is added to `faults`."""
+    """The number that `text` stands for; faults are appended to `faults`."""
     if text is None:
         faults.append(Fault((name,), "", "is required"))
         return math.nan

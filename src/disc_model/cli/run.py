@@ -1,4 +1,4 @@
-"""The command `run`: one case, what happened, a picture and a file of it."""
+"""The command `run`: simulate one case, print its events, and save a picture and a file."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def run(
 
 
 def _how(tol: str, stop_at: str | None, max_steps: str | None, faults: list[str]) -> dict[str, Any]:
-    """What a simulation is told of how far and how finely to go; what is wrong with it is added to `faults`."""
+    """Options of a simulation: its end and accuracy; faults are appended to `faults`."""
     tolerance = number("tol", tol, lambda x: TOLERANCES[0] <= x <= TOLERANCES[1], limits_rule(TOLERANCES), faults)
     faults += broken((stop_at in (None, *STOPS), "stop_at", stop_at, "must be 'first_separation'"))
     steps = None
@@ -109,7 +109,7 @@ def _how(tol: str, stop_at: str | None, max_steps: str | None, faults: list[str]
 
 
 def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp, ...]:
-    """Ramps of texts such as ``Omega:to=5,start=100,end=400``; adds to `faults` what is wrong with them."""
+    """Ramps from texts such as ``Omega:to=5,start=100,end=400``; faults are appended to `faults`."""
     from disc_model.simulation.ramps import Ramp
     from disc_model.simulation.ramps import faults as faults_of
 
@@ -130,7 +130,7 @@ def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp
 
 
 def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, Window]:
-    """Windows by name, of texts such as ``late:last=3,rate=4000``; adds to `faults` what is wrong with them."""
+    """Windows by name, from texts such as ``late:last=3,rate=4000``; faults are appended to `faults`."""
     from disc_model.data.variables import BESIDE_WINDOWS
     from disc_model.simulation.case import Window
 
@@ -154,7 +154,7 @@ def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, W
 
 
 def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) -> Iterator[str]:
-    """Reasons why files cannot be written, found before the simulation and not after it."""
+    """Reasons why files cannot be written, found before the simulation instead of after it."""
     if plot is not None:
         from matplotlib.backend_bases import FigureCanvasBase
 
@@ -177,7 +177,7 @@ def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) 
 
 
 def plot_record(t_end: float) -> Record:
-    """The whole run, as an envelope if long, and its end in detail; the size does not grow with `t_end`."""
+    """Record of the whole run, as an envelope if long, and of its end in detail; of a size independent of `t_end`."""
     from disc_model.simulation.case import Record, Window
 
     bins = math.ceil(PLOT_RATE * t_end / PLOT_POINTS)
@@ -200,7 +200,7 @@ def _save_plot(result: Result, path: Path) -> None:
 
 
 def _print_summary(result: Result, choice: ModeChoice | None) -> None:
-    """Modes if they were chosen, status, switches, time in each phase and effort of one run, a line each."""
+    """Print the summary of one run: chosen modes, status, events, time in each phase and effort, a line each."""
     s = result.statistics
     reached = float(result.final_state.time)
     first = result.first_separation

@@ -138,7 +138,7 @@ def init(
 
 
 def _own_file(otherwise: Path | None = None) -> Path:
-    """The one study file of the working folder; if it has none, ``otherwise``."""
+    """The only study file of the working folder; if there is none, ``otherwise``."""
     found = [
         path
         for path in sorted([*Path().glob("*.yaml"), *Path().glob("*.yml")])
@@ -156,12 +156,12 @@ def _own_file(otherwise: Path | None = None) -> Path:
 
 
 def _paper() -> Path:
-    """The paper's study: of the working folder, or else the one that comes with the package."""
+    """The paper's study: that of the working folder, or else that of the package."""
     return PAPER if PAPER.exists() else PACKAGE / PAPER
 
 
 def _require_snakemake() -> None:
-    """An error where a study could not be computed."""
+    """Raise an error where a study could not be computed."""
     if find_spec("snakemake") is None:
         raise DiscModelError(
             "studies are computed by Snakemake, which is not installed: pip install 'disc_model[workflow]'"
@@ -169,7 +169,7 @@ def _require_snakemake() -> None:
 
 
 def _command(files: Sequence[Path], options: Sequence[str]) -> list[str]:
-    """The command that has Snakemake compute a study."""
+    """The Snakemake command that computes a study."""
     _require_snakemake()
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     named = ["--configfile", *(str(file.resolve()) for file in files)]
@@ -190,7 +190,7 @@ def _plan(command: list[str]) -> int:
 
 @contextmanager
 def _on_interrupt(handler: Any) -> Iterator[None]:
-    """What is done meanwhile on Ctrl-C."""
+    """Set the handler of Ctrl-C for the duration of a block."""
     before = signal.signal(signal.SIGINT, handler)
     try:
         yield
@@ -199,7 +199,7 @@ def _on_interrupt(handler: Any) -> Iterator[None]:
 
 
 def _run(command: list[str]) -> int:
-    """Exit code of Snakemake, which is waited for after Ctrl-C: it stops its jobs and unlocks the folder.
+    """Run Snakemake and return its exit code; after Ctrl-C, wait until it has stopped its jobs and unlocked the folder.
 
     The terminal sends the signal to both processes.
     """
@@ -215,7 +215,7 @@ def _run(command: list[str]) -> int:
 
 
 def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
-    """The study that files say, checked with all that they name, and its grids."""
+    """The study of the files, checked with all files that it names, and its grids."""
     from disc_model.studies.study import inherit, mapping, read_file, study_from_config
 
     raw: dict[str, object] = {}
@@ -267,7 +267,7 @@ LISTS = {
 
 
 def _list_outdated(files: Sequence[Path], directory: Path) -> None:
-    """What a run would make, by Snakemake's own account."""
+    """List what a run would compute, according to Snakemake."""
     done = subprocess.run(
         _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
     )

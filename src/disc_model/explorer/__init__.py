@@ -1,1 +1,1 @@
-"""One page on which merged grid studies, motions and figures are looked at, without a server and without a network."""
+"""The explorer: one page that shows merged grid studies, motions and figures, without a server or network."""

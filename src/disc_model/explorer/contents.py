@@ -1,4 +1,4 @@
-"""What the page is told of each study, as plain values for JSON: numbers packed, words as they are."""
+"""Contents of the page for each study, as plain values for JSON: numbers packed, words as they are."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ BITS = 17
 
 
 def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, said: str = "") -> dict[str, Any]:
-    """A merged study.
+    """Contents of a merged study.
 
     Parameters
     ----------
-    study : as `disc_model.studies.grids.merge.merge_batches` makes it
-    motions : as `disc_model.studies.grids.motions.run_motions` makes it
-    said : what these show
+    study : as from `disc_model.studies.grids.merge.merge_batches`
+    motions : as from `disc_model.studies.grids.motions.run_motions`
+    said : description of the motions
 
     Returns
     -------
@@ -57,7 +57,7 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
 
 
 def motion_contents(motions: xr.Dataset, said: str = "") -> dict[str, Any]:
-    """Histories along `point` and `sample`; those that failed are left out. 16 bits a sample, phases as runs."""
+    """Histories along `point` and `sample` with 16 bits per sample, phases as runs; failed ones are left out."""
     there = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
     names = [str(name) for name in there.coords if there[name].dims == ("point",)]
     places = zip(*(_plain(there[name].values) for name in names), strict=True)
@@ -76,7 +76,7 @@ def motion_contents(motions: xr.Dataset, said: str = "") -> dict[str, Any]:
 
 
 def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
-    """Histories, shape (points, samples): ``least + step * n`` is right to half a step, 8e-6 of each one's range."""
+    """Packed histories, shape (points, samples); ``least + step * n`` errs by half a step, 8e-6 of each range."""
     least = values.min(axis=1, keepdims=True, initial=np.inf).astype(float)
     step = (values.max(axis=1, keepdims=True, initial=-np.inf).astype(float) - least) / LEVELS
     numbers = np.rint(np.divide(values - least, step, out=np.zeros(values.shape), where=step > 0))
@@ -84,20 +84,22 @@ def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
 
 
 def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
-    """Stretches of equal values: where each begins, and its value."""
+    """Runs of equal values: the index where each begins, and its value."""
     begins = np.flatnonzero(np.diff(values, prepend=values[0] + 1))
     return [[int(i), int(values[i])] for i in begins]
 
 
 def packed(values: NDArray[Any], kind: str) -> str:
-    """An array, last dimension fastest: first bytes of all numbers, then second ones and so on, deflated, as base64."""
+    """Pack an array, last dimension fastest: first bytes of all numbers, then second ones and so on, deflated, as
+    base64.
+    """
     numbers = np.ascontiguousarray(values, dtype=kind).reshape(-1)
     planes = numbers.view(np.uint8).reshape(-1, numbers.itemsize).T
     return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode("ascii")
 
 
 def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
-    """Numbers rounded to `BITS` of their mantissa; what is left out is zero, and packs well."""
+    """Numbers rounded to `BITS` bits of their mantissa; the other bits are zero, which compresses well."""
     whole = np.array(values, dtype=np.float32)
     bits, left = whole.view(np.uint32), np.uint32(23 - BITS)
     rounded = (bits + np.uint32(1 << (left - 1))) >> left << left
@@ -105,18 +107,18 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
 
 
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
-    """What anything is called, and its unit."""
+    """Name, label and unit of a parameter or variable."""
     return {"name": name, "title": str(attrs.get("long_name", name)), "unit": str(attrs.get("units", ""))}
 
 
 def _fixed(name: str, value: Any) -> dict[str, Any]:
-    """A parameter that does not vary."""
+    """Contents of a parameter that does not vary."""
     described = attributes(name) if name in Parameters.model_fields else FURTHER[name].attributes
     return _named(name, described) | {"value": value}
 
 
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
-    """Values along a dimension; of a zip, which has no coordinate of its own, all that varies along it, in words."""
+    """Values along a dimension; for a zip, which has no coordinate of its own, its parameters as text."""
     if dim in study.coords:
         values = _plain(study[dim].values)
         return _named(dim, study[dim].attrs) | {"values": values, "parts": {dim: values}}
@@ -138,7 +140,7 @@ def _variable(variable: xr.DataArray) -> dict[str, Any]:
 
 
 def _messages(variable: xr.DataArray) -> dict[str, Any]:
-    """What was said at each point, as numbers of words; most points share theirs."""
+    """Messages of the points, as indices into the distinct ones; most points share theirs."""
     words, places = np.unique(variable.values.astype(str), return_inverse=True)
     return {"dims": list(variable.dims), "words": words.tolist(), "data": packed(places, "<u2")}
 

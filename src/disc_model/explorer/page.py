@@ -1,4 +1,4 @@
-"""The page itself: contents, pictures, style and script put into one file."""
+"""The page: contents, pictures, style and script in one file."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
 
     Parameters
     ----------
-    studies : as `disc_model.explorer.contents.study_contents` makes them
-    pictures : those with the same heading together
+    studies : as from `disc_model.explorer.contents.study_contents`
+    pictures : grouped by heading
     """
     contents = {
         "studies": studies,
@@ -69,13 +69,13 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "contents": _json(contents),
         "script": "\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
     }
-    # in one pass over the template, so that what is put in is not searched
+    # in one pass over the template, so that inserted text is not searched
     first, *rest = _part("page.html").split("@")
     return first + "".join(parts[text] if i % 2 == 0 else text for i, text in enumerate(rest))
 
 
 def gallery(pictures: Sequence[Picture]) -> str:
-    """Figures below their headings, each a button that shows it large."""
+    """Figures below their headings; each is a button that enlarges it."""
     lines: list[str] = []
     for heading, below in groupby(pictures, key=attrgetter("heading")):
         lines += [f"<h3>{escape(heading)}</h3>", '<div class="pictures">']
@@ -90,7 +90,7 @@ def gallery(pictures: Sequence[Picture]) -> str:
 
 
 def embedded(file: Path) -> str:
-    """A picture made smaller, as a data URL."""
+    """A picture, reduced in size, as a data URL."""
     with Image.open(file) as picture:
         scale = min(1.0, PICTURE_WIDTH / PAGE_WIDTH)
         size = (max(1, round(picture.width * scale)), max(1, round(picture.height * scale)))
@@ -105,7 +105,7 @@ def _colours(name: str) -> list[str]:
 
 
 def _json(contents: Mapping[str, Any]) -> str:
-    """JSON that no text in it can end early, as the element it stands in."""
+    """JSON whose texts cannot end the enclosing HTML element."""
     return json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 

@@ -1,4 +1,4 @@
-"""Kinds of figures: their keys in a study file, the data they need, and the drawing functions. Imports nothing heavy."""
+"""Kinds of figures: their keys in a study file, the data they need, and what draws them. Imports nothing heavy."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ class Plot(Kind):
         return (*self.needs, *self.axes.values())
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """Faults that keep it from showing a study with these dimensions; a dimension without values has faults itself."""
+        """Faults that keep it from showing a study with these dimensions; those without values have faults already."""
         yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
         for role, name in self.overlays.items():
             if role not in self.roles:
@@ -198,7 +198,7 @@ class StabilityMap(Plot):
     marks: dict[str, Mark] = Field({})
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """Faults as of any figure; in addition, each marked case must be a computed point, and not lie between points."""
+        """Faults as of any figure; in addition, each marked case must be a computed point, not between points."""
         yield from super().faults(values)
         for name, mark in self.marks.items():
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):

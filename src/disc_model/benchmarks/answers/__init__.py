@@ -1,5 +1,5 @@
-"""What each answer costs: error against wall time of numbers that a study asks for.
+"""Cost of each answer: error against wall time of quantities that a study computes.
 
-`questions` says what is asked and when an answer is right, `simulated` how a method that integrates finds it,
-`modelled` how this package finds it with other modes, `measure` measures, and `words` puts the outcome into words.
+`questions` defines the questions and their tolerances, and `simulated` derives answers from a method that integrates.
+`modelled` derives answers of this package with other modes, `measure` measures, and `report` makes the tables.
 """

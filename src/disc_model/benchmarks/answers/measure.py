@@ -1,4 +1,4 @@
-"""Measure what each answer costs: error against wall time, all methods at all their settings, and our models.
+"""Measure the cost of each answer: error against wall time, for all settings of all methods and for our models.
 
 Kinds of lines:
 
@@ -40,7 +40,7 @@ LINES: Mapping[str, tuple[str, str]] = {
 
 
 class Row(NamedTuple):
-    """One measured point, see `VARIABLES`; from ``found`` on as in `Found`."""
+    """One measured point, see `VARIABLES`; the fields from ``found`` on are those of `Found`."""
 
     answer: str
     line: str
@@ -120,7 +120,7 @@ def merged(parts: Sequence[xr.Dataset]) -> xr.Dataset:
 
 
 def _of_method(name: str, values: Sequence[float], asked: Sequence[str]) -> Iterator[Row]:
-    """A method that is too slow for a question is not asked it at finer settings."""
+    """Measure a method; a question for which it is too slow is skipped at finer settings."""
     hopeless: set[str] = set()
     for value in values:
         for question in asked:

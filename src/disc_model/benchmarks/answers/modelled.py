@@ -1,7 +1,7 @@
-"""Answers of this package with other modes, at its default tolerance; and of the cycle itself, without a simulation.
+"""Answers of this package with other modes at its default tolerance, and from the cycle itself without simulation.
 
-A model's error is its distance from the richest one, `RICHEST` nodal diameters with residual flexibility: what rigid
-contact nears slowly as modes are added, residual flexibility has with a few.
+The error of a model is its distance from the richest one, `RICHEST` nodal diameters with residual flexibility. Rigid
+contact converges to it slowly as modes are added; a few modes suffice with residual flexibility.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def ask(model: Model) -> Iterator[tuple[str, Found]]:
 
 
 def after_separation(p: Parameters) -> simulated.Answers:
-    """As `simulated.after_separation`, from where the motion of this model gets to."""
+    """Answers as of `simulated.after_separation`, from the state that this model's motion reaches."""
     start = _settled(p)
     if start is None:
         nothing = Found(math.nan, math.nan, AnswerStatus.NONE, f"no separation within {SETTLES_WITHIN:g} s")
@@ -84,7 +84,7 @@ def growth_rate(p: Parameters, tol: float) -> Found:
 
 
 def region(model: Model) -> Found:
-    """Share of the drawn cells that are judged otherwise than by the richest model."""
+    """Fraction of the drawn cells whose verdict differs from that of the richest model."""
     return simulated.judged(partial(_cell, model), _richest_region(), NEVER, CELLS)
 
 
@@ -94,7 +94,7 @@ def _cell(model: Model, place: int) -> tuple[bool, float]:
 
 @lru_cache(maxsize=1)
 def _richest_region() -> NDArray[np.bool_]:
-    """Of the drawn cells; all others are False."""
+    """Separation in the drawn cells under the richest model; all others are False."""
     found = np.zeros(SIDE * SIDE, bool)
     for place in simulated.drawn()[:CELLS]:
         found[place], _ = _cell(RICHEST, int(place))
@@ -112,7 +112,7 @@ def _settled(p: Parameters) -> State | None:
 
 
 def _timed(find: Callable[[], Found]) -> Found:
-    """An answer and the least wall time (s); the first time may have compiled."""
+    """An answer with the least wall time (s) of several runs; the first run may have compiled."""
     seconds, answer = math.inf, find()
     for _ in range(simulated.REPEATS):
         began = clock.thread_time()

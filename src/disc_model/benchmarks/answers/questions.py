@@ -1,4 +1,4 @@
-"""The questions, their right answers, and what became of an answer.
+"""The questions, their correct answers, and the verdict on an answer.
 
 ``first_separation``
     N = 385 N, Omega = 15.1 rad/s: when contact is lost for the first time after the static start
@@ -14,8 +14,8 @@
     `SIDE` x `SIDE` cells of speed and preload: share of the cells for which it is said wrongly whether the static
     start leads to a separation within `REGION_HORIZON` s
 
-Right answers are stored in ``data/answers.json``, made by ``tests/references/make_answer_references.py`` with methods
-that share no code with the engine; each with its own error.
+Correct answers are stored in ``data/answers.json`` with their errors. The script
+``tests/references/make_answer_references.py`` computes them with methods that share no code with the engine.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ REGION_HORIZON = 25.0
 
 
 class Question(NamedTuple):
-    """An answer's name in words, its unit, and how far off (in the unit) it may be to count as right."""
+    """A question: its name in words, its unit, and the tolerance (in the unit) of a correct answer."""
 
     title: str
     units: str
@@ -78,7 +78,7 @@ the growth rate five)."""
 
 
 class AnswerStatus(enum.IntEnum):
-    """What became of a question."""
+    """Status of a question."""
 
     FOUND = 0
     NONE = 1  # the method ended well and says that there is no such thing
@@ -92,7 +92,7 @@ STATUS_WORDS = tuple(status.name.lower() for status in AnswerStatus)
 
 
 class AnswerVerdict(enum.IntEnum):
-    """Whether the answer can be believed; a wrong one comes without a warning."""
+    """Verdict on an answer; a wrong one comes without a warning."""
 
     RIGHT = 0
     WRONG = 1
@@ -103,7 +103,7 @@ VERDICT_WORDS = tuple(verdict.name.lower() for verdict in AnswerVerdict)
 
 
 class Found(NamedTuple):
-    """An answer: value (nan without one), wall time (s), what became of it, why, its bounds, cells looked at."""
+    """An answer: value (nan without one), wall time (s), status, reason, bounds, and number of cells examined."""
 
     value: float
     seconds: float
@@ -115,7 +115,7 @@ class Found(NamedTuple):
 
 
 def verdict(question: str, found: Found, right: float) -> AnswerVerdict:
-    """To say that there is nothing where there is something is wrong; to give up is not."""
+    """Verdict on an answer: to deny an existing result is wrong, to give up is not."""
     if found.status is AnswerStatus.NONE:
         return AnswerVerdict.RIGHT if math.isnan(right) else AnswerVerdict.WRONG
     if found.status is not AnswerStatus.FOUND:
@@ -124,11 +124,11 @@ def verdict(question: str, found: Found, right: float) -> AnswerVerdict:
 
 
 # ----------------------------------------------------------------------------------------------------
-# What is stored
+# Stored references
 
 
 class Reference(NamedTuple):
-    """A right answer, its own error, and what found it."""
+    """A correct answer, its own error, and the method that computed it."""
 
     value: float
     error: float
@@ -137,29 +137,29 @@ class Reference(NamedTuple):
 
 @lru_cache(maxsize=1)
 def stored() -> Mapping[str, Any]:
-    """What the file holds."""
+    """The content of the file."""
     found: Mapping[str, Any] = json.loads(STORED.read_text(encoding="utf-8"))
     return found
 
 
 def reference(name: str) -> Reference:
-    """The right answer to a question, or ``fold``."""
+    """The correct answer to a question, or ``fold``."""
     if name == "region":
         return Reference(0.0, stored()["region"]["error"], stored()["region"]["by"])
     return Reference(**stored()["references"][name])
 
 
 def start(name: str) -> State:
-    """``settled`` or ``growing``: a state of the motion, by the engine at its tightest tolerance."""
+    """State of the motion ``settled`` or ``growing``, from the engine at its tightest tolerance."""
     return read_state(stored()["starts"][name])
 
 
 def region() -> NDArray[np.bool_]:
-    """Which cells separate, shape (`SIDE`, `SIDE`), loads along the first axis."""
+    """Separation in each cell, shape (`SIDE`, `SIDE`), loads along the first axis."""
     return np.array([[letter == "1" for letter in row] for row in stored()["region"]["rows"]])
 
 
 def cell(place: int) -> Parameters:
-    """A cell by its place in the region, 0 to `SIDE`^2 - 1."""
+    """Parameters of a cell by its index in the region, 0 to `SIDE`^2 - 1."""
     load, speed = np.linspace(*REGION_LOADS, SIDE), np.linspace(*REGION_SPEEDS, SIDE)
     return Parameters(N=float(load[place // SIDE]), Omega=float(speed[place % SIDE]))

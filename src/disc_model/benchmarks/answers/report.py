@@ -1,4 +1,4 @@
-"""What the measured answers come to, as tables."""
+"""Tables of the measured answers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def points(dataset: xr.Dataset, question: str) -> list[Row]:
 
 
 def cheapest_right(found: Sequence[Row]) -> list[Row]:
-    """Of every line the point that is right and costs least, cheapest line first; models are left out."""
+    """The cheapest correct point of every line, cheapest line first; models are left out."""
     right = [p for p in found if p.verdict is AnswerVerdict.RIGHT and p.line not in MODELS]
     best: dict[str, Row] = {}
     for point in sorted(right, key=lambda p: p.seconds):
@@ -33,17 +33,17 @@ def cheapest_right(found: Sequence[Row]) -> list[Row]:
 
 
 def right_numbers(model: Sequence[Row]) -> str:
-    """The numbers of nodal diameters with which a reduced model answers rightly."""
+    """Numbers of nodal diameters with which a reduced model answers correctly."""
     return ", ".join(f"{p.setting:.0f}" for p in model if p.verdict is AnswerVerdict.RIGHT)
 
 
 def within(enough: float, units: str) -> str:
-    """How near an answer must be."""
+    """Tolerance of an answer as text."""
     return f"{enough:g}" if units == "1" else f"{enough:g} {_unit(units)}"
 
 
 def to_markdown(dataset: xr.Dataset) -> str:
-    """A section a question: its right answer, how near it must be, and its table; the machine above."""
+    """The tables as Markdown: a section per question, its correct answer and tolerance; the machine stands above."""
     about = json.loads(dataset.attrs["questions"])
     rows = []
     for question in dict.fromkeys(map(str, dataset["answer"].values)):

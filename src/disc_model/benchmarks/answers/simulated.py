@@ -1,7 +1,7 @@
-"""Answers of a method that integrates, from the switches that it finds.
+"""Answers of a method that integrates, from the events that it finds.
 
-Each function is given ``solve(problem, budget)``, a method at one setting, and seconds that all of it may take; it
-gives the answers by name.
+Each function receives ``solve(problem, budget)``, a method at one setting, and a budget in seconds for everything. It
+returns the answers by name.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Broken(Exception):
         self.status = AnswerStatus["UNSTABLE" if name == "NON_FINITE" else name]
 
     def found(self, seconds: float) -> Found:
-        """No answer, and why."""
+        """An answer without a value, and the reason."""
         return Found(math.nan, seconds, self.status, str(self))
 
 
@@ -66,7 +66,7 @@ def first_separation(
     p: Parameters = questions.SEPARATING,
     horizon: float = questions.SEPARATION_HORIZON,
 ) -> Answers:
-    """When contact is first lost after the static start."""
+    """Time of the first loss of contact after the static start."""
     problem = Problem(p, static_start(p), horizon, stop=True)
     result, seconds = _timed(solve, problem, budget)
     try:
@@ -81,7 +81,7 @@ def after_separation(
 ) -> Answers:
     """Separations per second, the disc's range and the period, long after contact was first lost.
 
-    Timed without the disc's range, which some methods find by a call a step.
+    The time leaves out the disc's range, for which some methods make a call per step.
     """
     start = questions.start("settled") if start is None else start
     problem = Problem(p, start, start.time + questions.SETTLED_SPAN, watched=True)
@@ -108,7 +108,7 @@ def period(releases: Array) -> float:
 
 
 def onset(solve: Solve, budget: float, within: float = questions.ONSET_WITHIN) -> Answers:
-    """Lowest speed that leads to a separation, by halving; the answer is the middle of the bracket that is left.
+    """Lowest speed that leads to a separation, by bisection; the answer is the middle of the final bracket.
 
     within : rad/s, width of that bracket
     """
@@ -179,27 +179,27 @@ def growth(releases: Array) -> float:
 
 
 def region(solve: Solve, budget: float) -> Answers:
-    """Share of the cells judged wrong.
+    """Fraction of the cells with a wrong verdict.
 
-    Where the budget does not do for all of them, as many (a power of two) as it does for, drawn at random with a fixed
-    seed, and Wilson's interval of 95 %.  The time is that of all cells, in proportion.
+    If the budget is too small for all cells, a power of two of them is drawn at random with a fixed seed. The answer
+    then has Wilson's interval of 95 %.  The time is extrapolated to all cells.
     """
     right = questions.region().ravel()
     return {"region": judged(lambda place: cell(solve, questions.cell(place), budget), right, budget)}
 
 
 def drawn() -> NDArray[np.int64]:
-    """The cells by their places, in the order in which they are looked at."""
+    """Indices of the cells, in the order of examination."""
     return np.random.default_rng(SEED).permutation(SIDE * SIDE)
 
 
 def judged(
     judge: Callable[[int], tuple[bool, float]], right: NDArray[np.bool_], budget: float, most: int = SIDE * SIDE
 ) -> Found:
-    """As `region`, for any judge of a cell by its place: whether it separates, and the seconds that took.
+    """The answer as of `region`, for any function that judges a cell by its index: separation, and seconds taken.
 
-    right : (`SIDE`^2,), whether each cell separates
-    most : cells to look at
+    right : (`SIDE`^2,), separation in each cell
+    most : number of cells to examine
     """
     places = drawn()
     verdicts: list[tuple[bool, float]] = []
@@ -245,7 +245,7 @@ def ask(solve: Solve, name: str) -> Answers:
 
 
 def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult, float]:
-    """A result and the least wall time (s); what is quick is repeated, the first time it may have compiled."""
+    """A result and the least wall time (s); quick runs are repeated, since the first may have compiled."""
     results = [solve(problem, budget)]
     while results[-1].seconds < QUICK and len(results) <= REPEATS:
         results.append(solve(problem, budget))
@@ -253,7 +253,7 @@ def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult,
 
 
 def found(value: float, seconds: float, missing: str) -> Found:
-    """An answer; where it is nan, ``missing`` says why."""
+    """An answer; ``missing`` is the reason if it is nan."""
     if math.isfinite(value):
         return Found(float(value), seconds, AnswerStatus.FOUND)
     return Found(math.nan, seconds, AnswerStatus.NONE, missing)
@@ -264,7 +264,7 @@ def _times(result: MethodResult, kind: str) -> Array:
 
 
 def _separation(result: MethodResult) -> float:
-    """Time of the first separation (s), nan if the motion came to its end without one; else raises `Broken`."""
+    """Time of the first separation (s), nan if the motion ended without one; raises `Broken` if it did not end."""
     times = _times(result, "separation")
     if len(times):
         return float(times[0])

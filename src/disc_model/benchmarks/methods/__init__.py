@@ -1,11 +1,11 @@
-"""Rival methods behind one interface, each as a competent user would write it; see `base` for the contract.
+"""Other methods behind one interface, each as a competent user would write it; see `base` for the contract.
 
     >>> from disc_model.benchmarks.methods import METHODS
     >>> METHODS["RK4"].solve(problem, 1e-5)
 
-They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS
-come with the extra `bench`; without them their `unavailable()` says so and `solve` raises `MethodUnavailable`.  Which
-there are is said in `disc_model.benchmarks.registry`.
+They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS come with the extra `bench`; without them their
+`unavailable()` gives the reason and `solve` raises `MethodUnavailable`. The methods are listed in
+`disc_model.benchmarks.registry`.
 """
 
 from __future__ import annotations

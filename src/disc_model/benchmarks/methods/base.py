@@ -1,7 +1,7 @@
-"""The contract of a method: what it is given, what it gives back.
+"""The contract of a method: its input and its result.
 
-What is timed is the integration alone: modes, compiling and setting up are left out for every method.  Times are the
-processor's: on a core of its own those of the wall clock, and elsewhere not blurred by what else runs.
+Only the integration is timed: modes, compiling and setting up are left out for every method.  Times are processor
+times. On a core of its own these equal wall-clock times, and elsewhere other processes do not distort them.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class MethodUnavailable(DiscModelError, ImportError):
 
 
 class RunStatus(enum.StrEnum):
-    """How a method ended."""
+    """Final status of a method."""
 
     FINISHED = "finished"  # reached t_end
     NON_FINITE = "non_finite"  # the numbers overflowed
@@ -40,12 +40,12 @@ class RunStatus(enum.StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Where to start and how far to go.
+    """An initial-value problem: start and end of the motion.
 
     Attributes
     ----------
     parameters : the case
-    start : state of the slider's frame (arrays (n_modes,) in the order of `plate_modes`)
+    start : state in the slider's frame (arrays (n_modes,) in the order of `plate_modes`)
     t_end : s, absolute, greater than start.time
     stop : whether to end at the first separation
     watched : whether the range of the disc is requested, which costs some methods time
@@ -67,7 +67,7 @@ class Problem:
 
 @dataclass(frozen=True, eq=False)
 class MethodResult:
-    """What a method found.
+    """Result of a method.
 
     Attributes
     ----------
@@ -75,11 +75,11 @@ class MethodResult:
     kinds : n_events words of `disc_model.data.variables.EVENT_KINDS`
     final : state at t_end, or where the method stopped
     seconds : processor time of the integration
-    work : right-hand sides evaluated, or steps for methods that work with series
+    work : number of right-hand sides, or of steps for methods that work with series
     outcome, message : how it ended
     longest_step : s, longest step taken; nan if not known
     heights : m, least and greatest w of the disc under the slider; nan if not watched
-    glue : s of them in Python between compiled phases; nan where that was not measured
+    glue : s of them spent in Python between compiled phases; nan where that was not measured
     """
 
     times: Array
@@ -100,7 +100,7 @@ class MethodResult:
 
 
 def decades(*exponents: int) -> tuple[float, ...]:
-    """10 to these powers."""
+    """Powers of 10 with these exponents."""
     return tuple(10.0**e for e in exponents)
 
 
@@ -109,15 +109,15 @@ MAP_TOLERANCES = decades(*range(-2, -12, -1))
 
 
 class Method(ABC):
-    """What integrates a problem; `disc_model.benchmarks.registry` gives it its name and the packages that it needs.
+    """A method that integrates a problem; `disc_model.benchmarks.registry` gives its name and required packages.
 
     Attributes
     ----------
     label : its name in words
-    setting : what its one number means: "tol" (relative tolerance), "step" (s) or "epsilon" (rad/s)
+    setting : meaning of its one number: "tol" (relative tolerance), "step" (s) or "epsilon" (rad/s)
     order : theoretical order of the global error against the step (nan if it has none)
-    settings : by scene, the settings from coarse to fine that are measured
-    map_values, map_budget : the settings of its failure map, and the seconds that it may take there for a point
+    settings : by scene, the measured settings from coarse to fine
+    map_values, map_budget : the settings of its failure map, and its budget there for a point, s
     """
 
     name: str = ""
@@ -130,20 +130,20 @@ class Method(ABC):
     map_budget: float = 1.0  # beyond it a method gave up: the engine needs a ten-thousandth of it
 
     def unavailable(self) -> str:
-        """Why the method cannot be used here; "" if it can."""
+        """Reason why the method cannot be used here; "" if it can."""
         missing = [name for name in self.requires if importlib.util.find_spec(name) is None]
         if not missing:
             return ""
         return f"{self.name} needs {', '.join(missing)}: install the extra `bench` (pip install disc_model[bench])"
 
     def economical(self) -> Method:
-        """The method as it is used where every run has other modes and another setting: a map."""
+        """The variant of the method for maps, where every run has other modes and another setting."""
         return self
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
         """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds.
 
-        What happens on the way is not raised: the result's status says it.
+        Failures on the way are not raised: the status of the result reports them.
 
         Raises
         ------
@@ -167,7 +167,7 @@ class GaveUp(Exception):
 
 
 class Meter:
-    """Counts right-hand sides, watches the clock and, if it is requested, the disc's range."""
+    """A meter that counts right-hand sides, watches the clock and, if requested, the disc's range."""
 
     def __init__(self, problem: Problem, physics: Physics, budget: float) -> None:
         self.problem, self.physics, self.budget = problem, physics, budget
@@ -176,7 +176,7 @@ class Meter:
 
     @contextmanager
     def running(self) -> Iterator[None]:
-        """While the integration runs: everything before was preparation."""
+        """Time the integration; everything before was preparation."""
         self.began, wall = clock.thread_time(), clock.perf_counter()
         try:
             yield
@@ -185,20 +185,20 @@ class Meter:
         self.seconds, self.wall = clock.thread_time() - self.began, clock.perf_counter() - wall
 
     def result(self, times: Sequence[float] | Array, kinds: Sequence[str], final: State) -> MethodResult:
-        """What a method found, with what was counted meanwhile; times from the start on."""
+        """The result of a method with the meter's counts; times are those from the start on."""
         seconds, work, heights = self.seconds, self.work, (self.low, self.high)
         found = self.problem.start.time + np.array(times), tuple(kinds), final
         return MethodResult(*found, seconds, work, self.outcome, self.message, self.longest_step, heights)
 
     def steps(self, times: Array, states: Array) -> None:
-        """Note the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size)."""
+        """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size)."""
         if len(times) > 1:
             self.longest_step = float(np.fmax(self.longest_step, np.max(np.diff(times))))
         if self.problem.watched:
             self.path(times, states)
 
     def path(self, times: Array, states: Array) -> None:
-        """Take in the range of w (m) over such steps: between two it is the cubic with its value and rate at both."""
+        """Extend the range of w (m) by such steps; between two it is the cubic with its values and rates at both."""
         q = self.physics
         w = states[:, q.a] @ q.shape
         rate = states[:, q.alpha] @ q.shape + states[:, q.f] * (states[:, q.b] @ q.slope)
@@ -223,11 +223,11 @@ class Meter:
 
 
 def _turns(h: Array, w: Array, rate: Array) -> Array:
-    """Values of the cubics at their turning points inside their steps."""
+    """Values of the cubics at their turning points within the steps."""
     rise, first, last = np.diff(w), h * rate[:-1], h * rate[1:]
     square, cube = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
     with np.errstate(invalid="ignore", divide="ignore"):
-        # roots of first + 2 square s + 3 cube s^2, in the form that does not cancel
+        # roots of first + 2 square s + 3 cube s^2, in the form without cancellation
         half = -(square + np.copysign(np.sqrt(square**2 - 3.0 * cube * first), square))
         s = np.concatenate([half / (3.0 * cube), first / half])
     start, first, square, cube = (np.concatenate([x, x]) for x in (w[:-1], first, square, cube))

@@ -1,7 +1,7 @@
-"""SUNDIALS CVODE (in extra `bench`, with scikit-sundae), with its own root finding, started anew at every switch.
+"""SUNDIALS CVODE (in extra `bench`, with scikit-sundae) with its own root finding, restarted at every event.
 
 The library is called directly: scikit-sundae calls Python for every right-hand side, which takes three times as long.
-Right-hand side, switch functions and Jacobian are compiled and read and write CVODE's own memory.
+Right-hand side, event functions and Jacobian are compiled; they read and write CVODE's own memory.
 """
 
 # mypy: disable-error-code="no-untyped-def"
@@ -84,7 +84,7 @@ class Cvode(Method):
 
 @cache
 def _library() -> Any:
-    """The functions of SUNDIALS that scikit-sundae brings along."""
+    """The SUNDIALS functions in the library that comes with scikit-sundae."""
     import sksundae._cy_cvode as extension
 
     library = ctypes.CDLL(extension.__file__)
@@ -95,8 +95,8 @@ def _library() -> Any:
 
 @cache
 def _callbacks() -> tuple[ctypes.c_void_p, ...]:
-    """Addresses of right-hand side, switch functions and Jacobian."""
-    # a vector or dense matrix of SUNDIALS begins with a pointer to its content, whose second word points to the data
+    """Addresses of right-hand side, event functions and Jacobian."""
+    # a vector or dense matrix of SUNDIALS begins with a pointer to its content, whose second word is the data pointer
     owner = types.CPointer(types.CPointer(types.CPointer(types.float64)))
     data, scalars, rows = types.CPointer(types.float64), len(kernels.CONSTANTS), len(kernels.ROWS)
 

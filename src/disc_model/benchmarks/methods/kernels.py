@@ -1,7 +1,7 @@
 """The equations of motion, compiled, and the fixed-step Runge-Kutta loop on them.
 
-One file on purpose: numba's cache notices a change in the file of the function that is called, and in no other.
-State vector as in `physics`; ``c`` holds the scalars in the order of `CONSTANTS`.
+All of it is in one file: numba's cache notices changes only in the file of the called function. The state vector is
+that of `physics`; ``c`` holds the scalars in the order of `CONSTANTS`.
 """
 
 # mypy: disable-error-code="no-untyped-def"
@@ -39,7 +39,7 @@ _part = numba.njit(**_OPTIONS, forceinline=True)  # a third faster where it is c
 
 
 def tables(physics: Physics) -> tuple[np.ndarray, np.ndarray]:
-    """(modes, c): rows of `ROWS` with a column a mode, and the scalars."""
+    """The pair (modes, c): rows of `ROWS` with a column per mode, and the scalars."""
     p, l, psi = physics.p, physics.l, physics.shape
     own = {"u_0": physics.u_0, "compliance": physics.compliance, "bonded": float(p.contact == "bonded")}
     by_a, by_alpha = (p.k - p.m * physics.stiffness) * psi, (p.c - p.m * physics.damping) * psi
@@ -172,7 +172,7 @@ def rk4_step(modes, c, phase, direction, y, first, h, out, k, z):
 
 @_kernel
 def _margins(c, phase, direction, y, n, P, F, w, out):
-    """`switch_values` of a state whose P, F and w are known."""
+    """Compute `switch_values` of a state whose P, F and w are known."""
     if phase == SEPARATION:
         out[0] = y[4 * n + 2] - w + SHIFT
         return 1
@@ -187,7 +187,9 @@ def _margins(c, phase, direction, y, n, P, F, w, out):
 
 @_kernel
 def switch_values(modes, c, phase, direction, y, out):
-    """Fill ``out`` with what falls through zero at the phase's end, see `phases.ENDS`; returns how many there are."""
+    """Fill ``out`` with the functions that fall through zero at the phase's end, see `phases.ENDS`; returns their
+    number.
+    """
     n = modes.shape[1]
     P, F = contact(modes, c, direction, y)
     return _margins(c, phase, direction, y, n, P, F, disc_point(modes, y)[0], out)
@@ -195,7 +197,7 @@ def switch_values(modes, c, phase, direction, y, out):
 
 @_kernel
 def violated(values, count):
-    """Place of the first of ``count`` values that is negative, or -1."""
+    """Index of the first of ``count`` values that is negative, or -1."""
     for place in range(count):
         if values[place] < 0.0:
             return place
@@ -210,7 +212,7 @@ def _leave(modes, c, y):
 
 @_kernel
 def switch(modes, c, phase, cause, y, kinds):
-    """Carry out a switch in place, ``cause`` being the place of its function in `switch_values`.
+    """Carry out an event in place; ``cause`` is the index of its function in `switch_values`.
 
     Returns (phase, direction, number of events written to ``kinds``); -1 events if the state is not finite.
     """
@@ -252,8 +254,9 @@ def switch(modes, c, phase, cause, y, kinds):
 
 @_kernel
 def _dip(before, here, after):
-    """Where in the last of two equal steps the parabola through three values has its least, if it is below half of both
-    ends there; else 0."""
+    """Place of the minimum, in the last of two equal steps, of the parabola through three values; 0 unless it is below
+    half of both ends there.
+    """
     bend, rise = after - 2.0 * here + before, 0.5 * (after - before)
     s = -rise / bend if bend > 0.0 else 0.0
     return s if 0.0 < s < 1.0 and here + 0.5 * s * rise < 0.5 * min(here, after) else 0.0
@@ -261,11 +264,11 @@ def _dip(before, here, after):
 
 @_kernel
 def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kinds, heights):
-    """Fixed steps ``h`` from local time 0 to a switch, which is found by secants within the step where it lies.
+    """Take fixed steps ``h`` from local time 0 to an event, which secants locate within its step.
 
-    A step is searched if a switch function has changed its sign over it or dips within it.  ``stop``: whether to end at
-    the first separation.  Returns (why, time, phase, direction, events, steps); ``y`` is overwritten, ``times`` and
-    ``kinds`` are filled, and ``heights`` with the least and greatest w at step ends.
+    A step is searched if an event function changes sign over it or dips within it.  ``stop``: whether to end at the
+    first separation.  Returns (why, time, phase, direction, events, steps). ``y`` is overwritten, ``times`` and
+    ``kinds`` are filled, and ``heights`` receives the least and greatest w at step ends.
     """
     size, n = len(y), modes.shape[1]
     k, z, trial = np.empty((3, size)), np.empty(size), np.empty(3)
@@ -280,7 +283,7 @@ def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kin
         if count == 0:
             rate(modes, c, phase, direction, y, first)
             switch_values(modes, c, phase, direction, y, here)
-        # time is event time plus a whole number of steps: adding up h would lose the event times' digits
+        # time is event time plus a whole number of steps: summing h would lose digits of the event times
         following = origin + (count + 1) * h
         length = following - local
         if following >= t_end:

@@ -1,6 +1,6 @@
-"""The switches between phases, for methods that integrate one phase at a time and stop at its end.
+"""The events between phases, for methods that integrate one phase at a time and stop at its end.
 
-A method supplies ``advance``; `run_phases` does the rest: what follows a switch, and what is recorded.
+A method supplies ``advance``; `run_phases` carries out the events and records them.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ decided in that order."""
 
 
 class Phase(NamedTuple):
-    """A phase, the sign of f in it (0 but in slip), and its number in `kernels`."""
+    """A phase, the sign of f in it (0 except in slip), and its number in `kernels`."""
 
     name: str
     direction: int
@@ -46,13 +46,13 @@ the caller may change."""
 
 
 class Advance(Protocol):
-    """Integrates a phase from local time ``t`` (s, 0 at the start) to its end, or to ``t_end``; ``y`` stays."""
+    """Integrate a phase from local time ``t`` (s, 0 at the start) to its end, or to ``t_end``; ``y`` is not changed."""
 
     def __call__(self, phase: Phase, t: float, y: Array, t_end: float) -> Ended: ...
 
 
 def run_phases(problem: Problem, physics: Physics, advance: Advance, meter: Meter) -> MethodResult:
-    """Integrate phase after phase to the end of ``problem``."""
+    """Integrate phase by phase to the end of ``problem``."""
     modes, c = kernels.tables(physics)
     phase = PHASE[PHASES.index(problem.start.phase), problem.start.direction]
     t, y, span = 0.0, physics.pack(problem.start), problem.span

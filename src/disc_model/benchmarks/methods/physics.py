@@ -1,11 +1,11 @@
-"""What the rivals share of a case: its constants, and states as vectors (docs: model, Disc in the slider's frame).
+"""Constants of a case and states as vectors, common to all methods (docs: model, Disc in the slider's frame).
 
 One vector holds the state in every phase:
 
     y = (a, b, alpha, beta, psi, f, u, u'),  shape (4 n + 4,), n = number of modes
 
-where u and u' are integrated only in separation; in contact they are the disc's and rest unused.  Nothing is shared
-with `disc_model.engine`.
+where u and u' are integrated only in separation; in contact they equal the disc's and are unused. The module shares no
+code with `disc_model.engine`.
 """
 
 from __future__ import annotations
@@ -41,12 +41,12 @@ class Physics:
 
     # ---- states
     def pack(self, state: State) -> Array:
-        """`State` as a vector."""
+        """The vector of a `State`."""
         tail = (state.psi, state.f, state.u, state.u_velocity)
         return np.concatenate([state.a, state.b, state.alpha, state.beta, tail])
 
     def unpack(self, time: float, phase: str, direction: int, y: Array) -> State:
-        """A vector as `State`, u and u' being the disc's in contact."""
+        """The `State` of a vector; in contact u and u' are the disc's."""
         u, v = (y[self.u], y[self.v]) if phase == "separation" else self.disc_point(y)
         modal = {name: y[getattr(self, name)].copy() for name in ("a", "b", "alpha", "beta")}
         return State(time, phase, direction, float(y[self.psi]), float(y[self.f]), float(u), float(v), **modal)
@@ -59,10 +59,10 @@ class Physics:
 
     # ---- how far two states are apart
     def distance(self, one: State, other: State) -> float:
-        """Energy norm of the difference of two states over that of ``other``, without dimension.
+        """Energy norm of the difference of two states divided by that of ``other``; dimensionless.
 
-        Displacement and velocity of every mode, of the in-plane motion and, where either is separated, of the
-        slider's height, each weighted as it stands in the energy.
+        The norm includes displacement and velocity of every mode and of the in-plane motion, weighted as in the energy.
+        If either state is separated, it includes those of the slider's height too.
         """
         right = self.pack(other)
         return float(np.sqrt(self._energy(self.pack(one) - right) / self._energy(right)))

@@ -1,14 +1,13 @@
-"""A regularised model instead of switches: a smooth friction law and a penalty for penetration, one stiff ODE.
+"""A regularised model without events: a smooth friction law and a penalty for penetration, one stiff ODE.
 
     friction  mu(f) = tanh(f/eps) (mu_k + dmu exp(-(f/(30 eps))^2)),  dmu such that the maximum is mu_s
     contact   P = max(0, K (w - u) + C (w' - u')),  with C from the critical damping of slider against disc
 
-``eps`` (rad/s) is the setting.  The penalty K follows it, so that one number says how close to the switching model the
-smooth one is: K = `PENALTY`/eps.  Stick is a creep abs(f) < 3 eps, and switches are read off afterwards at the
-crossings of abs(f) = 3 eps and of P = 0.  The error is that of the model, about eps^(2/3): stick breaks by slow
-passage through the maximum of the law, a fold.  The error falls slowly, and the stiffness is
-mu P/(m r_0 eps), which grows without bound as eps falls: explicit methods are hopeless, implicit ones pay for it at
-every switch.
+``eps`` (rad/s) is the setting.  The penalty is K = `PENALTY`/eps, so that one number sets the distance from the model
+with events.  Stick is a creep abs(f) < 3 eps. Events are found afterwards at the crossings of abs(f) = 3 eps and of P =
+0.  The model error is about eps^(2/3): stick ends by slow passage through the maximum of the law, a fold.  The error
+falls slowly, while the stiffness mu P/(m r_0 eps) grows without bound as eps falls. Explicit methods are hopeless, and
+implicit ones take many steps at every event.
 """
 
 from __future__ import annotations
@@ -53,7 +52,7 @@ class Law:
         return dy
 
     def start(self, start: State) -> Array:
-        """A state with the penetration that carries the contact force, the slider moving with the disc's point."""
+        """A state whose penetration carries the contact force; the slider moves with the disc's point."""
         physics = self.physics
         y = physics.pack(start)
         if start.phase != "separation":
@@ -72,7 +71,7 @@ class Law:
 
 
 def _excess(mu_s: float, mu_k: float) -> float:
-    """Height of the Stribeck peak over kinetic friction at which the law's maximum is the static friction."""
+    """Height of the Stribeck peak over kinetic friction for which the law's maximum is the static friction."""
     x = np.linspace(0.0, 2.0 * kernels.STRIBECK, 20_001)
     rise, fall = np.tanh(x), np.exp(-((x / kernels.STRIBECK) ** 2))
     excess = mu_s - mu_k
@@ -126,7 +125,7 @@ class Regularised(Method):
 
 
 def _read_off(law: Law, times: list[Array], states: list[Array]) -> list[tuple[float, str]]:
-    """Switches in order of time: which way each crossing goes is read from the rates there."""
+    """Events in order of time; the rates at each crossing give its direction."""
     found: list[tuple[float, str]] = []
     f = law.physics.f
     for t, y in zip(times[0], states[0], strict=True):
@@ -141,7 +140,7 @@ def _read_off(law: Law, times: list[Array], states: list[Array]) -> list[tuple[f
 
 
 def _without_reversals(found: list[tuple[float, str]]) -> list[tuple[float, str]]:
-    """A stick that ends within a microsecond is f passing through zero: one slip reversal."""
+    """Events without sticks shorter than a microsecond: there f only passes zero, a slip reversal."""
     kept: list[tuple[float, str]] = []
     for t, kind in found:
         if kind == "stick_to_slip" and kept and kept[-1][1] == "slip_to_stick" and t - kept[-1][0] < 1e-6:

@@ -1,7 +1,7 @@
-"""The paper's method: fixed-step Runge-Kutta of fourth order, with switches found inside the steps where they lie.
+"""The paper's method: fixed-step Runge-Kutta of fourth order, with events located inside their steps.
 
-The whole loop is compiled.  A step's last rate is the next one's first, and its contact force serves the conditions at
-the step's end.  A step is searched where a condition changes its sign or dips; what is seen of a dip is the parabola
+The whole loop is compiled.  The last rate of a step is the first of the next, and its contact force serves the event
+conditions at the end.  A step is searched if a condition changes sign or dips. Dips are detected by the parabola
 through three step ends, so that a loss of contact much shorter than a step is missed.
 """
 

@@ -25,7 +25,7 @@ WATCH_RATE = 2e4
 
 
 class Series(Method):
-    """`disc_model.simulation.api`: Taylor series of high order, switches as roots of polynomials."""
+    """The engine of `disc_model.simulation.api`: Taylor series of high order, events as roots of polynomials."""
 
     label = "series (this package)"
     settings: Mapping[str, Sequence[float]] = {
@@ -52,7 +52,7 @@ class Series(Method):
             times=result.events["time"].to_numpy(),
             kinds=tuple(result.events["kind"]),
             final=result.final_state,
-            # that of the steps; of a long run, which others may have interrupted, that of the call
+            # the time of the steps; of a long run, which other processes may have interrupted, that of the call
             seconds=min(result.statistics["wall_time"], clock.thread_time() - began),
             work=int(result.statistics["steps"]),
             outcome=outcome,
@@ -62,10 +62,10 @@ class Series(Method):
 
 
 class Fewest(Series):
-    """The same without the disc's modes where the disc deflects by less than the tolerance.
+    """The same engine without the disc's modes if the disc deflects by less than the tolerance.
 
-    A disc that deflects by k sum psi^2/omega^2 of what the slider's spring does moves the answer by about that share.
-    Its modes then follow statically, however fast they are: nothing excites them.
+    The modes change the answer by about k sum psi^2/omega^2, the disc's deflection over that of the slider's spring.
+    They are never excited and then follow statically, however fast they are.
     """
 
     label = "series, modes that matter"
@@ -93,7 +93,7 @@ def _watching(problem: Problem) -> Record:
 
 
 def _range(result: Result) -> tuple[float, float]:
-    """Least and greatest w (m) of the window, if there is one and the run got to its first sample."""
+    """Least and greatest w (m) of the window, if there is one and the run reached its first sample."""
     window = result.samples[0] if result.samples else {}
     if not len(window.get("w_min", ())):
         return (math.nan, math.nan)

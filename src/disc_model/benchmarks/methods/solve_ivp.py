@@ -1,4 +1,4 @@
-"""scipy's integrators with terminal events, started anew at every switch."""
+"""scipy's integrators with terminal events, restarted at every event."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ CHOICES: dict[str, tuple[tuple[Sequence[float], ...], Sequence[float]]] = {
 
 
 class SolveIvp(Method):
-    """`scipy.integrate.solve_ivp` with a compiled right-hand side, and a compiled Jacobian where one is used."""
+    """`scipy.integrate.solve_ivp` with a compiled right-hand side and, where one is used, a compiled Jacobian."""
 
     def __init__(self, algorithm: str, order: float = math.nan) -> None:
         self.algorithm, self.order = algorithm, order
@@ -66,7 +66,7 @@ class SolveIvp(Method):
         return run_phases(problem, physics, advance, meter)
 
     def _functions(self, physics: Physics) -> Callable[[Phase], Parts]:
-        """For a phase, its right-hand side, the Jacobian, and what falls through zero at its end."""
+        """Right-hand side and Jacobian of a phase, and the functions that fall through zero at its end."""
         modes, c = kernels.tables(physics)
         values = np.empty(3)
 
@@ -96,13 +96,13 @@ class SolveIvp(Method):
 
 
 def crossing(function: Any, direction: int, *, last: bool) -> Function:
-    """An event as scipy wants it: the sign of the change of ``function`` (0: either), and whether it is the end."""
+    """An event in scipy's form: the sign of the change of ``function`` (0: either), and whether it is terminal."""
     function.terminal, function.direction = last, direction
     return function  # type: ignore[no-any-return]
 
 
 def absolute_scale(physics: Physics) -> Array:
-    """Size of each entry of the state: static deflection, and its velocity; what absolute tolerances multiply."""
+    """Scale of each entry of the state for absolute tolerances: static deflection, and its velocity."""
     p = physics.p
     deflection = p.N * np.abs(physics.shape) / physics.stiffness
     velocity = deflection * physics.omega

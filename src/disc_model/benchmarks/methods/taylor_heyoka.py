@@ -1,11 +1,11 @@
 """heyoka (extra `bench`): compiled Taylor integrators in double precision with native terminal events.
 
-The equations are written so that heyoka has the least to do.  Constants are merged into one coefficient a state.  The
-products of f with the modal states are shared between equations and contact force.  The force has one division, and the
-direction of slip is a parameter.  Loss of contact from stick needs no event: stick breaks before.
+The equations are arranged for the least work in heyoka.  Constants are merged into one coefficient per state.  The
+products of f with the modal states are shared by equations and contact force.  The force has one division, and the
+direction of slip is a parameter.  Loss of contact in stick needs no event: stick ends before.
 
-Swept at 1e-8 and 1e-10: compact mode takes twice as long and ``slp_vectorize`` a tenth more; ``force_avx512`` and fewer
-events in stick change nothing.
+Options were compared at 1e-8 and 1e-10. Compact mode takes twice as long and ``slp_vectorize`` a tenth more;
+``force_avx512`` and fewer events in stick change nothing.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Heyoka(Method):
         self.compact = compact
 
     def economical(self) -> Heyoka:
-        """In compact mode: a map compiles it for every truncation and tolerance."""
+        """The method in compact mode: a map compiles it for every truncation and tolerance."""
         return type(self)(compact=True)
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
@@ -62,7 +62,7 @@ class Heyoka(Method):
             path.append((float(integrator.time), integrator.state.copy()))
             return True
 
-        # called at every step, which takes longer than some of these do
+        # called at every step, which takes longer than some steps
         seen = {"callback": note} if problem.watched else {}
         prepared = {}
         for name, integrator in _integrators(p.replace(N=1.0, Omega=1.0), value, self.compact).items():
@@ -111,7 +111,8 @@ class Heyoka(Method):
 def _integrators(p: Parameters, tol: float, compact: bool) -> dict[str, Any]:
     """Compiled integrators by phase.
 
-    Load, speed of the drive and height at rest are given at run time, so that cases that differ in these share them.
+    Load, speed of the drive and height at rest are run-time parameters, so that cases that differ in them share the
+    code.
     """
     import heyoka as hy
 
@@ -125,7 +126,8 @@ def _integrators(p: Parameters, tol: float, compact: bool) -> dict[str, Any]:
 
 
 def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
-    """Equations of a phase as heyoka expressions, in the order of the common state vector; the last of `phases.ENDS`.
+    """Equations of a phase as heyoka expressions, in the order of the common state vector, and the last of
+    `phases.ENDS`.
 
     Parameters at run time: N - k u_0, Omega and, in slip, its direction.
     """

@@ -41,7 +41,7 @@ NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
 
 
 def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
-    """Columns of the rows along a quantity's own dimension; values that some rows lack are None, which means missing."""
+    """Columns of the rows along a quantity's own dimension; None, which means missing, where rows lack a value."""
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: [row.get(name) for row in rows] for name in names}
 

@@ -98,7 +98,7 @@ def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any
 
 
 def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> dict[str, Any]:
-    """Continue a cycle in both directions by arclength: the cycle near the static start, or one that a motion reached."""
+    """Continue a cycle in both directions by arclength: the one near the static start, or one that a motion reached."""
     p, name = cycle.parameters, options.parameter
     bounds = options.scan.values[0], options.scan.values[-1]
     near = cycle.state if reached else None

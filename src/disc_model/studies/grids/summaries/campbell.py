@@ -87,7 +87,7 @@ def summarise(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
 
 
 def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
-    """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of the modes."""
+    """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of modes."""
     speeds = cell["Omega"].values
     releases = bridged(speeds, cell["stick_slip_frequency"].values)
     turns = cell["rotation_frequency"].values
